@@ -1,0 +1,166 @@
+//! What a `.m3d` file says, in the file's own words. No meaning is added here; `model` translates.
+
+/// Which of the known spellings of the format a file uses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Dialect {
+    /// The DirectX 12 book: materials with `Fresnel0` and `Roughness`.
+    #[default]
+    D3d12,
+    /// The DirectX 11 book: materials with `Ambient`, `Specular` and `Reflectivity`.
+    D3d11,
+    /// The Blender exporter of imm_engine: dashes, short labels, z up.
+    Imm,
+}
+
+/// A parsed file. Lists keep the file's order; nothing is mended.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Document {
+    /// Spelling of the file.
+    pub dialect: Dialect,
+    /// `Materials` section.
+    pub materials: Vec<Material>,
+    /// `SubsetTable` section; subset i is drawn with material i.
+    pub subsets: Vec<Subset>,
+    /// `Vertices` section.
+    pub vertices: Vec<Vertex>,
+    /// `Triangles` section: three vertex indices a row.
+    pub triangles: Vec<[u32; 3]>,
+    /// `BoneOffsets` section: row vectors, row by row, translation in the last four (bind space -> bone space).
+    pub bone_offsets: Vec<[f32; 16]>,
+    /// `BoneHierarchy` section: −1 for a root. As long as `bone_offsets`.
+    pub bone_parents: Vec<i32>,
+    /// `AnimationClips` section.
+    pub clips: Vec<AnimationClip>,
+}
+
+/// One entry of the `Materials` section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// `Name` (D3D12); empty when the dialect has none.
+    pub name: String,
+    /// `Diffuse`.
+    pub diffuse: [f32; 3],
+    /// The part in which the two books differ.
+    pub reflectance: Reflectance,
+    /// `AlphaClip`.
+    pub alpha_clip: bool,
+    /// `MaterialTypeName` (D3D12) or `Effect` (D3D11).
+    pub type_name: String,
+    /// `DiffuseMap`; `None` when empty, `None` or `Null`.
+    pub diffuse_map: Option<String>,
+    /// `NormalMap`; likewise.
+    pub normal_map: Option<String>,
+}
+
+/// How a material reflects, by dialect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reflectance {
+    /// DirectX 12 book.
+    Fresnel {
+        /// `Fresnel0`: reflectance at normal incidence.
+        fresnel0: [f32; 3],
+        /// `Roughness`, 0…1.
+        roughness: f32,
+    },
+    /// DirectX 11 book and imm.
+    Phong {
+        /// `Ambient`.
+        ambient: [f32; 3],
+        /// `Specular`.
+        specular: [f32; 3],
+        /// `SpecPower`.
+        spec_power: f32,
+        /// `Reflectivity`.
+        reflectivity: [f32; 3],
+    },
+}
+
+/// One row of the `SubsetTable`. Only the face range is used by the books; the vertex range is often wrong.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Subset {
+    /// `SubsetID`.
+    pub id: u32,
+    /// `VertexStart`.
+    pub vertex_start: u32,
+    /// `VertexCount`.
+    pub vertex_count: u32,
+    /// `FaceStart`: first triangle.
+    pub face_start: u32,
+    /// `FaceCount`: number of triangles.
+    pub face_count: u32,
+}
+
+/// One entry of the `Vertices` section. Without bones the weights and indices are zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vertex {
+    /// `Position`.
+    pub position: [f32; 3],
+    /// `Tangent`; the fourth number is the bitangent's sign, 1 when the file has three.
+    pub tangent: [f32; 4],
+    /// `Normal`.
+    pub normal: [f32; 3],
+    /// `Tex-Coords`, origin top left.
+    pub tex_coords: [f32; 2],
+    /// `BlendWeights`.
+    pub blend_weights: [f32; 4],
+    /// `BlendIndices`: the file's bone numbers.
+    pub blend_indices: [u32; 4],
+}
+
+/// One `AnimationClip`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AnimationClip {
+    /// The rest of the `AnimationClip` line; not always unique.
+    pub name: String,
+    /// One entry per bone, in the file's numbering.
+    pub bones: Vec<BoneAnimation>,
+}
+
+/// The keys of one bone in one clip, in the file's order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BoneAnimation {
+    /// Keys; may be empty or unsorted.
+    pub keyframes: Vec<Keyframe>,
+}
+
+/// One key: the bone relative to its parent (`toParent`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keyframe {
+    /// `Time` in seconds.
+    pub time_secs: f32,
+    /// `Pos`.
+    pub translation: [f32; 3],
+    /// `Scale`.
+    pub scale: [f32; 3],
+    /// `Quat`: x, y, z, w.
+    pub rotation: [f32; 4],
+}
+
+/// Where the rows of a [`Document`] stand in its file: line numbers from 1, parallel to the document's lists.
+/// Empty lists for a document that was not read from a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LineMap {
+    /// First line of each material.
+    pub materials: Vec<u32>,
+    /// Line of each subset.
+    pub subsets: Vec<u32>,
+    /// First line of each vertex.
+    pub vertices: Vec<u32>,
+    /// Line of each triangle.
+    pub triangles: Vec<u32>,
+    /// Line of each bone offset.
+    pub bone_offsets: Vec<u32>,
+    /// Line of each parent.
+    pub bone_parents: Vec<u32>,
+    /// Line of each clip and of each of its bones.
+    pub clips: Vec<ClipLines>,
+}
+
+/// Lines of one clip.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ClipLines {
+    /// Line of `AnimationClip`.
+    pub clip: u32,
+    /// Line of each `Bone… #Keyframes`.
+    pub bones: Vec<u32>,
+}

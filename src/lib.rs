@@ -1,0 +1,7 @@
+//! Bindpose: skinned `.m3d` models, from bytes to pixels.
+
+pub mod anim;
+pub mod diagnostic;
+pub mod format;
+pub mod model;
+pub mod scene;

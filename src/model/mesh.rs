@@ -1,0 +1,57 @@
+//! Vertices, triangles and the ranges that are drawn with one material.
+
+use glam::{Vec2, Vec3, Vec4};
+
+/// Up to four joints that move a vertex. Weights are normalised: they sum to 1, or all are zero and the vertex stays where
+/// bind space has it. Unused slots have joint 0 and weight 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct Influences {
+    /// Joint indices into the skeleton (parents-first order, not the file's numbering).
+    pub joints: [u32; 4],
+    /// Weights, 0…1.
+    pub weights: [f32; 4],
+}
+
+/// Vertex streams in bind space, in the file's order. All streams have one length, but `influences`, which is empty when
+/// the model has no joints.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Positions in bind space.
+    pub positions: Vec<Vec3>,
+    /// Unit normals in bind space.
+    pub normals: Vec<Vec3>,
+    /// Unit tangents in bind space; w = ±1, bitangent = w · cross(normal, tangent).
+    pub tangents: Vec<Vec4>,
+    /// Texture coordinates, origin top left, repeating.
+    pub tex_coords: Vec<Vec2>,
+    /// Which joints move each vertex; empty for a static model.
+    pub influences: Vec<Influences>,
+    /// Three vertex indices a triangle, each below `positions.len()`; the file's winding.
+    pub indices: Vec<u32>,
+    /// Ranges drawn with one material, in the file's order.
+    pub submeshes: Vec<Submesh>,
+}
+
+/// A range of triangles with one material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Submesh {
+    /// First triangle.
+    pub triangle_start: u32,
+    /// Number of triangles; the range lies inside the mesh.
+    pub triangle_count: u32,
+    /// Index into the model's materials.
+    pub material: u32,
+}
+
+impl Mesh {
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.indices.len() / 3
+    }
+}

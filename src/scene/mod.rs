@@ -1,0 +1,9 @@
+//! What is looked at, and from where: plain data for a renderer.
+
+mod bounds;
+mod camera;
+mod frame;
+
+pub use bounds::Aabb;
+pub use camera::{Camera, Projection};
+pub use frame::{Background, FrameOptions, RenderFrame, Theme};
