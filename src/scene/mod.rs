@@ -5,5 +5,5 @@ mod camera;
 mod frame;
 
 pub use bounds::Aabb;
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Insets, Projection, ViewPreset};
 pub use frame::{Background, FrameOptions, RenderFrame, Theme};
