@@ -5,3 +5,4 @@ pub mod diagnostic;
 pub mod format;
 pub mod model;
 pub mod scene;
+pub mod session;
