@@ -4,5 +4,8 @@ pub mod anim;
 pub mod diagnostic;
 pub mod format;
 pub mod model;
+#[cfg(feature = "render")]
+pub mod render;
 pub mod scene;
 pub mod session;
+pub mod shaders;
