@@ -15,12 +15,14 @@ mod gpu_model;
 mod look;
 mod material;
 mod pipelines;
+mod probe;
 mod read_back;
 mod shadow;
 mod target;
 
 pub use composite::Compositor;
 pub use gpu_model::UploadError;
+pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 

@@ -92,7 +92,7 @@ async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
     }
     let (device, queue) =
         adapter.request_device(&device::descriptor(&adapter)).await.map_err(|error| error.to_string())?;
-    device::probe(&device, &queue, async || super::sleep(1).await).await.map_err(|error| error.to_string())?;
+    crate::render::probe(&device, &queue, async || super::sleep(1).await).await.map_err(|error| error.to_string())?;
     Ok(WgpuSetupExisting { instance, adapter, device, queue })
 }
 
