@@ -82,7 +82,11 @@ pub fn sample_count(adapter: &wgpu::Adapter) -> SampleCount {
     let both = [COLOR_FORMAT, DEPTH_FORMAT]
         .into_iter()
         .all(|format| flags(format).sample_count_supported(four));
-    if both && resolves { SampleCount::Four } else { SampleCount::One }
+    if both && resolves {
+        SampleCount::Four
+    } else {
+        SampleCount::One
+    }
 }
 
 /// Opens a GPU without a window, for pictures from the command line and from tests.
