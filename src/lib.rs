@@ -7,4 +7,5 @@ pub mod model;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod scene;
+pub mod session;
 pub mod shaders;
