@@ -19,7 +19,10 @@ impl Default for Aabb {
 
 impl Aabb {
     /// Holds nothing; the neutral element of [`Aabb::include`].
-    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    pub const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
 
     /// Box of some points.
     pub fn from_points(points: impl IntoIterator<Item = Vec3>) -> Self {
@@ -29,13 +32,19 @@ impl Aabb {
     /// The box grown to hold a point.
     #[must_use]
     pub fn include(self, point: Vec3) -> Self {
-        Self { min: self.min.min(point), max: self.max.max(point) }
+        Self {
+            min: self.min.min(point),
+            max: self.max.max(point),
+        }
     }
 
     /// The box that holds both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
     }
 
     /// Whether it holds nothing.
@@ -45,12 +54,20 @@ impl Aabb {
 
     /// Middle; the origin for an empty box.
     pub fn center(&self) -> Vec3 {
-        if self.is_empty() { Vec3::ZERO } else { self.min * 0.5 + self.max * 0.5 }
+        if self.is_empty() {
+            Vec3::ZERO
+        } else {
+            self.min * 0.5 + self.max * 0.5
+        }
     }
 
     /// Extent along each axis; zero for an empty box.
     pub fn size(&self) -> Vec3 {
-        if self.is_empty() { Vec3::ZERO } else { self.max - self.min }
+        if self.is_empty() {
+            Vec3::ZERO
+        } else {
+            self.max - self.min
+        }
     }
 
     /// Half the diagonal: radius of the sphere around the box.
@@ -81,14 +98,26 @@ mod tests {
     #[test]
     fn an_empty_box_stays_empty_and_has_no_size() {
         assert!(Aabb::EMPTY.is_empty());
-        assert_eq!(Aabb::EMPTY.transformed(Affine3A::from_scale(Vec3::NEG_ONE)), Aabb::EMPTY);
-        assert_eq!((Aabb::EMPTY.size(), Aabb::EMPTY.center(), Aabb::EMPTY.radius()), (Vec3::ZERO, Vec3::ZERO, 0.0));
+        assert_eq!(
+            Aabb::EMPTY.transformed(Affine3A::from_scale(Vec3::NEG_ONE)),
+            Aabb::EMPTY
+        );
+        assert_eq!(
+            (Aabb::EMPTY.size(), Aabb::EMPTY.center(), Aabb::EMPTY.radius()),
+            (Vec3::ZERO, Vec3::ZERO, 0.0)
+        );
     }
 
     #[test]
     fn mirroring_swaps_the_ends_of_an_axis() {
         let bounds = Aabb::from_points([Vec3::new(1.0, 2.0, 3.0), Vec3::new(-1.0, 0.0, 5.0)]);
         let mirrored = bounds.transformed(Affine3A::from_scale(Vec3::new(1.0, 1.0, -1.0)));
-        assert_eq!(mirrored, Aabb { min: Vec3::new(-1.0, 0.0, -5.0), max: Vec3::new(1.0, 2.0, -3.0) });
+        assert_eq!(
+            mirrored,
+            Aabb {
+                min: Vec3::new(-1.0, 0.0, -5.0),
+                max: Vec3::new(1.0, 2.0, -3.0)
+            }
+        );
     }
 }

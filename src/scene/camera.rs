@@ -123,8 +123,16 @@ pub struct Camera {
 impl Default for Camera {
     fn default() -> Self {
         let (yaw_radians, pitch_radians) = ViewPreset::ThreeQuarter.yaw_pitch_radians();
-        let projection = Projection::Perspective { fov_y_radians: DEFAULT_FOV_Y_RADIANS };
-        Self { target: Vec3::ZERO, distance: 4.0, yaw_radians, pitch_radians, projection }
+        let projection = Projection::Perspective {
+            fov_y_radians: DEFAULT_FOV_Y_RADIANS,
+        };
+        Self {
+            target: Vec3::ZERO,
+            distance: 4.0,
+            yaw_radians,
+            pitch_radians,
+            projection,
+        }
     }
 }
 
@@ -154,8 +162,12 @@ impl Camera {
 
     /// World -> view (x right, y up, z forward: left-handed).
     pub fn view_from_world(&self) -> Mat4 {
-        let view_axes =
-            Mat4::from_cols(self.right().extend(0.0), self.up().extend(0.0), self.forward().extend(0.0), glam::Vec4::W);
+        let view_axes = Mat4::from_cols(
+            self.right().extend(0.0),
+            self.up().extend(0.0),
+            self.forward().extend(0.0),
+            glam::Vec4::W,
+        );
         view_axes.transpose() * Mat4::from_translation(-self.eye())
     }
 
@@ -255,35 +267,60 @@ mod tests {
     use super::*;
 
     fn unit_box() -> Aabb {
-        Aabb { min: Vec3::splat(-1.0), max: Vec3::splat(1.0) }
+        Aabb {
+            min: Vec3::splat(-1.0),
+            max: Vec3::splat(1.0),
+        }
     }
 
     /// Corners of a box in clip space, divided by w.
     fn corners_in_clip(camera: &Camera, bounds: &Aabb, aspect: f32) -> Vec<Vec3> {
         let clip_from_world = camera.clip_from_view(aspect, bounds) * camera.view_from_world();
-        bounds.corners().map(|corner| clip_from_world.project_point3(corner)).to_vec()
+        bounds
+            .corners()
+            .map(|corner| clip_from_world.project_point3(corner))
+            .to_vec()
     }
 
     #[test]
     fn the_view_is_left_handed_with_y_up() {
-        let camera = Camera { yaw_radians: 0.0, pitch_radians: 0.0, ..Camera::default() };
-        assert_eq!((camera.right(), camera.up(), camera.forward()), (Vec3::X, Vec3::Y, Vec3::Z));
+        let camera = Camera {
+            yaw_radians: 0.0,
+            pitch_radians: 0.0,
+            ..Camera::default()
+        };
+        assert_eq!(
+            (camera.right(), camera.up(), camera.forward()),
+            (Vec3::X, Vec3::Y, Vec3::Z)
+        );
         let in_view = camera.view_from_world().transform_point3(camera.target);
         assert!((in_view - Vec3::new(0.0, 0.0, camera.distance)).length() < 1e-5);
     }
 
     #[test]
     fn framing_fills_the_picture_and_no_plane_cuts_from_any_side() {
-        let bounds = Aabb { min: Vec3::new(-3.0, 0.0, -0.1), max: Vec3::new(50.0, 7.0, 9.0) };
+        let bounds = Aabb {
+            min: Vec3::new(-3.0, 0.0, -0.1),
+            max: Vec3::new(50.0, 7.0, 9.0),
+        };
         for preset in ViewPreset::ALL {
             for projection in [Camera::default().projection, Projection::Orthographic] {
-                let mut camera = Camera { projection, ..Camera::default() };
+                let mut camera = Camera {
+                    projection,
+                    ..Camera::default()
+                };
                 camera.look_from(preset);
                 camera.frame(&bounds, 1.6, Insets::default());
                 let corners = corners_in_clip(&camera, &bounds, 1.6);
                 let reach = corners.iter().map(|c| c.x.abs().max(c.y.abs())).fold(0.0, f32::max);
-                assert!((reach - FRAMED_SHARE).abs() < 1e-3, "{preset:?} {projection:?} reaches {reach}");
-                assert!(corners.iter().all(|c| (0.0..=1.0).contains(&c.z)), "{preset:?} {projection:?}");
+                assert!(
+                    (reach - FRAMED_SHARE).abs() < 1e-3,
+                    "{preset:?} {projection:?} reaches {reach}"
+                );
+                assert!(
+                    corners.iter().all(|c| (0.0..=1.0).contains(&c.z)),
+                    "{preset:?} {projection:?}"
+                );
             }
         }
     }
@@ -291,7 +328,11 @@ mod tests {
     #[test]
     fn framing_keeps_clear_of_covered_margins() {
         let mut camera = Camera::default();
-        let insets = Insets { left: 0.3, bottom: 0.2, ..Insets::default() };
+        let insets = Insets {
+            left: 0.3,
+            bottom: 0.2,
+            ..Insets::default()
+        };
         camera.frame(&unit_box(), 1.5, insets);
         for corner in corners_in_clip(&camera, &unit_box(), 1.5) {
             assert!(corner.x > -1.0 + 2.0 * insets.left - 0.02, "{corner}");
@@ -315,17 +356,27 @@ mod tests {
 
     #[test]
     fn panning_moves_the_scene_with_the_pointer() {
-        let mut camera = Camera { yaw_radians: 0.0, pitch_radians: 0.0, ..Camera::default() };
+        let mut camera = Camera {
+            yaw_radians: 0.0,
+            pitch_radians: 0.0,
+            ..Camera::default()
+        };
         let point = camera.target;
         camera.pan(Vec2::new(0.5, 0.0));
         let clip = (camera.clip_from_view(1.0, &unit_box()) * camera.view_from_world()).project_point3(point);
-        assert!((clip.x - 1.0).abs() < 1e-5 && clip.y.abs() < 1e-5, "half a height to the right is the edge: {clip}");
+        assert!(
+            (clip.x - 1.0).abs() < 1e-5 && clip.y.abs() < 1e-5,
+            "half a height to the right is the edge: {clip}"
+        );
     }
 
     #[test]
     fn a_box_around_the_eye_still_has_a_near_plane_before_its_far_plane() {
         for distance in [1e-3, 1.0, 1e5] {
-            let camera = Camera { distance, ..Camera::default() };
+            let camera = Camera {
+                distance,
+                ..Camera::default()
+            };
             let (near, far) = camera.depth_range(&unit_box());
             assert!(0.0 < near && near < far, "{near} {far}");
         }
