@@ -74,6 +74,16 @@ pub fn required_features(adapter: &wgpu::Adapter) -> wgpu::Features {
     adapter.features() & wgpu::Features::TEXTURE_COMPRESSION_BC
 }
 
+/// What to ask of any adapter.
+pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+    wgpu::DeviceDescriptor {
+        label: Some("bindpose"),
+        required_features: required_features(adapter),
+        required_limits: required_limits(adapter),
+        ..Default::default()
+    }
+}
+
 /// How many samples a pixel an adapter can draw and resolve.
 pub fn sample_count(adapter: &wgpu::Adapter) -> SampleCount {
     let four = SampleCount::Four.count();
@@ -107,12 +117,7 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
         })?;
     let info = adapter.get_info();
     let (device, queue) = adapter
-        .request_device(&wgpu::DeviceDescriptor {
-            label: Some("bindpose"),
-            required_features: required_features(&adapter),
-            required_limits: required_limits(&adapter),
-            ..Default::default()
-        })
+        .request_device(&descriptor(&adapter))
         .await
         .map_err(|error| DeviceError::NoDevice {
             backend,

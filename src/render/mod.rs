@@ -15,6 +15,7 @@ mod gpu_model;
 mod look;
 mod material;
 mod pipelines;
+mod probe;
 mod read_back;
 mod shadow;
 mod target;
@@ -22,6 +23,7 @@ mod target;
 pub use bones::BoneTexture;
 pub use composite::Compositor;
 pub use gpu_model::UploadError;
+pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 

@@ -53,6 +53,7 @@ const FRAME_WGSL: ShaderFile = shader_file!("frame.wgsl");
 const FULLSCREEN_WGSL: ShaderFile = shader_file!("fullscreen.wgsl");
 const LIGHTING_WGSL: ShaderFile = shader_file!("lighting.wgsl");
 const MESH_WGSL: ShaderFile = shader_file!("mesh.wgsl");
+const PROBE_WGSL: ShaderFile = shader_file!("probe.wgsl");
 const SHADOW_WGSL: ShaderFile = shader_file!("shadow.wgsl");
 
 /// Vertex blending alone: in every program that draws the model, and in the test that compares it with its CPU twin.
@@ -89,5 +90,11 @@ pub const COMPOSITE: Program = Program {
     files: &[COLOR_WGSL, FULLSCREEN_WGSL, COMPOSITE_WGSL],
 };
 
+/// A known triangle, by which a device is tried.
+pub const PROBE: Program = Program {
+    name: "probe",
+    files: &[PROBE_WGSL],
+};
+
 /// Every program there is.
-pub const PROGRAMS: [Program; 4] = [MESH, CASTER, BACKDROP, COMPOSITE];
+pub const PROGRAMS: [Program; 5] = [MESH, CASTER, BACKDROP, COMPOSITE, PROBE];

@@ -75,6 +75,11 @@ pub fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
     }
 }
 
+/// Whether a key is the viewer's, so that the browser must not act on it too.
+pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
+    key == Key::Escape || command_for(key, modifiers).is_some()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

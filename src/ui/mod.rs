@@ -18,6 +18,8 @@ use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, Ui, Vec2, pos2, vec2};
 
 use crate::scene::{Insets, Theme};
 use crate::session::{Command, Session};
+pub use keys::owns_key;
+
 use theme::{MARGIN, NARROW_WIDTH, Tokens};
 use timeline::KeyTimes;
 
