@@ -13,9 +13,10 @@ Bindpose's own commands. Each does its set-up itself.
         --release   optimised, slower to build
         --watch     build again when a source file changes; reload the page to see it
 
-    cargo xtask test
+    cargo xtask test [--browser [webgpu | webgl2]]
         Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests on WebGPU
         and WebGL2. Stops at the first failure and prints the command that repeats it.
+        --browser   the browser tests alone, on both or on one
 
     cargo xtask dist
         The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
@@ -29,7 +30,7 @@ const DEFAULT_PORT: u16 = 8080;
 pub(crate) enum Task {
     Help,
     Serve(ServeOptions),
-    Test,
+    Test(TestOptions),
     Dist,
 }
 
@@ -43,6 +44,18 @@ pub(crate) struct ServeOptions {
     pub(crate) watch: bool,
 }
 
+/// Options of `test`.
+#[derive(Debug, PartialEq)]
+pub(crate) struct TestOptions {
+    /// Only the browser tests.
+    pub(crate) browser_alone: bool,
+    /// What the browser draws with, in turn.
+    pub(crate) backends: Vec<&'static str>,
+}
+
+/// Every backend that the page can draw with.
+pub(crate) const BACKENDS: [&str; 2] = ["webgpu", "webgl2"];
+
 /// Reads the arguments after the program's name.
 pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Failure> {
     let mut args = args.into_iter();
@@ -53,7 +66,7 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
     }
     match name.as_str() {
         "serve" => serve_options(rest).map(Task::Serve),
-        "test" => nothing_more("test", &rest).map(|()| Task::Test),
+        "test" => test_options(&rest).map(Task::Test),
         "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
         other => Err(Failure::Usage(format!("there is no command `{other}`"))),
     }
@@ -62,12 +75,44 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
 fn nothing_more(name: &str, rest: &[String]) -> Result<(), Failure> {
     match rest.first() {
         None => Ok(()),
-        Some(arg) => Err(Failure::Usage(format!("`{name}` takes no options, but `{arg}` was given"))),
+        Some(arg) => Err(Failure::Usage(format!(
+            "`{name}` takes no options, but `{arg}` was given"
+        ))),
+    }
+}
+
+fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
+    let words: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let both = BACKENDS.to_vec();
+    match words[..] {
+        [] => Ok(TestOptions {
+            browser_alone: false,
+            backends: both,
+        }),
+        ["--browser"] => Ok(TestOptions {
+            browser_alone: true,
+            backends: both,
+        }),
+        ["--browser", name] => match BACKENDS.into_iter().find(|backend| *backend == name) {
+            Some(backend) => Ok(TestOptions {
+                browser_alone: true,
+                backends: vec![backend],
+            }),
+            None => Err(Failure::Usage(format!(
+                "`--browser` takes webgpu or webgl2, but `{name}` was given"
+            ))),
+        },
+        _ => Err(Failure::Usage(format!("`test` does not know `{}`", words.join(" ")))),
     }
 }
 
 fn serve_options(rest: Vec<String>) -> Result<ServeOptions, Failure> {
-    let mut options = ServeOptions { port: DEFAULT_PORT, open: false, release: false, watch: false };
+    let mut options = ServeOptions {
+        port: DEFAULT_PORT,
+        open: false,
+        release: false,
+        watch: false,
+    };
     let mut rest = rest.into_iter();
     while let Some(arg) = rest.next() {
         match arg.as_str() {
@@ -86,9 +131,11 @@ fn serve_options(rest: Vec<String>) -> Result<ServeOptions, Failure> {
 
 fn port(value: Option<&str>) -> Result<u16, Failure> {
     let found = value.map_or("nothing".to_owned(), |value| format!("`{value}`"));
-    value
-        .and_then(|value| value.parse().ok())
-        .ok_or_else(|| Failure::Usage(format!("`--port` takes a number from 0 to 65535, but {found} was given")))
+    value.and_then(|value| value.parse().ok()).ok_or_else(|| {
+        Failure::Usage(format!(
+            "`--port` takes a number from 0 to 65535, but {found} was given"
+        ))
+    })
 }
 
 #[cfg(test)]
@@ -101,11 +148,30 @@ mod tests {
 
     #[test]
     fn options_are_read_in_any_order() {
-        let expected = ServeOptions { port: 9000, open: true, release: true, watch: false };
+        let expected = ServeOptions {
+            port: 9000,
+            open: true,
+            release: true,
+            watch: false,
+        };
         assert_eq!(parsed("serve --port 9000 --open --release"), Ok(Task::Serve(expected)));
-        let expected = ServeOptions { port: 0, open: false, release: false, watch: true };
+        let expected = ServeOptions {
+            port: 0,
+            open: false,
+            release: false,
+            watch: true,
+        };
         assert_eq!(parsed("serve --watch --port=0"), Ok(Task::Serve(expected)));
-        assert_eq!(parsed("test"), Ok(Task::Test));
+        let expected = TestOptions {
+            browser_alone: true,
+            backends: vec!["webgl2"],
+        };
+        assert_eq!(parsed("test --browser webgl2"), Ok(Task::Test(expected)));
+        let expected = TestOptions {
+            browser_alone: false,
+            backends: vec!["webgpu", "webgl2"],
+        };
+        assert_eq!(parsed("test"), Ok(Task::Test(expected)));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
         assert_eq!(parsed(""), Ok(Task::Help));
     }
@@ -117,7 +183,9 @@ mod tests {
             ("serve --prot 1", "`serve` has no option `--prot`"),
             ("serve --port", "but nothing was given"),
             ("serve --port 70000", "but `70000` was given"),
-            ("test --fast", "`test` takes no options, but `--fast` was given"),
+            ("test --fast", "`test` does not know `--fast`"),
+            ("test --browser metal", "but `metal` was given"),
+            ("dist --fast", "`dist` takes no options, but `--fast` was given"),
         ] {
             let failure = parsed(line).expect_err(line);
             assert!(failure.contains(words), "{line}: {failure}");

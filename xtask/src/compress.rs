@@ -34,7 +34,10 @@ impl Coding {
         let allows = |coding: Self| {
             header.split(',').any(|item| {
                 let (name, weight) = item.split_once(';').unwrap_or((item, ""));
-                let refused = weight.trim().strip_prefix("q=").is_some_and(|q| q.trim().parse() == Ok(0.0_f32));
+                let refused = weight
+                    .trim()
+                    .strip_prefix("q=")
+                    .is_some_and(|q| q.trim().parse() == Ok(0.0_f32));
                 name.trim().eq_ignore_ascii_case(coding.name()) && !refused
             })
         };
@@ -56,7 +59,11 @@ impl Coding {
                 brotli::BrotliCompress(&mut &*bytes, &mut out, &params).map(|_| out)
             }
             Self::Gzip => {
-                let level = if effort == Effort::Best { flate2::Compression::best() } else { flate2::Compression::fast() };
+                let level = if effort == Effort::Best {
+                    flate2::Compression::best()
+                } else {
+                    flate2::Compression::fast()
+                };
                 let mut encoder = GzEncoder::new(Vec::new(), level);
                 encoder.write_all(bytes).and_then(|()| encoder.finish())
             }
@@ -93,12 +100,16 @@ mod tests {
             let mut decoded = Vec::new();
             let encoded = Coding::Gzip.encode(&bytes, effort);
             assert!(encoded.len() < bytes.len());
-            flate2::read::GzDecoder::new(&*encoded).read_to_end(&mut decoded).expect("gzip");
+            flate2::read::GzDecoder::new(&*encoded)
+                .read_to_end(&mut decoded)
+                .expect("gzip");
             assert_eq!(decoded, bytes);
             let encoded = Coding::Brotli.encode(&bytes, effort);
             assert!(encoded.len() < bytes.len());
             decoded.clear();
-            brotli::Decompressor::new(&*encoded, 4096).read_to_end(&mut decoded).expect("brotli");
+            brotli::Decompressor::new(&*encoded, 4096)
+                .read_to_end(&mut decoded)
+                .expect("brotli");
             assert_eq!(decoded, bytes);
         }
     }

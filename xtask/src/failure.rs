@@ -12,8 +12,8 @@ pub(crate) enum Failure {
     Command { shown: String, why: String },
     /// A file or a socket refused.
     Io { doing: String, source: io::Error },
-    /// This machine lacks something. `remedy` is the exact command that brings it.
-    Missing { what: String, remedy: String },
+    /// Something stands in the way that a person can remove. `remedy` is the exact command.
+    Remedy { what: String, remedy: String },
     /// The built wasm could not be bound to JavaScript.
     Bind(String),
     /// The files of the site do not fit together.
@@ -26,7 +26,7 @@ impl fmt::Display for Failure {
             Self::Usage(what) => write!(f, "{what}\nTry `cargo xtask --help`."),
             Self::Command { shown, why } => write!(f, "{why}\nTo repeat it:\n\n    {shown}\n"),
             Self::Io { doing, source } => write!(f, "{doing}: {source}"),
-            Self::Missing { what, remedy } => write!(f, "{what}\nThis brings it:\n\n    {remedy}\n"),
+            Self::Remedy { what, remedy } => write!(f, "{what}\nRun this:\n\n    {remedy}\n"),
             Self::Bind(what) => write!(f, "wasm-bindgen: {what}"),
             Self::Site(what) => f.write_str(what),
         }
@@ -41,6 +41,9 @@ pub(crate) trait Doing<T> {
 
 impl<T> Doing<T> for io::Result<T> {
     fn doing(self, doing: impl Into<String>) -> Result<T, Failure> {
-        self.map_err(|source| Failure::Io { doing: doing.into(), source })
+        self.map_err(|source| Failure::Io {
+            doing: doing.into(),
+            source,
+        })
     }
 }

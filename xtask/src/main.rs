@@ -14,11 +14,11 @@
 //! | [`dist`] | the static site: hashed names, compressed twice |
 
 mod args;
-//mod check;
+mod check;
 mod compress;
-//mod dist;
+mod dist;
 mod failure;
-//mod prerequisites;
+mod prerequisites;
 mod process;
 mod serve;
 mod site;
@@ -38,8 +38,8 @@ fn main() -> ExitCode {
             Ok(())
         }
         Task::Serve(options) => serve::run(&options),
-        Task::Test => Ok(()),
-        Task::Dist => Ok(()),
+        Task::Test(options) => check::run(&options),
+        Task::Dist => dist::run(),
     });
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -16,7 +16,10 @@ impl Line {
     pub(crate) fn new(program: &str) -> Self {
         let mut command = Command::new(program);
         command.current_dir(crate::root());
-        Self { command, shown: program.to_owned() }
+        Self {
+            command,
+            shown: program.to_owned(),
+        }
     }
 
     /// A line that starts the cargo this program was started by.
@@ -56,20 +59,30 @@ impl Line {
             Ok(status) => format!("the command ended with {status}"),
             Err(error) => format!("the command could not be started: {error}"),
         };
-        Err(Failure::Command { shown: self.shown, why: failed })
+        Err(Failure::Command {
+            shown: self.shown,
+            why: failed,
+        })
     }
 
     /// Runs it quietly; gives what it wrote to standard output, or `None` when it is not there or ended with an error.
     pub(crate) fn output(mut self) -> Option<String> {
         let output = self.command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
-        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+        output
+            .status
+            .success()
+            .then(|| String::from_utf8_lossy(&output.stdout).into_owned())
     }
 }
 
 /// As a POSIX shell would need it; plain words stay as they are.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,@+".contains(c);
-    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', r"'\''")) }
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
 }
 
 #[cfg(test)]
@@ -78,7 +91,9 @@ mod tests {
 
     #[test]
     fn the_shown_line_can_be_pasted() {
-        let line = Line::cargo().args(["test", "it's here"]).env("RUSTDOCFLAGS", "-D warnings");
+        let line = Line::cargo()
+            .args(["test", "it's here"])
+            .env("RUSTDOCFLAGS", "-D warnings");
         assert_eq!(line.shown, r"RUSTDOCFLAGS='-D warnings' cargo test 'it'\''s here'");
     }
 }

@@ -24,7 +24,11 @@ const WORTH_COMPRESSING: usize = 1024;
 pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
     // Bind the port first: nobody wants to build for minutes and then hear that it is taken.
     let listener = listen(options.port)?;
-    let profile = if options.release { Profile::Release } else { Profile::Dev };
+    let profile = if options.release {
+        Profile::Release
+    } else {
+        Profile::Dev
+    };
     let mut watch = Watch::new();
     let site = Site::new(wasm::build(profile)?);
     let address = start(listener, site)?;
@@ -50,20 +54,28 @@ pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
 pub(crate) fn listen(port: u16) -> Result<TcpListener, Failure> {
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
     TcpListener::bind(address).map_err(|source| match source.kind() {
-        io::ErrorKind::AddrInUse => Failure::Missing {
+        io::ErrorKind::AddrInUse => Failure::Remedy {
             what: format!("port {port} is taken by another program, so the page cannot be served there"),
             remedy: format!("cargo xtask serve --port {}", port.checked_add(1).unwrap_or(0)),
         },
-        _ => Failure::Io { doing: format!("listening on {address}"), source },
+        _ => Failure::Io {
+            doing: format!("listening on {address}"),
+            source,
+        },
     })
 }
 
 /// Serves in the background until the program ends.
 pub(crate) fn start(listener: TcpListener, site: Site) -> Result<SocketAddr, Failure> {
     let address = listener.local_addr().doing("reading the port")?;
-    let server = Server::from_listener(listener, None)
-        .map_err(|error| Failure::Io { doing: format!("serving on {address}"), source: io::Error::other(error) })?;
-    let answers = Arc::new(Answers { site, encoded: Mutex::default() });
+    let server = Server::from_listener(listener, None).map_err(|error| Failure::Io {
+        doing: format!("serving on {address}"),
+        source: io::Error::other(error),
+    })?;
+    let answers = Arc::new(Answers {
+        site,
+        encoded: Mutex::default(),
+    });
     thread::spawn(move || {
         for request in server.incoming_requests() {
             let answers = Arc::clone(&answers);
@@ -126,9 +138,13 @@ impl Answers {
 
     fn file(&self, request: &Request, address: &str, file: &Path) -> Result<Body, Failure> {
         let metadata = fs::metadata(file).doing(format!("reading {}", file.display()))?;
-        let modified = metadata.modified().doing(format!("reading the age of {}", file.display()))?;
+        let modified = metadata
+            .modified()
+            .doing(format!("reading the age of {}", file.display()))?;
         let coding = field(request, "Accept-Encoding").and_then(Coding::accepted);
-        let age = modified.duration_since(SystemTime::UNIX_EPOCH).map_or(0, |age| age.as_nanos());
+        let age = modified
+            .duration_since(SystemTime::UNIX_EPOCH)
+            .map_or(0, |age| age.as_nanos());
         let tag = format!("\"{age:x}-{:x}-{}\"", metadata.len(), coding.map_or("id", Coding::name));
         let is_page = matches!(address, "" | "index.html");
         if !is_page && field(request, "If-None-Match").is_some_and(|known| known == tag) {
@@ -147,7 +163,11 @@ impl Answers {
                 respond(200, address, encoded.to_vec()).with_header(coded(coding))
             }
         };
-        Ok(if is_page { response } else { response.with_header(header("ETag", &tag)) })
+        Ok(if is_page {
+            response
+        } else {
+            response.with_header(header("ETag", &tag))
+        })
     }
 
     fn encoded(&self, file: &Path, coding: Coding, modified: SystemTime, bytes: &[u8]) -> Arc<Vec<u8>> {
@@ -158,7 +178,13 @@ impl Answers {
         }
         // Outside the lock: another file need not wait for this one.
         let bytes = Arc::new(coding.encode(bytes, Effort::Quick));
-        lock().insert(key, Encoded { modified, bytes: Arc::clone(&bytes) });
+        lock().insert(
+            key,
+            Encoded {
+                modified,
+                bytes: Arc::clone(&bytes),
+            },
+        );
         bytes
     }
 }
@@ -191,7 +217,11 @@ fn header(name: &str, value: &str) -> Header {
 }
 
 fn field<'a>(request: &'a Request, name: &'static str) -> Option<&'a str> {
-    request.headers().iter().find(|header| header.field.equiv(name)).map(|header| header.value.as_str())
+    request
+        .headers()
+        .iter()
+        .find(|header| header.field.equiv(name))
+        .map(|header| header.value.as_str())
 }
 
 /// The text behind `%xx`, or `None` when it is malformed or not UTF-8.

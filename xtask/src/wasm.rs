@@ -41,7 +41,15 @@ impl Profile {
 
 /// The arguments that build the library for the browser.
 pub(crate) fn build_args(profile: Profile) -> Vec<&'static str> {
-    let mut args = vec!["build", "--lib", "--target", TARGET, "--no-default-features", "--features", "viewer"];
+    let mut args = vec![
+        "build",
+        "--lib",
+        "--target",
+        TARGET,
+        "--no-default-features",
+        "--features",
+        "viewer",
+    ];
     args.extend(["--profile", profile.name()]);
     args
 }
@@ -50,7 +58,10 @@ pub(crate) fn build_args(profile: Profile) -> Vec<&'static str> {
 pub(crate) fn build(profile: Profile) -> Result<PathBuf, Failure> {
     ensure_target()?;
     Line::cargo().args(build_args(profile)).run()?;
-    let wasm = crate::target_dir().join(TARGET).join(profile.folder()).join("bindpose.wasm");
+    let wasm = crate::target_dir()
+        .join(TARGET)
+        .join(profile.folder())
+        .join("bindpose.wasm");
     let pkg = crate::target_dir().join("site").join(profile.folder()).join("pkg");
     if !is_newer(&pkg.join("bindpose_bg.wasm"), &wasm) {
         bind(&wasm, &pkg, profile)?;
@@ -60,16 +71,23 @@ pub(crate) fn build(profile: Profile) -> Result<PathBuf, Failure> {
 
 /// Adds the wasm target to the toolchain when it is not there.
 pub(crate) fn ensure_target() -> Result<(), Failure> {
-    if Line::new("rustc").args(["--target", TARGET, "--print", "target-libdir"]).output().is_some_and(|libdir| {
-        // rustc names the folder whether it is there or not.
-        Path::new(libdir.trim()).is_dir()
-    }) {
+    if Line::new("rustc")
+        .args(["--target", TARGET, "--print", "target-libdir"])
+        .output()
+        .is_some_and(|libdir| {
+            // rustc names the folder whether it is there or not.
+            Path::new(libdir.trim()).is_dir()
+        })
+    {
         return Ok(());
     }
-    Line::new("rustup").args(["target", "add", TARGET]).run().map_err(|_| Failure::Missing {
-        what: format!("the Rust target {TARGET} is not installed, and rustup could not add it"),
-        remedy: format!("rustup target add {TARGET}"),
-    })
+    Line::new("rustup")
+        .args(["target", "add", TARGET])
+        .run()
+        .map_err(|_| Failure::Remedy {
+            what: format!("the Rust target {TARGET} is not installed, and rustup could not add it"),
+            remedy: format!("rustup target add {TARGET}"),
+        })
 }
 
 fn bind(wasm: &Path, pkg: &Path, profile: Profile) -> Result<(), Failure> {
@@ -101,7 +119,11 @@ fn bind(wasm: &Path, pkg: &Path, profile: Profile) -> Result<(), Failure> {
 }
 
 fn remove_dir(dir: &Path) -> Result<(), Failure> {
-    if dir.exists() { fs::remove_dir_all(dir).doing(format!("removing {}", dir.display())) } else { Ok(()) }
+    if dir.exists() {
+        fs::remove_dir_all(dir).doing(format!("removing {}", dir.display()))
+    } else {
+        Ok(())
+    }
 }
 
 /// Whether `made` is there and was written after `from`.
