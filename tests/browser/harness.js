@@ -109,10 +109,16 @@ export function call(page, name, ...values) {
   return page.evaluate(([name, values]) => void globalThis.bindpose[name](...values), [name, values]);
 }
 
-/** Waits until `predicate(state, value)` holds; the predicate runs in the page. */
-export function until(page, predicate, value) {
-  const source = `(value) => (${predicate})(globalThis.bindpose.state(), value)`;
-  return page.waitForFunction(`(${source})(${JSON.stringify(value ?? null)})`);
+/** Waits until `predicate(state)` holds. It runs here: the page forbids code out of strings. Gives that state. */
+export async function until(page, predicate) {
+  const deadline = Date.now() + PATIENCE_MS;
+  for (;;) {
+    // Between two pages, after a reload, there is nothing to ask.
+    const now = await state(page).catch(() => null);
+    if (now && predicate(now)) return now;
+    if (Date.now() > deadline) throw new Error(`waited in vain for ${predicate}: ${JSON.stringify(now)}`);
+    await new Promise((done) => setTimeout(done, 30));
+  }
 }
 
 /** Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. */
@@ -225,6 +231,6 @@ export function unless(file) {
 
 function required(name) {
   const value = process.env[name];
-  assert.ok(value, `${name} is not set; `cargo xtask test --browser` sets it`);
+  assert.ok(value, `${name} is not set; cargo xtask test --browser sets it`);
   return value;
 }

@@ -50,7 +50,7 @@ test("after the GPU was lost the model, the time and the camera are there again"
   for (const round of [1, 2]) {
     await loseGpu(page);
     await page.waitForFunction(() => document.querySelector("#view canvas") !== globalThis.lostCanvas);
-    await until(page, ({ backend }, expected) => backend === expected, BACKEND);
+    await until(page, ({ backend }) => backend === BACKEND);
     await settled(page);
     assert.equal(await page.isHidden("#fault"), true);
     const after = await state(page);

@@ -82,14 +82,14 @@ test("a drop before the viewer is there waits for it", {
   await page.waitForFunction(() => /early\.m3d opens/.test(document.getElementById("progress-words").textContent));
   await keep(page, "shell-waiting");
   await page.evaluate(() => (globalThis.letWasmThrough = true));
-  await until(page, (state) => state.model !== null);
+  await until(page, ({ model }) => model !== null);
   assert.equal((await state(page)).model.name, "early.m3d", "not the sample");
 });
 
 test("the Open dialog gives its files", {}, async (page) => {
   const { path } = copyOfSample("chosen.m3d");
   await page.setInputFiles("#files", path);
-  await until(page, (state) => state.model?.name === "chosen.m3d");
+  await until(page, ({ model }) => model?.name === "chosen.m3d");
 });
 
 test("the same file again keeps the clip and the time", {}, async (page) => {

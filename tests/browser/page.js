@@ -41,7 +41,7 @@ test("the canvas follows the window", {}, async (page) => {
 });
 
 test("without a wish the page takes a backend by itself", { query: "", bare: true }, async (page) => {
-  await until(page, (state) => state.model !== null);
+  await until(page, ({ model }) => model !== null);
   const { backend } = await state(page);
   // A software GPU is no reason to take WebGPU, unless it was asked for; the browser under test has no other.
   assert.ok(["webgpu", "webgl2"].includes(backend), backend);
@@ -108,7 +108,7 @@ test("the shell is painted before the viewer arrives", {
   await page.setViewportSize({ width: 360, height: 640 });
   await keep(page, "shell-narrow");
   await page.evaluate(() => (globalThis.letWasmThrough = true));
-  await until(page, (state) => state.model !== null);
+  await until(page, ({ model }) => model !== null);
 });
 
 test("a viewer that does not arrive is said so, with a way on", {
@@ -122,7 +122,7 @@ test("a viewer that does not arrive is said so, with a way on", {
   await keep(page, "fault-download");
   await page.unroute("**/*_bg.wasm");
   await page.click("#fault-actions button");
-  await until(page, (state) => state.model !== null);
+  await until(page, ({ model }) => model !== null);
 });
 
 test("a browser without graphics is told which other way there is", {
@@ -164,6 +164,6 @@ test("a panic shows what happened and a way on", {
   await keep(page, "fault-panic");
   await page.unroute("**/pkg/bindpose.js");
   await page.click("#fault-actions button");
-  await until(page, (state) => state.model !== null);
+  await until(page, ({ model }) => model !== null);
   assert.ok(BACKEND);
 });

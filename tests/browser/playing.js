@@ -9,14 +9,14 @@ test("time advances, with events, and pauses", {}, async (page) => {
     for (const type of ["timeupdate", "play", "pause"]) bindpose.addEventListener(type, () => heard.push(type));
   });
   const first = (await state(page)).timeSecs;
-  await until(page, ({ timeSecs }, first) => Math.abs(timeSecs - first) > 0.05, first);
+  await until(page, ({ timeSecs }) => Math.abs(timeSecs - first) > 0.05);
   await call(page, "pause");
   const { timeSecs, playing } = await state(page);
   assert.equal(playing, false);
   await page.waitForTimeout(300);
   assert.equal((await state(page)).timeSecs, timeSecs, "paused time stands still");
   await call(page, "play");
-  await until(page, ({ timeSecs }, before) => timeSecs !== before, timeSecs);
+  await until(page, (now) => now.timeSecs !== timeSecs);
   const heard = await page.evaluate(() => [...new Set(heard)].sort());
   assert.deepEqual(heard, ["pause", "play", "timeupdate"]);
 });
@@ -52,7 +52,7 @@ test("seeking stays inside the clip", {}, async (page) => {
 test("a clip is chosen by its name; a name that is not there changes nothing", {}, async (page) => {
   const { model } = await state(page);
   await call(page, "selectClip", model.clips[1].name);
-  await until(page, (state, name) => state.clip === name, model.clips[1].name);
+  await until(page, ({ clip }) => clip === model.clips[1].name);
   await call(page, "selectClip", "no such clip");
   assert.equal((await state(page)).clip, model.clips[1].name);
 });
@@ -70,22 +70,22 @@ test("the keys do what they say", {}, async (page) => {
   await page.keyboard.press("Home");
   const { clip, model } = await state(page);
   const { startSecs, endSecs } = model.clips.find(({ name }) => name === clip);
-  await until(page, ({ timeSecs }, start) => Math.abs(timeSecs - start) < 1e-4, startSecs);
+  await until(page, ({ timeSecs }) => Math.abs(timeSecs - startSecs) < 1e-4);
   await page.keyboard.press("ArrowRight");
-  await until(page, ({ timeSecs }, start) => timeSecs > start + 1e-4, startSecs);
+  await until(page, ({ timeSecs }) => timeSecs > startSecs + 1e-4);
   const frame = (await state(page)).timeSecs - startSecs;
   await page.keyboard.press("Shift+ArrowRight");
-  await until(page, ({ timeSecs }, before) => timeSecs > before, startSecs + frame * 1.5);
+  await until(page, ({ timeSecs }) => timeSecs > startSecs + frame * 1.5);
   const eleven = (await state(page)).timeSecs - startSecs;
   assert.ok(Math.abs(eleven - Math.min(11 * frame, endSecs - startSecs)) < frame / 2, `${eleven} is not eleven of ${frame}`);
   await page.keyboard.press("ArrowLeft");
-  await until(page, ({ timeSecs }, before) => timeSecs < before - 1e-4, startSecs + eleven);
+  await until(page, ({ timeSecs }) => timeSecs < startSecs + eleven - 1e-4);
   await page.keyboard.press("End");
-  await until(page, ({ timeSecs }, end) => Math.abs(timeSecs - end) < 1e-4, endSecs);
+  await until(page, ({ timeSecs }) => Math.abs(timeSecs - endSecs) < 1e-4);
   await page.keyboard.press("c");
-  await until(page, (state, before) => state.clip !== before, clip);
+  await until(page, (now) => now.clip !== clip);
   await page.keyboard.press("Shift+C");
-  await until(page, (state, before) => state.clip === before, clip);
+  await until(page, (now) => now.clip === clip);
 });
 
 test("the keys for speed and loop", {}, async (page) => {
@@ -104,7 +104,7 @@ test("the keys for speed and loop", {}, async (page) => {
     const { loop } = await state(page);
     loops.push(loop);
     await page.keyboard.press("l");
-    await until(page, (state, before) => state.loop !== before, loop);
+    await until(page, (now) => now.loop !== loop);
   }
   assert.equal(new Set(loops).size, 3, loops.join(", "));
   assert.equal((await state(page)).loop, loops[0], "and round again");
@@ -141,10 +141,10 @@ test("the transport is there for screen readers and moves with the viewer", {}, 
   assert.equal(await page.textContent("#transport-play"), "Play");
   const { model } = await state(page);
   await page.selectOption("#transport-clip", model.clips[1].name);
-  await until(page, (state, name) => state.clip === name, model.clips[1].name);
+  await until(page, ({ clip }) => clip === model.clips[1].name);
   await page.focus("#transport-time");
   await page.keyboard.press("End");
-  await until(page, ({ timeSecs }, end) => Math.abs(timeSecs - end) < 1e-3, model.clips[1].endSecs);
+  await until(page, ({ timeSecs }) => Math.abs(timeSecs - model.clips[1].endSecs) < 1e-3);
   assert.match(await page.getAttribute("#transport-time", "aria-valuetext"), /seconds$/);
 });
 

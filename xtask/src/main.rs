@@ -9,6 +9,7 @@
 //! | [`wasm`] | build the library for the browser and bind it: `pkg/` |
 //! | [`site`] | which files make the site, their types, the policy they run under |
 //! | [`serve`] | the site over HTTP on this machine alone |
+//! | [`http`] | as much of the protocol as that takes |
 //! | [`check`] | every check, in order |
 //! | [`prerequisites`] | what the checks need beside Rust |
 //! | [`dist`] | the static site: hashed names, compressed twice |
@@ -18,6 +19,7 @@ mod check;
 mod compress;
 mod dist;
 mod failure;
+mod http;
 mod prerequisites;
 mod process;
 mod serve;

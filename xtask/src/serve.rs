@@ -7,18 +7,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 use std::{fs, io, thread};
 
-use tiny_http::{Header, Method, Request, Response, Server, StatusCode};
-
 use crate::args::ServeOptions;
 use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
+use crate::http::{self, Request, Response};
 use crate::process::Line;
 use crate::site::{self, Site};
 use crate::wasm::{self, Profile};
 use crate::watch::Watch;
 
 /// Below this a compressed answer saves nothing.
-const WORTH_COMPRESSING: usize = 1024;
+const WORTH_COMPRESSING: u64 = 1024;
 
 /// `cargo xtask serve`.
 pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
@@ -68,25 +67,11 @@ pub(crate) fn listen(port: u16) -> Result<TcpListener, Failure> {
 /// Serves in the background until the program ends.
 pub(crate) fn start(listener: TcpListener, site: Site) -> Result<SocketAddr, Failure> {
     let address = listener.local_addr().doing("reading the port")?;
-    let server = Server::from_listener(listener, None).map_err(|error| Failure::Io {
-        doing: format!("serving on {address}"),
-        source: io::Error::other(error),
-    })?;
-    let answers = Arc::new(Answers {
+    let answers = Answers {
         site,
         encoded: Mutex::default(),
-    });
-    thread::spawn(move || {
-        for request in server.incoming_requests() {
-            let answers = Arc::clone(&answers);
-            // A thread each: a client that reads slowly holds up nobody else.
-            thread::spawn(move || {
-                let response = answers.answer(&request);
-                // The browser went away in the middle of an answer; there is nobody left to tell.
-                request.respond(response).ok();
-            });
-        }
-    });
+    };
+    http::serve(listener, move |request| answers.answer(request));
     Ok(address)
 }
 
@@ -103,8 +88,6 @@ fn open(page: &str) {
     }
 }
 
-type Body = Response<io::Cursor<Vec<u8>>>;
-
 /// What is needed to answer a request.
 struct Answers {
     site: Site,
@@ -115,69 +98,67 @@ struct Answers {
 #[derive(Clone)]
 struct Encoded {
     modified: SystemTime,
-    bytes: Arc<Vec<u8>>,
+    bytes: Arc<[u8]>,
 }
 
 impl Answers {
-    fn answer(&self, request: &Request) -> Body {
-        if !matches!(request.method(), Method::Get | Method::Head) {
-            return plain(405, "Only GET and HEAD are answered here.").with_header(header("Allow", "GET, HEAD"));
+    fn answer(&self, request: &Request) -> Response {
+        if !matches!(request.method.as_str(), "GET" | "HEAD") {
+            return plain(405, "Only GET and HEAD are answered here.").with("Allow", "GET, HEAD");
         }
-        let path = request.url().split(['?', '#']).next().unwrap_or_default();
-        let Some(address) = path.strip_prefix('/').and_then(percent_decoded) else {
+        let Some(address) = request.path.strip_prefix('/').and_then(percent_decoded) else {
             return plain(400, "This address cannot be read.");
         };
         let Some(file) = self.site.locate(&address) else {
             return plain(404, "There is no such file here. The page is at /.");
         };
-        match self.file(request, &address, &file) {
-            Ok(response) => response,
-            Err(failure) => plain(500, &failure.to_string()),
-        }
+        self.file(request, &address, &file)
+            .unwrap_or_else(|failure| plain(500, &failure.to_string()))
     }
 
-    fn file(&self, request: &Request, address: &str, file: &Path) -> Result<Body, Failure> {
+    fn file(&self, request: &Request, address: &str, file: &Path) -> Result<Response, Failure> {
+        let coding = request.field("Accept-Encoding").and_then(Coding::accepted);
+        if matches!(address, "" | "index.html") {
+            // It carries the size of the wasm, so it changes when its own file does not: made anew each time.
+            let bytes = self.site.read(address, file)?;
+            return Ok(match coding {
+                None => respond(200, address, bytes.into()),
+                Some(coding) => {
+                    let encoded = coding.encode(&bytes, Effort::Quick);
+                    respond(200, address, encoded.into()).with("Content-Encoding", coding.name())
+                }
+            });
+        }
         let metadata = fs::metadata(file).doing(format!("reading {}", file.display()))?;
         let modified = metadata
             .modified()
             .doing(format!("reading the age of {}", file.display()))?;
-        let coding = field(request, "Accept-Encoding").and_then(Coding::accepted);
+        let coding = coding.filter(|_| metadata.len() >= WORTH_COMPRESSING);
         let age = modified
             .duration_since(SystemTime::UNIX_EPOCH)
             .map_or(0, |age| age.as_nanos());
         let tag = format!("\"{age:x}-{:x}-{}\"", metadata.len(), coding.map_or("id", Coding::name));
-        let is_page = matches!(address, "" | "index.html");
-        if !is_page && field(request, "If-None-Match").is_some_and(|known| known == tag) {
-            return Ok(respond(304, address, Vec::new()).with_header(header("ETag", &tag)));
+        if request.field("If-None-Match").is_some_and(|known| known == tag) {
+            return Ok(respond(304, address, Arc::default()).with("ETag", tag));
         }
-        let bytes = self.site.read(address, file)?;
-        let coding = coding.filter(|_| bytes.len() >= WORTH_COMPRESSING);
         let response = match coding {
-            None => respond(200, address, bytes),
-            Some(coding) if is_page => {
-                // Carries the size of the wasm, so it changes when its own file does not.
-                respond(200, address, coding.encode(&bytes, Effort::Quick)).with_header(coded(coding))
-            }
+            None => respond(200, address, self.site.read(address, file)?.into()),
             Some(coding) => {
-                let encoded = self.encoded(file, coding, modified, &bytes);
-                respond(200, address, encoded.to_vec()).with_header(coded(coding))
+                let encoded = self.encoded(address, file, coding, modified)?;
+                respond(200, address, encoded).with("Content-Encoding", coding.name())
             }
         };
-        Ok(if is_page {
-            response
-        } else {
-            response.with_header(header("ETag", &tag))
-        })
+        Ok(response.with("ETag", tag))
     }
 
-    fn encoded(&self, file: &Path, coding: Coding, modified: SystemTime, bytes: &[u8]) -> Arc<Vec<u8>> {
+    fn encoded(&self, address: &str, file: &Path, coding: Coding, modified: SystemTime) -> Result<Arc<[u8]>, Failure> {
         let key = (file.to_owned(), coding);
         let lock = || self.encoded.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = lock().get(&key).filter(|known| known.modified == modified) {
-            return Arc::clone(&known.bytes);
+            return Ok(Arc::clone(&known.bytes));
         }
         // Outside the lock: another file need not wait for this one.
-        let bytes = Arc::new(coding.encode(bytes, Effort::Quick));
+        let bytes: Arc<[u8]> = coding.encode(&self.site.read(address, file)?, Effort::Quick).into();
         lock().insert(
             key,
             Encoded {
@@ -185,43 +166,27 @@ impl Answers {
                 bytes: Arc::clone(&bytes),
             },
         );
-        bytes
+        Ok(bytes)
     }
 }
 
-fn plain(status: u16, words: &str) -> Body {
-    respond(status, "answer.txt", format!("{words}\n").into_bytes())
+fn plain(status: u16, words: &str) -> Response {
+    respond(status, "answer.txt", format!("{words}\n").into_bytes().into())
 }
 
-fn respond(status: u16, address: &str, bytes: Vec<u8>) -> Body {
-    Response::from_data(bytes)
-        .with_status_code(StatusCode(status))
-        // The length is known, so it is said instead of sending chunks.
-        .with_chunked_threshold(usize::MAX)
-        .with_header(header("Content-Type", site::media_type(address)))
-        .with_header(header("Content-Security-Policy", site::CONTENT_SECURITY_POLICY))
-        .with_header(header("X-Content-Type-Options", "nosniff"))
-        .with_header(header("Referrer-Policy", "no-referrer"))
-        .with_header(header("Cross-Origin-Opener-Policy", "same-origin"))
-        .with_header(header("Cache-Control", "no-cache"))
-        .with_header(header("Vary", "Accept-Encoding"))
-}
-
-fn coded(coding: Coding) -> Header {
-    header("Content-Encoding", coding.name())
-}
-
-fn header(name: &str, value: &str) -> Header {
-    // Every name and value here is printable ASCII, which is all that is asked of them.
-    Header::from_bytes(name, value).expect("a header of printable ASCII")
-}
-
-fn field<'a>(request: &'a Request, name: &'static str) -> Option<&'a str> {
-    request
-        .headers()
-        .iter()
-        .find(|header| header.field.equiv(name))
-        .map(|header| header.value.as_str())
+fn respond(status: u16, address: &str, body: Arc<[u8]>) -> Response {
+    Response {
+        status,
+        fields: Vec::new(),
+        body,
+    }
+    .with("Content-Type", site::media_type(address))
+    .with("Content-Security-Policy", site::CONTENT_SECURITY_POLICY)
+    .with("X-Content-Type-Options", "nosniff")
+    .with("Referrer-Policy", "no-referrer")
+    .with("Cross-Origin-Opener-Policy", "same-origin")
+    .with("Cache-Control", "no-cache")
+    .with("Vary", "Accept-Encoding")
 }
 
 /// The text behind `%xx`, or `None` when it is malformed or not UTF-8.
