@@ -84,6 +84,16 @@ impl Session {
         &self.playback
     }
 
+    /// Speed as a factor of the file's, whatever the direction.
+    pub fn speed(&self) -> f32 {
+        self.playback.speed().abs()
+    }
+
+    /// Whether it plays, or would play, backward.
+    pub fn is_backward(&self) -> bool {
+        self.playback.speed() < 0.0
+    }
+
     /// Whether the pointer holds the time.
     pub fn is_scrubbing(&self) -> bool {
         self.scrubbing
@@ -91,7 +101,7 @@ impl Session {
 
     /// Whether time moves by itself.
     pub fn is_animating(&self) -> bool {
-        self.playback.is_playing() && !self.scrubbing && self.clip().is_some()
+        self.playback.is_moving() && !self.scrubbing && self.clip().is_some()
     }
 
     /// From where the model is seen.
@@ -146,9 +156,7 @@ impl Session {
         if !self.is_animating() {
             return;
         }
-        let was_at = self.playback.time_secs();
-        self.playback.advance(dt_secs);
-        if self.playback.time_secs() != was_at {
+        if self.playback.advance(dt_secs) {
             self.time_changed();
         }
         if !self.playback.is_playing() {
@@ -204,12 +212,12 @@ impl Session {
             Command::Pause => self.set_playing(false),
             Command::TogglePlay => {
                 let playing = !self.playback.is_playing();
-                self.playback.set_backward(false);
+                self.set_backward(false);
                 self.set_playing(playing);
             }
             Command::TogglePlayBackward => {
-                let playing = !(self.playback.is_playing() && self.playback.is_backward());
-                self.playback.set_backward(true);
+                let playing = !(self.playback.is_playing() && self.is_backward());
+                self.set_backward(true);
                 self.set_playing(playing);
             }
             Command::Seek { time_secs } => self.seek(time_secs),
@@ -220,7 +228,7 @@ impl Session {
             Command::EndScrub => self.scrubbing = false,
             Command::SelectClip(clip) => self.select_clip(clip),
             Command::CycleClip(places) => self.cycle_clip(places),
-            Command::SetSpeed(speed) => self.playback.set_speed(speed),
+            Command::SetSpeed(speed) => self.set_speed(speed),
             Command::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             Command::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
             Command::SetLoopMode(mode) => self.playback.set_loop_mode(mode),
@@ -393,11 +401,15 @@ impl Session {
     }
 
     fn step_frames(&mut self, frames: i32) {
-        let Some(clip) = self.clip() else { return };
-        let frame = i64::from(clip.frame_at(self.playback.time_secs())) + i64::from(frames);
-        let time_secs = clip.time_of_frame(frame.clamp(0, i64::from(clip.last_frame())) as u32);
-        self.set_playing(false);
-        self.seek(time_secs);
+        if self.clip().is_none() {
+            return;
+        }
+        let was_playing = self.playback.is_playing();
+        self.playback.step_frames(frames);
+        self.time_changed();
+        if was_playing {
+            self.note(Event::Pause);
+        }
     }
 
     fn select_clip(&mut self, index: usize) {
@@ -407,12 +419,7 @@ impl Session {
         if self.clip == Some(index) {
             return;
         }
-        self.playback.set_range(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() {
-            clip.end_secs
-        } else {
-            clip.start_secs
-        });
+        self.playback.set_clip(clip);
         self.clip = Some(index);
         self.time_changed();
     }
@@ -425,9 +432,20 @@ impl Session {
     }
 
     fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
-        if let Some(&speed) = pick(&SPEEDS, self.playback.speed()) {
-            self.playback.set_speed(speed);
+        if let Some(&speed) = pick(&SPEEDS, self.speed()) {
+            self.set_speed(speed);
         }
+    }
+
+    /// Keeps the direction.
+    fn set_speed(&mut self, speed: f32) {
+        let direction = if self.is_backward() { -1.0 } else { 1.0 };
+        self.playback.set_speed(speed.abs() * direction);
+    }
+
+    fn set_backward(&mut self, backward: bool) {
+        let direction = if backward { -1.0 } else { 1.0 };
+        self.playback.set_speed(self.speed() * direction);
     }
 
     fn zoom(&mut self, factor: f32, pointer: glam::Vec2) {
