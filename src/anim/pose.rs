@@ -2,8 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{local_to_model, palette, sample};
-use crate::model::{Clip, LocalJoint, Skeleton};
+use crate::model::{LocalJoint, Skeleton};
 
 /// Each joint relative to its parent: `parent_from_joint`, kept in parts.
 #[derive(Clone, Debug, Default)]
@@ -32,19 +31,11 @@ pub struct PoseBuffers {
 }
 
 impl PoseBuffers {
-    /// Buffers that hold the bind pose: the skeleton at rest, and a palette of identities.
+    /// Buffers of the right size, in the bind pose: the skeleton at rest, and a palette of identities.
     pub fn for_skeleton(skeleton: &Skeleton) -> Self {
         let mut buffers = Self::default();
         buffers.set_bind_pose(skeleton);
         buffers
-    }
-
-    /// The pose of a clip at a time: `sample`, `local_to_model` and `palette` in turn. Allocates only when the buffers were
-    /// sized for a smaller skeleton.
-    pub fn evaluate(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) {
-        sample(clip, time_secs, &mut self.local);
-        local_to_model(skeleton, &self.local, &mut self.model);
-        palette(skeleton, &self.model, &mut self.palette);
     }
 
     /// The pose in which the mesh was skinned. Its palette is the identity by meaning, so it is set and not computed.

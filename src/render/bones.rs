@@ -88,7 +88,11 @@ impl BoneTexture {
 fn rows(affine: &Affine3A) -> [[f32; 4]; 3] {
     let [x, y, z] = affine.matrix3.transpose().to_cols_array_2d();
     let t = affine.translation.to_array();
-    [[x[0], x[1], x[2], t[0]], [y[0], y[1], y[2], t[1]], [z[0], z[1], z[2], t[2]]]
+    [
+        [x[0], x[1], x[2], t[0]],
+        [y[0], y[1], y[2], t[1]],
+        [z[0], z[1], z[2], t[2]],
+    ]
 }
 
 #[cfg(test)]

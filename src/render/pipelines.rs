@@ -173,7 +173,12 @@ impl<'a> Builder<'a> {
 
     /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
     /// from `front_facing`, which here says "clockwise on the screen".
-    fn build(&self, vertex: &str, buffers: &[Option<wgpu::VertexBufferLayout<'_>>], pass: &Pass) -> wgpu::RenderPipeline {
+    fn build(
+        &self,
+        vertex: &str,
+        buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+        pass: &Pass,
+    ) -> wgpu::RenderPipeline {
         let targets = [pass.color.map(wgpu::ColorTargetState::from)];
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.program.name),

@@ -31,7 +31,11 @@ impl Ground {
         Self {
             height: if stands_on_zero { 0.0 } else { floor },
             // A single point has no size to go by.
-            cell: if exponent.is_finite() { 10f32.powf(exponent.clamp(-30.0, 30.0)) } else { 1.0 },
+            cell: if exponent.is_finite() {
+                10f32.powf(exponent.clamp(-30.0, 30.0))
+            } else {
+                1.0
+            },
         }
     }
 }
@@ -48,7 +52,13 @@ mod tests {
 
     #[test]
     fn lies_at_zero_under_what_stands_there_and_else_at_the_floor() {
-        for (min_y, max_y, height) in [(0.0, 70.0, 0.0), (-3.0, 70.0, 0.0), (5.0, 70.0, 0.0), (-1.0, 1.0, -1.0), (90.0, 91.0, 90.0)] {
+        for (min_y, max_y, height) in [
+            (0.0, 70.0, 0.0),
+            (-3.0, 70.0, 0.0),
+            (5.0, 70.0, 0.0),
+            (-1.0, 1.0, -1.0),
+            (90.0, 91.0, 90.0),
+        ] {
             let found = ground(Vec3::new(-1.0, min_y, -1.0), Vec3::new(1.0, max_y, 1.0));
             assert_eq!(found.height, height, "{min_y}..{max_y}");
         }

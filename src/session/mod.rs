@@ -46,7 +46,12 @@ pub struct Session {
 impl Session {
     /// Nothing open. Under `reduced_motion` a model waits on its first frame instead of playing.
     pub fn new(reduced_motion: bool) -> Self {
-        Self { reduced_motion, aspect: 1.0, grid_visible: true, ..Self::default() }
+        Self {
+            reduced_motion,
+            aspect: 1.0,
+            grid_visible: true,
+            ..Self::default()
+        }
     }
 
     /// The model on screen.
@@ -96,7 +101,8 @@ impl Session {
 
     /// The handedness in force: chosen, or else found.
     pub fn handedness(&self) -> Handedness {
-        self.handedness_override.unwrap_or(self.open.as_ref().map(|open| open.model.handedness).unwrap_or_default())
+        self.handedness_override
+            .unwrap_or(self.open.as_ref().map(|open| open.model.handedness).unwrap_or_default())
     }
 
     /// The handedness that was chosen over what was found.
@@ -106,7 +112,8 @@ impl Session {
 
     /// The up axis in force: chosen, or else found.
     pub fn up_axis(&self) -> UpAxis {
-        self.up_axis_override.unwrap_or(self.open.as_ref().map(|open| open.model.up_axis).unwrap_or_default())
+        self.up_axis_override
+            .unwrap_or(self.open.as_ref().map(|open| open.model.up_axis).unwrap_or_default())
     }
 
     /// The up axis that was chosen over what was found.
@@ -225,7 +232,10 @@ impl Session {
                 self.playback.set_loop_mode(next);
             }
 
-            Command::Orbit { yaw_radians, pitch_radians } => self.camera.orbit(yaw_radians, pitch_radians),
+            Command::Orbit {
+                yaw_radians,
+                pitch_radians,
+            } => self.camera.orbit(yaw_radians, pitch_radians),
             Command::Pan { drag } => {
                 self.camera.pan(drag);
                 self.framed = false;
@@ -310,7 +320,10 @@ impl Session {
 
     /// Shows another model. The same file again keeps camera, clip, time and choices.
     fn replace_model(&mut self, open: OpenModel) {
-        let again = self.open.as_ref().filter(|old| old.file.base_name() == open.file.base_name());
+        let again = self
+            .open
+            .as_ref()
+            .filter(|old| old.file.base_name() == open.file.base_name());
         let kept_clip = again.and_then(|_| Some(self.clip()?.name.clone()));
         let again = again.is_some();
         let was_playing = self.playback.is_playing();
@@ -322,8 +335,14 @@ impl Session {
         self.open = Some(open);
         if again {
             let time_secs = self.playback.time_secs();
-            let clips = self.open.as_ref().map(|open| open.model.clips.as_slice()).unwrap_or_default();
-            let clip = kept_clip.and_then(|name| clips.iter().position(|clip| clip.name == name)).unwrap_or(0);
+            let clips = self
+                .open
+                .as_ref()
+                .map(|open| open.model.clips.as_slice())
+                .unwrap_or_default();
+            let clip = kept_clip
+                .and_then(|name| clips.iter().position(|clip| clip.name == name))
+                .unwrap_or(0);
             self.clip = None;
             self.select_clip(clip);
             self.playback.seek(time_secs);
@@ -333,7 +352,10 @@ impl Session {
             self.clip = None;
             self.playback = Playback::default();
             self.select_clip(0);
-            self.camera = Camera { projection: self.camera.projection, ..Camera::default() };
+            self.camera = Camera {
+                projection: self.camera.projection,
+                ..Camera::default()
+            };
             self.frame_model();
             if self.clip.is_some() && !self.reduced_motion {
                 self.playback.play();
@@ -377,12 +399,18 @@ impl Session {
     }
 
     fn select_clip(&mut self, index: usize) {
-        let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else { return };
+        let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else {
+            return;
+        };
         if self.clip == Some(index) {
             return;
         }
         self.playback.set_range(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() { clip.end_secs } else { clip.start_secs });
+        self.playback.seek(if self.playback.is_backward() {
+            clip.end_secs
+        } else {
+            clip.start_secs
+        });
         self.clip = Some(index);
         self.time_changed();
     }
@@ -403,7 +431,10 @@ impl Session {
     fn zoom(&mut self, factor: f32, pointer: glam::Vec2) {
         let radius = self.world_bounds().radius().max(1e-6);
         // Neither through the model nor so far that it is a dot.
-        let factor = factor.clamp(radius * 1e-2 / self.camera.distance, radius * 100.0 / self.camera.distance);
+        let factor = factor.clamp(
+            radius * 1e-2 / self.camera.distance,
+            radius * 100.0 / self.camera.distance,
+        );
         self.camera.zoom(factor, pointer);
         self.framed = false;
     }

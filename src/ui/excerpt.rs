@@ -9,7 +9,12 @@ use crate::format::Excerpt;
 /// Draws the lines on a quiet ground. `heading` stands above them, `expected` beside the mark.
 pub fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<(&str, &str)>, mark_color: Color32) {
     let tokens = Tokens::of(ui);
-    let mono = |color| TextFormat { font_id: theme::mono(12.0), color, line_height: Some(19.0), ..Default::default() };
+    let mono = |color| TextFormat {
+        font_id: theme::mono(12.0),
+        color,
+        line_height: Some(19.0),
+        ..Default::default()
+    };
     let mut job = LayoutJob::default();
     job.wrap.max_width = f32::INFINITY;
     let (heading, expected) = heading_and_expected.unwrap_or_default();
@@ -37,8 +42,14 @@ pub fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<(&str, 
     if let Some(last) = job.sections.last_mut() {
         last.byte_range.end = egui::text::ByteIndex(text);
     }
-    egui::Frame::new().fill(tokens.field).corner_radius(CONTROL_RADIUS).inner_margin(10.0).show(ui, |ui| {
-        ui.take_available_width();
-        egui::ScrollArea::horizontal().id_salt("excerpt").show(ui, |ui| ui.label(job));
-    });
+    egui::Frame::new()
+        .fill(tokens.field)
+        .corner_radius(CONTROL_RADIUS)
+        .inner_margin(10.0)
+        .show(ui, |ui| {
+            ui.take_available_width();
+            egui::ScrollArea::horizontal()
+                .id_salt("excerpt")
+                .show(ui, |ui| ui.label(job));
+        });
 }

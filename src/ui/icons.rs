@@ -59,10 +59,17 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
         painter.add(Shape::line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke));
     };
     let closed = |points: &[(f32, f32)]| {
-        painter.add(Shape::closed_line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke));
+        painter.add(Shape::closed_line(
+            points.iter().map(|&(x, y)| at(x, y)).collect(),
+            stroke,
+        ));
     };
     let filled = |points: &[(f32, f32)]| {
-        painter.add(Shape::convex_polygon(points.iter().map(|&(x, y)| at(x, y)).collect(), color, Stroke::NONE));
+        painter.add(Shape::convex_polygon(
+            points.iter().map(|&(x, y)| at(x, y)).collect(),
+            color,
+            Stroke::NONE,
+        ));
     };
     let box_of = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(at(x0, y0), at(x1, y1));
     let outline = |rect: Rect, radius: f32| {
@@ -120,12 +127,26 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             painter.circle_filled(at(8.0, 8.0), 1.6, color);
         }
         Icon::Cube => {
-            closed(&[(8.0, 1.8), (13.6, 4.9), (13.6, 11.1), (8.0, 14.2), (2.4, 11.1), (2.4, 4.9)]);
+            closed(&[
+                (8.0, 1.8),
+                (13.6, 4.9),
+                (13.6, 11.1),
+                (8.0, 14.2),
+                (2.4, 11.1),
+                (2.4, 4.9),
+            ]);
             line(&[(2.4, 4.9), (8.0, 8.0), (13.6, 4.9)]);
             line(&[(8.0, 8.0), (8.0, 14.2)]);
         }
         Icon::Open => {
-            line(&[(2.0, 12.6), (2.0, 3.4), (6.2, 3.4), (7.8, 5.2), (13.0, 5.2), (13.0, 7.2)]);
+            line(&[
+                (2.0, 12.6),
+                (2.0, 3.4),
+                (6.2, 3.4),
+                (7.8, 5.2),
+                (13.0, 5.2),
+                (13.0, 7.2),
+            ]);
             closed(&[(2.0, 12.6), (4.4, 7.2), (15.0, 7.2), (12.6, 12.6)]);
         }
         Icon::Camera => {

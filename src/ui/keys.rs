@@ -16,7 +16,12 @@ pub fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<
     let control_focused = ui.memory(|memory| memory.focused().is_some());
     for event in events {
         match event {
-            Event::Key { key, pressed: true, modifiers, .. } => {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } => {
                 if control_focused && matches!(key, Key::Space | Key::Enter) {
                     continue;
                 }
@@ -45,7 +50,12 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
 
 /// What a key asks for.
 pub fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
-    let Modifiers { shift, command: ctrl, alt, .. } = modifiers;
+    let Modifiers {
+        shift,
+        command: ctrl,
+        alt,
+        ..
+    } = modifiers;
     if alt || (ctrl && !matches!(key, Key::Num1 | Key::Num3 | Key::Num7)) {
         return None;
     }
@@ -94,13 +104,25 @@ mod tests {
 
     #[test]
     fn shift_makes_ten_frames_of_one() {
-        assert_eq!(command_for(Key::ArrowLeft, Modifiers::NONE), Some(Command::StepFrames(-1)));
-        assert_eq!(command_for(Key::ArrowRight, Modifiers::SHIFT), Some(Command::StepFrames(10)));
+        assert_eq!(
+            command_for(Key::ArrowLeft, Modifiers::NONE),
+            Some(Command::StepFrames(-1))
+        );
+        assert_eq!(
+            command_for(Key::ArrowRight, Modifiers::SHIFT),
+            Some(Command::StepFrames(10))
+        );
     }
 
     #[test]
     fn ctrl_looks_from_the_opposite_side() {
-        assert_eq!(command_for(Key::Num1, Modifiers::NONE), Some(Command::LookFrom(ViewPreset::Front)));
-        assert_eq!(command_for(Key::Num1, Modifiers::COMMAND), Some(Command::LookFrom(ViewPreset::Back)));
+        assert_eq!(
+            command_for(Key::Num1, Modifiers::NONE),
+            Some(Command::LookFrom(ViewPreset::Front))
+        );
+        assert_eq!(
+            command_for(Key::Num1, Modifiers::COMMAND),
+            Some(Command::LookFrom(ViewPreset::Back))
+        );
     }
 }

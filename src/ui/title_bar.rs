@@ -16,7 +16,12 @@ pub fn show(ui: &mut Ui, session: &Session, narrow: bool) {
         text(ui, "Bindpose", theme::semibold(13.5), tokens.text);
         let Some(open) = session.open_model() else { return };
         let most = if narrow { 18 } else { 36 };
-        text(ui, &shortened(open.file.base_name(), most), egui::FontId::proportional(13.0), tokens.muted);
+        text(
+            ui,
+            &shortened(open.file.base_name(), most),
+            egui::FontId::proportional(13.0),
+            tokens.muted,
+        );
         if !narrow {
             chip(ui, dialect_name(open.dialect), tokens.muted);
         }

@@ -83,8 +83,11 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
         commands.push(Command::ToggleGrid);
         ui.close();
     }
-    let (label, other) =
-        if ui.visuals().dark_mode { ("Light surroundings", Theme::Light) } else { ("Dark surroundings", Theme::Dark) };
+    let (label, other) = if ui.visuals().dark_mode {
+        ("Light surroundings", Theme::Light)
+    } else {
+        ("Dark surroundings", Theme::Dark)
+    };
     if menu_item(ui, label, false).clicked() {
         state.requests.push(Request::UseTheme(other));
         ui.close();
