@@ -8,7 +8,7 @@ pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
 
-use crate::anim::{self, LoopMode, Playback, PoseBuffers};
+use crate::anim::{LoopMode, Playback, PoseBuffers};
 use crate::model::{Clip, Handedness, UpAxis, world_from_model};
 use crate::scene::{Aabb, Background, Camera, FrameOptions, Insets, Projection, RenderFrame, Theme};
 
@@ -163,9 +163,10 @@ impl Session {
         if let Some(open) = &self.open {
             let wanted = (self.clip, self.playback.time_secs());
             if self.posed_at != Some(wanted) {
+                let skeleton = &open.model.skeleton;
                 match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                    Some(clip) => anim::evaluate(&open.model, clip, wanted.1, &mut self.pose),
-                    None => anim::evaluate_bind_pose(&open.model, &mut self.pose),
+                    Some(clip) => self.pose.evaluate(skeleton, clip, wanted.1),
+                    None => self.pose.set_bind_pose(skeleton),
                 }
                 self.posed_at = Some(wanted);
             }
@@ -393,7 +394,8 @@ impl Session {
 
     fn step_frames(&mut self, frames: i32) {
         let Some(clip) = self.clip() else { return };
-        let time_secs = clip.step_frames(self.playback.time_secs(), frames);
+        let frame = i64::from(clip.frame_at(self.playback.time_secs())) + i64::from(frames);
+        let time_secs = clip.time_of_frame(frame.clamp(0, i64::from(clip.last_frame())) as u32);
         self.set_playing(false);
         self.seek(time_secs);
     }

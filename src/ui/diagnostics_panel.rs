@@ -1,6 +1,6 @@
 //! Every finding about the open file, with its place and code; a click shows the lines.
 
-use egui::{Align2, FontId, Sense, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{Align2, FontId, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::UiState;
 use super::excerpt;
@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::session::{OpenModel, Session};
 
 /// The panel's contents.
-pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32) {
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
     ui.horizontal(|ui| {
@@ -73,7 +73,7 @@ fn finding(ui: &mut Ui, open: &OpenModel, notice: &Diagnostic, index: usize, sta
     ui.painter().circle_filled(rect.min + vec2(4.0, 14.0), 3.0, color);
     ui.painter().galley(rect.min + vec2(16.0, 6.0), galley, tokens.text);
     let label = format!("{} {}: {}", notice.severity, notice.code, notice.message);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     if response.clicked() {
         state.shown_finding = if shown { None } else { Some(index) };
     }

@@ -11,7 +11,7 @@ use crate::session::{Command, LoadError, Session};
 const CARD_MARGIN: f32 = 12.0;
 
 /// The card's contents.
-pub fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let title = match error.file_name.as_str() {
         "" => "Nothing to open".to_owned(),
@@ -27,7 +27,7 @@ pub fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Ve
             theme::semibold(13.5),
             tokens.error,
         );
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Label, true, &title));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &title));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
                 commands.push(Command::DismissError);

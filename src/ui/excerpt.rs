@@ -7,7 +7,7 @@ use super::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::format::Excerpt;
 
 /// Draws the lines on a quiet ground. `heading` stands above them, `expected` beside the mark.
-pub fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<(&str, &str)>, mark_color: Color32) {
+pub(super) fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<(&str, &str)>, mark_color: Color32) {
     let tokens = Tokens::of(ui);
     let mono = |color| TextFormat {
         font_id: theme::mono(12.0),

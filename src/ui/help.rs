@@ -40,7 +40,7 @@ const KEYS: [&[(&str, &str)]; 3] = [
 ];
 
 /// The table.
-pub fn show(ui: &mut Ui, state: &mut UiState) {
+pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     let tokens = Tokens::of(ui);
     ui.horizontal(|ui| {
         let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width() - 34.0, 28.0), Sense::hover());
@@ -73,9 +73,8 @@ pub fn show(ui: &mut Ui, state: &mut UiState) {
                     let at = rect.left_center() + vec2(112.0, 0.0);
                     ui.painter()
                         .text(at, Align2::LEFT_CENTER, *does, FontId::proportional(13.0), tokens.muted);
-                    response.widget_info(|| {
-                        egui::WidgetInfo::labeled(egui::WidgetType::Label, true, format!("{keys}: {does}"))
-                    });
+                    response
+                        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{keys}: {does}")));
                 }
             }
         });

@@ -7,7 +7,7 @@ use crate::scene::ViewPreset;
 use crate::session::{Command, Session};
 
 /// Reads the keys of this frame. Nothing while words are typed.
-pub fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if ui.ctx().text_edit_focused() {
         return;
     }
@@ -49,7 +49,7 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
 }
 
 /// What a key asks for.
-pub fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
+pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
     let Modifiers {
         shift,
         command: ctrl,

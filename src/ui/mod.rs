@@ -245,7 +245,7 @@ fn narrow_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, 
 }
 
 fn area(ui: &Ui, name: &str, pivot: Align2, at: egui::Pos2, order: Order) -> Area {
-    Area::new(Id::new(("panel", name)))
+    Area::new(Id::unique(("panel", name)))
         .order(order)
         .pivot(pivot)
         .fixed_pos(at)

@@ -1,6 +1,6 @@
 //! What is open: counts, handedness, up axis, size, subsets, other models of the drop, the count of diagnostics.
 
-use egui::{Align2, Color32, FontId, Popup, Sense, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 use super::timeline::shortened;
@@ -12,12 +12,12 @@ use crate::scene::display_color;
 use crate::session::{Command, OpenModel, Session};
 
 /// Margin inside the panel.
-pub const PANEL_MARGIN: f32 = 12.0;
+pub(super) const PANEL_MARGIN: f32 = 12.0;
 /// Subsets listed before the list scrolls.
 const SUBSET_ROWS: f32 = 8.0;
 
 /// The panel's contents.
-pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
     let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
@@ -124,7 +124,7 @@ fn subsets(ui: &mut Ui, open: &OpenModel) {
             ui.painter()
                 .text(rect.right_center(), Align2::RIGHT_CENTER, &count, font, tokens.muted);
             let label = format!("{}, {count} triangles", material.name);
-            response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &label));
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
             response.on_hover_text(label);
         }
     });
@@ -188,7 +188,7 @@ fn diagnostics_row(ui: &mut Ui, open: &OpenModel, state: &mut UiState) {
     );
     ui.painter().rect_filled(chip, chip.height() * 0.5, tokens.field);
     ui.painter().galley(chip.min + vec2(7.0, 2.5), galley, color);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Diagnostics: {count}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Diagnostics: {count}")));
     if response.on_hover_text("What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;
     }

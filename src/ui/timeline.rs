@@ -1,8 +1,6 @@
 //! The strip at the bottom: transport, clip, bar with keys, read-outs, speed and loop mode.
 
-use egui::{
-    Align2, CursorIcon, FontId, Popup, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2,
-};
+use egui::{Align2, CursorIcon, FontId, Popup, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::icons::{self, Icon};
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
@@ -17,7 +15,7 @@ const TICK_SPACING: f32 = 2.5;
 
 /// Time stamps of a clip's keys, found once per clip.
 #[derive(Clone, Debug, Default)]
-pub struct KeyTimes {
+pub(super) struct KeyTimes {
     of: Option<(u64, usize)>,
     times_secs: Vec<f32>,
 }
@@ -49,7 +47,7 @@ fn merged_key_times(clip: &Clip) -> Vec<f32> {
 }
 
 /// Height of the strip's content.
-pub fn strip_height(ui: &Ui, narrow: bool) -> f32 {
+pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
     let control = control_size(ui);
     if narrow {
         44.0 + 8.0 + control
@@ -59,7 +57,7 @@ pub fn strip_height(ui: &Ui, narrow: bool) -> f32 {
 }
 
 /// The strip in one row, for wide windows.
-pub fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
+pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
     keys.update(session);
     let height = strip_height(ui, false);
     ui.allocate_ui_with_layout(
@@ -90,7 +88,7 @@ pub fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut 
 }
 
 /// The strip in two rows, for phones: the bar above, large targets.
-pub fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
+pub(super) fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
     keys.update(session);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
@@ -133,7 +131,7 @@ fn play_button(ui: &mut Ui, session: &Session, diameter: f32, commands: &mut Vec
         tokens.on_accent,
     );
     let label = if playing { "Pause (Space)" } else { "Play (Space)" };
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     if response.on_hover_text(label).clicked() {
         commands.push(Command::TogglePlay);
     }
@@ -243,7 +241,7 @@ fn time_field(ui: &mut Ui, session: &Session, width: f32) {
     let right = rect.right_center() - vec2(7.0, 0.0);
     ui.painter()
         .text(right, Align2::RIGHT_CENTER, &text, theme::mono(12.0), tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, format!("Time {text}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Time {text}")));
 }
 
 fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
@@ -259,7 +257,7 @@ fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
         FontId::proportional(13.0),
         tokens.muted,
     );
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, format!("Frame {text}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Frame {text}")));
     response.on_hover_text(format!("Frame at {} keys a second", trimmed(clip.keys_per_sec)));
 }
 
@@ -283,7 +281,7 @@ fn speed_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Com
         FontId::proportional(13.0),
         color,
     );
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Speed {text}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
     let response = response.on_hover_text("Speed: [ slower, ] faster, \\ as the file");
     Popup::menu(&response).show(|ui| {
         ui.set_min_width(72.0);
@@ -314,7 +312,7 @@ fn trimmed(number: f32) -> String {
 }
 
 /// A name cut to some characters, with an ellipsis.
-pub fn shortened(name: &str, most: usize) -> String {
+pub(super) fn shortened(name: &str, most: usize) -> String {
     if name.chars().count() <= most {
         return name.to_owned();
     }
@@ -322,7 +320,7 @@ pub fn shortened(name: &str, most: usize) -> String {
 }
 
 /// Room that the strip takes from the window's lower edge.
-pub fn covered_height(ui: &Ui, session: &Session, narrow: bool) -> f32 {
+pub(super) fn covered_height(ui: &Ui, session: &Session, narrow: bool) -> f32 {
     if session.clip().is_none() {
         0.0
     } else {

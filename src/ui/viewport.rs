@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use egui::{PointerButton, Rect, Response, Sense, Ui, WidgetInfo, WidgetType};
+use egui::{PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::Vec2;
 
 use crate::session::Command;
@@ -13,9 +13,9 @@ const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
 const ZOOM_PER_POINT: f32 = 0.0025;
 
 /// Takes the whole window behind the panels.
-pub fn show(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> Response {
-    let response = ui.interact(rect, ui.id().with("viewport"), Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, true, "Model view"));
+pub(super) fn show(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with("viewport"), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
     let shares = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;
 

@@ -1,25 +1,25 @@
 //! The few controls that panels are made of.
 
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType,
-    pos2, vec2,
+    Align2, Color32, CornerRadius, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::icons::{self, Icon};
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
 /// Side of a control: 28 points, 44 where fingers are the pointer.
-pub fn control_size(ui: &Ui) -> f32 {
+pub(super) fn control_size(ui: &Ui) -> f32 {
     if is_touch(ui) { 44.0 } else { 28.0 }
 }
 
 /// Whether fingers were used in this session.
-pub fn is_touch(ui: &Ui) -> bool {
+pub(super) fn is_touch(ui: &Ui) -> bool {
     ui.input(|input| input.has_touch_screen())
 }
 
 /// A square button with an icon. `on` marks a switch that is on.
-pub fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+pub(super) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let size = Vec2::splat(control_size(ui));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let tokens = Tokens::of(ui);
@@ -40,12 +40,12 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
             tokens.muted_to_text(response.hovered())
         },
     );
-    response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, on, label));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     response.on_hover_text(label)
 }
 
 /// A button with words on a quiet ground. `opens_list` adds the chevron of a drop-down.
-pub fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, min_width: f32) -> Response {
+pub(super) fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, min_width: f32) -> Response {
     let tokens = Tokens::of(ui);
     let galley = ui
         .painter()
@@ -69,12 +69,12 @@ pub fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, min_w
         let chevron = Rect::from_center_size(pos2(rect.max.x - 12.0, rect.center().y), Vec2::splat(16.0));
         icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
     }
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response
 }
 
 /// A line of a menu; `on` marks the one in force.
-pub fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
+pub(super) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let color = if on { tokens.accent } else { tokens.text };
     let galley = ui
@@ -93,12 +93,12 @@ pub fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
         galley,
         color,
     );
-    response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, on, text));
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
     response
 }
 
 /// A small rounded label.
-pub fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
+pub(super) fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
     let tokens = Tokens::of(ui);
     let galley = ui
         .painter()
@@ -106,12 +106,12 @@ pub fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
     let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(14.0, 5.0), Sense::hover());
     ui.painter().rect_filled(rect, rect.height() * 0.5, tokens.field);
     ui.painter().galley(rect.min + vec2(7.0, 2.5), galley, color);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, text));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
     response
 }
 
 /// A row of a panel: a quiet label and a value at the right edge.
-pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
+pub(super) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
     let font = FontId::proportional(13.0);
@@ -124,12 +124,12 @@ pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     );
     ui.painter()
         .text(rect.right_center(), Align2::RIGHT_CENTER, value, font, tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, format!("{label} {value}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {value}")));
     response
 }
 
 /// A row of a panel whose value opens a menu.
-pub fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
+pub(super) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
     let tokens = Tokens::of(ui);
     let height = if is_touch(ui) { 44.0 } else { ROW_HEIGHT };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
@@ -158,12 +158,12 @@ pub fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response 
         );
         right = drawn.min.x - 4.0;
     }
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{label}: {value} {how}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {value} {how}")));
     response
 }
 
 /// The name of a part of a panel: 11 points, capitals.
-pub fn section_name(ui: &mut Ui, name: &str) {
+pub(super) fn section_name(ui: &mut Ui, name: &str) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
     let font = theme::semibold(11.0);
@@ -174,11 +174,11 @@ pub fn section_name(ui: &mut Ui, name: &str) {
         font,
         tokens.muted,
     );
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, name));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
 }
 
 /// A hairline across a panel, from border to border.
-pub fn rule(ui: &mut Ui, panel_margin: f32) {
+pub(super) fn rule(ui: &mut Ui, panel_margin: f32) {
     let tokens = Tokens::of(ui);
     ui.add_space(7.0);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
@@ -189,7 +189,7 @@ pub fn rule(ui: &mut Ui, panel_margin: f32) {
 }
 
 /// The grip of the bottom sheet.
-pub fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
+pub(super) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::click());
     let grip = Rect::from_center_size(rect.center(), vec2(38.0, 4.0));
@@ -203,12 +203,12 @@ pub fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
         },
     );
     let label = if open { "Close the sheet" } else { "Model facts" };
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response
 }
 
 /// Shows which control has the keyboard.
-pub fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
+pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
         ui.painter()
@@ -224,7 +224,7 @@ impl Tokens {
 }
 
 /// A whole number with its thousands grouped by narrow spaces: `13 748`.
-pub fn grouped(number: usize) -> String {
+pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
     for (i, digit) in digits.chars().enumerate() {
@@ -237,7 +237,7 @@ pub fn grouped(number: usize) -> String {
 }
 
 /// A length with about three significant digits: `73.4`, `0.0123`, `13 748`.
-pub fn measured(length: f32) -> String {
+pub(super) fn measured(length: f32) -> String {
     match length.abs() {
         _ if !length.is_finite() => "–".to_owned(),
         0.0 => "0".to_owned(),
