@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Palette, PoseBuffers, evaluate, skin_positions};
+use super::{Palette, PoseBuffers, skin_positions};
 use crate::model::{Aabb, Clip, Mesh, Model};
 
 /// Vertices skinned at most for one box: tens of milliseconds of work.
@@ -28,7 +28,7 @@ pub fn animated_bounds(model: &Model, clip: &Clip) -> Aabb {
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     let mut positions = Vec::with_capacity(if exact { mesh.vertex_count() } else { 0 });
     times_secs.into_iter().fold(Aabb::EMPTY, |bounds, time_secs| {
-        evaluate(model, clip, time_secs, &mut buffers);
+        buffers.evaluate(&model.skeleton, clip, time_secs);
         bounds.union(match &carried {
             Some(carried) => carried.moved(&buffers.palette),
             None => skinned_bounds(mesh, &buffers.palette, &mut positions),

@@ -1,7 +1,6 @@
 //! From a clip and a time to a matrix palette, in buffers that the caller owns.
 
 mod animated_bounds;
-mod evaluate;
 mod local_to_model;
 mod palette;
 mod playback;
@@ -11,7 +10,6 @@ mod skin;
 
 pub use crate::model::LocalJoint;
 pub use animated_bounds::animated_bounds;
-pub use evaluate::{evaluate, evaluate_bind_pose};
 pub use local_to_model::local_to_model;
 pub use palette::palette;
 pub use playback::{LoopMode, Playback};

@@ -2,7 +2,8 @@
 
 use glam::Affine3A;
 
-use crate::model::{LocalJoint, Skeleton};
+use super::{local_to_model, palette, sample};
+use crate::model::{Clip, LocalJoint, Skeleton};
 
 /// Each joint relative to its parent: `parent_from_joint`, kept in parts.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +37,14 @@ impl PoseBuffers {
         let mut buffers = Self::default();
         buffers.set_bind_pose(skeleton);
         buffers
+    }
+
+    /// The pose of a clip of this skeleton at a time: `sample`, `local_to_model` and `palette` in turn. Allocates only when
+    /// the buffers were sized for a smaller skeleton.
+    pub fn evaluate(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) {
+        sample(clip, time_secs, &mut self.local);
+        local_to_model(skeleton, &self.local, &mut self.model);
+        palette(skeleton, &self.model, &mut self.palette);
     }
 
     /// The pose in which the mesh was skinned. Its palette is the identity by meaning, so it is set and not computed.
