@@ -20,6 +20,7 @@ mod read_back;
 mod shadow;
 mod target;
 
+pub use bones::BoneTexture;
 pub use composite::Compositor;
 pub use gpu_model::UploadError;
 pub use probe::{ProbeError, probe};
@@ -28,7 +29,6 @@ pub use target::{SampleCount, Target};
 
 use crate::model::Model;
 use crate::scene::{Background, RenderFrame};
-use bones::BoneTexture;
 use gpu_model::GpuModel;
 use pipelines::Pipelines;
 use shadow::ShadowMap;
