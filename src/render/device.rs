@@ -116,14 +116,15 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
             reason: error.to_string(),
         })?;
     let info = adapter.get_info();
-    let (device, queue) = adapter
-        .request_device(&descriptor(&adapter))
-        .await
-        .map_err(|error| DeviceError::NoDevice {
-            backend,
-            adapter: info.name.clone(),
-            reason: error.to_string(),
-        })?;
+    let (device, queue) =
+        adapter
+            .request_device(&descriptor(&adapter))
+            .await
+            .map_err(|error| DeviceError::NoDevice {
+                backend,
+                adapter: info.name.clone(),
+                reason: error.to_string(),
+            })?;
     Ok(Gpu {
         samples: sample_count(&adapter),
         info,

@@ -74,10 +74,15 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
 
     stop();
     let session = PAGE.with_borrow_mut(|page| {
-        let new_page = || Page { session: Rc::new(RefCell::new(Session::new(reduced_motion))), running: None };
+        let new_page = || Page {
+            session: Rc::new(RefCell::new(Session::new(reduced_motion))),
+            running: None,
+        };
         Rc::clone(&page.get_or_insert_with(new_page).session)
     });
-    let chosen = backend::choose(preference).await.map_err(|reasons| JsError::new(&reasons))?;
+    let chosen = backend::choose(preference)
+        .await
+        .map_err(|reasons| JsError::new(&reasons))?;
     let running = run(canvas, chosen, session).await?;
     let (backend, adapter) = (running.backend, running.adapter.clone());
     let frames = Rc::clone(&running.frames_rendered);
@@ -114,7 +119,11 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
     let shared = Rc::new(RefCell::new(None));
     let runner = eframe::WebRunner::new();
     watch_panics();
-    let shell = Shell { app: Rc::clone(&app_slot), session: Rc::clone(&session), frames: Rc::clone(&frames_rendered) };
+    let shell = Shell {
+        app: Rc::clone(&app_slot),
+        session: Rc::clone(&session),
+        frames: Rc::clone(&frames_rendered),
+    };
     let shared_out = Rc::clone(&shared);
     runner
         .start(
@@ -133,7 +142,15 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
     watch_context(&canvas)?;
     let (ctx, gpu) = shared.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
     let adapter = backend::adapter_name(&gpu.adapter);
-    Ok(Running { runner, app: app_slot, ctx, gpu, backend, adapter, frames_rendered })
+    Ok(Running {
+        runner,
+        app: app_slot,
+        ctx,
+        gpu,
+        backend,
+        adapter,
+        frames_rendered,
+    })
 }
 
 /// Gives the canvas up. The session stays.
@@ -189,7 +206,9 @@ fn tell_events(session: &Rc<RefCell<Session>>) {
 /// Keys that the viewer acts on, and all pointer events; the rest is the browser's (F5, F12, Ctrl+L …).
 fn owns_event(event: &egui::Event) -> bool {
     match event {
-        egui::Event::Key { key: egui::Key::Tab, .. } => false,
+        egui::Event::Key {
+            key: egui::Key::Tab, ..
+        } => false,
         egui::Event::Key { key, modifiers, .. } => crate::ui::owns_key(*key, *modifiers),
         egui::Event::Text(_) | egui::Event::Copy | egui::Event::Cut => false,
         _ => true,
