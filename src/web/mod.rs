@@ -3,6 +3,8 @@
 //! The page's scripts (`web/*.js`) own the DOM; this module owns the session, which lives as long as the page, and the
 //! runner, which lives as long as a canvas. After a lost GPU the page makes another canvas and starts again.
 
+#![expect(unreachable_pub, reason = "wasm-bindgen exports these to scripts")]
+
 mod api;
 mod backend;
 mod state;
@@ -36,7 +38,7 @@ struct Running {
     runner: eframe::WebRunner,
     app: Rc<RefCell<Option<App>>>,
     ctx: egui::Context,
-    gpu: egui_egui_wgpu::wgpu::RenderState,
+    gpu: egui_wgpu::RenderState,
     backend: &'static str,
     adapter: String,
     frames_rendered: Rc<Cell<u64>>,
