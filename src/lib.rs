@@ -4,4 +4,5 @@ pub mod anim;
 pub mod diagnostic;
 pub mod format;
 pub mod model;
+pub mod sample;
 pub mod scene;
