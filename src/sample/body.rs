@@ -22,6 +22,14 @@ pub(super) struct Body {
     leg: Group,
 }
 
+/// A part that regions of the skin follow.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Part {
+    Helmet,
+    EarCups,
+    Pack,
+}
+
 /// Volumes of the left side that melt into each other, and a box around them.
 struct Group {
     volumes: Vec<Volume>,
@@ -32,6 +40,9 @@ struct Group {
 /// Widths over which arms and legs melt into the torso, metres.
 const SHOULDER_BLEND: f64 = 0.09;
 const HIP_BLEND: f64 = 0.07;
+const CROTCH_BLEND: f64 = 0.05;
+/// Width over which the jaw melts into the dome, metres.
+const JAW_BLEND: f64 = 0.05;
 /// Rounding of the soles' edge, metres.
 const SOLE_ROUNDING: f64 = 0.016;
 
@@ -46,7 +57,7 @@ impl Body {
         let mirrored = DVec3::new(-point.x, point.y, point.z);
         let torso = blend(&self.centre, point);
         let near = |group: &Group, point, reach: f64| group.distance_if_within(point, torso + reach);
-        let legs = smooth_union(near(&self.leg, point, HIP_BLEND), near(&self.leg, mirrored, HIP_BLEND), 0.02);
+        let legs = smooth_union(near(&self.leg, point, HIP_BLEND), near(&self.leg, mirrored, HIP_BLEND), CROTCH_BLEND);
         let legs = smooth_intersection(legs, -point.y, SOLE_ROUNDING);
         let arms = near(&self.arm, point, SHOULDER_BLEND).min(near(&self.arm, mirrored, SHOULDER_BLEND));
         smooth_union(smooth_union(torso, legs, HIP_BLEND), arms, SHOULDER_BLEND)
@@ -67,9 +78,16 @@ impl Body {
         }
     }
 
-    /// Distance from the pack and a little beyond: negative where the skin is the pack's.
-    pub(super) fn pack_border(&self, point: DVec3) -> f64 {
-        pack().distance(point) - 0.007
+    /// Signed distance from one part by itself, for borders that follow a seam.
+    pub(super) fn part_distance(&self, part: Part, point: DVec3) -> f64 {
+        match part {
+            Part::Helmet => {
+                let [dome, jaw] = helmet().map(|shape| shape.distance(point));
+                smooth_union(dome, jaw, JAW_BLEND)
+            }
+            Part::EarCups => ear_cups().distance(point),
+            Part::Pack => pack().distance(point),
+        }
     }
 }
 
@@ -108,6 +126,19 @@ fn ellipsoid(joint: usize, centre: DVec3, radii: DVec3, blend: f64) -> Volume {
     Volume { joint, shape: Shape::Ellipsoid { centre, radii }, blend }
 }
 
+/// A dome, and a jaw that carries the face forwards.
+fn helmet() -> [Shape; 2] {
+    [
+        Shape::Ellipsoid { centre: v(0.0, 1.628, 0.004), radii: v(0.162, 0.16, 0.17) },
+        Shape::Ellipsoid { centre: v(0.0, 1.58, -0.022), radii: v(0.132, 0.114, 0.138) },
+    ]
+}
+
+fn ear_cups() -> Shape {
+    let (from, to) = (v(-0.152, 1.612, 0.014), v(0.152, 1.612, 0.014));
+    Shape::RoundCone { from, to, from_radius: 0.048, to_radius: 0.048 }
+}
+
 fn pack() -> Shape {
     Shape::RoundBox { centre: v(0.0, 1.25, 0.148), half: v(0.11, 0.13, 0.06), rounding: 0.045 }
 }
@@ -117,6 +148,7 @@ const fn v(x: f64, y: f64, z: f64) -> DVec3 {
 }
 
 fn centre() -> Vec<Volume> {
+    let [dome, jaw] = helmet();
     vec![
         ellipsoid(HIPS, v(0.0, 0.935, 0.008), v(0.14, 0.105, 0.108), 0.05),
         ellipsoid(WAIST, v(0.0, 1.055, 0.0), v(0.122, 0.12, 0.094), 0.08),
@@ -126,11 +158,9 @@ fn centre() -> Vec<Volume> {
         cone(NECK, v(0.0, 1.38, 0.0), 0.075, v(0.0, 1.52, 0.0), 0.07, 0.03),
         // Collar ring, a flat rim on which the helmet seems to turn.
         ellipsoid(CHEST, v(0.0, 1.415, 0.0), v(0.122, 0.03, 0.112), 0.016),
-        // Helmet: a dome, and a jaw that carries the face forwards.
-        ellipsoid(HEAD, v(0.0, 1.628, 0.004), v(0.162, 0.16, 0.17), 0.012),
-        ellipsoid(HEAD, v(0.0, 1.58, -0.022), v(0.132, 0.114, 0.138), 0.05),
-        // Ear cups.
-        cone(HEAD, v(-0.152, 1.612, 0.014), 0.046, v(0.152, 1.612, 0.014), 0.046, 0.01),
+        Volume { joint: HEAD, shape: dome, blend: 0.02 },
+        Volume { joint: HEAD, shape: jaw, blend: JAW_BLEND },
+        Volume { joint: HEAD, shape: ear_cups(), blend: 0.012 },
         Volume { joint: CHEST, shape: pack(), blend: 0.016 },
         // Badge on the breast.
         ellipsoid(CHEST, v(0.0, 1.275, -0.1), v(0.05, 0.05, 0.022), 0.012),
@@ -176,7 +206,7 @@ fn left_leg(rig: &Rig) -> Vec<Volume> {
     let at = |limb| rig.origin(Side::Left, limb);
     let (hip, knee, ankle, ball) = (at(Limb::Thigh), at(Limb::Shin), at(Limb::Foot), at(Limb::Toe));
     vec![
-        cone(of(Limb::Thigh), hip + v(-0.004, -0.02, 0.004), 0.09, knee, 0.061, 0.05),
+        cone(of(Limb::Thigh), hip + v(0.0, -0.02, 0.004), 0.088, knee, 0.061, 0.05),
         cone(of(Limb::Shin), knee, 0.06, ankle, 0.045, 0.04),
         // Calf.
         cone(of(Limb::Shin), v(0.102, 0.40, 0.016), 0.05, v(0.102, 0.27, 0.016), 0.044, 0.05),

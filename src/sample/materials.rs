@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::body::Body;
+use super::body::{Body, Part};
 use super::rig::{ARM, Limb, Rig, Side};
 use crate::format;
 
@@ -13,10 +13,10 @@ pub(super) enum Region {
     Sole,
     Boot,
     Glove,
+    EarCup,
     Neck,
     Pack,
     Badge,
-    EarCup,
     KneePad,
     Stripe,
     Belt,
@@ -38,10 +38,10 @@ impl Region {
         Region::Sole,
         Region::Boot,
         Region::Glove,
+        Region::EarCup,
         Region::Neck,
         Region::Pack,
         Region::Badge,
-        Region::EarCup,
         Region::KneePad,
         Region::Stripe,
         Region::Belt,
@@ -74,10 +74,10 @@ impl Region {
             Region::Boot => point.y - 0.268,
             // Planes across the arm cut the legs too, but those are nearer to the middle.
             Region::Glove => (-0.108 - along_arm(Limb::Hand)).max(0.3 - on_left.x),
-            Region::Neck => band(point.y, 1.462, 0.034).max(on_left.x - 0.15),
-            Region::Pack => body.pack_border(point),
+            Region::Neck => (1.428 - point.y).max(0.006 - body.part_distance(Part::Helmet, point)),
+            Region::Pack => body.part_distance(Part::Pack, point) - 0.007,
             Region::Badge => badge(point),
-            Region::EarCup => (0.166 - on_left.x).max(1.5 - point.y),
+            Region::EarCup => body.part_distance(Part::EarCups, point) - 0.005,
             Region::KneePad => knee_pad(on_left - rig.origin(Side::Left, Limb::Shin)),
             Region::Stripe => band(along_arm(Limb::UpperArm), 0.125, 0.03).max(0.2 - on_left.x).max(1.1 - point.y),
             Region::Belt => band(point.y, 0.995, 0.02).max(on_left.x - 0.25),

@@ -10,7 +10,7 @@ use super::rig::{ARM, CENTRE_COUNT, FORWARD, HEAD, Limb, NECK, PALM, Rig, Side, 
 
 /// Repeats of a texture per metre.
 const DENSITY: f64 = 4.0;
-/// Cosine between normal and a tube's axis past which the skin counts as its end.
+/// Cosine between the normal and a tube's axis, or its way round, past which the skin does not lie along the tube.
 const END: f64 = 0.8;
 
 /// A way to lay a part of the skin flat.
@@ -31,6 +31,7 @@ pub(super) fn chart(rig: &Rig, region: Region, joint: usize, centre: DVec3, norm
     let (part, tube, block) = part(rig, region, joint, side);
     if let Some((origin, axis, repeats)) = tube
         && normal.dot(axis).abs() < END
+        && normal.dot(axis.cross(centre - origin).normalize()).abs() < END
     {
         let front = FORWARD;
         return (part * 8, Chart::Tube { origin, axis, front, side: axis.cross(front).normalize(), repeats });
