@@ -129,13 +129,13 @@ fn ellipsoid(joint: usize, centre: DVec3, radii: DVec3, blend: f64) -> Volume {
 /// A dome, and a jaw that carries the face forwards.
 fn helmet() -> [Shape; 2] {
     [
-        Shape::Ellipsoid { centre: v(0.0, 1.628, 0.004), radii: v(0.162, 0.16, 0.17) },
-        Shape::Ellipsoid { centre: v(0.0, 1.58, -0.022), radii: v(0.132, 0.114, 0.138) },
+        Shape::Ellipsoid { centre: v(0.0, 1.638, 0.004), radii: v(0.162, 0.16, 0.17) },
+        Shape::Ellipsoid { centre: v(0.0, 1.592, -0.022), radii: v(0.132, 0.114, 0.138) },
     ]
 }
 
 fn ear_cups() -> Shape {
-    let (from, to) = (v(-0.152, 1.612, 0.014), v(0.152, 1.612, 0.014));
+    let (from, to) = (v(-0.152, 1.624, 0.014), v(0.152, 1.624, 0.014));
     Shape::RoundCone { from, to, from_radius: 0.048, to_radius: 0.048 }
 }
 
@@ -155,9 +155,10 @@ fn centre() -> Vec<Volume> {
         ellipsoid(RIBS, v(0.0, 1.19, -0.002), v(0.144, 0.13, 0.106), 0.08),
         ellipsoid(CHEST, v(0.0, 1.29, 0.0), v(0.16, 0.115, 0.114), 0.06),
         cone(CHEST, v(-0.09, 1.335, 0.004), 0.074, v(0.09, 1.335, 0.004), 0.074, 0.06),
-        cone(NECK, v(0.0, 1.38, 0.0), 0.075, v(0.0, 1.52, 0.0), 0.07, 0.03),
-        // Collar ring, a flat rim on which the helmet seems to turn.
-        ellipsoid(CHEST, v(0.0, 1.415, 0.0), v(0.122, 0.03, 0.112), 0.016),
+        cone(NECK, v(0.0, 1.38, 0.0), 0.08, v(0.0, 1.53, 0.0), 0.076, 0.03),
+        cone(CHEST, v(0.0, 1.33, 0.002), 0.108, v(0.0, 1.41, 0.0), 0.094, 0.05),
+        // Collar ring, a rim on which the helmet seems to turn.
+        ellipsoid(CHEST, v(0.0, 1.434, 0.0), v(0.119, 0.03, 0.114), 0.014),
         Volume { joint: HEAD, shape: dome, blend: 0.02 },
         Volume { joint: HEAD, shape: jaw, blend: JAW_BLEND },
         Volume { joint: HEAD, shape: ear_cups(), blend: 0.012 },

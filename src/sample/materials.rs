@@ -74,7 +74,12 @@ impl Region {
             Region::Boot => point.y - 0.268,
             // Planes across the arm cut the legs too, but those are nearer to the middle.
             Region::Glove => (-0.108 - along_arm(Limb::Hand)).max(0.3 - on_left.x),
-            Region::Neck => (1.428 - point.y).max(0.006 - body.part_distance(Part::Helmet, point)),
+            Region::Neck => {
+                // From the inside of the collar up to the helmet.
+                let from_axis = (point.x * point.x + point.z * point.z).sqrt();
+                let above_collar = (from_axis - 0.105).max(1.43 - point.y);
+                above_collar.max(0.006 - body.part_distance(Part::Helmet, point))
+            },
             Region::Pack => body.part_distance(Part::Pack, point) - 0.007,
             Region::Badge => badge(point),
             Region::EarCup => body.part_distance(Part::EarCups, point) - 0.005,
@@ -88,7 +93,7 @@ impl Region {
 
 /// A rounded pane in front of the face.
 fn visor(point: DVec3) -> f64 {
-    let (x, y) = (point.x / 0.126, (point.y - 1.606) / 0.083);
+    let (x, y) = (point.x / 0.126, (point.y - 1.618) / 0.083);
     // Between a circle and a square.
     let pane = ((x * x * x * x + y * y * y * y).sqrt().sqrt() - 1.0) * 0.08;
     pane.max(point.z)

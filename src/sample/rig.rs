@@ -145,12 +145,12 @@ fn left_limbs() -> [LeftLimb; LIMB_COUNT] {
         let knuckle = wrist + ARM * (0.098 - 20.0 * z * z) + DVec3::Z * z;
         (knuckle, knuckle + along * (0.52 * length), knuckle + along * length)
     };
-    let index = finger(-0.036, -0.27, 0.088);
-    let middle = finger(0.001, 0.0, 0.095);
-    let outer = finger(0.038, 0.27, 0.083);
+    let index = finger(-0.036, -0.25, 0.098);
+    let middle = finger(0.001, 0.0, 0.106);
+    let outer = finger(0.038, 0.25, 0.092);
     let thumb_along = (ARM * 0.62 + FORWARD * 0.75 + PALM * 0.22).normalize();
     let thumb = wrist + ARM * 0.022 + FORWARD * 0.026;
-    let (thumb_middle, thumb_end) = (thumb + thumb_along * 0.053, thumb + thumb_along * 0.094);
+    let (thumb_middle, thumb_end) = (thumb + thumb_along * 0.055, thumb + thumb_along * 0.1);
     let hip = DVec3::new(0.098, 0.885, 0.0);
     let knee = DVec3::new(0.1, 0.49, -0.006);
     let ankle = DVec3::new(0.102, 0.11, 0.012);

@@ -1,0 +1,60 @@
+// The model's triangles. Drawn from both sides: a file with holes or turned triangles still shows.
+
+// Twin: `shaders::Material`.
+struct Material {
+    albedo: vec3<f32>,
+    roughness: f32,
+    fresnel0: vec3<f32>,
+    unused: f32,
+}
+
+@group(3) @binding(0) var<uniform> material: Material;
+
+struct MeshVertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world_position: vec3<f32>,
+    @location(1) world_normal: vec3<f32>,
+}
+
+fn mesh_vertex(vertex: Skinned) -> MeshVertex {
+    let rows = transpose(frame.world_from_model);
+    let world = transform(rows[0], rows[1], rows[2], vertex);
+    return MeshVertex(frame.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal);
+}
+
+@vertex
+fn vertex_static(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) tangent: vec4<f32>,
+) -> MeshVertex {
+    return mesh_vertex(Skinned(position, normal, tangent));
+}
+
+@vertex
+fn vertex_skinned(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) tangent: vec4<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+) -> MeshVertex {
+    return mesh_vertex(skin(Skinned(position, normal, tangent), joints, weights));
+}
+
+@fragment
+fn fragment(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
+    let side = select(-1.0, 1.0, clockwise) * frame.front_sign;
+    var to_eye = -frame.forward;
+    if frame.is_perspective > 0.5 {
+        to_eye = normalize(frame.eye - mesh.world_position);
+    }
+    let normal = normalize_or(mesh.world_normal, to_eye * side) * side;
+    // Grazing light walks further over the surface inside one texel, so the start moves further off it.
+    let slope = 1.0 - clamp(dot(normal, frame.to_key), 0.0, 1.0);
+    let off_surface = normal * frame.shadow_texel * (1.0 + 2.0 * slope);
+    let key_visible = key_visibility(mesh.world_position + off_surface, 2.0);
+    let surface = Surface(material.albedo, material.fresnel0, max(material.roughness, 0.08), normal, to_eye);
+    let color = soft_shoulder(shade(surface, frame.to_key, key_visible));
+    return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), mesh.clip.xy), 1.0);
+}

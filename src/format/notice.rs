@@ -1,0 +1,264 @@
+//! What was mended or is worth knowing, counted while reading and told once for each kind.
+
+use super::error::quoted;
+use super::label::Section;
+use crate::diagnostic::{Diagnostic, Position, Severity};
+
+/// A kind of finding that does not stop the reader.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Notice {
+    /// A section begins without its ruler.
+    RulerMissing(Section),
+    /// A ruler names something else where a section begins.
+    RulerUnknown { section: Section, found: String },
+    /// The header does not give a count that may be zero.
+    CountAssumed(&'static str),
+    /// A section that announces no rows is not there, though the other ones of a skinned model are.
+    SectionMissing(Section),
+    /// A labelled line that is none of ours; it was left out.
+    LabelUnknown { section: Section, label: String },
+    /// A line that came twice; the last one holds.
+    LabelRepeated(String),
+    /// A material line that is not there; its default holds.
+    MaterialLineMissing(&'static str),
+    /// `AlphaClip` that is neither a number nor a truth value; taken as off.
+    AlphaClipUnreadable,
+    /// More on a line than belongs there; it was left out.
+    ValuesSurplus,
+    /// A row that goes on in the next line.
+    RowSplit,
+    /// `1,5` or `1.0f`.
+    NumberMended,
+    /// `NaN`, `inf` …; replaced.
+    NumberNotFinite,
+    /// Three numbers for a tangent.
+    TangentSignMissing,
+    /// A misspelt label of the subset table.
+    SubsetLabel(String),
+    /// `VertexStart` or `VertexCount` that is no whole number.
+    SubsetVertexRange,
+    /// A bone index out of range with weight 0; replaced by 0.
+    BlendIndexUnused,
+    /// Blend data though there are no bones; left out.
+    BlendDataUnused,
+    /// A bone's label carries another number than its place.
+    BoneNumber,
+    /// The number of the bone stands before the sixteen numbers of its offset.
+    BoneOffsetLabel,
+    /// A brace that is not there.
+    BraceMissing(char),
+    /// A brace too many; left out.
+    BraceSurplus,
+    /// Something behind the last section; left out.
+    TextSurplus,
+}
+
+impl Notice {
+    /// Stable code and severity.
+    fn entry(&self) -> (&'static str, Severity) {
+        match self {
+            Self::RulerMissing(_) => ("ruler-missing", Severity::Warning),
+            Self::RulerUnknown { .. } => ("ruler-unknown", Severity::Note),
+            Self::CountAssumed(_) => ("count-assumed", Severity::Warning),
+            Self::SectionMissing(_) => ("section-missing", Severity::Note),
+            Self::LabelUnknown { .. } => ("label-unknown", Severity::Note),
+            Self::LabelRepeated(_) => ("label-repeated", Severity::Warning),
+            Self::MaterialLineMissing(_) => ("material-line-missing", Severity::Warning),
+            Self::AlphaClipUnreadable => ("alpha-clip-unreadable", Severity::Warning),
+            Self::ValuesSurplus => ("values-surplus", Severity::Note),
+            Self::RowSplit => ("row-split", Severity::Note),
+            Self::NumberMended => ("number-mended", Severity::Warning),
+            Self::NumberNotFinite => ("number-not-finite", Severity::Warning),
+            Self::TangentSignMissing => ("tangent-sign-missing", Severity::Note),
+            Self::SubsetLabel(_) => ("subset-label", Severity::Note),
+            Self::SubsetVertexRange => ("subset-vertex-range", Severity::Note),
+            Self::BlendIndexUnused => ("blend-index-unused", Severity::Note),
+            Self::BlendDataUnused => ("blend-data-unused", Severity::Note),
+            Self::BoneNumber => ("bone-number", Severity::Note),
+            Self::BoneOffsetLabel => ("bone-offset-label", Severity::Note),
+            Self::BraceMissing(_) => ("brace-missing", Severity::Warning),
+            Self::BraceSurplus => ("brace-surplus", Severity::Warning),
+            Self::TextSurplus => ("text-surplus", Severity::Warning),
+        }
+    }
+
+    fn message(&self, count: u32) -> String {
+        let several = |one: &str, many: &str| {
+            if count == 1 {
+                one.to_owned()
+            } else {
+                format!("{count} {many}")
+            }
+        };
+        match self {
+            Self::RulerMissing(section) => format!("The {} section begins without its ruler line.", section.name()),
+            Self::RulerUnknown { section, found } => {
+                format!("A ruler says \"{found}\" where the {} section begins.", section.name())
+            }
+            Self::CountAssumed(name) => format!("The header does not say how many {name} there are; taken as none."),
+            Self::SectionMissing(section) => format!("There is no {} section; its count is 0.", section.name()),
+            Self::LabelUnknown { section, label } => match count {
+                1 => format!(
+                    "A line \"{label}\" in the {} section is not known and was left out.",
+                    section.name()
+                ),
+                _ => format!(
+                    "{count} lines \"{label}\" in the {} section are not known and were left out.",
+                    section.name()
+                ),
+            },
+            Self::LabelRepeated(label) => format!("\"{label}\" is given more than once; the last one holds."),
+            Self::MaterialLineMissing(label) => several(
+                &format!("A material has no {label} line; its default is used."),
+                &format!("materials have no {label} line; its default is used."),
+            ),
+            Self::AlphaClipUnreadable => several(
+                "An AlphaClip is neither a number nor true or false; taken as 0.",
+                "AlphaClip values are neither a number nor true or false; taken as 0.",
+            ),
+            Self::ValuesSurplus => several(
+                "A line holds more than belongs there; the rest was left out.",
+                "lines hold more than belongs there; the rest was left out.",
+            ),
+            Self::RowSplit => several("A row goes on in the next line.", "rows go on in the next line."),
+            Self::NumberMended => several(
+                "A number is written in a foreign way, such as \"1,5\" or \"1.0f\", and was read by its sense.",
+                "numbers are written in a foreign way, such as \"1,5\" or \"1.0f\", and were read by their sense.",
+            ),
+            Self::NumberNotFinite => several(
+                "A number is not finite and was replaced, by 1 for scales and a quaternion's w, otherwise by 0.",
+                "numbers are not finite and were replaced, by 1 for scales and a quaternion's w, otherwise by 0.",
+            ),
+            Self::TangentSignMissing => several(
+                "A tangent has three numbers; the fourth, the bitangent's sign, is taken as 1.",
+                "tangents have three numbers; the fourth, the bitangent's sign, is taken as 1.",
+            ),
+            Self::SubsetLabel(label) => several(
+                &format!("A label of the subset table is spelt \"{label}\"; it was read by its place."),
+                &format!("labels of the subset table are spelt \"{label}\"; they were read by their place."),
+            ),
+            Self::SubsetVertexRange => several(
+                "A vertex range of the subset table is unreadable; it is not used.",
+                "values of vertex ranges of the subset table are unreadable; they are not used.",
+            ),
+            Self::BlendIndexUnused => several(
+                "A blend index names no bone, but has weight 0; bone 0 stands in.",
+                "blend indices name no bone, but have weight 0; bone 0 stands in.",
+            ),
+            Self::BlendDataUnused => several(
+                "A vertex has blend weights or indices though there are no bones; they were left out.",
+                "lines of blend weights or indices stand in a file without bones; they were left out.",
+            ),
+            Self::BoneNumber => several(
+                "A bone's label has another number than its place; the place holds.",
+                "bones' labels have other numbers than their places; the places hold.",
+            ),
+            Self::BoneOffsetLabel => several(
+                "A bone offset has its bone's number before the sixteen numbers.",
+                "bone offsets have their bone's number before the sixteen numbers.",
+            ),
+            Self::BraceMissing(brace) => several(
+                &format!("A \"{brace}\" is missing."),
+                &format!("\"{brace}\" are missing."),
+            ),
+            Self::BraceSurplus => several("A brace too many was left out.", "braces too many were left out."),
+            Self::TextSurplus => "There is something behind the last section; it was left out.".into(),
+        }
+    }
+}
+
+/// One kind, as often as it was met.
+#[derive(Clone, Debug)]
+struct Tally {
+    notice: Notice,
+    position: Position,
+    length: u32,
+    count: u32,
+}
+
+/// All that was met so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Notices {
+    tallies: Vec<Tally>,
+}
+
+impl Notices {
+    /// Findings told apart by their words; a file with more different unknown labels is not helped by a longer list.
+    const MOST: usize = 32;
+
+    /// Counts a finding; the first of its kind gives the place.
+    pub(super) fn add(&mut self, notice: Notice, position: Position, length: u32) {
+        let mut notice = notice;
+        loop {
+            if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.notice == notice) {
+                tally.count = tally.count.saturating_add(1);
+                return;
+            }
+            if self.tallies.len() < Self::MOST || !notice.shorten() {
+                self.tallies.push(Tally {
+                    notice,
+                    position,
+                    length,
+                    count: 1,
+                });
+                return;
+            }
+        }
+    }
+
+    /// One diagnostic for each kind, in the order of the file.
+    pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+        self.tallies.sort_by_key(|tally| tally.position);
+        self.tallies
+            .into_iter()
+            .map(|tally| {
+                let (code, severity) = tally.notice.entry();
+                Diagnostic {
+                    severity,
+                    code,
+                    message: tally.notice.message(tally.count),
+                    expected: None,
+                    found: tally.notice.found(),
+                    position: Some(tally.position),
+                    length: tally.length,
+                    subject: None,
+                }
+            })
+            .collect()
+    }
+}
+
+impl Notice {
+    /// An unknown label, shortened.
+    pub(super) fn unknown(section: Section, label: &[u8]) -> Self {
+        Self::LabelUnknown {
+            section,
+            label: quoted(label),
+        }
+    }
+
+    /// Gives up the words that come from the file. False when there are none left to give up.
+    fn shorten(&mut self) -> bool {
+        match self {
+            Self::RulerUnknown { found: text, .. }
+            | Self::LabelUnknown { label: text, .. }
+            | Self::LabelRepeated(text)
+            | Self::SubsetLabel(text) => {
+                let shortened = text != "…";
+                "…".clone_into(text);
+                shortened
+            }
+            _ => false,
+        }
+    }
+
+    fn found(&self) -> Option<String> {
+        match self {
+            Self::RulerUnknown { found: text, .. }
+            | Self::LabelUnknown { label: text, .. }
+            | Self::LabelRepeated(text)
+            | Self::SubsetLabel(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The quick reader: rows exactly as the books' exporter writes them, blanks aside.
+//!
+//! Each function reads one row and moves the cursor behind it, or leaves the cursor alone and gives `None`: then the thorough
+//! [`reader`](super::reader) has a look, and says what is odd. So nothing here makes an error or a notice, and nothing
+//! here mends.
+
+use super::cursor::Cursor;
+use super::document::{Keyframe, Vertex};
+use super::number;
+
+/// Labels of a vertex's lines.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VertexLabels {
+    pub(super) position: &'static [u8],
+    pub(super) tangent: &'static [u8],
+    pub(super) normal: &'static [u8],
+    pub(super) tex_coords: &'static [u8],
+    pub(super) blend_weights: &'static [u8],
+    pub(super) blend_indices: &'static [u8],
+}
+
+/// As in the books.
+pub(super) const LONG: VertexLabels = VertexLabels {
+    position: b"Position:",
+    tangent: b"Tangent:",
+    normal: b"Normal:",
+    tex_coords: b"Tex-Coords:",
+    blend_weights: b"BlendWeights:",
+    blend_indices: b"BlendIndices:",
+};
+
+/// As imm_engine writes them.
+pub(super) const SHORT: VertexLabels = VertexLabels {
+    position: b"P:",
+    tangent: b"T:",
+    normal: b"N:",
+    tex_coords: b"T:",
+    blend_weights: b"W:",
+    blend_indices: b"I:",
+};
+
+/// Reads a vertex; with bones, its blend indices are below `bones`. Also gives the line of its position.
+#[inline]
+pub(super) fn vertex(cursor: &mut Cursor<'_>, labels: &VertexLabels, bones: u32) -> Option<(Vertex, u32)> {
+    let mut ahead = *cursor;
+    ahead.pass_empty_lines();
+    let line = ahead.line;
+    let mut vertex = Vertex {
+        position: ahead.row(labels.position)?,
+        tangent: ahead.row(labels.tangent)?,
+        normal: ahead.row(labels.normal)?,
+        tex_coords: ahead.row(labels.tex_coords)?,
+        ..Vertex::default()
+    };
+    if bones > 0 {
+        vertex.blend_weights = ahead.row(labels.blend_weights)?;
+        ahead.blanks();
+        ahead.literal(labels.blend_indices)?;
+        for index in &mut vertex.blend_indices {
+            *index = ahead.index_below(bones)?;
+        }
+        ahead.line_end()?;
+    }
+    *cursor = ahead;
+    Some((vertex, line))
+}
+
+/// Reads a triangle whose indices are below `vertices`. Also gives its line.
+#[inline]
+pub(super) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
+    let mut ahead = *cursor;
+    let line = ahead.line;
+    let triangle = [
+        ahead.index_below(vertices)?,
+        ahead.index_below(vertices)?,
+        ahead.index_below(vertices)?,
+    ];
+    ahead.line_end()?;
+    *cursor = ahead;
+    Some((triangle, line))
+}
+
+/// Reads a key on its line.
+#[inline]
+pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
+    let mut ahead = *cursor;
+    ahead.pass_empty_lines();
+    ahead.blanks();
+    ahead.literal(b"Time:")?;
+    let [time_secs] = ahead.numbers()?;
+    ahead.blanks();
+    ahead.literal(b"Pos:")?;
+    let translation = ahead.numbers()?;
+    ahead.blanks();
+    ahead.literal(b"Scale:")?;
+    let scale = ahead.numbers()?;
+    ahead.blanks();
+    ahead.literal(b"Quat:")?;
+    let rotation = ahead.numbers()?;
+    ahead.line_end()?;
+    *cursor = ahead;
+    Some(Keyframe {
+        time_secs,
+        translation,
+        scale,
+        rotation,
+    })
+}
+
+impl Cursor<'_> {
+    #[inline(always)]
+    fn row<const N: usize>(&mut self, label: &[u8]) -> Option<[f32; N]> {
+        self.blanks();
+        self.literal(label)?;
+        let numbers = self.numbers()?;
+        self.line_end()?;
+        Some(numbers)
+    }
+
+    #[inline(always)]
+    fn numbers<const N: usize>(&mut self) -> Option<[f32; N]> {
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            self.blanks();
+            (*number, self.at) = number::plain(self.bytes, self.at)?;
+        }
+        Some(numbers)
+    }
+
+    #[inline(always)]
+    fn literal(&mut self, text: &[u8]) -> Option<()> {
+        if !self.bytes.get(self.at..)?.starts_with(text) {
+            return None;
+        }
+        self.at += text.len();
+        Some(())
+    }
+
+    #[inline(always)]
+    fn blanks(&mut self) {
+        while let Some(b' ' | b'\t') = self.bytes.get(self.at) {
+            self.at += 1;
+        }
+    }
+
+    /// A whole number of up to nine digits, below `end`, with a blank or a line end behind it.
+    #[inline(always)]
+    fn index_below(&mut self, end: u32) -> Option<u32> {
+        self.blanks();
+        let start = self.at;
+        let mut index = 0_u32;
+        loop {
+            let byte = *self.bytes.get(self.at)?;
+            let digit = byte.wrapping_sub(b'0');
+            if digit > 9 {
+                let digits = self.at - start;
+                let ends = matches!(byte, b' ' | b'\n' | b'\r' | b'\t');
+                return (ends && (1..=9).contains(&digits) && index < end).then_some(index);
+            }
+            index = index.wrapping_mul(10).wrapping_add(u32::from(digit));
+            self.at += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn line_end(&mut self) -> Option<()> {
+        self.blanks();
+        if self.bytes.get(self.at) == Some(&b'\r') {
+            self.at += 1;
+        }
+        if self.bytes.get(self.at) != Some(&b'\n') {
+            return None;
+        }
+        self.at += 1;
+        self.line = self.line.saturating_add(1);
+        self.line_start = self.at;
+        Some(())
+    }
+
+    #[inline(always)]
+    fn pass_empty_lines(&mut self) {
+        loop {
+            let before = *self;
+            if self.line_end().is_none() {
+                *self = before;
+                return;
+            }
+        }
+    }
+}

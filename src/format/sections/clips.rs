@@ -1,0 +1,259 @@
+//! Clips: `AnimationClip NAME { Bone0 #Keyframes: N { Time: t Pos: … Scale: … Quat: … } }`
+
+use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, Keyframe};
+use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::label::{is_ruler, same, same_as_any, split_number};
+use crate::format::notice::Notice;
+use crate::format::quick;
+use crate::format::reader::Reader;
+
+/// The fields of a key, in order, with their other spellings.
+const FIELDS: [(&str, &[&str]); 4] = [
+    ("Time", &["time", "t"]),
+    ("Pos", &["pos", "position", "translation", "p"]),
+    ("Scale", &["scale", "s"]),
+    ("Quat", &["quat", "quaternion", "rotation", "q"]),
+];
+
+/// Labels of a bone's keys.
+const BONE: &[&str] = &["bone", "b"];
+
+/// Reads the clips, with their lines.
+pub(in crate::format) fn clips(
+    reader: &mut Reader<'_>,
+    count: u32,
+    bones: u32,
+) -> Result<(Vec<AnimationClip>, Vec<ClipLines>), ParseError> {
+    /// The label and two braces.
+    const SMALLEST: usize = 16;
+    let room = reader.room_for(count, SMALLEST);
+    let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    for index in 0..count {
+        pass_surplus_braces(reader);
+        let Some((label, behind)) = reader.peek_label() else {
+            return Err(reader.end(format!("clip {} of {count}", index + 1)));
+        };
+        if is_ruler(label.text) {
+            return Err(reader.section_row_count("clips", count, clips.len()));
+        }
+        if !is_clip(label.text) {
+            return Err(Reader::wrong_label(label, "AnimationClip"));
+        }
+        reader.cursor = behind;
+        let (clip, bone_lines) = clip(reader, bones)?;
+        lines.push(ClipLines {
+            clip: label.position.line,
+            bones: bone_lines,
+        });
+        clips.push(clip);
+    }
+    pass_surplus_braces(reader);
+    if reader.peek_label().is_some_and(|(label, _)| is_clip(label.text)) {
+        let surplus = reader.count_lines(is_clip);
+        return Err(reader.section_row_count("clips", count, clips.len() + surplus));
+    }
+    Ok((clips, lines))
+}
+
+fn is_clip(label: &[u8]) -> bool {
+    same(label, "AnimationClip")
+}
+
+/// Reads a clip from behind its label.
+fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Vec<u32>), ParseError> {
+    /// `B0 0 {}` and a blank.
+    const SMALLEST: usize = 7;
+    let name = reader.cursor.rest_of_line();
+    let (name, opened) = match name.text.strip_suffix(b"{") {
+        Some(name) => (name.trim_ascii_end(), true),
+        None => (name.text, false),
+    };
+    let name = String::from_utf8_lossy(name).into_owned();
+    if !opened {
+        open(reader)?;
+    }
+    let room = reader.room_for(bones, SMALLEST);
+    let (mut animations, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    for bone in 0..bones {
+        let (animation, line) = bone_animation(reader, &name, bone, bones)?;
+        animations.push(animation);
+        lines.push(line);
+    }
+    if is_bone(reader) {
+        let surplus = reader.count_lines(|label| same_as_any(split_number(label).0, BONE));
+        return Err(bone_count(reader, &name, bones, bones as usize + surplus));
+    }
+    close(reader)?;
+    Ok((
+        AnimationClip {
+            name,
+            bones: animations,
+        },
+        lines,
+    ))
+}
+
+/// Reads the keys of one bone, with the line of its label.
+fn bone_animation(
+    reader: &mut Reader<'_>,
+    clip: &str,
+    bone: u32,
+    bones: u32,
+) -> Result<(BoneAnimation, u32), ParseError> {
+    /// Four labels of a letter, eleven digits, blanks and a line end.
+    const SMALLEST: usize = 30;
+    let Some((label, behind)) = reader.peek_label() else {
+        return Err(reader.end(format!(
+            "bone {} of {bones} in clip \"{}\"",
+            bone + 1,
+            quoted(clip.as_bytes())
+        )));
+    };
+    let (name, mut number) = split_number(label.text);
+    if !same_as_any(name, BONE) {
+        if label.text == b"}" && follows_brace(reader, |label| same_as_any(split_number(label).0, BONE)) {
+            reader.note(label, Notice::BraceSurplus);
+            reader.cursor.token();
+            return bone_animation(reader, clip, bone, bones);
+        }
+        if label.text == b"}" || is_clip(label.text) || is_ruler(label.text) {
+            return Err(bone_count(reader, clip, bones, bone as usize));
+        }
+        return Err(Reader::wrong_label(label, "Bone"));
+    }
+    reader.cursor = behind;
+    // `Bone 0 #Keyframes: N`: the number may stand apart.
+    if number.is_none()
+        && let Some(token) = reader.cursor.peek_token()
+        && let (b"", Some(apart)) = split_number(token.text)
+    {
+        reader.cursor.token();
+        number = Some(apart);
+    }
+    if number.is_some_and(|number| number != bone) {
+        reader.note(label, Notice::BoneNumber);
+    }
+    pass_number_sign(reader);
+    reader.label("#Keyframes", &["keyframes", "keys", "k"])?;
+    let count = reader.count(Value::KeyframeCount)?;
+    open(reader)?;
+    let mut keyframes = Vec::with_capacity(reader.room_for(count, SMALLEST));
+    for key in 0..count {
+        keyframes.push(match quick::keyframe(&mut reader.cursor) {
+            Some(keyframe) => keyframe,
+            None => keyframe(reader, bone, key, count)?,
+        });
+    }
+    let is_key = |label: &[u8]| same_as_any(label.split(|&byte| byte == b':').next().unwrap_or(label), FIELDS[0].1);
+    if reader.peek_label().is_some_and(|(label, _)| is_key(label.text)) {
+        let mut counted = keyframes.len();
+        while reader.peek_label().is_some_and(|(label, _)| is_key(label.text)) {
+            reader.cursor.skip_space();
+            reader.cursor.rest_of_line();
+            counted += 1;
+        }
+        return Err(key_count(reader, bone, count, counted));
+    }
+    close(reader)?;
+    Ok((BoneAnimation { keyframes }, label.position.line))
+}
+
+/// Reads a key of any layout.
+fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<Keyframe, ParseError> {
+    let Some((label, _)) = reader.peek_label() else {
+        return Err(reader.end(format!("key {} of {count} of bone {bone}", key + 1)));
+    };
+    if label.text == b"}" || is_clip(label.text) || is_ruler(label.text) || is_bone(reader) {
+        return Err(key_count(reader, bone, count, key as usize));
+    }
+    let [time_secs] = field(reader, 0, [0.0])?;
+    let translation = field(reader, 1, [0.0; 3])?;
+    let scale = field(reader, 2, [1.0; 3])?;
+    let rotation = field(reader, 3, [0.0, 0.0, 0.0, 1.0])?;
+    Ok(Keyframe {
+        time_secs,
+        translation,
+        scale,
+        rotation,
+    })
+}
+
+fn field<const N: usize>(reader: &mut Reader<'_>, field: usize, defaults: [f32; N]) -> Result<[f32; N], ParseError> {
+    let (label, names) = FIELDS[field];
+    reader.label(label, names)?;
+    reader
+        .numbers(Value::Keyframe(label), N, defaults)
+        .map(|(numbers, _)| numbers)
+}
+
+fn is_bone(reader: &Reader<'_>) -> bool {
+    reader
+        .peek_label()
+        .is_some_and(|(label, _)| same_as_any(split_number(label.text).0, BONE))
+}
+
+/// `# Keyframes: N`: the sign may stand apart.
+fn pass_number_sign(reader: &mut Reader<'_>) {
+    if reader.cursor.peek_token().is_some_and(|token| token.text == b"#") {
+        reader.cursor.token();
+    }
+}
+
+/// Passes a `{`, or notes that it is missing.
+fn open(reader: &mut Reader<'_>) -> Result<(), ParseError> {
+    brace(reader, '{')
+}
+
+/// Passes a `}`, or notes that it is missing. At the end of the file that is an error, since more may be missing.
+fn close(reader: &mut Reader<'_>) -> Result<(), ParseError> {
+    brace(reader, '}')
+}
+
+fn brace(reader: &mut Reader<'_>, brace: char) -> Result<(), ParseError> {
+    let Some(token) = reader.cursor.peek_token() else {
+        return Err(reader.end(format!("\"{brace}\"")));
+    };
+    if token.text == [brace as u8] {
+        reader.cursor.token();
+    } else {
+        reader.notices.add(Notice::BraceMissing(brace), token.position, 0);
+    }
+    Ok(())
+}
+
+/// Passes closing braces that close nothing.
+fn pass_surplus_braces(reader: &mut Reader<'_>) {
+    while let Some(token) = reader.cursor.peek_token()
+        && token.text == b"}"
+    {
+        reader.note(token, Notice::BraceSurplus);
+        reader.cursor.token();
+    }
+}
+
+/// True when a label that `is` accepts stands behind the brace that comes next.
+fn follows_brace(reader: &Reader<'_>, is: impl Fn(&[u8]) -> bool) -> bool {
+    let mut ahead = reader.clone();
+    ahead.cursor.token();
+    ahead.peek_label().is_some_and(|(label, _)| is(label.text))
+}
+
+fn bone_count(reader: &Reader<'_>, clip: &str, announced: u32, counted: usize) -> ParseError {
+    reader.row_count(ParseErrorKind::RowCount {
+        announcer: "The header".into(),
+        rows: "bones",
+        holder: format!("clip \"{}\"", quoted(clip.as_bytes())),
+        announced,
+        counted: u32::try_from(counted).unwrap_or(u32::MAX),
+    })
+}
+
+fn key_count(reader: &Reader<'_>, bone: u32, announced: u32, counted: usize) -> ParseError {
+    reader.row_count(ParseErrorKind::RowCount {
+        announcer: format!("Bone {bone}"),
+        rows: "keyframes",
+        holder: "its block".into(),
+        announced,
+        counted: u32::try_from(counted).unwrap_or(u32::MAX),
+    })
+}

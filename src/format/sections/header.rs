@@ -1,0 +1,152 @@
+//! `#Materials N` and the other counts.
+
+use crate::format::cursor::Token;
+use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::label::{Section, is_ruler, same, same_as_any};
+use crate::format::notice::Notice;
+use crate::format::reader::{Beginning, Reader};
+use crate::format::relatives::Stranger;
+
+/// What the header announces. Nothing is reserved for these numbers before they are held against the bytes left.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::format) struct Counts {
+    pub(in crate::format) materials: u32,
+    pub(in crate::format) subsets: u32,
+    pub(in crate::format) vertices: u32,
+    pub(in crate::format) triangles: u32,
+    pub(in crate::format) bones: u32,
+    pub(in crate::format) clips: u32,
+}
+
+/// Labels of counts, and labels by which relatives of the format give themselves away.
+const COUNTS: [(&str, &[&str]); 6] = [
+    ("Materials", &["materials", "material"]),
+    ("Subsets", &["subsets", "subset"]),
+    ("Vertices", &["vertices", "vertex"]),
+    ("Triangles", &["triangles", "faces"]),
+    ("Bones", &["bones"]),
+    ("AnimationClips", &["animationclips", "animations", "clips"]),
+];
+
+/// Reads the header, which must be there, up to the ruler or the first line of the next section.
+pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, ParseError> {
+    let bare = reader.begin(Section::Header)? == Beginning::Bare;
+    let mut found: [Option<u32>; 6] = [None; 6];
+    let mut first = true;
+    while let Some((label, behind)) = reader.peek_label() {
+        if is_ruler(label.text) {
+            break;
+        }
+        // `# Materials 5`: the sign may stand apart.
+        let (label, behind) = match label.text {
+            b"#" => {
+                let mut ahead = reader.clone();
+                ahead.cursor = behind;
+                ahead.peek_label().unwrap_or((label, behind))
+            }
+            _ => (label, behind),
+        };
+        let Some(index) = COUNTS.iter().position(|(_, names)| same_as_any(label.text, names)) else {
+            if same_as_any(label.text, &["indices", "indexes"]) {
+                let stranger = Stranger::Relative("a list of indices (#Indices)");
+                return Err(Reader::error_at(label, ParseErrorKind::Stranger(stranger)));
+            }
+            if begins_next_section(label) {
+                break;
+            }
+            if bare && first {
+                return Err(Reader::error_at(
+                    label,
+                    ParseErrorKind::NotM3d {
+                        found: quoted(label.text),
+                    },
+                ));
+            }
+            reader.pass_unknown_line(label);
+            continue;
+        };
+        if bare && first {
+            reader.ruler_missing(Section::Header);
+        }
+        first = false;
+        reader.cursor = behind;
+        let (name, _) = COUNTS[index];
+        let count = reader.count(Value::Count(name))?;
+        if found[index].replace(count).is_some() {
+            reader.note(label, Notice::LabelRepeated(name.into()));
+        }
+        pass_surplus(reader);
+    }
+    counts(reader, found)
+}
+
+/// Turns what was found into counts; those that may be zero may be missing.
+fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, ParseError> {
+    let [materials, subsets, vertices, triangles, bones, clips] = found;
+    if reader.cursor.peek_token().is_none() {
+        return Err(reader.end("the Materials section"));
+    }
+    let position = reader.next_position();
+    let missing = |count| {
+        let kind = if count == "Triangles" && !has_triangles(reader) {
+            ParseErrorKind::Stranger(Stranger::Relative("vertices but no triangles"))
+        } else {
+            ParseErrorKind::CountMissing { count }
+        };
+        ParseError {
+            position,
+            length: 0,
+            kind,
+        }
+    };
+    let materials = materials.or(subsets).ok_or_else(|| missing("Materials"))?;
+    let vertices = vertices.ok_or_else(|| missing("Vertices"))?;
+    let triangles = triangles.ok_or_else(|| missing("Triangles"))?;
+    let mut assumed = |count: Option<u32>, name| {
+        count.unwrap_or_else(|| {
+            reader.notices.add(Notice::CountAssumed(name), position, 0);
+            0
+        })
+    };
+    let bones = assumed(bones, "Bones");
+    let clips = assumed(clips, "AnimationClips");
+    Ok(Counts {
+        materials,
+        subsets: subsets.unwrap_or(materials),
+        vertices,
+        triangles,
+        bones,
+        clips,
+    })
+}
+
+/// True when a ruler further down announces triangles.
+fn has_triangles(reader: &Reader<'_>) -> bool {
+    let mut ahead = reader.clone();
+    while ahead.cursor.peek_token().is_some() {
+        if let Some(ruler) = ahead.peek_ruler()
+            && Section::of_ruler(ruler.text) == Some(Section::Triangles)
+        {
+            return true;
+        }
+        ahead.cursor.skip_space();
+        ahead.cursor.rest_of_line();
+    }
+    false
+}
+
+/// True for labels that a material or a later section begins with: the ruler before it is missing.
+fn begins_next_section(label: Token<'_>) -> bool {
+    ["Name", "Ambient", "Diffuse", "SubsetID", "Position"]
+        .into_iter()
+        .any(|name| same(label.text, name))
+}
+
+/// Passes what stands behind a count.
+fn pass_surplus(reader: &mut Reader<'_>) {
+    reader.cursor.skip_blanks();
+    if !reader.cursor.at_line_end() {
+        let rest = reader.cursor.rest_of_line();
+        reader.note(rest, Notice::ValuesSurplus);
+    }
+}

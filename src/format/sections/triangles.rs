@@ -1,0 +1,54 @@
+//! Triangles: three vertex indices on a line.
+
+use crate::format::error::{ParseError, Value};
+use crate::format::label::{Section, is_ruler};
+use crate::format::quick;
+use crate::format::reader::{Reader, looks_like_number};
+
+/// Reads the triangles, with the line of each. All indices are below `vertices`.
+pub(in crate::format) fn triangles(
+    reader: &mut Reader<'_>,
+    count: u32,
+    vertices: u32,
+) -> Result<(Vec<[u32; 3]>, Vec<u32>), ParseError> {
+    /// Three digits, two blanks, a line end.
+    const SMALLEST: usize = 6;
+    reader.begin_rows(Section::Triangles)?;
+    let room = reader.room_for(count, SMALLEST);
+    let (mut triangles, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    for row in 0..count {
+        let (triangle, line) = match quick::triangle(&mut reader.cursor, vertices) {
+            Some(read) => read,
+            None => triangle(reader, row, count, vertices)?,
+        };
+        triangles.push(triangle);
+        lines.push(line);
+    }
+    if reader
+        .cursor
+        .peek_token()
+        .is_some_and(|token| looks_like_number(token.text))
+    {
+        let surplus = reader.count_lines(looks_like_number);
+        return Err(reader.section_row_count("triangles", count, triangles.len() + surplus));
+    }
+    Ok((triangles, lines))
+}
+
+fn triangle(reader: &mut Reader<'_>, row: u32, count: u32, vertices: u32) -> Result<([u32; 3], u32), ParseError> {
+    let Some(token) = reader.cursor.peek_token() else {
+        return Err(reader.end(format!("triangle {} of {count}", row + 1)));
+    };
+    if is_ruler(token.text) {
+        return Err(reader.section_row_count("triangles", count, row as usize));
+    }
+    reader.cursor.skip_space();
+    let mut triangle = [0; 3];
+    for index in &mut triangle {
+        let number = reader.whole(Value::VertexIndex, 0, i64::from(vertices) - 1)?;
+        // In range, so the conversion holds.
+        *index = u32::try_from(number).unwrap_or(0);
+    }
+    reader.pass_surplus_numbers();
+    Ok((triangle, token.position.line))
+}

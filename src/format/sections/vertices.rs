@@ -1,0 +1,167 @@
+//! Vertices: `Position`, `Tangent`, `Normal`, `Tex-Coords` and, with bones, `BlendWeights` and `BlendIndices`.
+
+use crate::format::document::Vertex;
+use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::label::{Section, is_ruler, same, same_as_any};
+use crate::format::notice::Notice;
+use crate::format::quick;
+use crate::format::reader::{Reader, looks_like_number};
+
+/// The lines of a vertex, in order, with their other spellings. `T` is the tangent and then the texture coordinate.
+const FIELDS: [(&str, &[&str]); 6] = [
+    ("Position", &["position", "pos", "p"]),
+    ("Tangent", &["tangent", "tangentu", "t"]),
+    ("Normal", &["normal", "n"]),
+    ("Tex-Coords", &["texcoords", "texcoord", "texc", "uv", "t"]),
+    ("BlendWeights", &["blendweights", "weights", "w"]),
+    ("BlendIndices", &["blendindices", "indices", "i"]),
+];
+
+/// What the section holds.
+pub(in crate::format) struct Vertices {
+    pub(in crate::format) vertices: Vec<Vertex>,
+    /// Line of each position.
+    pub(in crate::format) lines: Vec<u32>,
+    /// The labels are single letters.
+    pub(in crate::format) short_labels: bool,
+}
+
+/// Reads the vertices.
+pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, ParseError> {
+    /// Four labels of a letter, twelve digits, blanks and line ends.
+    const SMALLEST: usize = 32;
+    reader.begin_rows(Section::Vertices)?;
+    let short_labels = reader.peek_label().is_some_and(|(label, _)| same(label.text, "p"));
+    let labels = if short_labels { &quick::SHORT } else { &quick::LONG };
+    let room = reader.room_for(count, SMALLEST);
+    let (mut vertices, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    for row in 0..count {
+        let (vertex, line) = match quick::vertex(&mut reader.cursor, labels, bones) {
+            Some(read) => read,
+            None => vertex(reader, row, count, bones)?,
+        };
+        vertices.push(vertex);
+        lines.push(line);
+    }
+    pass_blend_data(reader, count, bones);
+    if is_field(reader, 0) {
+        let (_, names) = FIELDS[0];
+        let first_word = |label: &[u8]| same_as_any(label.split(|&byte| byte == b':').next().unwrap_or(label), names);
+        let surplus = reader.count_lines(first_word);
+        return Err(reader.section_row_count("vertices", count, vertices.len() + surplus));
+    }
+    Ok(Vertices {
+        vertices,
+        lines,
+        short_labels,
+    })
+}
+
+fn is_field(reader: &Reader<'_>, field: usize) -> bool {
+    let (_, names) = FIELDS[field];
+    reader
+        .peek_label()
+        .is_some_and(|(label, _)| same_as_any(label.text, names))
+}
+
+/// Reads a vertex of any layout.
+fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, u32), ParseError> {
+    pass_blend_data(reader, row, bones);
+    let line = field(reader, 0, row, count)?;
+    let mut vertex = Vertex {
+        position: reader.numbers(Value::Vertex("Position"), 3, [0.0; 3])?.0,
+        ..Vertex::default()
+    };
+    field(reader, 1, row, count)?;
+    let place = reader.cursor.position();
+    let (tangent, given) = reader.numbers(Value::Vertex("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
+    if given < 4 {
+        reader.notices.add(Notice::TangentSignMissing, place, 0);
+    }
+    vertex.tangent = tangent;
+    field(reader, 2, row, count)?;
+    vertex.normal = reader.numbers(Value::Vertex("Normal"), 3, [0.0; 3])?.0;
+    field(reader, 3, row, count)?;
+    vertex.tex_coords = reader.numbers(Value::Vertex("Tex-Coords"), 2, [0.0; 2])?.0;
+    if bones > 0 {
+        field(reader, 4, row, count)?;
+        vertex.blend_weights = reader.numbers(Value::Vertex("BlendWeights"), 4, [0.0; 4])?.0;
+        field(reader, 5, row, count)?;
+        for (index, weight) in vertex.blend_indices.iter_mut().zip(vertex.blend_weights) {
+            *index = blend_index(reader, weight, bones)?;
+        }
+        reader.pass_surplus_numbers();
+    }
+    Ok((vertex, line))
+}
+
+/// Passes the label of a field, and unknown lines before it. Gives the label's line.
+fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<u32, ParseError> {
+    let (expected, names) = FIELDS[field];
+    loop {
+        let Some((label, behind)) = reader.peek_label() else {
+            let vertex = format!("vertex {} of {count}", row + 1);
+            return Err(reader.end(if field == 0 {
+                vertex
+            } else {
+                format!("{expected} of {vertex}")
+            }));
+        };
+        if same_as_any(label.text, names) {
+            reader.cursor = behind;
+            return Ok(label.position.line);
+        }
+        let ruler = is_ruler(label.text);
+        if ruler && field == 0 {
+            return Err(reader.section_row_count("vertices", count, row as usize));
+        }
+        let ours = FIELDS.iter().any(|(_, names)| same_as_any(label.text, names));
+        let brace = matches!(label.text, b"{" | b"}");
+        if ruler || ours || brace || looks_like_number(label.text) {
+            return Err(Reader::wrong_label(label, expected));
+        }
+        reader.pass_unknown_line(label);
+    }
+}
+
+/// A bone index. One that names no bone is forgiven when it has no weight.
+fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, ParseError> {
+    let token = reader.value_token(Value::BlendIndex)?;
+    let largest = i64::from(bones) - 1;
+    let unused = weight == 0.0
+        && std::str::from_utf8(token.text)
+            .ok()
+            .and_then(|text| text.parse::<i64>().ok())
+            .is_some_and(|index| index < 0 || index > largest);
+    if unused {
+        reader.note(token, Notice::BlendIndexUnused);
+        return Ok(0);
+    }
+    match reader.whole_of(token, Value::BlendIndex, 0, largest) {
+        Ok(index) => Ok(u32::try_from(index).unwrap_or(0)),
+        Err(ParseError { position, length, .. }) => {
+            let found = quoted(token.text);
+            let kind = ParseErrorKind::NotInRange {
+                value: Value::BlendIndex,
+                smallest: 0,
+                largest,
+                found,
+            };
+            Err(ParseError { position, length, kind })
+        }
+    }
+}
+
+/// Without bones, passes the blend data behind a vertex that has been read.
+fn pass_blend_data(reader: &mut Reader<'_>, rows_before: u32, bones: u32) {
+    if bones > 0 || rows_before == 0 {
+        return;
+    }
+    while is_field(reader, 4) || is_field(reader, 5) {
+        if let Some((label, _)) = reader.peek_label() {
+            reader.note(label, Notice::BlendDataUnused);
+        }
+        reader.cursor.skip_space();
+        reader.cursor.rest_of_line();
+    }
+}

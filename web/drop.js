@@ -1,0 +1,122 @@
+// Files and folders from the person: dropped anywhere on the page, or chosen in a dialog.
+
+/** What a model can use out of a folder; the rest of the folder is left where it is. */
+const USEFUL = /\.(m3d|a3d|dds|png|jpe?g|bmp|tga)$/i;
+
+/** A folder with more than this in it was not meant for a viewer. */
+const MAX_ENTRIES = 20_000;
+
+const element = (id) => document.getElementById(id);
+
+/**
+ * Takes every drop on the page. `receive(files, {shift})` gets `{name, file}` records, name being the path inside what
+ * was dropped; `refuse(words)` hears what could not be read; `hasModel()` tells the overlay what a drop would do.
+ */
+export function takeDrops({ receive, refuse, hasModel }) {
+  const overlay = element("drop-overlay");
+  const hide = () => (overlay.hidden = true);
+
+  const onDrag = (event) => {
+    if (!carriesFiles(event)) return;
+    claim(event);
+    event.dataTransfer.dropEffect = "copy";
+    const [does, what] = describe(event, hasModel());
+    element("drop-does").textContent = does;
+    element("drop-what").textContent = what;
+    overlay.hidden = false;
+  };
+  // In the capture phase, so that nothing below sees the drop and takes half of it.
+  addEventListener("dragenter", onDrag, true);
+  addEventListener("dragover", onDrag, true);
+  addEventListener("dragleave", (event) => event.relatedTarget ?? hide(), true);
+  addEventListener("dragend", hide, true);
+  addEventListener("drop", async (event) => {
+    if (!carriesFiles(event)) return;
+    claim(event);
+    hide();
+    // The list is emptied when this listener returns, so the entries are taken now.
+    const roots = entriesOf(event.dataTransfer);
+    const shift = event.shiftKey;
+    const { files, problems } = await collect(roots);
+    if (problems.length) refuse(problems.join("\n"));
+    if (files.length) receive(files, { shift });
+    else if (!problems.length) refuse("There is no model and no picture in what was dropped.");
+  }, true);
+}
+
+/** Makes the hidden file inputs hand their files to `receive`. Gives `pick(folder)`, which opens a dialog. */
+export function takeChoices({ receive, refuse }) {
+  for (const id of ["files", "folder"]) {
+    const input = element(id);
+    input.addEventListener("change", () => {
+      const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
+      input.value = ""; // So that choosing the same file again is a change.
+      const files = id === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
+      if (files.length) receive(files, { shift: false });
+      else if (chosen.length) refuse("There is no model and no picture in this folder.");
+    });
+  }
+  return (folder) => element(folder ? "folder" : "files").click();
+}
+
+function carriesFiles(event) {
+  return event.dataTransfer?.types.includes("Files") ?? false;
+}
+
+function claim(event) {
+  event.preventDefault();
+  event.stopImmediatePropagation();
+}
+
+/** What a drop would do, in words. Before the drop a page learns how many files there are, but not their names. */
+function describe(event, hasModel) {
+  const items = Array.from(event.dataTransfer.items).filter((item) => item.kind === "file");
+  const count = items.length === 1 ? "1 item" : `${items.length} items`;
+  const what = items.length ? count : "";
+  if (hasModel && items.length && items.every((item) => item.type.startsWith("image/"))) {
+    return ["Drop to add the textures to this model", what];
+  }
+  if (hasModel && event.shiftKey) return ["Drop to add its clips to this model", what];
+  return ["Drop to open", [what, hasModel ? "Shift adds the clips to the open model" : ""].filter(Boolean).join(" · ")];
+}
+
+function entriesOf(transfer) {
+  const items = Array.from(transfer.items).filter((item) => item.kind === "file");
+  const entries = items.map((item) => item.webkitGetAsEntry?.() ?? item.getAsFile()).filter(Boolean);
+  return entries.length ? entries : Array.from(transfer.files);
+}
+
+/** Every useful file below the roots, with its path. What was dropped by itself is always taken. */
+async function collect(roots) {
+  const files = [];
+  const problems = [];
+  let seen = 0;
+
+  const visit = async (entry, isRoot) => {
+    const path = (entry.fullPath ?? entry.name).replace(/^\/+/, "");
+    if (++seen > MAX_ENTRIES) return;
+    try {
+      if (entry instanceof File) {
+        files.push({ name: path, file: entry });
+      } else if (entry.isDirectory) {
+        const reader = entry.createReader();
+        // A call gives some hundred entries at most; an empty answer is the end.
+        for (let batch = await next(reader); batch.length && seen <= MAX_ENTRIES; batch = await next(reader)) {
+          for (const child of batch) await visit(child, false);
+        }
+      } else if (isRoot || USEFUL.test(path)) {
+        files.push({ name: path, file: await new Promise((done, fail) => entry.file(done, fail)) });
+      }
+    } catch (error) {
+      problems.push(`${path} could not be read: ${error.message}`);
+    }
+  };
+
+  for (const root of roots) await visit(root, true);
+  if (seen > MAX_ENTRIES) problems.push(`Only the first ${MAX_ENTRIES} entries of the folder were looked at.`);
+  return { files, problems };
+}
+
+function next(reader) {
+  return new Promise((done, fail) => reader.readEntries(done, fail));
+}
