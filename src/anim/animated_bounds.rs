@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::{Palette, PoseBuffers, skin_positions};
-use crate::model::{Aabb, Clip, Mesh, Model};
+use crate::model::{Aabb, Clip, Mesh, Model, Track};
 
 /// Vertices skinned at most for one box: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
@@ -42,7 +42,7 @@ fn key_times(clip: &Clip) -> Vec<f32> {
     let mut times_secs: Vec<f32> = clip
         .tracks
         .iter()
-        .flat_map(|track| track.times_secs())
+        .flat_map(Track::times_secs)
         .copied()
         .collect();
     times_secs.retain(|time_secs| span.contains(time_secs));
