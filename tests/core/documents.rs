@@ -93,7 +93,9 @@ pub(crate) fn quad() -> Document {
 
 /// The inverse of a translation, row vectors.
 pub(crate) fn offset([x, y, z]: [f32; 3]) -> [f32; 16] {
-    [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -x, -y, -z, 1.0]
+    [
+        1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -x, -y, -z, 1.0,
+    ]
 }
 
 /// A key without rotation or scale.
@@ -139,10 +141,12 @@ pub(crate) fn arm() -> Document {
         materials: vec![material("skin")],
         subsets: vec![subset(0, 12)],
         vertices: vertices.collect(),
-        triangles: (0..6).flat_map(|step| {
-            let low = step * 2;
-            [[low, low + 2, low + 3], [low, low + 3, low + 1]]
-        }).collect(),
+        triangles: (0..6)
+            .flat_map(|step| {
+                let low = step * 2;
+                [[low, low + 2, low + 3], [low, low + 3, low + 1]]
+            })
+            .collect(),
         bone_offsets: vec![offset([0.0; 3]), offset([0.0, 1.0, 0.0]), offset([0.0, 2.0, 0.0])],
         bone_parents: vec![-1, 0, 1],
         clips: vec![AnimationClip {

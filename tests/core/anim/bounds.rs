@@ -15,7 +15,10 @@ fn a_static_model_and_a_resting_clip_keep_the_bind_bounds() {
     assert_eq!(animated_bounds(&model, &Clip::default()), model.bind_bounds());
 
     let mut document = arm();
-    document.clips[0].bones.iter_mut().for_each(|bone| bone.keyframes.clear());
+    document.clips[0]
+        .bones
+        .iter_mut()
+        .for_each(|bone| bone.keyframes.clear());
     let (model, _) = model_of(&document);
     let bounds = animated_bounds(&model, &model.clips[0]);
     assert!(bounds.min.abs_diff_eq(model.bind_bounds().min, 1e-6), "{bounds:?}");
@@ -31,7 +34,9 @@ fn the_box_is_that_of_the_vertices_at_the_keys() {
     for time_secs in [0.0, 1.0] {
         buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
         skin_positions(&model.mesh, &buffers.palette, &mut positions);
-        expected = positions.iter().fold(expected, |bounds, &position| bounds.include(position));
+        expected = positions
+            .iter()
+            .fold(expected, |bounds, &position| bounds.include(position));
     }
     assert_eq!(animated_bounds(&model, &model.clips[0]), expected);
 }
@@ -49,15 +54,24 @@ fn too_much_work_gives_a_box_that_is_rather_too_large() {
         bone.keyframes = (0_u8..90)
             .map(|key| {
                 let part = f32::from(key) / 89.0;
-                crate::documents::turned(crate::documents::key(part, first.translation), last.rotation[2].asin() * 2.0 * part)
+                crate::documents::turned(
+                    crate::documents::key(part, first.translation),
+                    last.rotation[2].asin() * 2.0 * part,
+                )
             })
             .collect();
     }
     let (large, _) = model_of(&document);
     let rough = animated_bounds(&large, &large.clips[0]);
     let exact = animated_bounds(&small, &large.clips[0]);
-    assert!(rough.min.cmple(exact.min + 1e-5).all() && rough.max.cmpge(exact.max - 1e-5).all(), "{rough:?} {exact:?}");
-    assert!(rough.size().cmple(exact.size() * 1.5 + 0.01).all(), "{rough:?} {exact:?}");
+    assert!(
+        rough.min.cmple(exact.min + 1e-5).all() && rough.max.cmpge(exact.max - 1e-5).all(),
+        "{rough:?} {exact:?}"
+    );
+    assert!(
+        rough.size().cmple(exact.size() * 1.5 + 0.01).all(),
+        "{rough:?} {exact:?}"
+    );
 }
 
 /// The arm swings through the middle of its way: no key shows how far it reaches there.
@@ -88,7 +102,9 @@ fn many_key_times_are_looked_at_evenly() {
 #[test]
 #[allow(clippy::print_stderr, reason = "the time is worth seeing")]
 fn the_soldier_needs_the_box_of_the_textbook() {
-    let Some(parsed) = real_file("d3d12/soldier") else { return };
+    let Some(parsed) = real_file("d3d12/soldier") else {
+        return;
+    };
     let (model, _) = Model::from_parsed(&parsed).expect("sound");
     let begun = Instant::now();
     let bounds = animated_bounds(&model, &model.clips[0]);
@@ -109,7 +125,10 @@ fn the_soldier_needs_the_box_of_the_textbook() {
     }
     let narrow = |numbers: [f64; 3]| Vec3::from_array(numbers.map(|number| number as f32));
     assert!(bounds.min.abs_diff_eq(narrow(least), 3e-4), "{bounds:?} {least:?}");
-    assert!(bounds.max.abs_diff_eq(narrow(greatest), 3e-4), "{bounds:?} {greatest:?}");
+    assert!(
+        bounds.max.abs_diff_eq(narrow(greatest), 3e-4),
+        "{bounds:?} {greatest:?}"
+    );
     // The run is far deeper than the bind pose, and the arms come down.
     assert!(bounds.size().z > 44.0 && bounds.size().x < 32.0, "{bounds:?}");
 }

@@ -14,7 +14,10 @@ fn walk(playback: &mut Playback, steps: &[(f32, f32, bool)]) {
     for &(dt_secs, time_secs, is_playing) in steps {
         playback.advance(dt_secs);
         let at_secs = playback.time_secs();
-        assert!((at_secs - time_secs).abs() < 1e-5, "{at_secs} s is not {time_secs} s after {dt_secs} s");
+        assert!(
+            (at_secs - time_secs).abs() < 1e-5,
+            "{at_secs} s is not {time_secs} s after {dt_secs} s"
+        );
         assert_eq!(playback.is_playing(), is_playing, "at {at_secs} s");
     }
 }
@@ -22,8 +25,14 @@ fn walk(playback: &mut Playback, steps: &[(f32, f32, bool)]) {
 #[test]
 fn a_new_playback_waits_at_the_start() {
     let mut playback = Playback::new(-1.0, 2.0);
-    assert_eq!((playback.time_secs(), playback.is_playing(), playback.duration_secs()), (-1.0, false, 3.0));
-    assert_eq!((playback.speed(), playback.loop_mode(), playback.is_backward()), (1.0, LoopMode::Loop, false));
+    assert_eq!(
+        (playback.time_secs(), playback.is_playing(), playback.duration_secs()),
+        (-1.0, false, 3.0)
+    );
+    assert_eq!(
+        (playback.speed(), playback.loop_mode(), playback.is_backward()),
+        (1.0, LoopMode::Loop, false)
+    );
     assert!(!playback.advance(1.0));
     assert_eq!(playback.time_secs(), -1.0);
     assert_eq!(Playback::new(2.0, -1.0), Playback::new(-1.0, 2.0));
@@ -32,7 +41,10 @@ fn a_new_playback_waits_at_the_start() {
 #[test]
 fn once_stops_at_the_end_and_begins_anew() {
     let mut playback = playing(LoopMode::Once, 1.0, 2.0);
-    walk(&mut playback, &[(0.75, 1.75, true), (0.5, 2.0, false), (0.5, 2.0, false)]);
+    walk(
+        &mut playback,
+        &[(0.75, 1.75, true), (0.5, 2.0, false), (0.5, 2.0, false)],
+    );
     playback.play();
     assert_eq!((playback.time_secs(), playback.is_playing()), (1.0, true));
     walk(&mut playback, &[(0.25, 1.25, true)]);
@@ -55,9 +67,20 @@ fn once_backward_stops_at_the_start() {
 #[test]
 fn loop_stands_on_both_ends_and_goes_round_beyond_them() {
     let mut playback = playing(LoopMode::Loop, 1.0, 2.0);
-    walk(&mut playback, &[(1.0, 2.0, true), (0.25, 1.25, true), (3.5, 1.75, true), (0.25, 2.0, true)]);
+    walk(
+        &mut playback,
+        &[
+            (1.0, 2.0, true),
+            (0.25, 1.25, true),
+            (3.5, 1.75, true),
+            (0.25, 2.0, true),
+        ],
+    );
     playback.set_backward(true);
-    walk(&mut playback, &[(1.0, 1.0, true), (0.25, 1.75, true), (3.0, 1.75, true)]);
+    walk(
+        &mut playback,
+        &[(1.0, 1.0, true), (0.25, 1.75, true), (3.0, 1.75, true)],
+    );
     for end_secs in [1.0, 2.0] {
         playback.seek(end_secs);
         assert_eq!(playback.time_secs(), end_secs);
@@ -85,7 +108,10 @@ fn ping_pong_turns_at_both_ends() {
     playback.seek(1.5);
     walk(&mut playback, &[(0.25, 1.75, true)]);
     playback.set_backward(true);
-    walk(&mut playback, &[(0.5, 1.25, true), (0.5, 1.25, true), (0.5, 1.75, true)]);
+    walk(
+        &mut playback,
+        &[(0.5, 1.25, true), (0.5, 1.25, true), (0.5, 1.75, true)],
+    );
 }
 
 #[test]
@@ -119,7 +145,10 @@ fn the_longest_steps_stay_inside() {
                 playback.set_speed(f32::MAX);
                 playback.advance(dt_secs);
                 let time_secs = playback.time_secs();
-                assert!((-0.5..=0.75).contains(&time_secs), "{loop_mode:?} {dt_secs} s: {time_secs} s");
+                assert!(
+                    (-0.5..=0.75).contains(&time_secs),
+                    "{loop_mode:?} {dt_secs} s: {time_secs} s"
+                );
             }
         }
     }
@@ -159,9 +188,15 @@ fn a_new_range_takes_the_time_with_it() {
     let mut playback = playing(LoopMode::Loop, 0.0, 10.0);
     playback.seek(8.0);
     playback.set_range(2.0, 5.0);
-    assert_eq!((playback.time_secs(), playback.start_secs(), playback.end_secs()), (5.0, 2.0, 5.0));
+    assert_eq!(
+        (playback.time_secs(), playback.start_secs(), playback.end_secs()),
+        (5.0, 2.0, 5.0)
+    );
     playback.set_range(7.0, 6.0);
-    assert_eq!((playback.time_secs(), playback.start_secs(), playback.end_secs()), (6.0, 6.0, 7.0));
+    assert_eq!(
+        (playback.time_secs(), playback.start_secs(), playback.end_secs()),
+        (6.0, 6.0, 7.0)
+    );
     playback.set_range(f32::NAN, 1.0);
     playback.set_range(0.0, f32::INFINITY);
     assert_eq!((playback.start_secs(), playback.end_secs()), (6.0, 7.0));
@@ -177,5 +212,9 @@ fn small_steps_add_up() {
         playback.advance(dt_secs);
     }
     let expected_secs = (f64::from(dt_secs) * f64::from(frames)).rem_euclid(1.25);
-    assert!((f64::from(playback.time_secs()) - expected_secs).abs() < 1e-4, "{}", playback.time_secs());
+    assert!(
+        (f64::from(playback.time_secs()) - expected_secs).abs() < 1e-4,
+        "{}",
+        playback.time_secs()
+    );
 }

@@ -20,7 +20,12 @@ fn rotations() -> impl Strategy<Value = [f32; 4]> {
 }
 
 fn keys() -> impl Strategy<Value = Vec<Keyframe>> {
-    let one = (0.05_f32..0.5, prop::array::uniform3(-1.0_f32..1.0), prop::array::uniform3(0.5_f32..1.5), rotations());
+    let one = (
+        0.05_f32..0.5,
+        prop::array::uniform3(-1.0_f32..1.0),
+        prop::array::uniform3(0.5_f32..1.5),
+        rotations(),
+    );
     (-1.0_f32..1.0, prop::collection::vec(one, 1..12)).prop_map(|(start_secs, keys)| {
         let mut time_secs = start_secs;
         let key = |(step_secs, translation, scale, rotation)| {
@@ -40,12 +45,23 @@ fn keys() -> impl Strategy<Value = Vec<Keyframe>> {
 fn documents() -> impl Strategy<Value = Document> {
     (1_usize..12).prop_flat_map(|bones| {
         let order = Just((0..bones as u32).collect::<Vec<_>>()).prop_shuffle();
-        let parents: Vec<_> = (0..bones as i32).map(|bone| -1..bone.max(0)).map(|range| {
-            if range.is_empty() { Just(-1).boxed() } else { range.boxed() }
-        }).collect();
+        let parents: Vec<_> = (0..bones as i32)
+            .map(|bone| -1..bone.max(0))
+            .map(|range| {
+                if range.is_empty() {
+                    Just(-1).boxed()
+                } else {
+                    range.boxed()
+                }
+            })
+            .collect();
         let offsets = prop::collection::vec(prop::array::uniform16(-1.0_f32..1.0), bones);
         let vertices = prop::collection::vec(
-            (prop::array::uniform3(-1.0_f32..1.0), prop::array::uniform4(0.0_f32..1.0), prop::array::uniform4(0..bones as u32)),
+            (
+                prop::array::uniform3(-1.0_f32..1.0),
+                prop::array::uniform4(0.0_f32..1.0),
+                prop::array::uniform4(0..bones as u32),
+            ),
             3..20,
         );
         (order, parents, offsets, prop::collection::vec(keys(), bones), vertices).prop_map(

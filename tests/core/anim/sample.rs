@@ -12,9 +12,8 @@ fn at_x(x: f32) -> LocalJoint {
 }
 
 fn clip_of(tracks: &[&[(f32, f32)]]) -> Clip {
-    let track = |keys: &&[(f32, f32)]| {
-        Track::new(keys.iter().map(|&(time_secs, x)| (time_secs, at_x(x)))).expect("increasing")
-    };
+    let track =
+        |keys: &&[(f32, f32)]| Track::new(keys.iter().map(|&(time_secs, x)| (time_secs, at_x(x)))).expect("increasing");
     Clip::new("clip", tracks.iter().map(track).collect())
 }
 
@@ -84,7 +83,11 @@ fn tracks_with_other_times_do_not_mislead_each_other() {
         for (joint, track) in local.joints.iter().zip(tracks) {
             // Every track says x = time where it has keys.
             let expected = time_secs.clamp(track[0].0, track[track.len() - 1].0);
-            assert!((joint.translation.x - expected).abs() < 1e-5, "{} at {time_secs} s", joint.translation.x);
+            assert!(
+                (joint.translation.x - expected).abs() < 1e-5,
+                "{} at {time_secs} s",
+                joint.translation.x
+            );
         }
     }
 }
@@ -109,12 +112,20 @@ fn times_in_any_order_give_the_same_to_the_bit() {
         sample(&clip, time_secs, &mut local);
         local.joints
     };
-    let forward: Vec<_> = times_secs.iter().map(|&time_secs| (time_secs, pose(time_secs))).collect();
+    let forward: Vec<_> = times_secs
+        .iter()
+        .map(|&time_secs| (time_secs, pose(time_secs)))
+        .collect();
     times_secs.reverse();
     let mut local = LocalPose::default();
     for (time_secs, expected) in forward.iter().rev() {
         sample(&clip, *time_secs, &mut local);
         assert_eq!(&local.joints, expected);
-        assert!(local.joints.iter().all(|joint| (joint.rotation.length() - 1.0).abs() < 1e-6));
+        assert!(
+            local
+                .joints
+                .iter()
+                .all(|joint| (joint.rotation.length() - 1.0).abs() < 1e-6)
+        );
     }
 }

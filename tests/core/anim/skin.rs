@@ -66,20 +66,28 @@ fn normals_stay_square_to_the_surface_under_any_scale_and_mirror() {
     ] {
         let matrix = Affine3A::from_mat3(Mat3::from_quat(lean) * Mat3::from_diagonal(scale) * Mat3::from_quat(lean));
         let (position, direction) = greatest_errors(&model, &Palette(vec![matrix; 3]));
-        assert!(position < 1e-5 * f64::from(scale.abs().max_element()).max(1.0), "{scale}: {position}");
+        assert!(
+            position < 1e-5 * f64::from(scale.abs().max_element()).max(1.0),
+            "{scale}: {position}"
+        );
         assert!(direction < 1e-4, "{scale}: {direction}");
     }
 }
 
 #[test]
 fn the_soldier_runs_as_in_the_textbook() {
-    let Some(parsed) = real_file("d3d12/soldier") else { return };
+    let Some(parsed) = real_file("d3d12/soldier") else {
+        return;
+    };
     let (model, _) = Model::from_parsed(&parsed).expect("sound");
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     for time_secs in [-1.0_f32, 0.0, 0.2083, 0.517, 1.2083, 1.24, 1.25, 7.0] {
         buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
         let (position, direction) = greatest_errors(&model, &buffers.palette);
-        assert!(position < 5e-5 && direction < 1e-4, "{time_secs} s: {position} {direction}");
+        assert!(
+            position < 5e-5 && direction < 1e-4,
+            "{time_secs} s: {position} {direction}"
+        );
 
         // And all the way from the file's own numbers.
         let palette = textbook::palette(&parsed.document, 0, f64::from(time_secs));
@@ -109,7 +117,10 @@ fn the_bind_pose_moves_nothing() {
 fn static_meshes_and_vertices_without_weights_stay() {
     let (model, _) = model_of(&quad());
     let out = skinned(&model, &Palette::default());
-    assert_eq!((&out.positions, &out.normals, &out.tangents), (&model.mesh.positions, &model.mesh.normals, &model.mesh.tangents));
+    assert_eq!(
+        (&out.positions, &out.normals, &out.tangents),
+        (&model.mesh.positions, &model.mesh.normals, &model.mesh.tangents)
+    );
 
     let mut document = arm();
     document.vertices[4].blend_weights = [0.0; 4];
@@ -131,6 +142,10 @@ fn matrices_that_flatten_space_leave_no_nan() {
     ] {
         let out = skinned(&model, &Palette(vec![matrix; 3]));
         assert!(out.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-4));
-        assert!(out.tangents.iter().all(|tangent| (tangent.truncate().length() - 1.0).abs() < 1e-4));
+        assert!(
+            out.tangents
+                .iter()
+                .all(|tangent| (tangent.truncate().length() - 1.0).abs() < 1e-4)
+        );
     }
 }

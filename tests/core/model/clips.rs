@@ -15,7 +15,12 @@ fn with_keys(keys: impl Into<Vec<Keyframe>>) -> Document {
 
 fn times_and_heights(clip: &Clip, joint: usize) -> Vec<(f32, f32)> {
     let track = &clip.tracks[joint];
-    track.times_secs().iter().copied().zip(track.translations().iter().map(|translation| translation.y)).collect()
+    track
+        .times_secs()
+        .iter()
+        .copied()
+        .zip(track.translations().iter().map(|translation| translation.y))
+        .collect()
 }
 
 const UP: [f32; 3] = [0.0, 1.0, 0.0];
@@ -28,7 +33,10 @@ fn at_height(time_secs: f32, height: f32) -> Keyframe {
 fn unsorted_keys_are_sorted() {
     let document = with_keys([at_height(0.5, 5.0), at_height(0.0, 0.0), at_height(0.25, 2.5)]);
     let (model, codes) = model_of(&document);
-    assert_eq!(times_and_heights(&model.clips[0], 1), [(0.0, 0.0), (0.25, 2.5), (0.5, 5.0)]);
+    assert_eq!(
+        times_and_heights(&model.clips[0], 1),
+        [(0.0, 0.0), (0.25, 2.5), (0.5, 5.0)]
+    );
     assert_eq!(codes, ["keys-not-sorted"]);
     assert_eq!(
         message_of(&document, "keys-not-sorted"),
@@ -47,7 +55,10 @@ fn keys_at_one_time_become_a_jump_from_the_first_to_the_last() {
     ]);
     let (model, codes) = model_of(&document);
     let after = 0.5_f32.next_up();
-    assert_eq!(times_and_heights(&model.clips[0], 1), [(0.0, 0.0), (0.5, 1.0), (after, 3.0), (1.0, 4.0)]);
+    assert_eq!(
+        times_and_heights(&model.clips[0], 1),
+        [(0.0, 0.0), (0.5, 1.0), (after, 3.0), (1.0, 4.0)]
+    );
     assert_eq!(codes, ["keys-at-equal-times"]);
     assert_eq!(
         message_of(&document, "keys-at-equal-times"),
@@ -57,7 +68,11 @@ fn keys_at_one_time_become_a_jump_from_the_first_to_the_last() {
 
 #[test]
 fn zero_and_negative_zero_are_one_time() {
-    let (model, codes) = model_of(&with_keys([at_height(0.0, 1.0), at_height(-0.0, 2.0), at_height(1.0, 3.0)]));
+    let (model, codes) = model_of(&with_keys([
+        at_height(0.0, 1.0),
+        at_height(-0.0, 2.0),
+        at_height(1.0, 3.0),
+    ]));
     assert_eq!(model.clips[0].tracks[1].key_count(), 3);
     assert_eq!(codes, ["keys-at-equal-times"]);
 }
@@ -119,11 +134,21 @@ fn rotations_are_made_unit_and_put_on_one_side() {
     let (model, codes) = model_of(&document);
     let rotations = model.clips[0].tracks[1].rotations();
     assert_eq!(rotations[0], Quat::IDENTITY);
-    assert!(rotations[1].abs_diff_eq(Quat::from_rotation_z(1.0), 1e-6), "{}", rotations[1]);
+    assert!(
+        rotations[1].abs_diff_eq(Quat::from_rotation_z(1.0), 1e-6),
+        "{}",
+        rotations[1]
+    );
     assert_eq!(codes, ["rotation-not-unit", "rotation-zero"]);
     for (code, words) in [
-        ("rotation-not-unit", "1 key has a rotation that is not of unit length; normalised."),
-        ("rotation-zero", "1 key has a rotation of length 0; taken as no rotation."),
+        (
+            "rotation-not-unit",
+            "1 key has a rotation that is not of unit length; normalised.",
+        ),
+        (
+            "rotation-zero",
+            "1 key has a rotation of length 0; taken as no rotation.",
+        ),
     ] {
         assert_eq!(message_of(&document, code), words);
     }
@@ -168,8 +193,10 @@ fn findings_point_at_the_bone_and_its_line() {
         ..LineMap::default()
     };
     let (model, findings) = Model::from_document(&document, &lines).expect("mended");
-    let told: Vec<(&str, Option<u32>)> =
-        findings.iter().map(|finding| (finding.code, finding.position.map(|at| at.line))).collect();
+    let told: Vec<(&str, Option<u32>)> = findings
+        .iter()
+        .map(|finding| (finding.code, finding.position.map(|at| at.line)))
+        .collect();
     assert_eq!(
         told,
         [
@@ -205,7 +232,11 @@ fn span_and_key_rate_of_tracks() {
     for (tracks, start_secs, end_secs, rate) in cases {
         let clip = Clip::new("clip", tracks.iter().map(|times_secs| at_times(times_secs)).collect());
         assert_eq!((clip.start_secs, clip.end_secs), (start_secs, end_secs));
-        assert!((clip.keys_per_sec - rate).abs() <= 1e-3, "{} is not {rate}", clip.keys_per_sec);
+        assert!(
+            (clip.keys_per_sec - rate).abs() <= 1e-3,
+            "{} is not {rate}",
+            clip.keys_per_sec
+        );
     }
 }
 
@@ -230,7 +261,14 @@ fn frames_count_from_0_and_both_ends_are_frames() {
     for frame in 0..=75 {
         assert_eq!(clip.frame_at(clip.time_of_frame(frame)), frame);
     }
-    assert_eq!((clip.time_of_frame(0), clip.time_of_frame(75), clip.time_of_frame(u32::MAX)), (0.0, 1.25, 1.25));
+    assert_eq!(
+        (
+            clip.time_of_frame(0),
+            clip.time_of_frame(75),
+            clip.time_of_frame(u32::MAX)
+        ),
+        (0.0, 1.25, 1.25)
+    );
 }
 
 #[test]
@@ -253,7 +291,10 @@ fn steps_reach_whole_frames_inside_the_clip() {
         (0.0, 1, 1.1),
     ] {
         let stepped_secs = clip.step_frames(time_secs, frames);
-        assert!((stepped_secs - expected_secs).abs() < 1e-6, "{time_secs} s by {frames} became {stepped_secs} s");
+        assert!(
+            (stepped_secs - expected_secs).abs() < 1e-6,
+            "{time_secs} s by {frames} became {stepped_secs} s"
+        );
     }
     // A length of 10.4 frames: the last step holds the rest, and the end can be left again.
     clip.end_secs = 2.04;
@@ -265,7 +306,10 @@ fn steps_reach_whole_frames_inside_the_clip() {
 fn frames_of_a_clip_without_length() {
     let clip = Clip::new("still", vec![at_times(&[3.0])]);
     assert_eq!((clip.last_frame(), clip.frame_count(), clip.frame_at(5.0)), (0, 1, 0));
-    assert_eq!((clip.time_of_frame(0), clip.time_of_frame(4), clip.step_frames(3.0, 1)), (3.0, 3.0, 3.0));
+    assert_eq!(
+        (clip.time_of_frame(0), clip.time_of_frame(4), clip.step_frames(3.0, 1)),
+        (3.0, 3.0, 3.0)
+    );
 }
 
 #[test]
@@ -288,7 +332,10 @@ fn keys_in_model_space_are_told() {
 #[test]
 fn a_clip_that_scales_the_whole_is_not_torn() {
     let mut document = arm();
-    document.clips[0].bones[0].keyframes.iter_mut().for_each(|key| key.scale = [100.0; 3]);
+    document.clips[0].bones[0]
+        .keyframes
+        .iter_mut()
+        .for_each(|key| key.scale = [100.0; 3]);
     assert_eq!(model_of(&document).1, Vec::<&str>::new());
     assert_eq!(model_of(&arm()).0.clips[0].tracks[1].translations()[0], Vec3::Y);
 }

@@ -58,11 +58,7 @@ fn words_code_and_place_of_each_broken_rule() {
             "vertex-out-of-range",
             "line 203, column 1: triangle 3 names vertex 14, but there are 14 vertices",
         ),
-        (
-            |document| document.vertices[5].blend_indices[1] = 3,
-            "",
-            "",
-        ),
+        (|document| document.vertices[5].blend_indices[1] = 3, "", ""),
         (
             |document| document.vertices[4].blend_indices[0] = u32::MAX,
             "influence-out-of-range",
@@ -82,7 +78,11 @@ fn words_code_and_place_of_each_broken_rule() {
         let finding = error.diagnostic();
         assert_eq!(finding.code, code);
         assert_eq!(finding.position, error.position);
-        assert!(words.ends_with(&finding.message), "{} repeats the place", finding.message);
+        assert!(
+            words.ends_with(&finding.message),
+            "{} repeats the place",
+            finding.message
+        );
     }
 }
 

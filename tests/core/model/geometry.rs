@@ -9,7 +9,10 @@ use crate::documents::{message_of, model_of, quad, vertex};
 /// The quad as seen in a mirror: z negated, and with it normals; the winding stays.
 fn right_handed() -> Document {
     let mut document = quad();
-    document.vertices.iter_mut().for_each(|vertex| vertex.normal = [0.0, 0.0, 1.0]);
+    document
+        .vertices
+        .iter_mut()
+        .for_each(|vertex| vertex.normal = [0.0, 0.0, 1.0]);
     document
 }
 
@@ -28,7 +31,10 @@ fn a_divided_vote_is_told() {
     let mut document = quad();
     document.triangles = vec![[0, 1, 2], [0, 3, 2]];
     let (model, codes) = model_of(&document);
-    assert_eq!((model.handedness, codes), (Handedness::Left, vec!["handedness-unclear"]));
+    assert_eq!(
+        (model.handedness, codes),
+        (Handedness::Left, vec!["handedness-unclear"])
+    );
     assert_eq!(
         message_of(&document, "handedness-unclear"),
         "1 of 2 triangles wind as in a left-handed file, the rest as in a right-handed one."
@@ -59,15 +65,37 @@ fn missing_normals_follow_the_file_s_hand_and_the_triangles_area() {
     }
     // A roof of two slopes, the right one three times as wide: its side weighs three times as much.
     let mut roof = quad();
-    let corners = [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, -1.0], [-1.0, 1.0, 0.0], [3.0, 0.0, 2.0], [3.0, 1.0, 2.0]];
-    roof.vertices = corners.map(|position| bindpose::format::Vertex { position, normal: [0.0; 3], ..vertex(0.0, 0.0) }).to_vec();
+    let corners = [
+        [-1.0, 0.0, 0.0],
+        [0.0, 0.0, -1.0],
+        [0.0, 1.0, -1.0],
+        [-1.0, 1.0, 0.0],
+        [3.0, 0.0, 2.0],
+        [3.0, 1.0, 2.0],
+    ];
+    roof.vertices = corners
+        .map(|position| bindpose::format::Vertex {
+            position,
+            normal: [0.0; 3],
+            ..vertex(0.0, 0.0)
+        })
+        .to_vec();
     roof.triangles = vec![[0, 3, 2], [0, 2, 1], [1, 2, 5], [1, 5, 4]];
     let (model, _) = model_of(&roof);
     let (left, right) = (Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 0.0, -1.0));
-    // Vertex 2 has one left and one right triangle, vertex 1 likewise.
-    let ridge = (left + right * 3.0).normalize();
-    assert!(model.mesh.normals[2].abs_diff_eq(ridge, 1e-6), "{}", model.mesh.normals[2]);
-    assert!(model.mesh.normals[0].abs_diff_eq(left.normalize(), 1e-6), "{}", model.mesh.normals[0]);
+    // Of the ridge, vertex 1 has one left and two right triangles, vertex 2 two left ones and one right.
+    for (vertex, normal) in [
+        (0, left),
+        (1, left + right * 6.0),
+        (2, left * 2.0 + right * 3.0),
+        (4, right),
+    ] {
+        let computed = model.mesh.normals[vertex];
+        assert!(
+            computed.abs_diff_eq(normal.normalize(), 1e-6),
+            "vertex {vertex}: {computed}"
+        );
+    }
     assert_eq!(
         message_of(&roof, "normals-missing"),
         "6 vertices have a normal that is zero or not finite; computed from the triangles."
@@ -77,7 +105,11 @@ fn missing_normals_follow_the_file_s_hand_and_the_triangles_area() {
 #[test]
 fn a_vertex_without_triangles_still_has_directions() {
     let mut document = quad();
-    document.vertices.push(bindpose::format::Vertex { normal: [0.0; 3], tangent: [0.0; 4], ..vertex(5.0, 5.0) });
+    document.vertices.push(bindpose::format::Vertex {
+        normal: [0.0; 3],
+        tangent: [0.0; 4],
+        ..vertex(5.0, 5.0)
+    });
     let (model, codes) = model_of(&document);
     assert_eq!(model.mesh.normals[4], Vec3::Y);
     let tangent = model.mesh.tangents[4];
@@ -103,7 +135,10 @@ fn missing_tangents_follow_u_and_their_sign_points_along_v() {
         }
         let (model, codes) = model_of(&document);
         for (computed, normal) in model.mesh.tangents.iter().zip(&model.mesh.normals) {
-            assert!(computed.truncate().abs_diff_eq(tangent, 1e-6), "{computed} is not {tangent}");
+            assert!(
+                computed.truncate().abs_diff_eq(tangent, 1e-6),
+                "{computed} is not {tangent}"
+            );
             let bitangent = normal.cross(computed.truncate()) * computed.w;
             assert!(bitangent.dot(along_v) > 0.0, "{bitangent} is against {along_v}");
         }
@@ -124,7 +159,10 @@ fn texture_coordinates_without_area_give_some_tangent_in_the_surface() {
     }
     let (model, _) = model_of(&document);
     for tangent in &model.mesh.tangents {
-        assert!(tangent.z.abs() < 1e-6 && (tangent.truncate().length() - 1.0).abs() < 1e-6, "{tangent}");
+        assert!(
+            tangent.z.abs() < 1e-6 && (tangent.truncate().length() - 1.0).abs() < 1e-6,
+            "{tangent}"
+        );
         assert_eq!(tangent.w.abs(), 1.0);
     }
 }

@@ -16,10 +16,20 @@ fn submesh(triangle_start: u32, triangle_count: u32, material: u32) -> Submesh {
 #[test]
 fn names_to_show_are_never_empty_and_never_the_same() {
     let mut document = quad();
-    document.materials = ["cloth", "cloth", "", "cloth (2)", "cloth", "", "material 2"].map(material).to_vec();
+    document.materials = ["cloth", "cloth", "", "cloth (2)", "cloth", "", "material 2"]
+        .map(material)
+        .to_vec();
     let (model, codes) = model_of(&document);
     let names: Vec<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
-    let shown = ["cloth", "cloth (3)", "material 2 (2)", "cloth (2)", "cloth (4)", "material 5", "material 2"];
+    let shown = [
+        "cloth",
+        "cloth (3)",
+        "material 2 (2)",
+        "cloth (2)",
+        "cloth (4)",
+        "material 5",
+        "material 2",
+    ];
     assert_eq!(names, shown);
     assert_eq!(codes, ["duplicate-material-name"; 2]);
 
@@ -103,8 +113,16 @@ fn without_subsets_all_triangles_are_drawn() {
 #[test]
 fn ranges_are_cut_to_the_triangles_there_are() {
     let ranges = [
-        (subset(0, 5), submesh(0, 2, 0), "Subset 0 asks for 5 triangles from 0 on, but the file has 2; 2 of them are drawn."),
-        (subset(7, 1), submesh(2, 0, 0), "Subset 0 asks for 1 triangles from 7 on, but the file has 2; 0 of them are drawn."),
+        (
+            subset(0, 5),
+            submesh(0, 2, 0),
+            "Subset 0 asks for 5 triangles from 0 on, but the file has 2; 2 of them are drawn.",
+        ),
+        (
+            subset(7, 1),
+            submesh(2, 0, 0),
+            "Subset 0 asks for 1 triangles from 7 on, but the file has 2; 0 of them are drawn.",
+        ),
         (
             subset(1, u32::MAX),
             submesh(1, 1, 0),
@@ -126,8 +144,14 @@ fn triangles_that_no_subset_or_several_draw_are_told() {
     document.subsets = vec![subset(8, 3), subset(1, 8)];
     let (_, codes) = model_of(&document);
     assert_eq!(codes, ["triangles-undrawn", "triangles-shared"]);
-    assert_eq!(message_of(&document, "triangles-undrawn"), "2 triangles belong to no subset; not drawn.");
-    assert_eq!(message_of(&document, "triangles-shared"), "1 triangle belongs to more than one subset.");
+    assert_eq!(
+        message_of(&document, "triangles-undrawn"),
+        "2 triangles belong to no subset; not drawn."
+    );
+    assert_eq!(
+        message_of(&document, "triangles-shared"),
+        "1 triangle belongs to more than one subset."
+    );
 }
 
 #[test]
@@ -158,7 +182,14 @@ fn indices_counted_from_vertex_start_are_told_and_kept() {
 #[test]
 fn an_empty_document_is_an_empty_model() {
     let (model, codes) = model_of(&Document::default());
-    assert_eq!((model.mesh.vertex_count(), model.mesh.submeshes.len(), model.materials.len()), (0, 0, 0));
+    assert_eq!(
+        (
+            model.mesh.vertex_count(),
+            model.mesh.submeshes.len(),
+            model.materials.len()
+        ),
+        (0, 0, 0)
+    );
     assert!(model.bind_bounds().is_empty());
     assert_eq!(codes, Vec::<&str>::new());
 }

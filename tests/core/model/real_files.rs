@@ -24,27 +24,42 @@ fn counts_hands_and_axes() {
         let Some(parsed) = real_file(file) else { continue };
         let (model, findings) = Model::from_parsed(&parsed).expect("a real file is sound");
         let mesh = &model.mesh;
-        assert_eq!((mesh.vertex_count(), mesh.triangle_count(), model.materials.len()), (vertices, triangles, materials));
+        assert_eq!(
+            (mesh.vertex_count(), mesh.triangle_count(), model.materials.len()),
+            (vertices, triangles, materials)
+        );
         assert_eq!((model.handedness, model.up_axis), (handedness, up_axis), "{file}");
         assert_eq!(mesh.submeshes.len(), materials);
         let drawn: u32 = mesh.submeshes.iter().map(|submesh| submesh.triangle_count).sum();
         assert_eq!(drawn as usize, triangles);
         let codes: Vec<&str> = findings.iter().map(|finding| finding.code).collect();
-        let expected: &[&str] = if file == "d3d12/soldier" { &["tangents-missing"] } else { &[] };
+        let expected: &[&str] = if file == "d3d12/soldier" {
+            &["tangents-missing"]
+        } else {
+            &[]
+        };
         assert_eq!(codes, expected, "{file}");
     }
 }
 
 #[test]
 fn the_soldier() {
-    let Some(parsed) = real_file("d3d12/soldier") else { return };
+    let Some(parsed) = real_file("d3d12/soldier") else {
+        return;
+    };
     let (model, findings) = Model::from_parsed(&parsed).expect("sound");
     assert_eq!(model.skeleton.joint_count(), 58);
     assert!(model.skeleton.file_bones().iter().copied().eq(0..58));
 
     let clip = &model.clips[0];
-    assert_eq!((clip.name.as_str(), clip.start_secs, clip.end_secs), ("Take1", 0.0, 1.25));
-    assert_eq!((clip.keys_per_sec, clip.key_count, clip.last_frame()), (60.0, 4_400, 75));
+    assert_eq!(
+        (clip.name.as_str(), clip.start_secs, clip.end_secs),
+        ("Take1", 0.0, 1.25)
+    );
+    assert_eq!(
+        (clip.keys_per_sec, clip.key_count, clip.last_frame()),
+        (60.0, 4_400, 75)
+    );
     assert_eq!(clip.frame_at(0.517), 31);
     let mut ends: Vec<usize> = clip.tracks.iter().map(|track| track.key_count()).collect();
     ends.sort_unstable();
@@ -52,8 +67,16 @@ fn the_soldier() {
     assert_eq!(ends, [73, 75, 76]);
 
     let bounds = model.bind_bounds();
-    assert!(bounds.min.abs_diff_eq(Vec3::new(-29.3, -1.9, -7.7), BOUNDS_TOLERANCE), "{}", bounds.min);
-    assert!(bounds.max.abs_diff_eq(Vec3::new(28.7, 72.5, 9.8), BOUNDS_TOLERANCE), "{}", bounds.max);
+    assert!(
+        bounds.min.abs_diff_eq(Vec3::new(-29.3, -1.9, -7.7), BOUNDS_TOLERANCE),
+        "{}",
+        bounds.min
+    );
+    assert!(
+        bounds.max.abs_diff_eq(Vec3::new(28.7, 72.5, 9.8), BOUNDS_TOLERANCE),
+        "{}",
+        bounds.max
+    );
 
     let mut by_count = [0; 5];
     for influences in &model.mesh.influences {
@@ -78,9 +101,16 @@ fn computed_directions_agree_with_stored_ones() {
         let Some(parsed) = real_file(file) else { continue };
         let (model, _) = Model::from_parsed(&parsed).expect("sound");
         let mut document = parsed.document.clone();
-        document.vertices.iter_mut().for_each(|vertex| vertex.tangent = [0.0; 4]);
+        document
+            .vertices
+            .iter_mut()
+            .for_each(|vertex| vertex.tangent = [0.0; 4]);
         // Half of the normals stay, as evidence of the hand.
-        document.vertices.iter_mut().step_by(2).for_each(|vertex| vertex.normal = [0.0; 3]);
+        document
+            .vertices
+            .iter_mut()
+            .step_by(2)
+            .for_each(|vertex| vertex.normal = [0.0; 3]);
         let (computed, _) = Model::from_document(&document, &parsed.lines).expect("sound");
         assert_eq!(computed.handedness, model.handedness);
 
@@ -90,9 +120,7 @@ fn computed_directions_agree_with_stored_ones() {
         };
         let (stored, ours) = (&model.mesh, &computed.mesh);
         let normals = share(&|vertex| stored.normals[vertex].dot(ours.normals[vertex]) > 0.5);
-        let tangents = share(&|vertex| {
-            stored.tangents[vertex].truncate().dot(ours.tangents[vertex].truncate()) > 0.5
-        });
+        let tangents = share(&|vertex| stored.tangents[vertex].truncate().dot(ours.tangents[vertex].truncate()) > 0.5);
         let signs = share(&|vertex| stored.tangents[vertex].w == ours.tangents[vertex].w);
         assert!(normals > 0.9, "{file}: {normals} of the normals agree");
         assert!(tangents > 0.95, "{file}: {tangents} of the tangents agree");

@@ -10,7 +10,10 @@ use crate::documents::{arm, message_of, model_of, offset, reordered, track};
 fn a_valid_order_is_kept() {
     let (model, codes) = model_of(&arm());
     assert_eq!(model.skeleton.file_bones(), [0, 1, 2]);
-    assert_eq!(model.skeleton.parents(), [None, Some(JointIndex(0)), Some(JointIndex(1))]);
+    assert_eq!(
+        model.skeleton.parents(),
+        [None, Some(JointIndex(0)), Some(JointIndex(1))]
+    );
     assert_eq!(codes, Vec::<&str>::new());
 }
 
@@ -21,7 +24,10 @@ fn a_child_before_its_parent_is_moved_behind_it() {
     let (model, codes) = model_of(&document);
     assert_eq!(model.skeleton.file_bones(), [1, 2, 0]);
     assert_eq!(model.skeleton.joint_of_bone(), [2, 0, 1].map(JointIndex));
-    assert_eq!(model.skeleton.parents(), [None, Some(JointIndex(0)), Some(JointIndex(1))]);
+    assert_eq!(
+        model.skeleton.parents(),
+        [None, Some(JointIndex(0)), Some(JointIndex(1))]
+    );
     assert_eq!(codes, ["bones-reordered"]);
     assert_eq!(
         message_of(&document, "bones-reordered"),
@@ -35,7 +41,10 @@ fn a_child_before_its_parent_is_moved_behind_it() {
 #[test]
 fn among_bones_that_may_stand_next_the_lowest_number_does() {
     let mut document = arm();
-    document.vertices.iter_mut().for_each(|vertex| vertex.blend_indices = [0; 4]);
+    document
+        .vertices
+        .iter_mut()
+        .for_each(|vertex| vertex.blend_indices = [0; 4]);
     document.bone_offsets = vec![offset([0.0; 3]); 6];
     document.bone_parents = vec![3, -1, 1, -1, 0, 1];
     document.clips.clear();
@@ -106,7 +115,9 @@ fn a_thousand_bones_in_falling_order_are_sorted_and_told() {
         vertex.blend_indices = [999, 0, 0, 0];
     });
     document.bone_offsets = (0..count).rev().map(|bone| offset([0.0, bone as f32, 0.0])).collect();
-    document.bone_parents = (0..count).map(|bone| if bone + 1 == count { -1 } else { bone + 1 }).collect();
+    document.bone_parents = (0..count)
+        .map(|bone| if bone + 1 == count { -1 } else { bone + 1 })
+        .collect();
     document.clips[0].bones = vec![track([]); count as usize];
     let lines = LineMap {
         bone_parents: (5_000..).take(count as usize).collect(),
@@ -114,9 +125,17 @@ fn a_thousand_bones_in_falling_order_are_sorted_and_told() {
     };
     let (model, findings) = Model::from_document(&document, &lines).expect("a chain has an order");
     assert!(model.skeleton.file_bones().iter().copied().eq((0..1_000).rev()));
-    assert!(model.mesh.influences.iter().all(|influences| influences.joints == [0; 4]));
-    let told: Vec<(&str, Option<u32>)> =
-        findings.iter().map(|finding| (finding.code, finding.position.map(|at| at.line))).collect();
+    assert!(
+        model
+            .mesh
+            .influences
+            .iter()
+            .all(|influences| influences.joints == [0; 4])
+    );
+    let told: Vec<(&str, Option<u32>)> = findings
+        .iter()
+        .map(|finding| (finding.code, finding.position.map(|at| at.line)))
+        .collect();
     assert_eq!(
         told,
         [
@@ -126,7 +145,10 @@ fn a_thousand_bones_in_falling_order_are_sorted_and_told() {
             ("track-empty", None),
         ]
     );
-    assert_eq!(message_of(&document, "many-bones"), "There are 1000 bones; the books' shaders hold 96.");
+    assert_eq!(
+        message_of(&document, "many-bones"),
+        "There are 1000 bones; the books' shaders hold 96."
+    );
     assert_eq!(
         message_of(&document, "bone-index-above-byte"),
         "14 influences name a bone above 255, which the books' loaders cannot hold."
