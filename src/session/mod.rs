@@ -91,7 +91,9 @@ impl Session {
 
     /// Whether time moves by itself.
     pub fn is_animating(&self) -> bool {
-        self.playback.is_playing() && !self.scrubbing && self.clip().is_some()
+        // A clip of no length would loop on the spot for ever; playing it once still has to end.
+        let has_length = self.playback.duration_secs() > 0.0 || self.playback.loop_mode() == LoopMode::Once;
+        self.playback.is_playing() && !self.scrubbing && self.clip().is_some() && has_length
     }
 
     /// From where the model is seen.
@@ -146,9 +148,7 @@ impl Session {
         if !self.is_animating() {
             return;
         }
-        let was_at = self.playback.time_secs();
-        self.playback.advance(dt_secs);
-        if self.playback.time_secs() != was_at {
+        if self.playback.advance(dt_secs) {
             self.time_changed();
         }
         if !self.playback.is_playing() {
@@ -188,7 +188,7 @@ impl Session {
     pub fn world_bounds(&mut self) -> Aabb {
         let world_from_model = world_from_model(self.handedness(), self.up_axis());
         let clip = self.clip;
-        let bounds = self.open.as_mut().map(|open| open.animated_bounds(clip));
+        let bounds = self.open.as_mut().map(|open| open.extent(clip).0);
         bounds.unwrap_or_default().transformed(world_from_model)
     }
 
@@ -394,8 +394,7 @@ impl Session {
 
     fn step_frames(&mut self, frames: i32) {
         let Some(clip) = self.clip() else { return };
-        let frame = i64::from(clip.frame_at(self.playback.time_secs())) + i64::from(frames);
-        let time_secs = clip.time_of_frame(frame.clamp(0, i64::from(clip.last_frame())) as u32);
+        let time_secs = clip.step_frames(self.playback.time_secs(), frames);
         self.set_playing(false);
         self.seek(time_secs);
     }
@@ -408,11 +407,7 @@ impl Session {
             return;
         }
         self.playback.set_range(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() {
-            clip.end_secs
-        } else {
-            clip.start_secs
-        });
+        self.playback.seek(if self.playback.is_backward() { clip.end_secs } else { clip.start_secs });
         self.clip = Some(index);
         self.time_changed();
     }
@@ -442,8 +437,12 @@ impl Session {
     }
 
     fn frame_model(&mut self) {
-        let world_bounds = self.world_bounds();
-        self.camera.frame(&world_bounds, self.aspect, self.insets);
+        let world_from_model = world_from_model(self.handedness(), self.up_axis());
+        if let Some(open) = &mut self.open {
+            let (_, points) = open.extent(self.clip);
+            let world_points: Vec<_> = points.iter().map(|&point| world_from_model.transform_point3(point)).collect();
+            self.camera.frame(&world_points, self.aspect, self.insets);
+        }
         self.framed = true;
     }
 

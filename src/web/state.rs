@@ -61,7 +61,7 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         .with("timeSecs", playback.time_secs())
         .with("playing", playback.is_playing())
         .with("backward", playback.is_backward())
-        .with("speed", playback.speed())
+        .with("speed", session.playback().speed())
         .with("loop", loop_name(playback.loop_mode()))
         .with(
             "camera",
