@@ -159,7 +159,7 @@ fn centre() -> Vec<Volume> {
         cone(CHEST, v(0.0, 1.33, 0.002), 0.108, v(0.0, 1.41, 0.0), 0.094, 0.05),
         // Collar ring, a rim on which the helmet seems to turn.
         ellipsoid(CHEST, v(0.0, 1.434, 0.0), v(0.119, 0.03, 0.114), 0.014),
-        Volume { joint: HEAD, shape: dome, blend: 0.02 },
+        Volume { joint: HEAD, shape: dome, blend: 0.03 },
         Volume { joint: HEAD, shape: jaw, blend: JAW_BLEND },
         Volume { joint: HEAD, shape: ear_cups(), blend: 0.012 },
         Volume { joint: CHEST, shape: pack(), blend: 0.016 },

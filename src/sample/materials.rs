@@ -78,7 +78,7 @@ impl Region {
                 // From the inside of the collar up to the helmet.
                 let from_axis = (point.x * point.x + point.z * point.z).sqrt();
                 let above_collar = (from_axis - 0.105).max(1.43 - point.y);
-                above_collar.max(0.006 - body.part_distance(Part::Helmet, point))
+                above_collar.max(0.013 - body.part_distance(Part::Helmet, point))
             },
             Region::Pack => body.part_distance(Part::Pack, point) - 0.007,
             Region::Badge => badge(point),
