@@ -248,7 +248,7 @@ fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 28.0), Sense::hover());
     let Some(clip) = session.clip() else { return };
-    let frame = session.playback().frame();
+    let frame = clip.frame_at(session.playback().time_secs());
     let text = format!("{frame} of {}", clip.last_frame());
     ui.painter().text(
         rect.left_center() + vec2(2.0, 0.0),
@@ -262,7 +262,7 @@ fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
 }
 
 fn speed_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
-    let speed = session.speed();
+    let speed = session.playback().speed();
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
     if response.hovered() || response.has_focus() {
