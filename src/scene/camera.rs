@@ -247,7 +247,11 @@ impl Camera {
         let tan_y = tan_half_y * free_height * FRAMED_SHARE;
         let tan_x = tan_half_y * aspect * free_width * FRAMED_SHARE;
         let (right, up, forward) = (self.right(), self.up(), self.forward());
-        let depth_share = if matches!(self.projection, Projection::Perspective { .. }) { 1.0 } else { 0.0 };
+        let depth_share = if matches!(self.projection, Projection::Perspective { .. }) {
+            1.0
+        } else {
+            0.0
+        };
 
         // Nearer points look larger, so that the middle of the points is not the middle of their picture: a few rounds of
         // fitting the distance and moving to the middle of the picture settle it.
