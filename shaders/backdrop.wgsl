@@ -2,7 +2,7 @@
 // with, and one dithered rounding at the end instead of a blend in eight bits.
 
 // How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
-const BACKDROP_FALLOFF: f32 = 0.66;
+const BACKDROP_FALLOFF: f32 = 0.76;
 // The lightest row, ndc y: a little above the middle, where the horizon of a three-quarter view lies.
 const BACKDROP_ROW: f32 = 0.06;
 
@@ -35,7 +35,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let away = length(from_center) / frame.grid_reach;
         if away < 1.0 {
             if ray.y < 0.0 && frame.shadow_strength > 0.0 {
-                let lit = key_visibility(point, 4.0);
+                let lit = key_visibility(point, 6.0);
                 color *= 1.0 - frame.shadow_strength * (1.0 - lit);
             }
             // How the point moves from one pixel to the next, exact: screen derivatives would tear at the horizon.

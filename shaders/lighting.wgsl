@@ -2,15 +2,15 @@
 
 const PI: f32 = 3.14159265;
 
-const SKY: vec3<f32> = vec3<f32>(0.62, 0.66, 0.74);
-const HORIZON: vec3<f32> = vec3<f32>(0.40, 0.41, 0.43);
-const GROUND: vec3<f32> = vec3<f32>(0.15, 0.14, 0.135);
+const SKY: vec3<f32> = vec3<f32>(0.44, 0.48, 0.55);
+const HORIZON: vec3<f32> = vec3<f32>(0.29, 0.30, 0.325);
+const GROUND: vec3<f32> = vec3<f32>(0.11, 0.105, 0.105);
 
-const KEY: vec3<f32> = vec3<f32>(1.85, 1.74, 1.58);
+const KEY: vec3<f32> = vec3<f32>(1.16, 1.10, 1.01);
 
 // From behind on the other side of the key: separates the silhouette from the backdrop.
 const TO_RIM: vec3<f32> = vec3<f32>(-0.727, 0.364, 0.582);
-const RIM: vec3<f32> = vec3<f32>(0.62, 0.80, 1.15);
+const RIM: vec3<f32> = vec3<f32>(0.34, 0.45, 0.66);
 
 struct Surface {
     albedo: vec3<f32>,
@@ -74,7 +74,8 @@ fn shade(surface: Surface, to_key: vec3<f32>, key_visible: f32) -> vec3<f32> {
     // Only what faces away from the viewer catches the rim.
     let edge = 1.0 - n_dot_v;
     let rim = directional(surface, TO_RIM, RIM) * (0.15 + 0.85 * edge * edge);
-    return ambient + directional(surface, to_key, KEY) * key_visible + rim;
+    // What the key does not reach lies deeper in the figure as a rule, and so sees less of the surroundings too.
+    return ambient * (0.78 + 0.22 * key_visible) + directional(surface, to_key, KEY) * key_visible + rim;
 }
 
 // Keeps what is below the shoulder as it is and bends what is above towards white without clipping a hue.

@@ -24,8 +24,15 @@ impl App {
     /// Takes up a session, which may have a model open already.
     pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>) -> Self {
         ui::theme::install(ctx);
-        gpu.renderer.write().callback_resources.insert(Compositor::new(&gpu.device, gpu.target_format));
-        Self { session, state: UiState::default(), stage: Stage::new(gpu) }
+        gpu.renderer
+            .write()
+            .callback_resources
+            .insert(Compositor::new(&gpu.device, gpu.target_format));
+        Self {
+            session,
+            state: UiState::default(),
+            stage: Stage::new(gpu),
+        }
     }
 
     /// One pass. Returns what only the page around can do.
@@ -35,7 +42,8 @@ impl App {
         session.advance(if self.stage.was_animating { dt_secs } else { 0.0 });
 
         let window = ui.max_rect();
-        ui.painter().add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
+        ui.painter()
+            .add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
         for command in ui::show(ui, &session, &mut self.state) {
             session.apply(command);
         }
@@ -52,7 +60,8 @@ impl App {
 
         let points_to_pixels = ui.pixels_per_point();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
-        self.stage.draw(&mut session, [pixels(window.width()), pixels(window.height())]);
+        self.stage
+            .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
 
         self.stage.was_animating = session.is_animating();
         if self.stage.was_animating || session.picture_revision() != self.stage.drawn.map_or(0, |drawn| drawn.picture) {
@@ -117,7 +126,10 @@ impl Stage {
     /// Draws when the picture would be another one than the last.
     fn draw(&mut self, session: &mut Session, size: [u32; 2]) {
         self.take_up_model(session);
-        let wanted = Drawn { picture: session.picture_revision(), size };
+        let wanted = Drawn {
+            picture: session.picture_revision(),
+            size,
+        };
         if self.drawn == Some(wanted) {
             return;
         }
@@ -145,7 +157,9 @@ impl Stage {
 
     fn take_up_model(&mut self, session: &Session) {
         let revision = session.model_revision();
-        let Some(open) = session.open_model().filter(|_| self.model != Some(revision)) else { return };
+        let Some(open) = session.open_model().filter(|_| self.model != Some(revision)) else {
+            return;
+        };
         let uploaded = self.renderer.set_model(&open.model);
         self.upload_error = uploaded.err().map(|error| error.to_string());
         self.model = Some(revision);
@@ -168,4 +182,3 @@ impl CallbackTrait for ShowTarget {
         }
     }
 }
-

@@ -3,6 +3,7 @@
 mod animated_bounds;
 mod local_to_model;
 mod palette;
+mod playback;
 mod pose;
 mod sample;
 mod skin;
@@ -11,6 +12,7 @@ pub use crate::model::LocalJoint;
 pub use animated_bounds::animated_bounds;
 pub use local_to_model::local_to_model;
 pub use palette::palette;
+pub use playback::{LoopMode, Playback};
 pub use pose::{LocalPose, ModelPose, Palette, PoseBuffers};
 pub use sample::sample;
 pub use skin::{SkinnedVertices, skin, skin_positions};

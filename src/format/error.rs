@@ -129,7 +129,7 @@ impl Value {
     fn subject(self) -> String {
         match self {
             Self::Count(name) => format!("The header's count of {name}"),
-            Self::Material(label) | Self::Subset(label) => format!("{label}"),
+            Self::Material(label) | Self::Subset(label) => label.into(),
             Self::Vertex(label) | Self::Keyframe(label) => format!("A value of {label}"),
             Self::BlendIndex => "A blend index".into(),
             Self::VertexIndex => "A vertex index".into(),
@@ -265,12 +265,8 @@ impl fmt::Display for ParseErrorKind {
             } if largest < smallest => {
                 write!(
                     f,
-                    "{} points at nothing: there is no {} to give, but \"{found}\" was found.",
-                    value.subject(),
-                    {
-                        let expected = value.expected();
-                        expected.strip_prefix("a ").unwrap_or(expected)
-                    }
+                    "{} has nothing to point at here, but \"{found}\" was found.",
+                    value.subject()
                 )
             }
             Self::NotInRange {

@@ -1,8 +1,85 @@
-//! The `.m3d` text format.
+//! The `.m3d` text format, as the books of Frank Luna and those who export to them write it.
+//!
+//! [`parse`] turns bytes into a [`Document`] in the file's own words, or says where it stopped and why; [`write()`] is its
+//! inverse; [`excerpt()`] shows the place of a finding.
+//!
+//! # Grammar
+//!
+//! There is no specification; this is what is read. Tokens are parted by blanks, and `{` and `}` are tokens of their own.
+//! Lines end in LF, CRLF or CR. Blank lines and indentation mean nothing, except that blank lines help to part materials.
+//! Labels and rulers are compared by their letters and digits only, without case. A byte order mark is passed.
+//!
+//! ```text
+//! file      = header materials subsets vertices triangles [offsets hierarchy clips]
+//! ruler     = ("***" | "---") any line-end                      its letters name the section
+//! header    = ruler { ["#"] ("Materials" | "Subsets" | "Vertices" | "Triangles" | "Bones" | "AnimationClips") [":"] count }
+//! materials = ruler { label ":" rest-of-line }                  one label a line, in any order
+//! subsets   = ruler { "SubsetID:" n "VertexStart:" n "VertexCount:" n "FaceStart:" n "FaceCount:" n }
+//! vertices  = ruler { "Position:" x y z "Tangent:" x y z [w] "Normal:" x y z "Tex-Coords:" u v [blend] }
+//! blend     = "BlendWeights:" a b c d "BlendIndices:" i j k l   in files with bones
+//! triangles = ruler { i j k line-end }
+//! offsets   = ruler { "BoneOffset" n [word] 16 * number }       row vectors, row by row
+//! hierarchy = ruler { "ParentIndexOfBone" n ":" parent }        -1 for a root
+//! clips     = ruler { "AnimationClip" rest-of-line "{" { bone } "}" }
+//! bone      = "Bone" n "#Keyframes:" count "{" { "Time:" t "Pos:" x y z "Scale:" x y z "Quat:" x y z w } "}"
+//! ```
+//!
+//! The imm dialect says `P: T: N: T: W: I:` for the lines of a vertex, `B0:` and `P0:` for bones, `B0 #K:` and `T: P: S: Q:`
+//! for keys. All spellings are understood everywhere. Rows come in the number that the header announces, no fewer and no more.
+//!
+//! # Three kinds of answer
+//!
+//! What a token says is settled here: it is read, or mended with a notice, or it is an error. What the values mean together
+//! (sums of weights, order of keys, subsets against triangles) is for [`model`](crate::model); only indices are held against
+//! their counts here, since only here the column is known.
+//!
+//! # Codes
+//!
+//! The same as [`CODES`]:
+//!
+//! | code | severity | meaning |
+//! |---|---|---|
+//! | `empty-file` | error | nothing but blanks |
+//! | `other-format` | error | another format, which the message names |
+//! | `relative-format` | error | a variant of this format that is laid out differently |
+//! | `not-m3d` | error | text that does not begin as an .m3d file does |
+//! | `count-missing` | error | the header lacks the count of materials, vertices or triangles |
+//! | `wrong-section` | error | a section stands where another one belongs |
+//! | `row-count` | error | fewer or more rows than announced |
+//! | `unexpected-end` | error | the file ends too early |
+//! | `value-missing` | error | a line ends before its last value |
+//! | `wrong-label` | error | a label is not the one that belongs there |
+//! | `not-a-number` | error | a word where a number belongs |
+//! | `not-in-range` | error | no whole number, or one out of range |
+//! | `material-incomplete` | error | a material with too few lines to be one |
+//! | `ruler-missing` | warning | a section begins without its ruler |
+//! | `ruler-unknown` | note | a ruler names something else |
+//! | `count-assumed` | warning | the header lacks the count of bones or clips, taken as 0 |
+//! | `section-missing` | note | an empty section is not there, though the others of a skinned model are |
+//! | `label-unknown` | note | a line that is not known was left out |
+//! | `label-repeated` | warning | a line came twice; the last one holds |
+//! | `material-line-missing` | warning | a material lacks a line; its default holds |
+//! | `alpha-clip-unreadable` | warning | AlphaClip is neither a number nor a truth value; taken as 0 |
+//! | `values-surplus` | note | more on a line than belongs there; left out |
+//! | `row-split` | note | a row goes on in the next line |
+//! | `number-mended` | warning | a number in a foreign spelling |
+//! | `number-not-finite` | warning | a number that is not finite was replaced |
+//! | `tangent-sign-missing` | note | a tangent of three numbers |
+//! | `subset-label` | note | a misspelt label of the subset table |
+//! | `subset-vertex-range` | note | an unreadable vertex range of a subset |
+//! | `blend-index-unused` | note | a blend index without weight names no bone |
+//! | `blend-data-unused` | note | blend data in a file without bones |
+//! | `bone-number` | note | a bone's label has another number than its place |
+//! | `bone-offset-label` | note | a second word of a bone offset's label |
+//! | `brace-missing` | warning | a brace is missing |
+//! | `brace-surplus` | warning | a brace too many |
+//! | `text-surplus` | warning | something behind the last section |
 
+mod codes;
 mod cursor;
 mod document;
 mod error;
+mod excerpt;
 mod label;
 mod notice;
 mod number;
@@ -12,8 +89,10 @@ mod relatives;
 mod sections;
 mod write;
 
+pub use codes::CODES;
 pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
+pub use excerpt::{Excerpt, excerpt};
 pub use label::Section;
 pub use relatives::Stranger;
 pub use write::write;

@@ -34,7 +34,10 @@ mod tests {
         let pixels = [255, 0, 0, 255, 0, 255, 0, 128];
         let png = encode_png(&pixels, 2, 1)?;
         let read = image::load_from_memory_with_format(&png, image::ImageFormat::Png)?.into_rgba8();
-        assert_eq!((read.dimensions(), read.into_raw().as_slice()), ((2, 1), pixels.as_slice()));
+        assert_eq!(
+            (read.dimensions(), read.into_raw().as_slice()),
+            ((2, 1), pixels.as_slice())
+        );
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Named motions and their frames.
 
-use super::Track;
+use super::{FrameGrid, Track};
 
 /// Frames a second of a clip in which no track has two keys.
 const DEFAULT_KEYS_PER_SEC: f32 = 30.0;
@@ -44,10 +44,18 @@ impl Clip {
         self.end_secs - self.start_secs
     }
 
-    /// Number of the frame at `end_secs`, counted from 0. A remainder of less than half a frame belongs to it.
+    /// The clip's frames.
+    pub fn frames(&self) -> FrameGrid {
+        FrameGrid {
+            start_secs: self.start_secs,
+            end_secs: self.end_secs,
+            keys_per_sec: self.keys_per_sec,
+        }
+    }
+
+    /// Number of the frame at `end_secs`, counted from 0.
     pub fn last_frame(&self) -> u32 {
-        // A cast of a float stays inside u32.
-        (f64::from(self.duration_secs()) * f64::from(self.keys_per_sec)).round() as u32
+        self.frames().last_frame()
     }
 
     /// Number of frames, 1 or more: both ends are frames.
@@ -57,18 +65,12 @@ impl Clip {
 
     /// The frame nearest to a time, inside the clip.
     pub fn frame_at(&self, time_secs: f32) -> u32 {
-        let since_start_secs = f64::from(time_secs) - f64::from(self.start_secs);
-        let frame = (since_start_secs * f64::from(self.keys_per_sec)).round() as u32;
-        frame.min(self.last_frame())
+        self.frames().frame_at(time_secs)
     }
 
-    /// The time of a frame; the last frame and any beyond are at `end_secs`.
+    /// The time of a frame; the last frame and any beyond it are at `end_secs`.
     pub fn time_of_frame(&self, frame: u32) -> f32 {
-        if frame >= self.last_frame() {
-            return if frame == 0 { self.start_secs } else { self.end_secs };
-        }
-        let since_start_secs = f64::from(frame) / f64::from(self.keys_per_sec);
-        ((f64::from(self.start_secs) + since_start_secs) as f32).clamp(self.start_secs, self.end_secs)
+        self.frames().time_of_frame(frame)
     }
 }
 

@@ -9,8 +9,8 @@ use crate::shaders::JOINTS_PER_ROW;
 const TEXELS_PER_JOINT: u32 = 3;
 const BYTES_PER_TEXEL: u32 = 16;
 
-/// `model_from_bind` of each joint as three texels, [`JOINTS_PER_ROW`] joints a row.
-pub(super) struct BoneTexture {
+/// `model_from_bind` of each joint as three texels, [`JOINTS_PER_ROW`] joints a row: what `skinning.wgsl` reads as group 1.
+pub struct BoneTexture {
     texture: wgpu::Texture,
     group: wgpu::BindGroup,
     joint_count: usize,
@@ -19,13 +19,31 @@ pub(super) struct BoneTexture {
 }
 
 impl BoneTexture {
+    /// The layout of its bind group.
+    pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("bones"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            }],
+        })
+    }
+
     /// The greatest number of joints that fits a device.
-    pub(super) fn max_joints(limits: &wgpu::Limits) -> usize {
+    pub fn max_joints(limits: &wgpu::Limits) -> usize {
         limits.max_texture_dimension_2d as usize * JOINTS_PER_ROW as usize
     }
 
-    /// Sized for `joint_count` joints, one row at least. All matrices are zero until the first write.
-    pub(super) fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, joint_count: usize) -> Self {
+    /// Sized for `joint_count` joints, at most [`BoneTexture::max_joints`]; one row at least. All matrices are zero until
+    /// the first write.
+    pub fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, joint_count: usize) -> Self {
         let rows = (joint_count as u32).div_ceil(JOINTS_PER_ROW).max(1);
         let width = JOINTS_PER_ROW * TEXELS_PER_JOINT;
         let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -58,12 +76,13 @@ impl BoneTexture {
         }
     }
 
-    pub(super) fn group(&self) -> &wgpu::BindGroup {
+    /// To be set as group 1.
+    pub fn group(&self) -> &wgpu::BindGroup {
         &self.group
     }
 
     /// Uploads a palette; what it has beyond the joints of the texture is left out.
-    pub(super) fn write(&mut self, queue: &wgpu::Queue, palette: &Palette) {
+    pub fn write(&mut self, queue: &wgpu::Queue, palette: &Palette) {
         if palette.0.is_empty() {
             return;
         }
@@ -88,7 +107,11 @@ impl BoneTexture {
 fn rows(affine: &Affine3A) -> [[f32; 4]; 3] {
     let [x, y, z] = affine.matrix3.transpose().to_cols_array_2d();
     let t = affine.translation.to_array();
-    [[x[0], x[1], x[2], t[0]], [y[0], y[1], y[2], t[1]], [z[0], z[1], z[2], t[2]]]
+    [
+        [x[0], x[1], x[2], t[0]],
+        [y[0], y[1], y[2], t[1]],
+        [z[0], z[1], z[2], t[2]],
+    ]
 }
 
 #[cfg(test)]

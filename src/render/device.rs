@@ -92,7 +92,11 @@ pub fn sample_count(adapter: &wgpu::Adapter) -> SampleCount {
     let both = [COLOR_FORMAT, DEPTH_FORMAT]
         .into_iter()
         .all(|format| flags(format).sample_count_supported(four));
-    if both && resolves { SampleCount::Four } else { SampleCount::One }
+    if both && resolves {
+        SampleCount::Four
+    } else {
+        SampleCount::One
+    }
 }
 
 /// Opens a GPU without a window, for pictures from the command line and from tests.
@@ -112,14 +116,15 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
             reason: error.to_string(),
         })?;
     let info = adapter.get_info();
-    let (device, queue) = adapter
-        .request_device(&descriptor(&adapter))
-        .await
-        .map_err(|error| DeviceError::NoDevice {
-            backend,
-            adapter: info.name.clone(),
-            reason: error.to_string(),
-        })?;
+    let (device, queue) =
+        adapter
+            .request_device(&descriptor(&adapter))
+            .await
+            .map_err(|error| DeviceError::NoDevice {
+                backend,
+                adapter: info.name.clone(),
+                reason: error.to_string(),
+            })?;
     Ok(Gpu {
         samples: sample_count(&adapter),
         info,

@@ -8,8 +8,8 @@ use crate::scene::{Ground, Projection, RenderFrame};
 use crate::shaders;
 
 /// The grid is gone this many radii of the scene from its middle, or this many camera distances if that is more.
-const GRID_REACH: f32 = 14.0;
-const GRID_REACH_OF_DISTANCE: f32 = 4.0;
+const GRID_REACH: f32 = 9.0;
+const GRID_REACH_OF_DISTANCE: f32 = 2.0;
 
 /// `winding` is +1 when the model's triangles are clockwise from their front in a left-handed space, else −1.
 pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], winding: f32) -> shaders::Frame {

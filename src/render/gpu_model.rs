@@ -88,8 +88,12 @@ impl GpuModel {
         let vertex = wgpu::BufferUsages::VERTEX;
         let stride = material_stride(&uploader.limits);
         let material_bytes = material_bytes(model, stride);
-        let materials =
-            uploader.upload("materials", wgpu::BufferUsages::UNIFORM, material_bytes.len(), material_bytes.into_iter())?;
+        let materials = uploader.upload(
+            "materials",
+            wgpu::BufferUsages::UNIFORM,
+            material_bytes.len(),
+            material_bytes.into_iter(),
+        )?;
         let material_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("materials"),
             layout: &layouts.material,
@@ -227,7 +231,9 @@ impl Uploader<'_> {
         count: usize,
         elements: impl Iterator<Item = T>,
     ) -> Result<wgpu::Buffer, UploadError> {
-        let bytes = (count as u64 * size_of::<T>() as u64).next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT).max(16);
+        let bytes = (count as u64 * size_of::<T>() as u64)
+            .next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT)
+            .max(16);
         if bytes > self.limits.max_buffer_size {
             return Err(UploadError::TooLarge {
                 stream,

@@ -22,9 +22,9 @@ const DARK: Look = Look {
     backdrop_center: [0x33, 0x38, 0x42],
     backdrop_edge: [0x14, 0x16, 0x1A],
     grid_minor: [0x6B, 0x76, 0x8A],
-    grid_minor_opacity: 0.28,
+    grid_minor_opacity: 0.24,
     grid_major: [0x7E, 0x8B, 0xA2],
-    grid_major_opacity: 0.5,
+    grid_major_opacity: 0.36,
     shadow_strength: 0.66,
 };
 

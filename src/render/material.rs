@@ -10,9 +10,12 @@ const PHONG_TO_FRESNEL: f32 = 0.05;
 pub(super) fn material_uniform(index: usize, material: &Material) -> shaders::Material {
     let (fresnel0, roughness) = match material.reflectance {
         Reflectance::Fresnel { fresnel0, roughness } => (fresnel0, roughness),
-        Reflectance::Phong { specular, spec_power, .. } => {
-            (specular.map(|channel| channel * PHONG_TO_FRESNEL), roughness_from_power(spec_power))
-        }
+        Reflectance::Phong {
+            specular, spec_power, ..
+        } => (
+            specular.map(|channel| channel * PHONG_TO_FRESNEL),
+            roughness_from_power(spec_power),
+        ),
     };
     shaders::Material {
         albedo: scene::display_color(index, material),

@@ -20,6 +20,7 @@ mod read_back;
 mod shadow;
 mod target;
 
+pub use bones::BoneTexture;
 pub use composite::Compositor;
 pub use gpu_model::UploadError;
 pub use probe::{ProbeError, probe};
@@ -28,7 +29,6 @@ pub use target::{SampleCount, Target};
 
 use crate::model::Model;
 use crate::scene::{Background, RenderFrame};
-use bones::BoneTexture;
 use gpu_model::GpuModel;
 use pipelines::Pipelines;
 use shadow::ShadowMap;
@@ -83,7 +83,12 @@ impl Renderer {
 
     /// Uploads a model, which replaces the one before. On an error that one stays.
     pub fn set_model(&mut self, model: &Model) -> Result<(), UploadError> {
-        self.model = Some(GpuModel::upload(&self.device, &self.queue, &self.pipelines.layouts, model)?);
+        self.model = Some(GpuModel::upload(
+            &self.device,
+            &self.queue,
+            &self.pipelines.layouts,
+            model,
+        )?);
         Ok(())
     }
 
@@ -98,7 +103,8 @@ impl Renderer {
         let model = self.model.as_mut();
         let winding = model.as_ref().map_or(1.0, |model| model.winding);
         let uniform = frame_uniform::frame_uniform(frame, target.size(), winding);
-        self.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&uniform));
+        self.queue
+            .write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&uniform));
         if let Some(bones) = model.and_then(|model| model.bones.as_mut()) {
             bones.write(&self.queue, frame.palette);
         }

@@ -1,5 +1,6 @@
 //! Pipelines and the bind group layouts they share. Groups: 0 frame, 1 bones, 2 shadow map, 3 material.
 
+use super::bones::BoneTexture;
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount};
 use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
 
@@ -104,12 +105,11 @@ impl Layouts {
         };
         let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
         let comparison = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-        let matrices = texture(wgpu::TextureSampleType::Float { filterable: false });
         let frame_size = size_of::<shaders::Frame>();
         let material_size = size_of::<shaders::Material>();
         Self {
             frame: layout("frame", &[entry(0, vertex | fragment, uniform(false, frame_size))]),
-            bones: layout("bones", &[entry(0, vertex, matrices)]),
+            bones: BoneTexture::layout(device),
             shadow: layout(
                 "shadow map",
                 &[
@@ -173,7 +173,12 @@ impl<'a> Builder<'a> {
 
     /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
     /// from `front_facing`, which here says "clockwise on the screen".
-    fn build(&self, vertex: &str, buffers: &[Option<wgpu::VertexBufferLayout<'_>>], pass: &Pass) -> wgpu::RenderPipeline {
+    fn build(
+        &self,
+        vertex: &str,
+        buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+        pass: &Pass,
+    ) -> wgpu::RenderPipeline {
         let targets = [pass.color.map(wgpu::ColorTargetState::from)];
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.program.name),

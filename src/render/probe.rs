@@ -56,7 +56,10 @@ pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl Async
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         }),
-        multisample: wgpu::MultisampleState { count: SampleCount::Four.count(), ..Default::default() },
+        multisample: wgpu::MultisampleState {
+            count: SampleCount::Four.count(),
+            ..Default::default()
+        },
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some("fragment"),
@@ -82,6 +85,13 @@ pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl Async
 fn expect_pixel(pixels: &[u8], x: u32, y: u32, expected: [u8; 4]) -> Result<(), ProbeError> {
     let at = ((y * SIDE + x) * 4) as usize;
     let found: [u8; 4] = std::array::from_fn(|channel| pixels.get(at + channel).copied().unwrap_or_default());
-    let near = found.iter().zip(expected).all(|(found, expected)| found.abs_diff(expected) <= 2);
-    if near { Ok(()) } else { Err(ProbeError::WrongPicture { x, y, found, expected }) }
+    let near = found
+        .iter()
+        .zip(expected)
+        .all(|(found, expected)| found.abs_diff(expected) <= 2);
+    if near {
+        Ok(())
+    } else {
+        Err(ProbeError::WrongPicture { x, y, found, expected })
+    }
 }

@@ -137,8 +137,13 @@ mod tests {
             let fit = ShadowFit::new(&Aabb { min, max }, to_key);
             for corner in 0..8 {
                 let pick = |bit: usize| if corner >> bit & 1 == 0 { min[bit] } else { max[bit] };
-                let clip = fit.shadow_clip_from_world.project_point3(Vec3::new(pick(0), pick(1), pick(2)));
-                assert!(clip.x.abs() < 1.0 && clip.y.abs() < 1.0 && (0.0..1.0).contains(&clip.z), "{clip}");
+                let clip = fit
+                    .shadow_clip_from_world
+                    .project_point3(Vec3::new(pick(0), pick(1), pick(2)));
+                assert!(
+                    clip.x.abs() < 1.0 && clip.y.abs() < 1.0 && (0.0..1.0).contains(&clip.z),
+                    "{clip}"
+                );
             }
         }
     }

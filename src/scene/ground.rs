@@ -11,27 +11,29 @@ pub struct Ground {
     pub cell: f32,
 }
 
-/// How far below y = 0 a model may reach, in heights of its own, and still stand on y = 0: soles and roots sink in.
-const SUNK_SHARE: f32 = 0.15;
-/// How far above y = 0 it may float, in heights of its own, and still belong to that ground: leaps.
+/// How far above y = 0 a model may float, in heights of its own, and still belong to that ground: leaps.
 const FLOATING_SHARE: f32 = 1.0;
 /// Minor cells that fit the radius of the scene, about.
 const CELLS_PER_RADIUS: f32 = 6.0;
 
 impl Ground {
-    /// y = 0 when the model stands there, or else the floor of its box. An empty scene lies on y = 0 with cells of 1.
+    /// y = 0, or the floor of the box when that is lower (the ground never cuts a model) or far above. An empty scene lies on y = 0 with cells of 1.
     pub fn under(world_bounds: &Aabb) -> Self {
         if world_bounds.is_empty() {
             return Self { height: 0.0, cell: 1.0 };
         }
         let floor = world_bounds.min.y;
         let tall = world_bounds.size().y;
-        let stands_on_zero = floor >= -SUNK_SHARE * tall && floor <= FLOATING_SHARE * tall;
+        let is_near_zero = (0.0..=FLOATING_SHARE * tall).contains(&floor);
         let exponent = (world_bounds.radius() / CELLS_PER_RADIUS).log10().round();
         Self {
-            height: if stands_on_zero { 0.0 } else { floor },
+            height: if is_near_zero { 0.0 } else { floor },
             // A single point has no size to go by.
-            cell: if exponent.is_finite() { 10f32.powf(exponent.clamp(-30.0, 30.0)) } else { 1.0 },
+            cell: if exponent.is_finite() {
+                10f32.powf(exponent.clamp(-30.0, 30.0))
+            } else {
+                1.0
+            },
         }
     }
 }
@@ -47,8 +49,14 @@ mod tests {
     }
 
     #[test]
-    fn lies_at_zero_under_what_stands_there_and_else_at_the_floor() {
-        for (min_y, max_y, height) in [(0.0, 70.0, 0.0), (-3.0, 70.0, 0.0), (5.0, 70.0, 0.0), (-1.0, 1.0, -1.0), (90.0, 91.0, 90.0)] {
+    fn lies_at_zero_and_never_cuts_a_model() {
+        for (min_y, max_y, height) in [
+            (0.0, 70.0, 0.0),
+            (-3.0, 70.0, -3.0),
+            (5.0, 70.0, 0.0),
+            (-1.0, 1.0, -1.0),
+            (90.0, 91.0, 90.0),
+        ] {
             let found = ground(Vec3::new(-1.0, min_y, -1.0), Vec3::new(1.0, max_y, 1.0));
             assert_eq!(found.height, height, "{min_y}..{max_y}");
         }

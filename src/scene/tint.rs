@@ -80,12 +80,19 @@ mod tests {
             assert_ne!(color, [1.0; 3]);
             assert_ne!(color, display_color(index + 1, &waiting));
         }
-        assert_eq!(display_color(3, &waiting), display_color(3 + TINTS_SRGB.len(), &waiting));
+        assert_eq!(
+            display_color(3, &waiting),
+            display_color(3 + TINTS_SRGB.len(), &waiting)
+        );
     }
 
     #[test]
     fn a_colour_of_its_own_is_kept() {
-        for (diffuse, map) in [([1.0; 3], None), ([0.8, 0.2, 0.1], Some("a.dds")), ([0.3; 3], Some("a.dds"))] {
+        for (diffuse, map) in [
+            ([1.0; 3], None),
+            ([0.8, 0.2, 0.1], Some("a.dds")),
+            ([0.3; 3], Some("a.dds")),
+        ] {
             assert_eq!(display_color(0, &material(diffuse, map)), diffuse);
         }
     }

@@ -16,7 +16,10 @@ impl File {
     pub fn new(path: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
         let path = path.replace('\\', "/");
         let path = path.trim_start_matches("./").trim_start_matches('/');
-        Self { path: path.to_owned(), bytes: bytes.into() }
+        Self {
+            path: path.to_owned(),
+            bytes: bytes.into(),
+        }
     }
 
     /// Last part of the path.
@@ -26,7 +29,10 @@ impl File {
 
     /// What follows the last dot of the base name, in lower case; empty without a dot.
     pub fn extension(&self) -> String {
-        self.base_name().rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase()).unwrap_or_default()
+        self.base_name()
+            .rsplit_once('.')
+            .map(|(_, extension)| extension.to_ascii_lowercase())
+            .unwrap_or_default()
     }
 }
 
@@ -95,7 +101,10 @@ mod tests {
     #[test]
     fn paths_have_one_form_and_names_are_their_last_part() {
         let file = file("\\media\\Soldier.M3D", 1);
-        assert_eq!((file.path.as_str(), file.base_name()), ("media/Soldier.M3D", "Soldier.M3D"));
+        assert_eq!(
+            (file.path.as_str(), file.base_name()),
+            ("media/Soldier.M3D", "Soldier.M3D")
+        );
         assert_eq!(file.extension(), "m3d");
         assert_eq!(File::new("./a", []).path, "a");
         assert_eq!(File::new("README", []).extension(), "");
@@ -103,15 +112,26 @@ mod tests {
 
     #[test]
     fn models_come_largest_first_and_pictures_are_none() {
-        let set = FileSet::new([file("a.m3d", 3), file("t/b.dds", 100), file("c.m3d", 9), file("notes.txt", 50)]);
-        assert_eq!(set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(), ["c.m3d", "a.m3d"]);
+        let set = FileSet::new([
+            file("a.m3d", 3),
+            file("t/b.dds", 100),
+            file("c.m3d", 9),
+            file("notes.txt", 50),
+        ]);
+        assert_eq!(
+            set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(),
+            ["c.m3d", "a.m3d"]
+        );
         assert_eq!(set.images().count(), 1);
     }
 
     #[test]
     fn without_a_model_by_name_anything_but_pictures_is_tried() {
         let set = FileSet::new([file("a.png", 3), file("model.txt", 1)]);
-        assert_eq!(set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(), ["model.txt"]);
+        assert_eq!(
+            set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(),
+            ["model.txt"]
+        );
         assert!(FileSet::new([file("a.png", 3)]).models().is_empty());
     }
 

@@ -28,7 +28,9 @@ pub struct OpenModel {
 impl OpenModel {
     /// Box of all that a clip reaches, in the file's space; the bind pose's without a clip.
     pub fn animated_bounds(&mut self, clip: Option<usize>) -> Aabb {
-        let (Some(index), bind_bounds) = (clip, self.bind_bounds) else { return self.bind_bounds };
+        let (Some(index), bind_bounds) = (clip, self.bind_bounds) else {
+            return self.bind_bounds;
+        };
         let (Some(clip), Some(known)) = (self.model.clips.get(index), self.clip_bounds.get_mut(index)) else {
             return bind_bounds;
         };
@@ -56,7 +58,11 @@ pub struct LoadError {
 impl LoadError {
     /// A drop without any file that could be a model.
     pub fn no_model(file_count: usize) -> Self {
-        let files = if file_count == 1 { "file is a picture" } else { "files are all pictures" };
+        let files = if file_count == 1 {
+            "file is a picture"
+        } else {
+            "files are all pictures"
+        };
         let message = format!("No .m3d model was dropped: the {files}. Drop them together with their model.");
         Self {
             file_name: String::new(),
@@ -76,8 +82,16 @@ impl LoadError {
 
     /// The whole finding as text, for the clipboard: `file:line:column: error[code]: message` and the excerpt.
     pub fn to_text(&self) -> String {
-        let Diagnostic { severity, code, message, position, .. } = &self.diagnostic;
-        let place = position.map(|p| format!(":{}:{}", p.line, p.column)).unwrap_or_default();
+        let Diagnostic {
+            severity,
+            code,
+            message,
+            position,
+            ..
+        } = &self.diagnostic;
+        let place = position
+            .map(|p| format!(":{}:{}", p.line, p.column))
+            .unwrap_or_default();
         let mut text = format!("{}{place}: {severity}[{code}]: {message}\n", self.file_name);
         if let Some(excerpt) = &self.excerpt {
             text.push_str(&excerpt.to_string());
@@ -92,8 +106,14 @@ impl LoadError {
 /// When the text is not the format, or what it says makes no model.
 pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
     let fail = |diagnostic: Diagnostic| {
-        let excerpt = diagnostic.position.map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
-        Box::new(LoadError { file_name: file.base_name().to_owned(), diagnostic, excerpt })
+        let excerpt = diagnostic
+            .position
+            .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
+        Box::new(LoadError {
+            file_name: file.base_name().to_owned(),
+            diagnostic,
+            excerpt,
+        })
     };
     let parsed = format::parse(&file.bytes).map_err(|error| fail(error.diagnostic()))?;
     let (model, model_notices) =
@@ -103,5 +123,12 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
     notices.sort_by_key(|notice| notice.position);
     let bind_bounds = Aabb::from_points(model.mesh.positions.iter().copied());
     let clip_bounds = vec![None; model.clips.len()];
-    Ok(OpenModel { file: file.clone(), dialect: parsed.document.dialect, model, notices, bind_bounds, clip_bounds })
+    Ok(OpenModel {
+        file: file.clone(),
+        dialect: parsed.document.dialect,
+        model,
+        notices,
+        bind_bounds,
+        clip_bounds,
+    })
 }

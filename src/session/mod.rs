@@ -8,7 +8,7 @@ pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
 
-use crate::anim::{self, LoopMode, Playback, PoseBuffers};
+use crate::anim::{LoopMode, Playback, PoseBuffers};
 use crate::model::{Clip, Handedness, UpAxis, world_from_model};
 use crate::scene::{Aabb, Background, Camera, FrameOptions, Insets, Projection, RenderFrame, Theme};
 
@@ -46,7 +46,12 @@ pub struct Session {
 impl Session {
     /// Nothing open. Under `reduced_motion` a model waits on its first frame instead of playing.
     pub fn new(reduced_motion: bool) -> Self {
-        Self { reduced_motion, aspect: 1.0, grid_visible: true, ..Self::default() }
+        Self {
+            reduced_motion,
+            aspect: 1.0,
+            grid_visible: true,
+            ..Self::default()
+        }
     }
 
     /// The model on screen.
@@ -79,6 +84,16 @@ impl Session {
         &self.playback
     }
 
+    /// Speed as a factor of the file's, whatever the direction.
+    pub fn speed(&self) -> f32 {
+        self.playback.speed().abs()
+    }
+
+    /// Whether it plays, or would play, backward.
+    pub fn is_backward(&self) -> bool {
+        self.playback.speed() < 0.0
+    }
+
     /// Whether the pointer holds the time.
     pub fn is_scrubbing(&self) -> bool {
         self.scrubbing
@@ -86,7 +101,7 @@ impl Session {
 
     /// Whether time moves by itself.
     pub fn is_animating(&self) -> bool {
-        self.playback.is_playing() && !self.scrubbing && self.clip().is_some()
+        self.playback.is_moving() && !self.scrubbing && self.clip().is_some()
     }
 
     /// From where the model is seen.
@@ -96,7 +111,8 @@ impl Session {
 
     /// The handedness in force: chosen, or else found.
     pub fn handedness(&self) -> Handedness {
-        self.handedness_override.unwrap_or(self.open.as_ref().map(|open| open.model.handedness).unwrap_or_default())
+        self.handedness_override
+            .unwrap_or(self.open.as_ref().map(|open| open.model.handedness).unwrap_or_default())
     }
 
     /// The handedness that was chosen over what was found.
@@ -106,7 +122,8 @@ impl Session {
 
     /// The up axis in force: chosen, or else found.
     pub fn up_axis(&self) -> UpAxis {
-        self.up_axis_override.unwrap_or(self.open.as_ref().map(|open| open.model.up_axis).unwrap_or_default())
+        self.up_axis_override
+            .unwrap_or(self.open.as_ref().map(|open| open.model.up_axis).unwrap_or_default())
     }
 
     /// The up axis that was chosen over what was found.
@@ -139,9 +156,7 @@ impl Session {
         if !self.is_animating() {
             return;
         }
-        let was_at = self.playback.time_secs();
-        self.playback.advance(dt_secs);
-        if self.playback.time_secs() != was_at {
+        if self.playback.advance(dt_secs) {
             self.time_changed();
         }
         if !self.playback.is_playing() {
@@ -156,9 +171,10 @@ impl Session {
         if let Some(open) = &self.open {
             let wanted = (self.clip, self.playback.time_secs());
             if self.posed_at != Some(wanted) {
+                let skeleton = &open.model.skeleton;
                 match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                    Some(clip) => anim::evaluate(&open.model, clip, wanted.1, &mut self.pose),
-                    None => anim::evaluate_bind_pose(&open.model, &mut self.pose),
+                    Some(clip) => self.pose.evaluate(skeleton, clip, wanted.1),
+                    None => self.pose.set_bind_pose(skeleton),
                 }
                 self.posed_at = Some(wanted);
             }
@@ -196,12 +212,12 @@ impl Session {
             Command::Pause => self.set_playing(false),
             Command::TogglePlay => {
                 let playing = !self.playback.is_playing();
-                self.playback.set_backward(false);
+                self.set_backward(false);
                 self.set_playing(playing);
             }
             Command::TogglePlayBackward => {
-                let playing = !(self.playback.is_playing() && self.playback.is_backward());
-                self.playback.set_backward(true);
+                let playing = !(self.playback.is_playing() && self.is_backward());
+                self.set_backward(true);
                 self.set_playing(playing);
             }
             Command::Seek { time_secs } => self.seek(time_secs),
@@ -212,7 +228,7 @@ impl Session {
             Command::EndScrub => self.scrubbing = false,
             Command::SelectClip(clip) => self.select_clip(clip),
             Command::CycleClip(places) => self.cycle_clip(places),
-            Command::SetSpeed(speed) => self.playback.set_speed(speed),
+            Command::SetSpeed(speed) => self.set_speed(speed),
             Command::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             Command::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
             Command::SetLoopMode(mode) => self.playback.set_loop_mode(mode),
@@ -225,7 +241,10 @@ impl Session {
                 self.playback.set_loop_mode(next);
             }
 
-            Command::Orbit { yaw_radians, pitch_radians } => self.camera.orbit(yaw_radians, pitch_radians),
+            Command::Orbit {
+                yaw_radians,
+                pitch_radians,
+            } => self.camera.orbit(yaw_radians, pitch_radians),
             Command::Pan { drag } => {
                 self.camera.pan(drag);
                 self.framed = false;
@@ -310,7 +329,10 @@ impl Session {
 
     /// Shows another model. The same file again keeps camera, clip, time and choices.
     fn replace_model(&mut self, open: OpenModel) {
-        let again = self.open.as_ref().filter(|old| old.file.base_name() == open.file.base_name());
+        let again = self
+            .open
+            .as_ref()
+            .filter(|old| old.file.base_name() == open.file.base_name());
         let kept_clip = again.and_then(|_| Some(self.clip()?.name.clone()));
         let again = again.is_some();
         let was_playing = self.playback.is_playing();
@@ -322,8 +344,14 @@ impl Session {
         self.open = Some(open);
         if again {
             let time_secs = self.playback.time_secs();
-            let clips = self.open.as_ref().map(|open| open.model.clips.as_slice()).unwrap_or_default();
-            let clip = kept_clip.and_then(|name| clips.iter().position(|clip| clip.name == name)).unwrap_or(0);
+            let clips = self
+                .open
+                .as_ref()
+                .map(|open| open.model.clips.as_slice())
+                .unwrap_or_default();
+            let clip = kept_clip
+                .and_then(|name| clips.iter().position(|clip| clip.name == name))
+                .unwrap_or(0);
             self.clip = None;
             self.select_clip(clip);
             self.playback.seek(time_secs);
@@ -333,7 +361,10 @@ impl Session {
             self.clip = None;
             self.playback = Playback::default();
             self.select_clip(0);
-            self.camera = Camera { projection: self.camera.projection, ..Camera::default() };
+            self.camera = Camera {
+                projection: self.camera.projection,
+                ..Camera::default()
+            };
             self.frame_model();
             if self.clip.is_some() && !self.reduced_motion {
                 self.playback.play();
@@ -370,19 +401,25 @@ impl Session {
     }
 
     fn step_frames(&mut self, frames: i32) {
-        let Some(clip) = self.clip() else { return };
-        let time_secs = clip.step_frames(self.playback.time_secs(), frames);
-        self.set_playing(false);
-        self.seek(time_secs);
+        if self.clip().is_none() {
+            return;
+        }
+        let was_playing = self.playback.is_playing();
+        self.playback.step_frames(frames);
+        self.time_changed();
+        if was_playing {
+            self.note(Event::Pause);
+        }
     }
 
     fn select_clip(&mut self, index: usize) {
-        let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else { return };
+        let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else {
+            return;
+        };
         if self.clip == Some(index) {
             return;
         }
-        self.playback.set_range(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() { clip.end_secs } else { clip.start_secs });
+        self.playback.set_clip(clip);
         self.clip = Some(index);
         self.time_changed();
     }
@@ -395,15 +432,29 @@ impl Session {
     }
 
     fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
-        if let Some(&speed) = pick(&SPEEDS, self.playback.speed()) {
-            self.playback.set_speed(speed);
+        if let Some(&speed) = pick(&SPEEDS, self.speed()) {
+            self.set_speed(speed);
         }
+    }
+
+    /// Keeps the direction.
+    fn set_speed(&mut self, speed: f32) {
+        let direction = if self.is_backward() { -1.0 } else { 1.0 };
+        self.playback.set_speed(speed.abs() * direction);
+    }
+
+    fn set_backward(&mut self, backward: bool) {
+        let direction = if backward { -1.0 } else { 1.0 };
+        self.playback.set_speed(self.speed() * direction);
     }
 
     fn zoom(&mut self, factor: f32, pointer: glam::Vec2) {
         let radius = self.world_bounds().radius().max(1e-6);
         // Neither through the model nor so far that it is a dot.
-        let factor = factor.clamp(radius * 1e-2 / self.camera.distance, radius * 100.0 / self.camera.distance);
+        let factor = factor.clamp(
+            radius * 1e-2 / self.camera.distance,
+            radius * 100.0 / self.camera.distance,
+        );
         self.camera.zoom(factor, pointer);
         self.framed = false;
     }

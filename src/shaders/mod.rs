@@ -62,7 +62,14 @@ pub const SKINNING_WGSL: ShaderFile = shader_file!("skinning.wgsl");
 /// The model under the studio light.
 pub const MESH: Program = Program {
     name: "mesh",
-    files: &[FRAME_WGSL, SKINNING_WGSL, COLOR_WGSL, SHADOW_WGSL, LIGHTING_WGSL, MESH_WGSL],
+    files: &[
+        FRAME_WGSL,
+        SKINNING_WGSL,
+        COLOR_WGSL,
+        SHADOW_WGSL,
+        LIGHTING_WGSL,
+        MESH_WGSL,
+    ],
 };
 
 /// The model's depth from the key light.

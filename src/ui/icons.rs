@@ -1,13 +1,13 @@
 //! One family of icons, drawn with lines of one weight in a box of 16 units.
 
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
 /// Line weight in points.
 const LINE_WIDTH: f32 = 1.4;
 
 /// What an icon says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Icon {
+pub(super) enum Icon {
     /// Start playing.
     Play,
     /// Stop playing.
@@ -30,8 +30,6 @@ pub enum Icon {
     Cube,
     /// Open files.
     Open,
-    /// Picture.
-    Camera,
     /// Dark surroundings.
     Moon,
     /// Light surroundings.
@@ -42,16 +40,12 @@ pub enum Icon {
     Close,
     /// Opens a list below.
     ChevronDown,
-    /// Opens to the right.
-    ChevronRight,
     /// More.
     Dots,
-    /// Copy to the clipboard.
-    Copy,
 }
 
 /// Draws an icon centred in `rect`, 16 points high.
-pub fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
+pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
     let origin = rect.center() - vec2(8.0, 8.0);
     let at = |x: f32, y: f32| -> Pos2 { origin + vec2(x, y) };
     let stroke = Stroke::new(LINE_WIDTH, color);
@@ -59,15 +53,19 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
         painter.add(Shape::line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke));
     };
     let closed = |points: &[(f32, f32)]| {
-        painter.add(Shape::closed_line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke));
+        painter.add(Shape::closed_line(
+            points.iter().map(|&(x, y)| at(x, y)).collect(),
+            stroke,
+        ));
     };
     let filled = |points: &[(f32, f32)]| {
-        painter.add(Shape::convex_polygon(points.iter().map(|&(x, y)| at(x, y)).collect(), color, Stroke::NONE));
+        painter.add(Shape::convex_polygon(
+            points.iter().map(|&(x, y)| at(x, y)).collect(),
+            color,
+            Stroke::NONE,
+        ));
     };
     let box_of = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(at(x0, y0), at(x1, y1));
-    let outline = |rect: Rect, radius: f32| {
-        painter.rect_stroke(rect, radius, stroke, egui::StrokeKind::Middle);
-    };
     // Part of a circle about (cx, cy), angles in quarter turns clockwise from the right.
     let arc = |cx: f32, cy: f32, radius: f32, from: f32, to: f32| {
         let points = (0..=20).map(|i| {
@@ -120,18 +118,27 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             painter.circle_filled(at(8.0, 8.0), 1.6, color);
         }
         Icon::Cube => {
-            closed(&[(8.0, 1.8), (13.6, 4.9), (13.6, 11.1), (8.0, 14.2), (2.4, 11.1), (2.4, 4.9)]);
+            closed(&[
+                (8.0, 1.8),
+                (13.6, 4.9),
+                (13.6, 11.1),
+                (8.0, 14.2),
+                (2.4, 11.1),
+                (2.4, 4.9),
+            ]);
             line(&[(2.4, 4.9), (8.0, 8.0), (13.6, 4.9)]);
             line(&[(8.0, 8.0), (8.0, 14.2)]);
         }
         Icon::Open => {
-            line(&[(2.0, 12.6), (2.0, 3.4), (6.2, 3.4), (7.8, 5.2), (13.0, 5.2), (13.0, 7.2)]);
+            line(&[
+                (2.0, 12.6),
+                (2.0, 3.4),
+                (6.2, 3.4),
+                (7.8, 5.2),
+                (13.0, 5.2),
+                (13.0, 7.2),
+            ]);
             closed(&[(2.0, 12.6), (4.4, 7.2), (15.0, 7.2), (12.6, 12.6)]);
-        }
-        Icon::Camera => {
-            outline(box_of(1.8, 4.6, 14.2, 13.0), 1.8);
-            line(&[(5.2, 4.6), (6.2, 2.8), (9.8, 2.8), (10.8, 4.6)]);
-            painter.circle_stroke(at(8.0, 8.8), 2.4, stroke);
         }
         Icon::Moon => {
             arc(8.0, 8.0, 5.6, -0.85, -3.15);
@@ -154,15 +161,10 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             line(&[(11.8, 4.2), (4.2, 11.8)]);
         }
         Icon::ChevronDown => line(&[(4.6, 6.4), (8.0, 9.8), (11.4, 6.4)]),
-        Icon::ChevronRight => line(&[(6.4, 4.6), (9.8, 8.0), (6.4, 11.4)]),
         Icon::Dots => {
             for x in [3.6, 8.0, 12.4] {
                 painter.circle_filled(at(x, 8.0), 1.2, color);
             }
-        }
-        Icon::Copy => {
-            outline(box_of(5.6, 5.6, 13.6, 13.6), 1.6);
-            line(&[(3.4, 10.4), (2.4, 10.4), (2.4, 2.4), (10.4, 2.4), (10.4, 3.4)]);
         }
     }
 }

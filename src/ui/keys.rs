@@ -7,7 +7,7 @@ use crate::scene::ViewPreset;
 use crate::session::{Command, Session};
 
 /// Reads the keys of this frame. Nothing while words are typed.
-pub fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if ui.ctx().text_edit_focused() {
         return;
     }
@@ -16,7 +16,12 @@ pub fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<
     let control_focused = ui.memory(|memory| memory.focused().is_some());
     for event in events {
         match event {
-            Event::Key { key, pressed: true, modifiers, .. } => {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } => {
                 if control_focused && matches!(key, Key::Space | Key::Enter) {
                     continue;
                 }
@@ -44,8 +49,13 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
 }
 
 /// What a key asks for.
-pub fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
-    let Modifiers { shift, command: ctrl, alt, .. } = modifiers;
+pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
+    let Modifiers {
+        shift,
+        command: ctrl,
+        alt,
+        ..
+    } = modifiers;
     if alt || (ctrl && !matches!(key, Key::Num1 | Key::Num3 | Key::Num7)) {
         return None;
     }
@@ -94,13 +104,25 @@ mod tests {
 
     #[test]
     fn shift_makes_ten_frames_of_one() {
-        assert_eq!(command_for(Key::ArrowLeft, Modifiers::NONE), Some(Command::StepFrames(-1)));
-        assert_eq!(command_for(Key::ArrowRight, Modifiers::SHIFT), Some(Command::StepFrames(10)));
+        assert_eq!(
+            command_for(Key::ArrowLeft, Modifiers::NONE),
+            Some(Command::StepFrames(-1))
+        );
+        assert_eq!(
+            command_for(Key::ArrowRight, Modifiers::SHIFT),
+            Some(Command::StepFrames(10))
+        );
     }
 
     #[test]
     fn ctrl_looks_from_the_opposite_side() {
-        assert_eq!(command_for(Key::Num1, Modifiers::NONE), Some(Command::LookFrom(ViewPreset::Front)));
-        assert_eq!(command_for(Key::Num1, Modifiers::COMMAND), Some(Command::LookFrom(ViewPreset::Back)));
+        assert_eq!(
+            command_for(Key::Num1, Modifiers::NONE),
+            Some(Command::LookFrom(ViewPreset::Front))
+        );
+        assert_eq!(
+            command_for(Key::Num1, Modifiers::COMMAND),
+            Some(Command::LookFrom(ViewPreset::Back))
+        );
     }
 }

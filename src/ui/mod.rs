@@ -99,22 +99,41 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
 }
 
 fn set_theme(ui: &Ui) -> Command {
-    Command::SetTheme(if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light })
+    Command::SetTheme(if ui.visuals().dark_mode {
+        Theme::Dark
+    } else {
+        Theme::Light
+    })
 }
 
 /// What the panels leave free is where the model is framed.
 fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Command {
     let top = (BAR_HEIGHT + MARGIN) / window.height();
     let bottom = timeline::covered_height(ui, session, narrow) / window.height();
-    let insets = Insets { top: top.clamp(0.0, 0.3), bottom: bottom.clamp(0.0, 0.4), ..Insets::default() };
-    Command::SetViewport { aspect: window.width() / window.height().max(1.0), insets }
+    let insets = Insets {
+        top: top.clamp(0.0, 0.3),
+        bottom: bottom.clamp(0.0, 0.4),
+        ..Insets::default()
+    };
+    Command::SetViewport {
+        aspect: window.width() / window.height().max(1.0),
+        insets,
+    }
 }
 
 fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
-    panel(ui, "title", Align2::LEFT_TOP, window.min + Vec2::splat(MARGIN), Order::Middle, 12, |ui| {
-        ui.set_height(BAR_HEIGHT - 14.0);
-        title_bar::show(ui, session, false);
-    });
+    panel(
+        ui,
+        "title",
+        Align2::LEFT_TOP,
+        window.min + Vec2::splat(MARGIN),
+        Order::Middle,
+        12,
+        |ui| {
+            ui.set_height(BAR_HEIGHT - 14.0);
+            title_bar::show(ui, session, false);
+        },
+    );
     let right_top = window.right_top() + vec2(-MARGIN, MARGIN);
     panel(ui, "toolbar", Align2::RIGHT_TOP, right_top, Order::Middle, 4, |ui| {
         ui.set_height(28.0);
@@ -124,12 +143,23 @@ fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, co
     let side_top = window.min + vec2(MARGIN, MARGIN * 2.0 + BAR_HEIGHT);
     let side_room = window.max.y - covered.max(MARGIN) - side_top.y;
     if session.open_model().is_some() {
-        panel(ui, "model", Align2::LEFT_TOP, side_top, Order::Middle, model_panel::PANEL_MARGIN as i8, |ui| {
-            ui.set_width(SIDE_WIDTH - 2.0 * model_panel::PANEL_MARGIN);
-            egui::ScrollArea::vertical().id_salt("model").max_height(side_room - 26.0).show(ui, |ui| {
-                model_panel::show(ui, session, state, commands);
-            });
-        });
+        panel(
+            ui,
+            "model",
+            Align2::LEFT_TOP,
+            side_top,
+            Order::Middle,
+            model_panel::PANEL_MARGIN as i8,
+            |ui| {
+                ui.set_width(SIDE_WIDTH - 2.0 * model_panel::PANEL_MARGIN);
+                egui::ScrollArea::vertical()
+                    .id_salt("model")
+                    .max_height(side_room - 26.0)
+                    .show(ui, |ui| {
+                        model_panel::show(ui, session, state, commands);
+                    });
+            },
+        );
     }
     if state.diagnostics_open {
         let at = side_top + vec2(SIDE_WIDTH + MARGIN, 0.0);
@@ -150,25 +180,43 @@ fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, co
 /// Phones and slim windows: one bar above, one sheet below.
 fn narrow_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
     let width = window.width() - 2.0 * MARGIN;
-    panel(ui, "title", Align2::LEFT_TOP, window.min + Vec2::splat(MARGIN), Order::Middle, 4, |ui| {
-        ui.set_width(width - 10.0);
-        ui.horizontal(|ui| {
-            let height = widgets::control_size(ui);
-            ui.set_height(height);
-            ui.add_space(8.0);
-            title_bar::show(ui, session, true);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                toolbar::show_narrow(ui, session, state, commands);
+    panel(
+        ui,
+        "title",
+        Align2::LEFT_TOP,
+        window.min + Vec2::splat(MARGIN),
+        Order::Middle,
+        4,
+        |ui| {
+            ui.set_width(width - 10.0);
+            ui.horizontal(|ui| {
+                let height = widgets::control_size(ui);
+                ui.set_height(height);
+                ui.add_space(8.0);
+                title_bar::show(ui, session, true);
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    toolbar::show_narrow(ui, session, state, commands);
+                });
             });
-        });
-    });
+        },
+    );
     if session.open_model().is_none() {
         return;
     }
     let at = pos2(window.min.x, window.max.y);
     let frame = theme::panel_frame(&Tokens::of(ui))
-        .corner_radius(egui::CornerRadius { nw: 14, ne: 14, sw: 0, se: 0 })
-        .inner_margin(Margin { left: 14, right: 14, top: 0, bottom: 14 });
+        .corner_radius(egui::CornerRadius {
+            nw: 14,
+            ne: 14,
+            sw: 0,
+            se: 0,
+        })
+        .inner_margin(Margin {
+            left: 14,
+            right: 14,
+            top: 0,
+            bottom: 14,
+        });
     let sheet_room = window.height() * 0.62;
     area(ui, "sheet", Align2::LEFT_BOTTOM, at, Order::Middle).show(ui.ctx(), |ui| {
         frame.show(ui, |ui| {
@@ -181,32 +229,32 @@ fn narrow_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, 
             }
             if state.sheet_open {
                 ui.add_space(10.0);
-                egui::ScrollArea::vertical().id_salt("sheet").max_height(sheet_room).show(ui, |ui| {
-                    if state.diagnostics_open {
-                        diagnostics_panel::show(ui, session, state, f32::INFINITY);
-                    } else {
-                        model_panel::show(ui, session, state, commands);
-                    }
-                });
+                egui::ScrollArea::vertical()
+                    .id_salt("sheet")
+                    .max_height(sheet_room)
+                    .show(ui, |ui| {
+                        if state.diagnostics_open {
+                            diagnostics_panel::show(ui, session, state, f32::INFINITY);
+                        } else {
+                            model_panel::show(ui, session, state, commands);
+                        }
+                    });
             }
         });
     });
 }
 
 fn area(ui: &Ui, name: &str, pivot: Align2, at: egui::Pos2, order: Order) -> Area {
-    Area::new(Id::new(("panel", name))).order(order).pivot(pivot).fixed_pos(at).constrain_to(ui.max_rect()).fade_in(false)
+    Area::new(Id::unique(("panel", name)))
+        .order(order)
+        .pivot(pivot)
+        .fixed_pos(at)
+        .constrain_to(ui.max_rect())
+        .fade_in(false)
 }
 
 /// A floating panel whose `pivot` corner is at a point.
-fn panel(
-    ui: &Ui,
-    name: &str,
-    pivot: Align2,
-    at: egui::Pos2,
-    order: Order,
-    margin: i8,
-    contents: impl FnOnce(&mut Ui),
-) {
+fn panel(ui: &Ui, name: &str, pivot: Align2, at: egui::Pos2, order: Order, margin: i8, contents: impl FnOnce(&mut Ui)) {
     let frame: Frame = theme::panel_frame(&Tokens::of(ui)).inner_margin(Margin::same(margin));
     area(ui, name, pivot, at, order).show(ui.ctx(), |ui| frame.show(ui, contents));
 }

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, vec2};
+use egui::{
+    Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, vec2,
+};
 
 /// Distance of panels from the window's edges and from each other.
 pub const MARGIN: f32 = 12.0;
@@ -100,7 +102,11 @@ impl Tokens {
 
     /// The tokens of the style in force.
     pub fn of(ui: &egui::Ui) -> Self {
-        if ui.visuals().dark_mode { Self::dark() } else { Self::light() }
+        if ui.visuals().dark_mode {
+            Self::dark()
+        } else {
+            Self::light()
+        }
     }
 }
 
@@ -110,7 +116,12 @@ pub fn panel_frame(tokens: &Tokens) -> egui::Frame {
         .fill(tokens.panel)
         .stroke(Stroke::new(1.0, tokens.hairline))
         .corner_radius(PANEL_RADIUS)
-        .shadow(Shadow { offset: [0, 6], blur: 22, spread: 0, color: tokens.shadow })
+        .shadow(Shadow {
+            offset: [0, 6],
+            blur: 22,
+            spread: 0,
+            color: tokens.shadow,
+        })
 }
 
 /// Gives a context the interface's fonts and both styles.
@@ -123,15 +134,22 @@ pub fn install(ctx: &egui::Context) {
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     let mut add = |name: &str, bytes: &'static [u8]| {
-        fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
+        fonts
+            .font_data
+            .insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
     };
     add("inter", include_bytes!("../../assets/fonts/Inter-Regular.otf"));
-    add("inter-semibold", include_bytes!("../../assets/fonts/Inter-SemiBold.otf"));
+    add(
+        "inter-semibold",
+        include_bytes!("../../assets/fonts/Inter-SemiBold.otf"),
+    );
     add("mono", include_bytes!("../../assets/fonts/JetBrainsMono-Regular.ttf"));
     let family = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
     fonts.families.insert(FontFamily::Proportional, family(&["inter"]));
     fonts.families.insert(FontFamily::Monospace, family(&["mono", "inter"]));
-    fonts.families.insert(FontFamily::Name(SEMIBOLD.into()), family(&["inter-semibold", "inter"]));
+    fonts
+        .families
+        .insert(FontFamily::Name(SEMIBOLD.into()), family(&["inter-semibold", "inter"]));
     fonts
 }
 
@@ -153,7 +171,12 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     visuals.window_stroke = Stroke::new(1.0, tokens.hairline);
     visuals.window_corner_radius = CornerRadius::same(PANEL_RADIUS);
     visuals.menu_corner_radius = CornerRadius::same(8);
-    visuals.window_shadow = Shadow { offset: [0, 6], blur: 22, spread: 0, color: tokens.shadow };
+    visuals.window_shadow = Shadow {
+        offset: [0, 6],
+        blur: 22,
+        spread: 0,
+        color: tokens.shadow,
+    };
     visuals.popup_shadow = visuals.window_shadow;
     visuals.extreme_bg_color = tokens.field;
     visuals.code_bg_color = tokens.field;
@@ -180,7 +203,11 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     }
     visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, tokens.hairline);
 
-    let mut style = egui::Style { visuals, animation_time: 0.12, ..egui::Style::default() };
+    let mut style = egui::Style {
+        visuals,
+        animation_time: 0.12,
+        ..egui::Style::default()
+    };
     style.text_styles = [
         (TextStyle::Small, FontId::proportional(11.0)),
         (TextStyle::Body, FontId::proportional(13.0)),

@@ -1,6 +1,6 @@
 //! The strip at the bottom: transport, clip, bar with keys, read-outs, speed and loop mode.
 
-use egui::{Align2, CursorIcon, FontId, Popup, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Align2, CursorIcon, FontId, Popup, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::icons::{self, Icon};
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
@@ -15,14 +15,16 @@ const TICK_SPACING: f32 = 2.5;
 
 /// Time stamps of a clip's keys, found once per clip.
 #[derive(Clone, Debug, Default)]
-pub struct KeyTimes {
+pub(super) struct KeyTimes {
     of: Option<(u64, usize)>,
     times_secs: Vec<f32>,
 }
 
 impl KeyTimes {
     fn update(&mut self, session: &Session) {
-        let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else { return };
+        let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
+            return;
+        };
         let of = Some((session.model_revision(), index));
         if self.of != of {
             self.of = of;
@@ -33,7 +35,11 @@ impl KeyTimes {
 
 /// Times at which any joint has a key, in order; times closer than a twentieth of a frame count once.
 fn merged_key_times(clip: &Clip) -> Vec<f32> {
-    let mut times: Vec<f32> = clip.tracks.iter().flat_map(|track| track.times_secs().iter().copied()).collect();
+    let mut times: Vec<f32> = clip
+        .tracks
+        .iter()
+        .flat_map(|track| track.times_secs().iter().copied())
+        .collect();
     times.sort_by(f32::total_cmp);
     let same_secs = 0.05 / clip.keys_per_sec;
     times.dedup_by(|later, earlier| *later - *earlier < same_secs);
@@ -41,45 +47,59 @@ fn merged_key_times(clip: &Clip) -> Vec<f32> {
 }
 
 /// Height of the strip's content.
-pub fn strip_height(ui: &Ui, narrow: bool) -> f32 {
+pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
     let control = control_size(ui);
-    if narrow { 44.0 + 8.0 + control } else { control.max(34.0) }
+    if narrow {
+        44.0 + 8.0 + control
+    } else {
+        control.max(34.0)
+    }
 }
 
 /// The strip in one row, for wide windows.
-pub fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
+pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
     keys.update(session);
     let height = strip_height(ui, false);
-    ui.allocate_ui_with_layout(vec2(ui.available_width(), height), egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        ui.spacing_mut().item_spacing.x = 6.0;
-        if icon_button(ui, Icon::SkipStart, "First frame (Home)", false).clicked() {
-            commands.push(Command::SeekStart);
-        }
-        play_button(ui, session, 34.0, commands);
-        if icon_button(ui, Icon::SkipEnd, "Last frame (End)", false).clicked() {
-            commands.push(Command::SeekEnd);
-        }
-        ui.add_space(6.0);
-        clip_menu(ui, session, 104.0, commands);
+    ui.allocate_ui_with_layout(
+        vec2(ui.available_width(), height),
+        egui::Layout::left_to_right(egui::Align::Center),
+        |ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            if icon_button(ui, Icon::SkipStart, "First frame (Home)", false).clicked() {
+                commands.push(Command::SeekStart);
+            }
+            play_button(ui, session, 34.0, commands);
+            if icon_button(ui, Icon::SkipEnd, "Last frame (End)", false).clicked() {
+                commands.push(Command::SeekEnd);
+            }
+            ui.add_space(6.0);
+            clip_menu(ui, session, 104.0, commands);
 
-        // The read-outs have fixed widths, so that nothing moves while values change.
-        let right_width = 72.0 + 86.0 + 56.0 + control_size(ui) + 4.0 * 6.0;
-        let bar_width = (ui.available_width() - right_width).max(60.0);
-        bar(ui, session, &keys.times_secs, vec2(bar_width, 30.0), commands);
-        time_field(ui, session, 72.0);
-        frame_readout(ui, session, 86.0);
-        speed_menu(ui, session, 56.0, commands);
-        loop_button(ui, session, commands);
-    });
+            // The read-outs have fixed widths, so that nothing moves while values change.
+            let right_width = 72.0 + 86.0 + 56.0 + control_size(ui) + 4.0 * 6.0;
+            let bar_width = (ui.available_width() - right_width).max(60.0);
+            bar(ui, session, &keys.times_secs, vec2(bar_width, 30.0), commands);
+            time_field(ui, session, 72.0);
+            frame_readout(ui, session, 86.0);
+            speed_menu(ui, session, 56.0, commands);
+            loop_button(ui, session, commands);
+        },
+    );
 }
 
 /// The strip in two rows, for phones: the bar above, large targets.
-pub fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
+pub(super) fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
     keys.update(session);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         play_button(ui, session, 44.0, commands);
-        bar(ui, session, &keys.times_secs, vec2(ui.available_width(), 44.0), commands);
+        bar(
+            ui,
+            session,
+            &keys.times_secs,
+            vec2(ui.available_width(), 44.0),
+            commands,
+        );
     });
     ui.add_space(8.0);
     ui.horizontal(|ui| {
@@ -98,13 +118,20 @@ fn play_button(ui: &mut Ui, session: &Session, diameter: f32, commands: &mut Vec
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(diameter), Sense::click());
     let tokens = Tokens::of(ui);
     let lift = if response.hovered() { 1.0 } else { 0.92 };
-    ui.painter().circle_filled(rect.center(), diameter * 0.5, tokens.accent.gamma_multiply(lift));
+    ui.painter()
+        .circle_filled(rect.center(), diameter * 0.5, tokens.accent.gamma_multiply(lift));
     if response.has_focus() {
-        ui.painter().circle_stroke(rect.center(), diameter * 0.5 + 2.0, Stroke::new(1.5, tokens.accent));
+        ui.painter()
+            .circle_stroke(rect.center(), diameter * 0.5 + 2.0, Stroke::new(1.5, tokens.accent));
     }
-    icons::paint(ui.painter(), rect, if playing { Icon::Pause } else { Icon::Play }, tokens.on_accent);
+    icons::paint(
+        ui.painter(),
+        rect,
+        if playing { Icon::Pause } else { Icon::Play },
+        tokens.on_accent,
+    );
     let label = if playing { "Pause (Space)" } else { "Play (Space)" };
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     if response.on_hover_text(label).clicked() {
         commands.push(Command::TogglePlay);
     }
@@ -142,7 +169,11 @@ fn bar(ui: &mut Ui, session: &Session, key_times: &[f32], size: Vec2, commands: 
     let track = rect.shrink2(vec2(8.0, 0.0));
     let duration_secs = clip.duration_secs();
     let x_of = |time_secs: f32| {
-        let share = if duration_secs > 0.0 { (time_secs - clip.start_secs) / duration_secs } else { 0.0 };
+        let share = if duration_secs > 0.0 {
+            (time_secs - clip.start_secs) / duration_secs
+        } else {
+            0.0
+        };
         track.min.x + share.clamp(0.0, 1.0) * track.width()
     };
     let middle_y = rect.center().y;
@@ -151,10 +182,17 @@ fn bar(ui: &mut Ui, session: &Session, key_times: &[f32], size: Vec2, commands: 
         let x = x_of(time_secs);
         if spacing >= DIAMOND_SPACING || key_times.len() == 1 {
             let r = if spacing >= 11.0 { 4.2 } else { 3.2 };
-            let corners = vec![pos2(x, middle_y - r), pos2(x + r, middle_y), pos2(x, middle_y + r), pos2(x - r, middle_y)];
-            ui.painter().add(egui::Shape::convex_polygon(corners, tokens.muted, Stroke::NONE));
+            let corners = vec![
+                pos2(x, middle_y - r),
+                pos2(x + r, middle_y),
+                pos2(x, middle_y + r),
+                pos2(x - r, middle_y),
+            ];
+            ui.painter()
+                .add(egui::Shape::convex_polygon(corners, tokens.muted, Stroke::NONE));
         } else if spacing >= TICK_SPACING {
-            ui.painter().vline(x, middle_y - 4.0..=middle_y + 4.0, Stroke::new(1.0, tokens.faint));
+            ui.painter()
+                .vline(x, middle_y - 4.0..=middle_y + 4.0, Stroke::new(1.0, tokens.faint));
         }
     }
     if spacing < TICK_SPACING {
@@ -172,7 +210,9 @@ fn bar(ui: &mut Ui, session: &Session, key_times: &[f32], size: Vec2, commands: 
         && (response.dragged() || response.clicked())
     {
         let share = ((pointer.x - track.min.x) / track.width()).clamp(0.0, 1.0);
-        commands.push(Command::Seek { time_secs: clip.start_secs + share * duration_secs });
+        commands.push(Command::Seek {
+            time_secs: clip.start_secs + share * duration_secs,
+        });
     }
     if response.drag_stopped() {
         commands.push(Command::EndScrub);
@@ -182,7 +222,11 @@ fn bar(ui: &mut Ui, session: &Session, key_times: &[f32], size: Vec2, commands: 
         && !is_touch(ui)
     {
         let share = ((pointer.x - track.min.x) / track.width()).clamp(0.0, 1.0);
-        ui.painter().vline(track.min.x + share * track.width(), rect.y_range(), Stroke::new(1.0, tokens.faint));
+        ui.painter().vline(
+            track.min.x + share * track.width(),
+            rect.y_range(),
+            Stroke::new(1.0, tokens.faint),
+        );
     }
     let time_secs = f64::from(session.playback().time_secs());
     response.widget_info(|| WidgetInfo::slider(true, time_secs, "Time in seconds"));
@@ -195,32 +239,49 @@ fn time_field(ui: &mut Ui, session: &Session, width: f32) {
     let text = format!("{:.3} s", session.playback().time_secs());
     ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
     let right = rect.right_center() - vec2(7.0, 0.0);
-    ui.painter().text(right, Align2::RIGHT_CENTER, &text, theme::mono(12.0), tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, format!("Time {text}")));
+    ui.painter()
+        .text(right, Align2::RIGHT_CENTER, &text, theme::mono(12.0), tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Time {text}")));
 }
 
 fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 28.0), Sense::hover());
     let Some(clip) = session.clip() else { return };
-    let frame = clip.frame_at(session.playback().time_secs());
+    let frame = session.playback().frame();
     let text = format!("{frame} of {}", clip.last_frame());
-    ui.painter().text(rect.left_center() + vec2(2.0, 0.0), Align2::LEFT_CENTER, &text, FontId::proportional(13.0), tokens.muted);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, format!("Frame {text}")));
+    ui.painter().text(
+        rect.left_center() + vec2(2.0, 0.0),
+        Align2::LEFT_CENTER,
+        &text,
+        FontId::proportional(13.0),
+        tokens.muted,
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Frame {text}")));
     response.on_hover_text(format!("Frame at {} keys a second", trimmed(clip.keys_per_sec)));
 }
 
 fn speed_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
-    let speed = session.playback().speed();
+    let speed = session.speed();
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
     }
     let text = format!("{}×", trimmed(speed));
-    let color = if (speed - 1.0).abs() < 1e-4 { tokens.muted } else { tokens.accent };
-    ui.painter().text(rect.center(), Align2::CENTER_CENTER, &text, FontId::proportional(13.0), color);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Speed {text}")));
+    let color = if (speed - 1.0).abs() < 1e-4 {
+        tokens.muted
+    } else {
+        tokens.accent
+    };
+    ui.painter().text(
+        rect.center(),
+        Align2::CENTER_CENTER,
+        &text,
+        FontId::proportional(13.0),
+        color,
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
     let response = response.on_hover_text("Speed: [ slower, ] faster, \\ as the file");
     Popup::menu(&response).show(|ui| {
         ui.set_min_width(72.0);
@@ -251,7 +312,7 @@ fn trimmed(number: f32) -> String {
 }
 
 /// A name cut to some characters, with an ellipsis.
-pub fn shortened(name: &str, most: usize) -> String {
+pub(super) fn shortened(name: &str, most: usize) -> String {
     if name.chars().count() <= most {
         return name.to_owned();
     }
@@ -259,6 +320,10 @@ pub fn shortened(name: &str, most: usize) -> String {
 }
 
 /// Room that the strip takes from the window's lower edge.
-pub fn covered_height(ui: &Ui, session: &Session, narrow: bool) -> f32 {
-    if session.clip().is_none() { 0.0 } else { strip_height(ui, narrow) + 2.0 * 9.0 + MARGIN * 2.0 }
+pub(super) fn covered_height(ui: &Ui, session: &Session, narrow: bool) -> f32 {
+    if session.clip().is_none() {
+        0.0
+    } else {
+        strip_height(ui, narrow) + 2.0 * 9.0 + MARGIN * 2.0
+    }
 }

@@ -9,7 +9,7 @@ use crate::scene::{Projection, Theme, ViewPreset};
 use crate::session::{Command, Session};
 
 /// Buttons in one row.
-pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         open_button(ui, state);
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut 
 }
 
 /// In a narrow window, from the right edge: the rarer buttons wait behind dots.
-pub fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let dots = icon_button(ui, Icon::Dots, "More", false);
     Popup::menu(&dots).show(|ui| more_menu(ui, session, state, commands));
@@ -83,8 +83,11 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
         commands.push(Command::ToggleGrid);
         ui.close();
     }
-    let (label, other) =
-        if ui.visuals().dark_mode { ("Light surroundings", Theme::Light) } else { ("Dark surroundings", Theme::Dark) };
+    let (label, other) = if ui.visuals().dark_mode {
+        ("Light surroundings", Theme::Light)
+    } else {
+        ("Dark surroundings", Theme::Dark)
+    };
     if menu_item(ui, label, false).clicked() {
         state.requests.push(Request::UseTheme(other));
         ui.close();

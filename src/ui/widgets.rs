@@ -1,25 +1,25 @@
 //! The few controls that panels are made of.
 
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType,
-    pos2, vec2,
+    Align2, Color32, CornerRadius, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::icons::{self, Icon};
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
 /// Side of a control: 28 points, 44 where fingers are the pointer.
-pub fn control_size(ui: &Ui) -> f32 {
+pub(super) fn control_size(ui: &Ui) -> f32 {
     if is_touch(ui) { 44.0 } else { 28.0 }
 }
 
 /// Whether fingers were used in this session.
-pub fn is_touch(ui: &Ui) -> bool {
+pub(super) fn is_touch(ui: &Ui) -> bool {
     ui.input(|input| input.has_touch_screen())
 }
 
 /// A square button with an icon. `on` marks a switch that is on.
-pub fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+pub(super) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let size = Vec2::splat(control_size(ui));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let tokens = Tokens::of(ui);
@@ -30,37 +30,56 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     };
     ui.painter().rect_filled(rect, CONTROL_RADIUS, fill);
     focus_ring(ui, rect, &response);
-    icons::paint(ui.painter(), rect, icon, if on { tokens.accent } else { tokens.muted_to_text(response.hovered()) });
-    response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, on, label));
+    icons::paint(
+        ui.painter(),
+        rect,
+        icon,
+        if on {
+            tokens.accent
+        } else {
+            tokens.muted_to_text(response.hovered())
+        },
+    );
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     response.on_hover_text(label)
 }
 
 /// A button with words on a quiet ground. `opens_list` adds the chevron of a drop-down.
-pub fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, min_width: f32) -> Response {
+pub(super) fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, min_width: f32) -> Response {
     let tokens = Tokens::of(ui);
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(13.0), tokens.text);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), FontId::proportional(13.0), tokens.text);
     let chevron_width = if opens_list { 18.0 } else { 0.0 };
     let width = (galley.size().x + 16.0 + chevron_width).max(min_width);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
-    let fill = if response.hovered() || response.has_focus() { tokens.field_hovered } else { tokens.field };
+    let fill = if response.hovered() || response.has_focus() {
+        tokens.field_hovered
+    } else {
+        tokens.field
+    };
     ui.painter().rect_filled(rect, CONTROL_RADIUS, fill);
     focus_ring(ui, rect, &response);
     let clip = Rect::from_min_max(rect.min, pos2(rect.max.x - chevron_width, rect.max.y));
     let text_at = pos2(rect.min.x + 8.0, rect.center().y - galley.size().y * 0.5);
-    ui.painter().with_clip_rect(clip.intersect(ui.clip_rect())).galley(text_at, galley, tokens.text);
+    ui.painter()
+        .with_clip_rect(clip.intersect(ui.clip_rect()))
+        .galley(text_at, galley, tokens.text);
     if opens_list {
         let chevron = Rect::from_center_size(pos2(rect.max.x - 12.0, rect.center().y), Vec2::splat(16.0));
         icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
     }
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response
 }
 
 /// A line of a menu; `on` marks the one in force.
-pub fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
+pub(super) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let color = if on { tokens.accent } else { tokens.text };
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(13.0), color);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), FontId::proportional(13.0), color);
     let width = ui.available_width().max(galley.size().x + 20.0);
     let height = if is_touch(ui) { 40.0 } else { 26.0 };
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::click());
@@ -69,89 +88,131 @@ pub fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
     } else if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
     }
-    ui.painter().galley(pos2(rect.min.x + 10.0, rect.center().y - galley.size().y * 0.5), galley, color);
-    response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, on, text));
+    ui.painter().galley(
+        pos2(rect.min.x + 10.0, rect.center().y - galley.size().y * 0.5),
+        galley,
+        color,
+    );
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
     response
 }
 
 /// A small rounded label.
-pub fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
+pub(super) fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
     let tokens = Tokens::of(ui);
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(11.5), color);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), FontId::proportional(11.5), color);
     let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(14.0, 5.0), Sense::hover());
     ui.painter().rect_filled(rect, rect.height() * 0.5, tokens.field);
     ui.painter().galley(rect.min + vec2(7.0, 2.5), galley, color);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, text));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
     response
 }
 
 /// A row of a panel: a quiet label and a value at the right edge.
-pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
+pub(super) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
     let font = FontId::proportional(13.0);
-    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
-    ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, value, font, tokens.text);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, format!("{label} {value}")));
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        label,
+        font.clone(),
+        tokens.muted,
+    );
+    ui.painter()
+        .text(rect.right_center(), Align2::RIGHT_CENTER, value, font, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {value}")));
     response
 }
 
 /// A row of a panel whose value opens a menu.
-pub fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
+pub(super) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
     let tokens = Tokens::of(ui);
     let height = if is_touch(ui) { 44.0 } else { ROW_HEIGHT };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);
+        ui.painter()
+            .rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);
     }
     let font = FontId::proportional(13.0);
-    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        label,
+        font.clone(),
+        tokens.muted,
+    );
     let chevron = Rect::from_center_size(pos2(rect.max.x - 5.0, rect.center().y), Vec2::splat(16.0));
     icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
     let mut right = rect.max.x - 15.0;
     for (text, color) in [(how, tokens.muted), (value, tokens.text)] {
-        let drawn = ui.painter().text(pos2(right, rect.center().y), Align2::RIGHT_CENTER, text, font.clone(), color);
+        let drawn = ui.painter().text(
+            pos2(right, rect.center().y),
+            Align2::RIGHT_CENTER,
+            text,
+            font.clone(),
+            color,
+        );
         right = drawn.min.x - 4.0;
     }
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{label}: {value} {how}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {value} {how}")));
     response
 }
 
 /// The name of a part of a panel: 11 points, capitals.
-pub fn section_name(ui: &mut Ui, name: &str) {
+pub(super) fn section_name(ui: &mut Ui, name: &str) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
     let font = theme::semibold(11.0);
-    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name.to_uppercase(), font, tokens.muted);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, name));
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        name.to_uppercase(),
+        font,
+        tokens.muted,
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
 }
 
 /// A hairline across a panel, from border to border.
-pub fn rule(ui: &mut Ui, panel_margin: f32) {
+pub(super) fn rule(ui: &mut Ui, panel_margin: f32) {
     let tokens = Tokens::of(ui);
     ui.add_space(7.0);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
     let rect = rect.expand2(vec2(panel_margin, 0.0));
-    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, tokens.hairline));
+    ui.painter()
+        .hline(rect.x_range(), rect.center().y, Stroke::new(1.0, tokens.hairline));
     ui.add_space(7.0);
 }
 
 /// The grip of the bottom sheet.
-pub fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
+pub(super) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::click());
     let grip = Rect::from_center_size(rect.center(), vec2(38.0, 4.0));
-    ui.painter().rect_filled(grip, 2.0, if response.hovered() { tokens.faint } else { tokens.hairline });
+    ui.painter().rect_filled(
+        grip,
+        2.0,
+        if response.hovered() {
+            tokens.faint
+        } else {
+            tokens.hairline
+        },
+    );
     let label = if open { "Close the sheet" } else { "Model facts" };
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response
 }
 
 /// Shows which control has the keyboard.
-pub fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
+pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-        ui.painter().rect_stroke(rect, CornerRadius::same(CONTROL_RADIUS), stroke, StrokeKind::Inside);
+        ui.painter()
+            .rect_stroke(rect, CornerRadius::same(CONTROL_RADIUS), stroke, StrokeKind::Inside);
     }
 }
 
@@ -163,7 +224,7 @@ impl Tokens {
 }
 
 /// A whole number with its thousands grouped by narrow spaces: `13 748`.
-pub fn grouped(number: usize) -> String {
+pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
     for (i, digit) in digits.chars().enumerate() {
@@ -176,7 +237,7 @@ pub fn grouped(number: usize) -> String {
 }
 
 /// A length with about three significant digits: `73.4`, `0.0123`, `13 748`.
-pub fn measured(length: f32) -> String {
+pub(super) fn measured(length: f32) -> String {
     match length.abs() {
         _ if !length.is_finite() => "–".to_owned(),
         0.0 => "0".to_owned(),
@@ -198,7 +259,13 @@ mod tests {
 
     #[test]
     fn thousands_are_grouped() {
-        let cases = [(0, "0"), (999, "999"), (1000, "1\u{2009}000"), (13_748, "13\u{2009}748"), (1_234_567, "1\u{2009}234\u{2009}567")];
+        let cases = [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1\u{2009}000"),
+            (13_748, "13\u{2009}748"),
+            (1_234_567, "1\u{2009}234\u{2009}567"),
+        ];
         for (number, text) in cases {
             assert_eq!(grouped(number), text);
         }
@@ -206,7 +273,15 @@ mod tests {
 
     #[test]
     fn lengths_keep_about_three_digits() {
-        let cases = [(0.0, "0"), (73.42, "73.4"), (1.8, "1.80"), (0.012_34, "0.0123"), (1e9, "1.00e9"), (-2000.0, "−2\u{2009}000"), (f32::NAN, "–")];
+        let cases = [
+            (0.0, "0"),
+            (73.42, "73.4"),
+            (1.8, "1.80"),
+            (0.012_34, "0.0123"),
+            (1e9, "1.00e9"),
+            (-2000.0, "−2\u{2009}000"),
+            (f32::NAN, "–"),
+        ];
         for (length, text) in cases {
             assert_eq!(measured(length), text);
         }

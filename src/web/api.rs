@@ -36,7 +36,9 @@ pub fn state() -> JsValue {
             backend: running.map(|running| running.backend),
             adapter: running.map(|running| running.adapter.as_str()),
             frames_rendered: running.map_or(0, |running| running.frames_rendered.get()),
-            upload_error: app.as_ref().and_then(|app| app.as_ref()?.upload_error().map(str::to_owned)),
+            upload_error: app
+                .as_ref()
+                .and_then(|app| app.as_ref()?.upload_error().map(str::to_owned)),
         };
         match page {
             Some(page) => state::state(&page.session.borrow(), &view),
@@ -55,9 +57,12 @@ pub fn open(files: &Array) -> Result<JsValue, JsError> {
     let mut given = Vec::new();
     for entry in files.iter() {
         let field = |name: &str| Reflect::get(&entry, &name.into()).unwrap_or(JsValue::UNDEFINED);
-        let name = field("name").as_string().ok_or_else(|| JsError::new("a file needs a name"))?;
-        let bytes: Uint8Array =
-            field("bytes").dyn_into().map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
+        let name = field("name")
+            .as_string()
+            .ok_or_else(|| JsError::new("a file needs a name"))?;
+        let bytes: Uint8Array = field("bytes")
+            .dyn_into()
+            .map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
         given.push(File::new(&name, bytes.to_vec()));
     }
     apply(Command::AddFiles(given));
@@ -87,7 +92,12 @@ pub fn pause() {
 pub fn select_clip(name: &str) -> bool {
     let index = PAGE.with_borrow(|page| {
         let session = page.as_ref()?.session.borrow();
-        session.open_model()?.model.clips.iter().position(|clip| clip.name == name)
+        session
+            .open_model()?
+            .model
+            .clips
+            .iter()
+            .position(|clip| clip.name == name)
     });
     if let Some(index) = index {
         apply(Command::SelectClip(index));
@@ -108,7 +118,12 @@ pub async fn snapshot(options: JsValue) -> Result<Uint8Array, JsError> {
             .as_ref()
             .and_then(|page| page.running.as_ref())
             .ok_or_else(|| JsError::new("the viewer is not running"))?;
-        let most = running.gpu.device.limits().max_texture_dimension_2d.min(MAX_PICTURE_SIDE);
+        let most = running
+            .gpu
+            .device
+            .limits()
+            .max_texture_dimension_2d
+            .min(MAX_PICTURE_SIDE);
         let side = |name: &str| match field(name).as_f64() {
             Some(side) if side >= 1.0 && side <= f64::from(most) => Ok(side as u32),
             _ => Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),

@@ -55,7 +55,10 @@ impl Chosen {
                 WgpuSetup::CreateNew(setup)
             }
         };
-        WgpuConfiguration { wgpu_setup, ..Default::default() }
+        WgpuConfiguration {
+            wgpu_setup,
+            ..Default::default()
+        }
     }
 }
 
@@ -84,27 +87,47 @@ async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
     let instance = wgpu::util::new_instance_with_webgpu_detection(descriptor).await;
-    let options =
-        wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
-    let adapter = instance.request_adapter(&options).await.map_err(|error| error.to_string())?;
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
+    };
+    let adapter = instance
+        .request_adapter(&options)
+        .await
+        .map_err(|error| error.to_string())?;
     if is_software(&adapter.get_info()) && !software_allowed {
         return Err(format!("its adapter is software ({})", adapter_name(&adapter)));
     }
-    let (device, queue) =
-        adapter.request_device(&device::descriptor(&adapter)).await.map_err(|error| error.to_string())?;
-    crate::render::probe(&device, &queue, async || super::sleep(1).await).await.map_err(|error| error.to_string())?;
-    Ok(WgpuSetupExisting { instance, adapter, device, queue })
+    let (device, queue) = adapter
+        .request_device(&device::descriptor(&adapter))
+        .await
+        .map_err(|error| error.to_string())?;
+    crate::render::probe(&device, &queue, async || super::sleep(1).await)
+        .await
+        .map_err(|error| error.to_string())?;
+    Ok(WgpuSetupExisting {
+        instance,
+        adapter,
+        device,
+        queue,
+    })
 }
 
 /// Browsers do not always mark their software adapters as fallback.
 fn is_software(info: &wgpu::AdapterInfo) -> bool {
     let name = info.name.to_lowercase();
     info.device_type == wgpu::DeviceType::Cpu
-        || ["swiftshader", "llvmpipe", "lavapipe", "software", "basic render"].iter().any(|word| name.contains(word))
+        || ["swiftshader", "llvmpipe", "lavapipe", "software", "basic render"]
+            .iter()
+            .any(|word| name.contains(word))
 }
 
 /// A name for people; browsers often keep it to themselves.
 pub(super) fn adapter_name(adapter: &wgpu::Adapter) -> String {
     let info = adapter.get_info();
-    if info.name.is_empty() { "unnamed adapter".to_owned() } else { info.name }
+    if info.name.is_empty() {
+        "unnamed adapter".to_owned()
+    } else {
+        info.name
+    }
 }

@@ -3,6 +3,8 @@
 //! The page's scripts (`web/*.js`) own the DOM; this module owns the session, which lives as long as the page, and the
 //! runner, which lives as long as a canvas. After a lost GPU the page makes another canvas and starts again.
 
+#![expect(unreachable_pub, reason = "wasm-bindgen exports these to scripts")]
+
 mod api;
 mod backend;
 mod state;
@@ -36,7 +38,7 @@ struct Running {
     runner: eframe::WebRunner,
     app: Rc<RefCell<Option<App>>>,
     ctx: egui::Context,
-    gpu: egui_egui_wgpu::wgpu::RenderState,
+    gpu: egui_wgpu::RenderState,
     backend: &'static str,
     adapter: String,
     frames_rendered: Rc<Cell<u64>>,
@@ -74,10 +76,15 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
 
     stop();
     let session = PAGE.with_borrow_mut(|page| {
-        let new_page = || Page { session: Rc::new(RefCell::new(Session::new(reduced_motion))), running: None };
+        let new_page = || Page {
+            session: Rc::new(RefCell::new(Session::new(reduced_motion))),
+            running: None,
+        };
         Rc::clone(&page.get_or_insert_with(new_page).session)
     });
-    let chosen = backend::choose(preference).await.map_err(|reasons| JsError::new(&reasons))?;
+    let chosen = backend::choose(preference)
+        .await
+        .map_err(|reasons| JsError::new(&reasons))?;
     let running = run(canvas, chosen, session).await?;
     let (backend, adapter) = (running.backend, running.adapter.clone());
     let frames = Rc::clone(&running.frames_rendered);
@@ -114,7 +121,11 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
     let shared = Rc::new(RefCell::new(None));
     let runner = eframe::WebRunner::new();
     watch_panics();
-    let shell = Shell { app: Rc::clone(&app_slot), session: Rc::clone(&session), frames: Rc::clone(&frames_rendered) };
+    let shell = Shell {
+        app: Rc::clone(&app_slot),
+        session: Rc::clone(&session),
+        frames: Rc::clone(&frames_rendered),
+    };
     let shared_out = Rc::clone(&shared);
     runner
         .start(
@@ -133,7 +144,15 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
     watch_context(&canvas)?;
     let (ctx, gpu) = shared.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
     let adapter = backend::adapter_name(&gpu.adapter);
-    Ok(Running { runner, app: app_slot, ctx, gpu, backend, adapter, frames_rendered })
+    Ok(Running {
+        runner,
+        app: app_slot,
+        ctx,
+        gpu,
+        backend,
+        adapter,
+        frames_rendered,
+    })
 }
 
 /// Gives the canvas up. The session stays.
@@ -189,7 +208,9 @@ fn tell_events(session: &Rc<RefCell<Session>>) {
 /// Keys that the viewer acts on, and all pointer events; the rest is the browser's (F5, F12, Ctrl+L …).
 fn owns_event(event: &egui::Event) -> bool {
     match event {
-        egui::Event::Key { key: egui::Key::Tab, .. } => false,
+        egui::Event::Key {
+            key: egui::Key::Tab, ..
+        } => false,
         egui::Event::Key { key, modifiers, .. } => crate::ui::owns_key(*key, *modifiers),
         egui::Event::Text(_) | egui::Event::Copy | egui::Event::Cut => false,
         _ => true,

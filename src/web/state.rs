@@ -41,19 +41,27 @@ pub(super) struct View<'a> {
 pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
     let playback = session.playback();
     let camera = session.camera();
-    let notices = session.open_model().map(|open| open.notices.as_slice()).unwrap_or_default();
+    let notices = session
+        .open_model()
+        .map(|open| open.notices.as_slice())
+        .unwrap_or_default();
     let error = session.error().map_or(JsValue::NULL, |error| {
-        Fields(diagnostic(&error.diagnostic)).with("file", &*error.file_name).done()
+        Fields(diagnostic(&error.diagnostic))
+            .with("file", &*error.file_name)
+            .done()
     });
     Fields::new()
         .with("backend", view.backend)
         .with("adapter", view.adapter)
-        .with("model", session.open_model().map_or(JsValue::NULL, |open| model(session, open)))
+        .with(
+            "model",
+            session.open_model().map_or(JsValue::NULL, |open| model(session, open)),
+        )
         .with("clip", session.clip().map(|clip| clip.name.as_str()))
         .with("timeSecs", playback.time_secs())
         .with("playing", playback.is_playing())
-        .with("backward", playback.is_backward())
-        .with("speed", playback.speed())
+        .with("backward", session.is_backward())
+        .with("speed", session.speed())
         .with("loop", loop_name(playback.loop_mode()))
         .with(
             "camera",
@@ -67,7 +75,13 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         )
         .with("gridVisible", session.grid_visible())
         .with("framesRendered", view.frames_rendered as f64)
-        .with("notices", notices.iter().map(|notice| JsValue::from(diagnostic(notice))).collect::<Array>())
+        .with(
+            "notices",
+            notices
+                .iter()
+                .map(|notice| JsValue::from(diagnostic(notice)))
+                .collect::<Array>(),
+        )
         .with("error", error)
         .with("uploadError", view.upload_error.as_deref())
         .done()
@@ -89,7 +103,14 @@ fn model(session: &Session, open: &OpenModel) -> JsValue {
         .with("name", open.file.base_name())
         .with("path", &*open.file.path)
         .with("dialect", dialect_name(open.dialect))
-        .with("handedness", if session.handedness() == Handedness::Left { "left" } else { "right" })
+        .with(
+            "handedness",
+            if session.handedness() == Handedness::Left {
+                "left"
+            } else {
+                "right"
+            },
+        )
         .with("upAxis", if session.up_axis() == UpAxis::Y { "y" } else { "z" })
         .with(
             "counts",
@@ -110,9 +131,13 @@ fn model(session: &Session, open: &OpenModel) -> JsValue {
 /// The detail of an event: enough to act on without asking for the whole state.
 pub(super) fn event_detail(session: &Session, event: Event) -> JsValue {
     match event {
-        Event::Load => Fields::new().with("name", session.open_model().map(|open| open.file.base_name())).done(),
+        Event::Load => Fields::new()
+            .with("name", session.open_model().map(|open| open.file.base_name()))
+            .done(),
         Event::Error => session.error().map_or(JsValue::NULL, |error| {
-            Fields(diagnostic(&error.diagnostic)).with("file", &*error.file_name).done()
+            Fields(diagnostic(&error.diagnostic))
+                .with("file", &*error.file_name)
+                .done()
         }),
         Event::Play | Event::Pause | Event::TimeUpdate => {
             Fields::new().with("timeSecs", session.playback().time_secs()).done()
@@ -136,7 +161,10 @@ fn bounds(bounds: &Aabb) -> JsValue {
     if bounds.is_empty() {
         return JsValue::NULL;
     }
-    Fields::new().with("min", vector(bounds.min)).with("max", vector(bounds.max)).done()
+    Fields::new()
+        .with("min", vector(bounds.min))
+        .with("max", vector(bounds.max))
+        .done()
 }
 
 fn vector(vector: glam::Vec3) -> Array {

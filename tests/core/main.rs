@@ -4,3 +4,4 @@ mod anim;
 mod format;
 mod model;
 mod sample;
+mod shaders;

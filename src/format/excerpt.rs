@@ -1,0 +1,172 @@
+//! The lines around a place in a file, safe to print.
+
+use std::fmt;
+
+use crate::diagnostic::Position;
+
+/// A line and the one before it, with a mark under a part of the last one.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Excerpt {
+    /// Line numbers from 1, and texts without control characters. Tabs have become blanks. The last line is the marked one.
+    pub lines: Vec<(u32, String)>,
+    /// First marked character of the last line, from 1. It may stand one behind the end.
+    pub mark_column: u32,
+    /// Marked characters, at least 1.
+    pub mark_length: u32,
+}
+
+impl Excerpt {
+    /// The last line before, at and after the mark.
+    pub fn marked_parts(&self) -> (&str, &str, &str) {
+        let line = self.lines.last().map_or("", |(_, line)| line.as_str());
+        let byte_of = |column: u32| line.char_indices().nth(column as usize).map_or(line.len(), |(byte, _)| byte);
+        let first = self.mark_column.saturating_sub(1);
+        let (before, rest) = line.split_at(byte_of(first));
+        let (marked, after) = rest.split_at(byte_of(first.saturating_add(self.mark_length)) - before.len());
+        (before, marked, after)
+    }
+}
+
+/// Lines with their numbers, and carets under the mark.
+impl fmt::Display for Excerpt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let width = self.lines.last().map_or(0, |(number, _)| number.to_string().len());
+        for (number, line) in &self.lines {
+            writeln!(f, "{number:>width$} | {line}")?;
+        }
+        let indent = self.mark_column.saturating_sub(1) as usize;
+        writeln!(f, "{:width$} | {:indent$}{}", "", "", "^".repeat(self.mark_length as usize))
+    }
+}
+
+/// Columns of a tab.
+const TAB: usize = 4;
+
+/// Bytes that are shown of a longer line.
+const LONGEST: usize = 160;
+
+/// Bytes that stay visible before the mark.
+const BEFORE_MARK: usize = 60;
+
+/// Shows the line of `position` and the one before it. A position outside of the file gives the nearest line.
+pub fn excerpt(bytes: &[u8], position: Position, length: u32) -> Excerpt {
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let (mut number, mut line, mut before) = (1_u32, next_line(bytes), None);
+    while number < position.line
+        && let Some(rest) = line.rest
+    {
+        before = Some(line.text);
+        line = next_line(rest);
+        number += 1;
+    }
+    let start = (position.column as usize).saturating_sub(1).min(line.text.len());
+    let end = start.saturating_add(length as usize).min(line.text.len());
+    let cut = if line.text.len() > LONGEST {
+        start.saturating_sub(BEFORE_MARK)
+    } else {
+        0
+    };
+    let marked = shown(line.text, cut);
+    let (mark_start, mark_end) = (marked.column_of(start), marked.column_of(end));
+    let mut lines = Vec::new();
+    if let Some(before) = before {
+        lines.push((number - 1, shown(before, cut.min(before.len())).text));
+    }
+    lines.push((number, marked.text));
+    Excerpt {
+        lines,
+        mark_column: as_u32(mark_start) + 1,
+        mark_length: as_u32(mark_end - mark_start).max(1),
+    }
+}
+
+/// A line without its end, and what follows when there was an end.
+struct Line<'a> {
+    text: &'a [u8],
+    rest: Option<&'a [u8]>,
+}
+
+fn next_line(bytes: &[u8]) -> Line<'_> {
+    let Some(end) = memchr::memchr2(b'\n', b'\r', bytes) else {
+        return Line {
+            text: bytes,
+            rest: None,
+        };
+    };
+    let (text, rest) = bytes.split_at(end);
+    let rest = rest.strip_prefix(b"\r\n").or_else(|| rest.get(1..)).unwrap_or_default();
+    Line { text, rest: Some(rest) }
+}
+
+/// A printable part of a line.
+struct Shown {
+    text: String,
+    /// For each character: the byte of the line it begins at, and its column from 0.
+    starts: Vec<(usize, usize)>,
+    columns: usize,
+}
+
+impl Shown {
+    /// Column of the first character at or behind `byte`.
+    fn column_of(&self, byte: usize) -> usize {
+        self.starts
+            .iter()
+            .find(|(start, _)| *start >= byte)
+            .map_or(self.columns, |(_, column)| *column)
+    }
+}
+
+/// The part of `line` from byte `cut` on, with dots where something was left out.
+fn shown(line: &[u8], cut: usize) -> Shown {
+    let part = line.get(cut..).unwrap_or_default();
+    let part = part.get(..LONGEST).unwrap_or(part);
+    let mut shown = Shown {
+        text: String::new(),
+        starts: Vec::new(),
+        columns: 0,
+    };
+    if cut > 0 {
+        shown.text.push('…');
+        shown.columns += 1;
+    }
+    let mut at = cut;
+    for chunk in part.utf8_chunks() {
+        for character in chunk.valid().chars() {
+            shown.starts.push((at, shown.columns));
+            at += character.len_utf8();
+            if character == '\t' {
+                let width = TAB - shown.columns % TAB;
+                shown.text.extend(std::iter::repeat_n(' ', width));
+                shown.columns += width;
+            } else {
+                shown.text.push(if is_printable(character) {
+                    character
+                } else {
+                    char::REPLACEMENT_CHARACTER
+                });
+                shown.columns += 1;
+            }
+        }
+        if !chunk.invalid().is_empty() {
+            shown.starts.push((at, shown.columns));
+            at += chunk.invalid().len();
+            shown.text.push(char::REPLACEMENT_CHARACTER);
+            shown.columns += 1;
+        }
+    }
+    if cut + part.len() < line.len() {
+        shown.text.push('…');
+    }
+    shown
+}
+
+/// False for control characters, and for those that turn or hide the text around them.
+fn is_printable(character: char) -> bool {
+    let hidden =
+        matches!(character, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{2069}' | '\u{FEFF}');
+    !character.is_control() && !hidden
+}
+
+fn as_u32(columns: usize) -> u32 {
+    u32::try_from(columns).unwrap_or(u32::MAX - 1)
+}
