@@ -50,11 +50,15 @@ fn fragment(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @locati
         to_eye = normalize(frame.eye - mesh.world_position);
     }
     let normal = normalize_or(mesh.world_normal, to_eye * side) * side;
-    // Grazing light walks further over the surface inside one texel, so the start moves further off it.
-    let slope = 1.0 - clamp(dot(normal, frame.to_key), 0.0, 1.0);
-    let off_surface = normal * frame.shadow_texel * (1.0 + 2.0 * slope);
-    let key_visible = key_visibility(mesh.world_position + off_surface, 2.0);
+    // What faces away from the key lies in its own shadow.
+    var key_visible = 0.0;
+    let facing_key = dot(normal, frame.to_key);
+    if facing_key > 0.0 {
+        // Grazing light walks further over the surface inside one texel, so the start moves further off it.
+        let off_surface = normal * frame.shadow_texel * (3.0 - 2.0 * facing_key);
+        key_visible = key_visibility(mesh.world_position + off_surface, 2.0);
+    }
     let surface = Surface(material.albedo, material.fresnel0, max(material.roughness, 0.08), normal, to_eye);
-    let color = soft_shoulder(shade(surface, frame.to_key, key_visible));
+    let color = soft_shoulder(shade(surface, frame.to_key, frame.to_rim, key_visible));
     return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), mesh.clip.xy), 1.0);
 }

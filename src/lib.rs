@@ -9,6 +9,7 @@ pub mod image;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod sample;
 pub mod scene;
 pub mod session;
 pub mod shaders;

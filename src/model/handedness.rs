@@ -34,7 +34,7 @@ pub(super) fn handedness_of(positions: &[Vec3], normals: &[Vec3], indices: &[u32
         notes.note(
             "handedness-unclear",
             Place::default(),
-            format!("{agree} of {tested} triangles wind as a left-handed file, the rest as a right-handed one"),
+            format!("{agree} of {tested} triangles wind as in a left-handed file, the rest as in a right-handed one."),
         );
     }
     handedness

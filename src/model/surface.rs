@@ -30,7 +30,7 @@ pub(super) fn materials_from_document(document: &Document, lines: &LineMap, note
             notes.note(
                 "duplicate-material-name",
                 Place::of(Subject::Material(index), &lines.materials),
-                format!("another material is named the same; it is shown as “{name}”"),
+                format!("Another material has the same name; this one is shown as \"{name}\"."),
             );
         },
     );

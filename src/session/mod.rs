@@ -196,7 +196,7 @@ impl Session {
     pub fn world_bounds(&mut self) -> Aabb {
         let world_from_model = world_from_model(self.handedness(), self.up_axis());
         let clip = self.clip;
-        let bounds = self.open.as_mut().map(|open| open.animated_bounds(clip));
+        let bounds = self.open.as_mut().map(|open| open.extent(clip).0);
         bounds.unwrap_or_default().transformed(world_from_model)
     }
 
@@ -460,8 +460,12 @@ impl Session {
     }
 
     fn frame_model(&mut self) {
-        let world_bounds = self.world_bounds();
-        self.camera.frame(&world_bounds, self.aspect, self.insets);
+        let world_from_model = world_from_model(self.handedness(), self.up_axis());
+        if let Some(open) = &mut self.open {
+            let (_, points) = open.extent(self.clip);
+            let world_points: Vec<_> = points.iter().map(|&point| world_from_model.transform_point3(point)).collect();
+            self.camera.frame(&world_points, self.aspect, self.insets);
+        }
         self.framed = true;
     }
 

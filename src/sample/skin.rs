@@ -1,0 +1,160 @@
+//! From solids to an even mesh: polygonise, find regions, then relax along the surface and snap to borders.
+
+use glam::DVec3;
+
+use super::body::Body;
+use super::lattice::lattice;
+use super::materials::Region;
+use super::rig::Rig;
+use super::sdf::gradient;
+use super::surface_nets::polygonise;
+
+/// The figure's closed skin in the bind pose.
+pub(super) struct Skin {
+    /// On the surface.
+    pub(super) positions: Vec<DVec3>,
+    /// Unit, outwards.
+    pub(super) normals: Vec<DVec3>,
+    /// Corners so that cross(b − a, c − a) points outwards.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// One per triangle.
+    pub(super) regions: Vec<Region>,
+    /// Neighbours along edges of quads.
+    pub(super) neighbours: Vec<Vec<u32>>,
+}
+
+/// Rounds of moving vertices to the middle of their neighbours: enough to even out the lattice's steps, few enough to keep
+/// fingertips and rims populated.
+const RELAX_ROUNDS: usize = 8;
+const RELAX_RATE: f64 = 0.5;
+
+impl Skin {
+    /// The skin of `body`.
+    pub(super) fn new(body: &Body, rig: &Rig) -> Skin {
+        let field = |point| body.distance(point);
+        let mesh = polygonise(&lattice(), field);
+        let (mut positions, quads) = (mesh.positions, mesh.quads);
+        for position in &mut positions {
+            *position = onto_surface(&field, *position, 3);
+        }
+
+        let quad_regions: Vec<Region> =
+            quads.iter().map(|quad| Region::of(body, rig, onto_surface(&field, middle(&positions, quad), 1))).collect();
+        let borders = borders(positions.len(), &quads, &quad_regions);
+        let neighbours = neighbours(positions.len(), &quads);
+
+        for _ in 0..RELAX_ROUNDS {
+            let before = positions.clone();
+            for (vertex, position) in positions.iter_mut().enumerate() {
+                let border = borders[vertex];
+                // A border vertex follows its border only, or the border would be smoothed away.
+                let around = neighbours[vertex].iter().filter(|n| border.is_none() || borders[**n as usize] == border);
+                let (sum, count) = around.fold((DVec3::ZERO, 0.0), |(s, c), n| (s + before[*n as usize], c + 1.0));
+                let pull = if count > 0.0 { (sum / count - *position) * RELAX_RATE } else { DVec3::ZERO };
+                *position = match border {
+                    // Newton with two surfaces keeps only what is along the border.
+                    Some(region) => {
+                        onto_border(&field, &|point| region.border(body, rig, point), *position + pull)
+                    }
+                    None => {
+                        let slope = gradient(&field, *position);
+                        let along_surface = pull - slope * (pull.dot(slope) / slope.length_squared());
+                        onto_surface(&field, *position + along_surface, 1)
+                    }
+                };
+            }
+        }
+
+        for (position, border) in positions.iter_mut().zip(&borders) {
+            if border.is_none() {
+                *position = onto_surface(&field, *position, 2);
+            }
+        }
+        let normals = positions.iter().map(|position| gradient(&field, *position).normalize()).collect();
+        let mut triangles = Vec::with_capacity(2 * quads.len());
+        let mut regions = Vec::with_capacity(2 * quads.len());
+        for (quad, region) in quads.iter().zip(quad_regions) {
+            triangles.extend(split(quad, &positions, &borders));
+            regions.extend([region; 2]);
+        }
+        Skin { positions, normals, triangles, regions, neighbours }
+    }
+}
+
+/// For a vertex where regions meet, the region whose border that is: the first in the order of ownership.
+fn borders(vertex_count: usize, quads: &[[u32; 4]], regions: &[Region]) -> Vec<Option<Region>> {
+    let mut first = vec![None::<Region>; vertex_count];
+    let mut mixed = vec![false; vertex_count];
+    for (quad, &region) in quads.iter().zip(regions) {
+        for &vertex in quad {
+            let vertex = vertex as usize;
+            let known = first[vertex].get_or_insert(region);
+            mixed[vertex] |= *known != region;
+            *known = region.min(*known);
+        }
+    }
+    first.into_iter().zip(mixed).map(|(first, mixed)| first.filter(|_| mixed)).collect()
+}
+
+fn neighbours(vertex_count: usize, quads: &[[u32; 4]]) -> Vec<Vec<u32>> {
+    let mut neighbours = vec![Vec::with_capacity(6); vertex_count];
+    for quad in quads {
+        for corner in 0..4 {
+            let (a, b) = (quad[corner], quad[(corner + 1) % 4]);
+            for (from, to) in [(a, b), (b, a)] {
+                let list: &mut Vec<u32> = &mut neighbours[from as usize];
+                if !list.contains(&to) {
+                    list.push(to);
+                }
+            }
+        }
+    }
+    neighbours
+}
+
+fn middle(positions: &[DVec3], quad: &[u32; 4]) -> DVec3 {
+    quad.iter().map(|vertex| positions[*vertex as usize]).sum::<DVec3>() / 4.0
+}
+
+/// Two triangles along the shorter diagonal, unless that puts three border vertices into one triangle: snapped to a border
+/// they are nearly in line.
+fn split(quad: &[u32; 4], positions: &[DVec3], borders: &[Option<Region>]) -> [[u32; 3]; 2] {
+    let [a, b, c, d] = *quad;
+    let length = |a: u32, b: u32| positions[a as usize].distance_squared(positions[b as usize]);
+    let flat = |triangles: &[[u32; 3]; 2]| {
+        triangles.iter().filter(|triangle| triangle.iter().all(|v| borders[*v as usize].is_some())).count()
+    };
+    let options = [[[a, b, c], [a, c, d]], [[b, c, d], [b, d, a]]];
+    let cost = |option: usize| (flat(&options[option]), if option == 0 { length(a, c) } else { length(b, d) });
+    // The slack keeps mirrored quads alike where rounding would decide.
+    let (first, second) = (cost(0), cost(1));
+    let take_second = second.0 < first.0 || (second.0 == first.0 && second.1 < first.1 * (1.0 - 1e-6));
+    options[usize::from(take_second)]
+}
+
+/// Newton steps to where `field` is zero.
+fn onto_surface(field: &impl Fn(DVec3) -> f64, mut point: DVec3, steps: usize) -> DVec3 {
+    for _ in 0..steps {
+        let slope = gradient(field, point);
+        point -= slope * (field(point) / slope.length_squared());
+    }
+    point
+}
+
+/// Least-norm Newton steps to where both are zero; where the two nearly touch without crossing, only the field counts.
+fn onto_border(field: &impl Fn(DVec3) -> f64, border: &impl Fn(DVec3) -> f64, mut point: DVec3) -> DVec3 {
+    /// Metres: a step longer than a cell would leave the neighbourhood.
+    const LONGEST: f64 = 0.012;
+    for _ in 0..5 {
+        let (f, g) = (gradient(field, point), gradient(border, point));
+        let (ff, fg, gg) = (f.length_squared(), f.dot(g), g.length_squared());
+        let determinant = ff * gg - fg * fg;
+        if determinant < 0.05 * ff * gg {
+            return onto_surface(field, point, 2);
+        }
+        let (a, b) = (field(point), border(point));
+        let step = f * ((gg * a - fg * b) / determinant) + g * ((ff * b - fg * a) / determinant);
+        point -= step.clamp_length_max(LONGEST);
+    }
+    onto_surface(field, point, 2)
+}
