@@ -285,6 +285,16 @@ impl Camera {
     }
 }
 
+impl Camera {
+    /// Where the leftmost of some points is in the picture: a share of its width from the left edge.
+    pub fn leftmost_share(&self, world_points: &[Vec3], aspect: f32) -> f32 {
+        let bounds = Aabb::from_points(world_points.iter().copied());
+        let clip_from_world = self.clip_from_view(aspect, &bounds) * self.view_from_world();
+        let x_clip = world_points.iter().map(|&point| clip_from_world.project_point3(point).x);
+        x_clip.fold(f32::INFINITY, f32::min) * 0.5 + 0.5
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
