@@ -1,5 +1,7 @@
 //! What the fixtures' values become.
 
+use std::f32::consts::FRAC_1_SQRT_2;
+
 use bindpose::format::{Dialect, Document, Reflectance, Subset, Vertex, parse};
 
 use super::good;
@@ -59,7 +61,7 @@ fn a_skinned_file_of_the_second_book() {
         (key.time_secs, key.translation, key.scale),
         (0.5, [0.0, 1.0, 0.0], [1.0; 3])
     );
-    assert_eq!(key.rotation, [0.0, 0.0, 0.7071068, 0.7071068]);
+    assert_eq!(key.rotation, [0.0, 0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2]);
     assert_eq!(
         (parsed.lines.vertices, parsed.lines.clips[0].bones.clone()),
         (vec![22, 29, 36], vec![57, 62])
