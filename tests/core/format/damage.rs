@@ -269,7 +269,7 @@ fn holds_a_name(line: &[u8]) -> bool {
         b"Effect:",
         b"DiffuseMap:",
         b"NormalMap:",
-        b"AnimationClip ",
+        b"AnimationClip",
     ];
     labels.iter().any(|label| line.starts_with(label))
         || line.ends_with(b"Header***************")
