@@ -68,7 +68,7 @@ pub(super) const WALK: Gait = Gait {
         (0.93, 8.0),
     ]),
     lift: Curve::new(&[(0.0, 0.0), (0.61, 0.0), (0.73, 0.052), (0.87, 0.03), (0.97, 0.004)]),
-    hips_drop: 0.034,
+    hips_drop: 0.027,
     bob: 0.018,
     lowest: 0.07,
     sway: 0.024,
