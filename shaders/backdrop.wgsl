@@ -10,7 +10,7 @@ fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
     let offset = vec2<f32>(ndc.x * 0.16, ndc.y - BACKDROP_ROW);
     // Rounded at the middle, so that no crease shows there.
     let away = (sqrt(dot(offset, offset) + 0.012) - 0.11) * BACKDROP_FALLOFF;
-    return mix(frame.backdrop_center_srgb, frame.backdrop_edge_srgb, clamp(away, 0.0, 1.0));
+    return mix(frame.backdrop_center_srgb.rgb, frame.backdrop_edge_srgb.rgb, clamp(away, 0.0, 1.0));
 }
 
 // Coverage of lines at whole numbers of `coordinate`, `width_pixels` wide; `per_pixel` is how far a pixel steps.

@@ -22,14 +22,14 @@ struct Frame {
     forward_per_y: vec3<f32>,
     // World units that a texel of the shadow map covers.
     shadow_texel: f32,
-    // Unit vector towards the key light.
+    // Unit vectors towards the lights.
     to_key: vec3<f32>,
     shadow_strength: f32,
-    // sRGB-encoded, so that the gradient is even to the eye.
-    backdrop_center_srgb: vec3<f32>,
+    to_rim: vec3<f32>,
     grid_strength: f32,
-    backdrop_edge_srgb: vec3<f32>,
-    unused: f32,
+    // sRGB-encoded, so that the gradient is even to the eye. Opaque.
+    backdrop_center_srgb: vec4<f32>,
+    backdrop_edge_srgb: vec4<f32>,
     // Colour and opacity.
     grid_minor: vec4<f32>,
     grid_major: vec4<f32>,

@@ -6,11 +6,12 @@ const SKY: vec3<f32> = vec3<f32>(0.44, 0.48, 0.55);
 const HORIZON: vec3<f32> = vec3<f32>(0.29, 0.30, 0.325);
 const GROUND: vec3<f32> = vec3<f32>(0.11, 0.105, 0.105);
 
-const KEY: vec3<f32> = vec3<f32>(1.16, 1.10, 1.01);
+const KEY: vec3<f32> = vec3<f32>(1.08, 1.05, 1.00);
+// The key is a soft box, not a point: its mirror image is spread by this much of alpha.
+const KEY_SIZE: f32 = 0.08;
 
-// From behind on the other side of the key: separates the silhouette from the backdrop.
-const TO_RIM: vec3<f32> = vec3<f32>(-0.727, 0.364, 0.582);
-const RIM: vec3<f32> = vec3<f32>(0.34, 0.45, 0.66);
+// From behind, opposite to the key: separates the silhouette from the backdrop.
+const RIM: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
 
 struct Surface {
     albedo: vec3<f32>,
@@ -47,7 +48,7 @@ fn specular(surface: Surface, to_light: vec3<f32>, n_dot_l: f32) -> vec3<f32> {
     let halfway = normalize(to_light + surface.to_eye);
     let n_dot_h = clamp(dot(surface.normal, halfway), 0.0, 1.0);
     let n_dot_v = max(dot(surface.normal, surface.to_eye), 1e-3);
-    let alpha = surface.roughness * surface.roughness;
+    let alpha = min(surface.roughness * surface.roughness + KEY_SIZE, 1.0);
     let alpha_squared = alpha * alpha;
     let spread = n_dot_h * n_dot_h * (alpha_squared - 1.0) + 1.0;
     let distribution = alpha_squared / (PI * spread * spread);
@@ -65,15 +66,15 @@ fn directional(surface: Surface, to_light: vec3<f32>, light: vec3<f32>) -> vec3<
     return light * n_dot_l * (surface.albedo + PI * specular(surface, to_light, n_dot_l));
 }
 
-fn shade(surface: Surface, to_key: vec3<f32>, key_visible: f32) -> vec3<f32> {
+fn shade(surface: Surface, to_key: vec3<f32>, to_rim: vec3<f32>, key_visible: f32) -> vec3<f32> {
     let n_dot_v = clamp(dot(surface.normal, surface.to_eye), 0.0, 1.0);
     let mirrored = reflect(-surface.to_eye, surface.normal);
     let ambient = surface.albedo * surrounding_light(surface.normal)
         + fresnel(surface.fresnel0, n_dot_v) * (1.0 - 0.7 * surface.roughness)
             * surrounding_mirror(mirrored, surface.roughness);
-    // Only what faces away from the viewer catches the rim.
+    // Diffuse only: a lobe this low would burn every flat top. What turns away from the viewer catches the most.
     let edge = 1.0 - n_dot_v;
-    let rim = directional(surface, TO_RIM, RIM) * (0.15 + 0.85 * edge * edge);
+    let rim = RIM * max(dot(surface.normal, to_rim), 0.0) * (0.2 + 0.8 * edge * edge) * (surface.albedo + surface.fresnel0);
     // What the key does not reach lies deeper in the figure as a rule, and so sees less of the surroundings too.
     return ambient * (0.78 + 0.22 * key_visible) + directional(surface, to_key, KEY) * key_visible + rim;
 }

@@ -3,9 +3,10 @@
 @group(2) @binding(0) var shadow_map: texture_depth_2d;
 @group(2) @binding(1) var shadow_sampler: sampler_comparison;
 
-// Sunflower disc: taps of even density, in units of the radius.
+// Sunflower disc: each tap turns on by the golden angle, so that the density is even.
 const SHADOW_TAPS: u32 = 16u;
-const GOLDEN_ANGLE: f32 = 2.39996323;
+const GOLDEN_COS: f32 = -0.73736888;
+const GOLDEN_SIN: f32 = 0.67549029;
 
 // 1 lit, 0 in shadow; blurred over `radius_texels` of the map. Points outside the map are lit.
 fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
@@ -18,9 +19,10 @@ fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
     let depth = min(clip.z, 0.9999);
     let radius = radius_texels / f32(textureDimensions(shadow_map).x);
     var lit = 0.0;
+    var direction = vec2<f32>(1.0, 0.0);
     for (var i = 0u; i < SHADOW_TAPS; i++) {
-        let angle = f32(i) * GOLDEN_ANGLE;
-        let offset = sqrt((f32(i) + 0.5) / f32(SHADOW_TAPS)) * vec2<f32>(cos(angle), sin(angle));
+        let offset = sqrt((f32(i) + 0.5) / f32(SHADOW_TAPS)) * direction;
+        direction = mat2x2<f32>(GOLDEN_COS, GOLDEN_SIN, -GOLDEN_SIN, GOLDEN_COS) * direction;
         lit += textureSampleCompareLevel(shadow_map, shadow_sampler, center + offset * radius, depth);
     }
     return lit / f32(SHADOW_TAPS);

@@ -32,15 +32,15 @@ pub struct PoseBuffers {
 }
 
 impl PoseBuffers {
-    /// Buffers that hold the bind pose: the skeleton at rest, and a palette of identities.
+    /// Buffers of the right size, in the bind pose: the skeleton at rest, and a palette of identities.
     pub fn for_skeleton(skeleton: &Skeleton) -> Self {
         let mut buffers = Self::default();
         buffers.set_bind_pose(skeleton);
         buffers
     }
 
-    /// The pose of a clip at a time: `sample`, `local_to_model` and `palette` in turn. Allocates only when the buffers were
-    /// sized for a smaller skeleton.
+    /// The pose of a clip of this skeleton at a time: `sample`, `local_to_model` and `palette` in turn. Allocates only when
+    /// the buffers were sized for a smaller skeleton.
     pub fn evaluate(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) {
         sample(clip, time_secs, &mut self.local);
         local_to_model(skeleton, &self.local, &mut self.model);

@@ -1,9 +1,12 @@
 //! Named motions and their frames.
 
-use super::{FrameGrid, Track};
+use super::Track;
 
 /// Frames a second of a clip in which no track has two keys.
 const DEFAULT_KEYS_PER_SEC: f32 = 30.0;
+
+/// A time this close to a frame, in frames, is on it: what files and f32 lose of a time is less.
+const ON_FRAME: f64 = 0.01;
 
 /// A named motion: one track per joint, in the skeleton's order.
 ///
@@ -44,18 +47,11 @@ impl Clip {
         self.end_secs - self.start_secs
     }
 
-    /// The clip's frames.
-    pub fn frames(&self) -> FrameGrid {
-        FrameGrid {
-            start_secs: self.start_secs,
-            end_secs: self.end_secs,
-            keys_per_sec: self.keys_per_sec,
-        }
-    }
-
-    /// Number of the frame at `end_secs`, counted from 0.
+    /// Number of the frame at `end_secs`, counted from 0. A length that is no whole number of frames has its remainder in
+    /// the last step.
     pub fn last_frame(&self) -> u32 {
-        self.frames().last_frame()
+        // A cast from a float saturates.
+        (f64::from(self.duration_secs()) * f64::from(self.keys_per_sec)).round() as u32
     }
 
     /// Number of frames, 1 or more: both ends are frames.
@@ -65,12 +61,40 @@ impl Clip {
 
     /// The frame nearest to a time, inside the clip.
     pub fn frame_at(&self, time_secs: f32) -> u32 {
-        self.frames().frame_at(time_secs)
+        self.place_of(time_secs).round() as u32
     }
 
     /// The time of a frame; the last frame and any beyond it are at `end_secs`.
     pub fn time_of_frame(&self, frame: u32) -> f32 {
-        self.frames().time_of_frame(frame)
+        if frame == 0 {
+            return self.start_secs;
+        }
+        if frame >= self.last_frame() {
+            return self.end_secs;
+        }
+        let since_start_secs = f64::from(frame) / f64::from(self.keys_per_sec);
+        ((f64::from(self.start_secs) + since_start_secs) as f32).clamp(self.start_secs, self.end_secs)
+    }
+
+    /// The time `frames` further on, or back when negative: always a whole frame inside the clip. Between two frames the
+    /// first step reaches the next whole frame on its way.
+    pub fn step_frames(&self, time_secs: f32, frames: i32) -> f32 {
+        let place = self.place_of(time_secs);
+        let from = if frames >= 0 {
+            (place + ON_FRAME).floor()
+        } else {
+            (place - ON_FRAME).ceil()
+        };
+        // A cast from a float saturates, so a step below 0 is frame 0.
+        self.time_of_frame((from + f64::from(frames)) as u32)
+    }
+
+    /// Where a time lies, in frames, inside the clip: 30.5 is half way from frame 30 to frame 31.
+    fn place_of(&self, time_secs: f32) -> f64 {
+        let since_start_secs = f64::from(time_secs) - f64::from(self.start_secs);
+        let place = since_start_secs * f64::from(self.keys_per_sec);
+        // The bounds in this order turn NaN into 0.
+        place.max(0.0).min(f64::from(self.last_frame()))
     }
 }
 
@@ -91,7 +115,10 @@ pub(super) fn span<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> (f32, f32
 /// Keys a second of the track with the most keys: the middle one of its steps, so that a gap or a jump does not count.
 /// Files round their times, so a rate within 0.1 % of a whole number is that number.
 pub(super) fn keys_per_sec<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> f32 {
-    let Some(densest) = tracks.into_iter().max_by_key(|track| track.key_count()) else {
+    let Some(densest) = tracks
+        .into_iter()
+        .reduce(|a, b| if b.key_count() > a.key_count() { b } else { a })
+    else {
         return DEFAULT_KEYS_PER_SEC;
     };
     let mut steps_secs: Vec<f64> = densest

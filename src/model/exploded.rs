@@ -29,8 +29,8 @@ pub(super) fn note_exploded(mesh: &Mesh, skeleton: &Skeleton, clips: &[Clip], li
                 "exploded",
                 Place::on(Subject::Clip(index), lines.clips.get(index as usize).map(|lines| lines.clip)),
                 format!(
-                    "{:.0} % of the edges are torn at the first key of “{}”; its keys do not belong to the bone offsets \
-                     (perhaps they are relative to the model, not to the parent)",
+                    "{:.0} % of the edges are torn at the first key of \"{}\": its keys do not belong to the bone offsets \
+                     (perhaps they are relative to the model, not to the parent).",
                     share * 100.0,
                     clip.name
                 ),

@@ -25,7 +25,7 @@ pub(super) fn mesh_from_document(
     let indices = indices(&document.triangles, vertices.len(), lines)?;
     if vertices.len() > BOOK_VERTEX_LIMIT {
         let count = vertices.len();
-        let message = format!("{count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}");
+        let message = format!("There are {count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}.");
         notes.note("many-vertices", Place::default(), message);
     }
     let positions = finite_stream(vertices, lines, notes, "position", |vertex| vertex.position);
@@ -89,8 +89,8 @@ fn finite_stream<const N: usize>(
             "vertex-not-finite",
             Place::of(Subject::Vertex(mended.first), &lines.vertices),
             format!(
-                "{} with a {field} that is not finite; taken as 0",
-                counted(mended.count, "vertex", "vertices")
+                "{} a {field} that is not finite; taken as 0.",
+                counted(mended.count, "vertex has", "vertices have")
             ),
         );
     }

@@ -35,7 +35,7 @@ pub(super) fn skeleton_from_document(
         notes.note(
             "many-bones",
             Place::default(),
-            format!("{bone_count} bones; the books' shaders hold {BOOK_BONE_LIMIT}"),
+            format!("There are {bone_count} bones; the books' shaders hold {BOOK_BONE_LIMIT}."),
         );
     }
 
@@ -134,7 +134,7 @@ fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, note
     notes.note(
         "bones-reordered",
         Place::of(Subject::Bone(late.first), &lines.bone_parents),
-        format!("{stand} before the parent; joints are sorted and keep the file's numbers for display"),
+        format!("{stand} before the parent; the joints are sorted and keep the file's numbers for display."),
     );
 }
 
@@ -162,25 +162,25 @@ fn offsets(rows: &[[f32; 16]], lines: &LineMap, notes: &mut Notes) -> Vec<Affine
         .collect();
     let mut warn = |code, tally: Tally, rule: &str| {
         if tally.count > 0 {
-            let bones = counted(tally.count, "bone offset", "bone offsets");
+            let offsets = counted(tally.count, "bone offset has", "bone offsets have");
             let place = Place::of(Subject::Bone(tally.first), &lines.bone_offsets);
-            notes.warn(code, place, format!("{bones} {rule}"));
+            notes.warn(code, place, format!("{offsets} {rule}"));
         }
     };
     warn(
         "offset-not-finite",
         not_finite,
-        "with a number that is not finite; taken as the identity",
+        "a number that is not finite; the identity stands in.",
     );
     warn(
         "offset-not-affine",
         not_affine,
-        "whose fourth column is not 0 0 0 1; that column is left out",
+        "a fourth column that is not 0 0 0 1; that column was left out.",
     );
     warn(
         "offset-singular",
         singular,
-        "that cannot be inverted; their bind pose is unknown",
+        "no inverse; the bone's place in the bind pose is unknown.",
     );
     matrices
 }

@@ -92,13 +92,13 @@ fn joined(
 impl Mended {
     fn note(&self, lines: &LineMap, notes: &mut Notes) {
         let place = |tally: &Tally| Place::of(Subject::Vertex(tally.first), &lines.vertices);
-        let vertices = |tally: &Tally| counted(tally.count, "vertex", "vertices");
+        let vertices = |tally: &Tally| counted(tally.count, "vertex has", "vertices have");
         if self.invalid.count > 0 {
             notes.warn(
                 "weights-invalid",
                 place(&self.invalid),
                 format!(
-                    "{} with a blend weight that is negative or not finite; taken as 0",
+                    "{} a blend weight that is negative or not finite; taken as 0.",
                     vertices(&self.invalid)
                 ),
             );
@@ -108,7 +108,7 @@ impl Mended {
                 "weights-not-normalized",
                 place(&self.off_sum),
                 format!(
-                    "{} with blend weights whose sum is off by more than {SUM_TOLERANCE}; scaled to 1",
+                    "{} blend weights whose sum is off from 1 by more than {SUM_TOLERANCE}; normalised.",
                     vertices(&self.off_sum)
                 ),
             );
@@ -117,10 +117,7 @@ impl Mended {
             notes.warn(
                 "weights-all-zero",
                 place(&self.unweighted),
-                format!(
-                    "{} without any blend weight; not moved by the skeleton",
-                    vertices(&self.unweighted)
-                ),
+                format!("{} no blend weight; not moved by any bone.", vertices(&self.unweighted)),
             );
         }
         if self.high_bone.count > 0 {
@@ -128,8 +125,8 @@ impl Mended {
                 "bone-index-above-byte",
                 place(&self.high_bone),
                 format!(
-                    "{} with a bone number above {BOOK_BONE_INDEX}, which the books' loaders cannot hold",
-                    counted(self.high_bone.count, "influence", "influences")
+                    "{} a bone above {BOOK_BONE_INDEX}, which the books' loaders cannot hold.",
+                    counted(self.high_bone.count, "influence names", "influences name")
                 ),
             );
         }

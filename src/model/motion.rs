@@ -31,7 +31,7 @@ pub(super) fn clips_from_document(
             notes.note(
                 "duplicate-clip-name",
                 Place::of(Subject::Clip(index), &clip_lines),
-                format!("another clip is named the same; it is shown as “{name}”"),
+                format!("Another clip has the same name; this one is shown as \"{name}\"."),
             );
         },
     );
@@ -118,7 +118,7 @@ impl ClipReader<'_> {
             notes.warn(
                 "clip-bones-missing",
                 at_clip,
-                format!("{missing} no track in this clip and stay at rest"),
+                format!("{missing} no track in this clip; at rest as in the bind pose."),
             );
         }
         if bone_count > joint_count {
@@ -126,7 +126,7 @@ impl ClipReader<'_> {
             notes.warn(
                 "clip-bones-extra",
                 at_clip,
-                format!("{more} more than the skeleton has bones; left out"),
+                format!("The clip has {more} more than the skeleton has bones; left out."),
             );
         }
         let mut warn = |code, tally: Tally, one: &str, many: &str, rule: &str| {
@@ -136,49 +136,49 @@ impl ClipReader<'_> {
                 notes.warn(code, Place::on(Subject::Clip(self.clip), line), message);
             }
         };
-        let bones = ("bone", "bones");
-        let keys = ("key", "keys");
+        let bones = ("bone has", "bones have");
+        let keys = ("key has", "keys have");
         warn(
             "track-empty",
             mended.empty,
             bones.0,
             bones.1,
-            "without keys in this clip; at rest as in the bind pose",
+            "no keys in this clip; at rest as in the bind pose.",
         );
         warn(
             "keys-not-finite",
             mended.not_finite,
             keys.0,
             keys.1,
-            "with a number that is not finite or a time beyond 10⁹ s; left out",
+            "a number that is not finite or a time beyond 10⁹ s; left out.",
         );
         warn(
             "keys-not-sorted",
             mended.unsorted,
             bones.0,
             bones.1,
-            "with keys that are not in the order of time; sorted",
+            "keys that are not in the order of time; sorted.",
         );
         warn(
             "keys-at-equal-times",
             mended.equal_times,
             keys.0,
             keys.1,
-            "at the time of the key before; the first and the last of a time are kept as a jump",
+            "the time of the key before; the first and the last key of a time are kept as a jump.",
         );
         warn(
             "rotation-not-unit",
             mended.not_unit,
             keys.0,
             keys.1,
-            "whose rotation is not of unit length; normalised",
+            "a rotation that is not of unit length; normalised.",
         );
         warn(
             "rotation-zero",
             mended.zero_rotation,
             keys.0,
             keys.1,
-            "whose rotation is zero; taken as no rotation",
+            "a rotation of length 0; taken as no rotation.",
         );
     }
 }
@@ -193,8 +193,7 @@ fn mended_keys(bone: u32, keys: &[crate::format::Keyframe], mended: &mut Mended)
             translation: Vec3::from_array(key.translation),
             scale: Vec3::from_array(key.scale),
         };
-        // NaN is not below the limit either.
-        if !joint.is_finite() || !(key.time_secs.abs() <= MAX_TIME_SECS) {
+        if !joint.is_finite() || key.time_secs.is_nan() || key.time_secs.abs() > MAX_TIME_SECS {
             mended.not_finite.add(bone);
             continue;
         }

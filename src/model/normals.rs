@@ -37,8 +37,8 @@ pub(super) fn mended_normals(
             "normals-missing",
             Place::of(Subject::Vertex(missing.first), &lines.vertices),
             format!(
-                "{} whose normal is zero or not finite; computed from the triangles",
-                counted(missing.count, "vertex", "vertices")
+                "{} a normal that is zero or not finite; computed from the triangles.",
+                counted(missing.count, "vertex has", "vertices have")
             ),
         );
         area_weighted(positions, indices, handedness)

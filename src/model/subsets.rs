@@ -20,12 +20,12 @@ pub(super) fn submeshes_from_document(
             return Vec::new();
         }
         if materials.is_empty() {
-            materials.push(default_material());
+            materials.push(default_material(materials));
         }
         notes.warn(
             "no-subsets",
             Place::default(),
-            format!("the file has no subset; all {triangle_count} triangles are drawn with the first material"),
+            format!("The file has no subset; all {triangle_count} triangles are drawn with the first material."),
         );
         return vec![Submesh {
             triangle_start: 0,
@@ -50,14 +50,14 @@ pub(super) fn submeshes_from_document(
         })
         .collect();
     if let Some(first) = without_material {
-        materials.push(default_material());
+        materials.push(default_material(materials));
         let count = document.subsets.len() - first as usize;
         notes.warn(
             "subset-without-material",
             Place::of(Subject::Subset(first), &lines.subsets),
             format!(
-                "{} without a material; drawn in a default grey",
-                counted(count, "subset", "subsets")
+                "{} no material; drawn in a default grey.",
+                counted(count, "subset has", "subsets have")
             ),
         );
     }
@@ -76,8 +76,8 @@ fn clamped(index: u32, subset: &Subset, triangle_count: u32, lines: &LineMap, no
             "subset-out-of-range",
             Place::of(Subject::Subset(index), &lines.subsets),
             format!(
-                "subset {index} asks for {wanted} triangles from {first} on, but the file has {triangle_count}; {count} of \
-                 them are drawn",
+                "Subset {index} asks for {wanted} triangles from {first} on, but the file has {triangle_count}; {count} of \
+                 them are drawn.",
             ),
         );
     }
@@ -104,7 +104,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
         notes.warn(
             "triangles-undrawn",
             Place::default(),
-            format!("{belong} to no subset and are not drawn"),
+            format!("{belong} to no subset; not drawn."),
         );
     }
     if again > 0 {
@@ -112,7 +112,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
         notes.note(
             "triangles-shared",
             Place::default(),
-            format!("{belong} to more than one subset"),
+            format!("{belong} to more than one subset."),
         );
     }
 }
@@ -137,8 +137,8 @@ fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes
                 "indices-look-relative",
                 Place::of(Subject::Subset(index), &lines.subsets),
                 format!(
-                    "the triangles of subset {index} name only vertices before its VertexStart {}; they are taken as they \
-                     stand, but look counted from there",
+                    "The triangles of subset {index} name only vertices before its VertexStart {}; they are taken as they \
+                     stand, but look counted from there.",
                     subset.vertex_start
                 ),
             );

@@ -45,16 +45,16 @@ pub(super) fn mended_tangents(
             notes.warn(
                 code,
                 place,
-                format!("{} {rule}", counted(tally.count, "vertex", "vertices")),
+                format!("{} {rule}", counted(tally.count, "vertex has", "vertices have")),
             );
         }
     };
-    let rule = "whose tangent is zero or not finite; computed from the texture coordinates";
+    let rule = "a tangent that is zero or not finite; computed from the texture coordinates.";
     warn("tangents-missing", missing, rule);
     warn(
         "tangent-sign",
         signs,
-        "whose tangent's fourth number is not 1 or −1; taken as its sign",
+        "a tangent whose fourth number is not 1 or −1; its sign is kept.",
     );
     tangents
 }

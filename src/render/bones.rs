@@ -41,8 +41,7 @@ impl BoneTexture {
         limits.max_texture_dimension_2d as usize * JOINTS_PER_ROW as usize
     }
 
-    /// Sized for `joint_count` joints, at most [`BoneTexture::max_joints`]; one row at least. All matrices are zero until
-    /// the first write.
+    /// Sized for `joint_count` joints, at most [`BoneTexture::max_joints`]; one row at least. To be written before it is read.
     pub fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, joint_count: usize) -> Self {
         let rows = (joint_count as u32).div_ceil(JOINTS_PER_ROW).max(1);
         let width = JOINTS_PER_ROW * TEXELS_PER_JOINT;
@@ -81,13 +80,14 @@ impl BoneTexture {
         &self.group
     }
 
-    /// Uploads a palette; what it has beyond the joints of the texture is left out.
+    /// Uploads a palette. Matrices that it lacks are identities, what it has beyond the joints of the texture is left out.
     pub fn write(&mut self, queue: &wgpu::Queue, palette: &Palette) {
-        if palette.0.is_empty() {
-            return;
-        }
-        let joints = self.texels.chunks_exact_mut(TEXELS_PER_JOINT as usize);
-        for (texels, model_from_bind) in joints.zip(palette.0.iter().take(self.joint_count)) {
+        let joints = self
+            .texels
+            .chunks_exact_mut(TEXELS_PER_JOINT as usize)
+            .take(self.joint_count);
+        let matrices = palette.0.iter().chain(std::iter::repeat(&Affine3A::IDENTITY));
+        for (texels, model_from_bind) in joints.zip(matrices) {
             texels.copy_from_slice(&rows(model_from_bind));
         }
         let size = self.texture.size();

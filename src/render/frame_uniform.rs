@@ -1,8 +1,8 @@
 //! A [`RenderFrame`] as the shaders want it.
 
-use glam::{Mat4, Vec3};
+use glam::Mat4;
 
-use super::look::{encoded, linear, look, to_key};
+use super::look::{Lights, encoded, linear, look};
 use super::shadow::ShadowFit;
 use crate::scene::{Ground, Projection, RenderFrame};
 use crate::shaders;
@@ -17,7 +17,8 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], 
     let aspect = width as f32 / height as f32;
     let look = look(frame.options.theme);
     let ground = Ground::under(&frame.world_bounds);
-    let shadow = ShadowFit::new(&frame.world_bounds, to_key());
+    let lights = Lights::beside(camera);
+    let shadow = ShadowFit::new(&frame.world_bounds, lights.to_key);
     let clip_from_world = camera.clip_from_view(aspect, &frame.world_bounds) * camera.view_from_world();
     let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
 
@@ -46,15 +47,15 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], 
         grid_reach: reach,
         forward_per_y: (per_y * forward_scale).to_array(),
         shadow_texel: shadow.texel,
-        to_key: to_key().to_array(),
+        to_key: lights.to_key.to_array(),
         shadow_strength: look.shadow_strength,
-        backdrop_center_srgb: encoded(look.backdrop_center),
+        to_rim: lights.to_rim.to_array(),
         grid_strength: if frame.options.grid_visible { 1.0 } else { 0.0 },
+        backdrop_center_srgb: encoded(look.backdrop_center),
         backdrop_edge_srgb: encoded(look.backdrop_edge),
-        unused: 0.0,
         grid_minor: linear(look.grid_minor, look.grid_minor_opacity),
         grid_major: linear(look.grid_major, look.grid_major_opacity),
-        grid_center: Vec3::new(center.x, center.z, 0.0).truncate().to_array(),
+        grid_center: [center.x, center.z],
         viewport_pixels: [width as f32, height as f32],
     }
 }

@@ -1,8 +1,8 @@
-//! Colours of the surroundings and the place of the key light.
+//! Colours of the surroundings and the places of the lights.
 
 use glam::Vec3;
 
-use crate::scene::{Theme, linear_from_srgb8};
+use crate::scene::{Camera, Theme, linear_from_srgb8};
 
 /// Colours of one theme, sRGB.
 pub(super) struct Look {
@@ -46,18 +46,57 @@ pub(super) fn look(theme: Theme) -> &'static Look {
     }
 }
 
-/// Unit vector towards the key light: high, from the right of one who looks at the front, a little to that side.
-pub(super) fn to_key() -> Vec3 {
-    Vec3::new(0.62, 0.72, -0.31).normalize()
+/// Where the lights stand. They keep their place beside the viewer, as if the model stood on a turntable: whichever side is
+/// looked at is lit well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lights {
+    /// Unit vector towards the key: high over the viewer's right shoulder.
+    pub(super) to_key: Vec3,
+    /// Unit vector towards the rim: behind the model, from the left.
+    pub(super) to_rim: Vec3,
 }
 
-/// An encoded colour, 0…1 a channel.
-pub(super) fn encoded(srgb: [u8; 3]) -> [f32; 3] {
-    srgb.map(|channel| f32::from(channel) / 255.0)
+impl Lights {
+    pub(super) fn beside(camera: &Camera) -> Self {
+        let right = camera.right();
+        let ahead = right.cross(Vec3::Y);
+        let towards = |x: f32, y: f32, z: f32| (right * x + Vec3::Y * y + ahead * z).normalize();
+        Self {
+            to_key: towards(0.64, 0.74, -0.34),
+            to_rim: towards(-0.72, 0.36, 0.58),
+        }
+    }
+}
+
+/// An encoded opaque colour, 0…1 a channel.
+pub(super) fn encoded([red, green, blue]: [u8; 3]) -> [f32; 4] {
+    [red, green, blue, 255].map(|channel| f32::from(channel) / 255.0)
 }
 
 /// A linear colour with opacity.
 pub(super) fn linear(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
     let [red, green, blue] = srgb.map(linear_from_srgb8);
     [red, green, blue, opacity]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Projection;
+
+    #[test]
+    fn the_key_is_above_to_the_right_and_before_the_model_from_every_side() {
+        for yaw_radians in [0.0, 1.0, 2.5, -3.0] {
+            let camera = Camera {
+                target: Vec3::ZERO,
+                distance: 1.0,
+                yaw_radians,
+                pitch_radians: 0.3,
+                projection: Projection::Orthographic,
+            };
+            let Lights { to_key, to_rim } = Lights::beside(&camera);
+            assert!(to_key.y > 0.5 && to_key.dot(camera.right()) > 0.4 && to_key.dot(camera.forward()) < -0.3);
+            assert!(to_rim.dot(camera.right()) < -0.4 && to_rim.dot(camera.forward()) > 0.3);
+        }
+    }
 }

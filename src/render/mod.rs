@@ -97,8 +97,7 @@ impl Renderer {
         self.model = None;
     }
 
-    /// Draws a frame and submits it. A skinned model with an empty palette is drawn as bind space has it; joints that the
-    /// palette lacks keep the matrix they had.
+    /// Draws a frame and submits it. A skinned model with an empty palette is drawn as bind space has it.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) {
         let model = self.model.as_mut();
         let winding = model.as_ref().map_or(1.0, |model| model.winding);

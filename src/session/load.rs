@@ -1,5 +1,7 @@
 //! From one file's bytes to a model that can be shown, or to an error that can be.
 
+use glam::Vec3;
+
 use crate::anim;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::format::{self, Dialect, Excerpt};
@@ -21,20 +23,32 @@ pub struct OpenModel {
     pub notices: Vec<Diagnostic>,
     /// Box of the bind pose, in the file's space.
     pub bind_bounds: Aabb,
-    /// Box of all that a clip reaches, in the file's space; computed when the clip is first shown.
-    clip_bounds: Vec<Option<Aabb>>,
+    bind_points: Vec<Vec3>,
+    /// Computed when a clip is first shown.
+    clip_extents: Vec<Option<Extent>>,
+}
+
+/// The space that a clip needs, in the file's space.
+#[derive(Clone, Debug)]
+struct Extent {
+    /// Box of all that is reached.
+    bounds: Aabb,
+    /// Points by which it is framed; see [`anim::extreme_points`].
+    points: Vec<Vec3>,
 }
 
 impl OpenModel {
-    /// Box of all that a clip reaches, in the file's space; the bind pose's without a clip.
-    pub fn animated_bounds(&mut self, clip: Option<usize>) -> Aabb {
-        let (Some(index), bind_bounds) = (clip, self.bind_bounds) else {
-            return self.bind_bounds;
+    /// The space that a clip needs; the bind pose's without a clip.
+    pub fn extent(&mut self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
+        let index = clip.unwrap_or(usize::MAX);
+        let (Some(clip), Some(known)) = (self.model.clips.get(index), self.clip_extents.get_mut(index)) else {
+            return (self.bind_bounds, &self.bind_points);
         };
-        let (Some(clip), Some(known)) = (self.model.clips.get(index), self.clip_bounds.get_mut(index)) else {
-            return bind_bounds;
-        };
-        *known.get_or_insert_with(|| anim::animated_bounds(&self.model, clip))
+        let extent = known.get_or_insert_with(|| Extent {
+            bounds: anim::animated_bounds(&self.model, clip),
+            points: anim::extreme_points(&self.model, Some(clip)),
+        });
+        (extent.bounds, &extent.points)
     }
 
     /// Lines of the file around a finding.
@@ -121,14 +135,16 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
     let mut notices = parsed.notices;
     notices.extend(model_notices);
     notices.sort_by_key(|notice| notice.position);
-    let bind_bounds = Aabb::from_points(model.mesh.positions.iter().copied());
-    let clip_bounds = vec![None; model.clips.len()];
+    let bind_bounds = model.bind_bounds();
+    let bind_points = anim::extreme_points(&model, None);
+    let clip_extents = vec![None; model.clips.len()];
     Ok(OpenModel {
         file: file.clone(),
         dialect: parsed.document.dialect,
         model,
         notices,
         bind_bounds,
-        clip_bounds,
+        bind_points,
+        clip_extents,
     })
 }

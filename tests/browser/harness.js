@@ -1,7 +1,7 @@
 // A real Chromium on one backend, and what the tests do with its pages.
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, readdirSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, rmSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { after, test as nodeTest } from "node:test";
 import { chromium } from "playwright-core";
@@ -48,6 +48,10 @@ const QUIET_FLAGS = [
 /** Long enough for a debug build on a software GPU that shares two cores. */
 const PATIENCE_MS = 60_000;
 
+// The pictures of the last run would be taken for those of this one.
+for (const picture of filesIn(OUT, ".png")) {
+  if (picture.startsWith(`${OUT}${BACKEND}-`)) rmSync(picture);
+}
 mkdirSync(OUT, { recursive: true });
 let browser = null;
 after(() => browser?.close());

@@ -56,6 +56,8 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
             "backdrop/fragment",
             "composite/vertex",
             "composite/fragment",
+            "probe/vertex",
+            "probe/fragment",
         ]
     );
 }
@@ -100,10 +102,10 @@ fn twins() -> BTreeMap<String, Layout> {
             shadow_texel,
             to_key,
             shadow_strength,
-            backdrop_center_srgb,
+            to_rim,
             grid_strength,
+            backdrop_center_srgb,
             backdrop_edge_srgb,
-            unused,
             grid_minor,
             grid_major,
             grid_center,

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use bindpose::render::device::Backend;
-use bindpose::scene::Theme;
+use bindpose::scene::{Background, Projection, Theme};
 
 use crate::gpu::{Gpu, Picture};
-use crate::scenes::{FRONT, Scene, card};
+use crate::scenes::{FRONT, Scene, bent_tube, card};
 
 /// Drivers round and antialias differently: a channel may be off by this much anywhere …
 const TOLERANCE: u8 = 6;
@@ -85,5 +85,18 @@ on_both_backends! {
     }
     fn card_on_light_ground(gpu) {
         compare(gpu, "card-light", &Scene::of(card(FRONT)).three_quarter(Theme::Light));
+    }
+    fn bent_tube_on_dark_ground(gpu) {
+        compare(gpu, "bent-tube-dark", &bent_tube(0.9).three_quarter(Theme::Dark));
+    }
+    fn bent_tube_on_light_ground_in_parallel(gpu) {
+        let mut scene = bent_tube(-0.9).three_quarter(Theme::Light);
+        scene.camera.projection = Projection::Orthographic;
+        compare(gpu, "bent-tube-light-orthographic", &scene);
+    }
+    fn bent_tube_on_nothing(gpu) {
+        let mut scene = bent_tube(0.9).three_quarter(Theme::Light);
+        scene.options.background = Background::Transparent;
+        compare(gpu, "bent-tube-transparent", &scene);
     }
 }

@@ -8,17 +8,17 @@ use bindpose::render::{Renderer, Target, read_back_blocking};
 use crate::scenes::Scene;
 
 /// An open backend.
-pub struct Gpu {
-    pub backend: Backend,
-    pub open: device::Gpu,
+pub(crate) struct Gpu {
+    pub(crate) backend: Backend,
+    pub(crate) open: device::Gpu,
 }
 
-pub fn vulkan() -> &'static Gpu {
+pub(crate) fn vulkan() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| open(Backend::Vulkan))
 }
 
-pub fn gl() -> &'static Gpu {
+pub(crate) fn gl() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| open(Backend::Gl))
 }
@@ -30,16 +30,16 @@ fn open(backend: Backend) -> Gpu {
 }
 
 impl Gpu {
-    pub fn renderer(&self) -> Renderer {
+    pub(crate) fn renderer(&self) -> Renderer {
         Renderer::with_samples(&self.open.device, &self.open.queue, self.open.samples)
     }
 
-    pub fn target(&self, width: u32, height: u32) -> Target {
+    pub(crate) fn target(&self, width: u32, height: u32) -> Target {
         Target::with_samples(&self.open.device, width, height, self.open.samples)
     }
 
     /// Draws a scene once.
-    pub fn draw(&self, scene: &Scene, width: u32, height: u32) -> Picture {
+    pub(crate) fn draw(&self, scene: &Scene, width: u32, height: u32) -> Picture {
         let mut renderer = self.renderer();
         renderer.set_model(&scene.model).expect("test models are small");
         let mut target = self.target(width, height);
@@ -47,7 +47,7 @@ impl Gpu {
         self.read(&target)
     }
 
-    pub fn read(&self, target: &Target) -> Picture {
+    pub(crate) fn read(&self, target: &Target) -> Picture {
         let [width, height] = target.size();
         let rgba = read_back_blocking(&self.open.device, &self.open.queue, target).expect("reads back");
         assert_eq!(rgba.len(), (width * height * 4) as usize);
@@ -57,25 +57,25 @@ impl Gpu {
 
 /// Pixels, sRGB, straight alpha.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    pub width: u32,
-    pub height: u32,
-    pub rgba: Vec<u8>,
+pub(crate) struct Picture {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) rgba: Vec<u8>,
 }
 
 impl Picture {
-    pub fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+    pub(crate) fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
         assert!(x < self.width && y < self.height);
         let start = ((y * self.width + x) * 4) as usize;
         self.rgba[start..start + 4].try_into().expect("four channels")
     }
 
-    pub fn middle(&self) -> [u8; 4] {
+    pub(crate) fn middle(&self) -> [u8; 4] {
         self.pixel(self.width / 2, self.height / 2)
     }
 
     /// Share of the pixels in which some channel differs by more than `tolerance`.
-    pub fn share_that_differs(&self, other: &Self, tolerance: u8) -> f64 {
+    pub(crate) fn share_that_differs(&self, other: &Self, tolerance: u8) -> f64 {
         assert_eq!((self.width, self.height), (other.width, other.height));
         let pixels = self.rgba.chunks_exact(4).zip(other.rgba.chunks_exact(4));
         let differs = |(a, b): &(&[u8], &[u8])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > tolerance);
@@ -84,7 +84,7 @@ impl Picture {
 }
 
 /// Greatest difference of two pixels in any channel.
-pub fn difference(a: [u8; 4], b: [u8; 4]) -> u8 {
+pub(crate) fn difference(a: [u8; 4], b: [u8; 4]) -> u8 {
     a.into_iter()
         .zip(b)
         .map(|(a, b)| a.abs_diff(b))
@@ -93,7 +93,7 @@ pub fn difference(a: [u8; 4], b: [u8; 4]) -> u8 {
 }
 
 /// The bytes of any texture, rows without padding.
-pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Vec<u8> {
+pub(crate) fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Vec<u8> {
     let device = &gpu.open.device;
     let row = texture.width() * bytes_per_pixel;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);

@@ -1,11 +1,12 @@
 //! What must hold for any picture, whatever the look.
 
-use bindpose::render::{Compositor, Target};
+use bindpose::anim::Palette;
+use bindpose::render::{Compositor, Renderer, SampleCount, Target};
 use bindpose::scene::{Background, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
 use crate::gpu::{Gpu, Picture, difference};
-use crate::scenes::{FRONT, Facing, Scene, card};
+use crate::scenes::{FRONT, Facing, Scene, bent_tube, card, tube};
 
 /// `backdrop, centre` of the dark theme.
 const DARK_CENTER: [u8; 4] = [0x33, 0x38, 0x42, 255];
@@ -125,6 +126,18 @@ on_both_backends! {
         assert_eq!(target.size(), [1, 1]);
     }
 
+    /// Where a device has no multisampling: the same picture but for edges.
+    fn one_sample_a_pixel_is_enough_for_a_picture(gpu) {
+        let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
+        let device = &gpu.open.device;
+        let mut renderer = Renderer::with_samples(device, &gpu.open.queue, SampleCount::One);
+        renderer.set_model(&scene.model).expect("small");
+        let mut target = Target::with_samples(device, 160, 100, SampleCount::One);
+        renderer.render(&scene.frame(), &mut target);
+        let differs = gpu.read(&target).share_that_differs(&gpu.draw(&scene, 160, 100), 4);
+        assert!(differs < 0.03, "{differs}");
+    }
+
     fn a_cleared_model_is_gone(gpu) {
         let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
         let mut renderer = gpu.renderer();
@@ -166,6 +179,34 @@ on_both_backends! {
                 assert!(differs < 0.005, "{scale}: {differs}");
             }
         }
+    }
+
+    /// Joints that do not move, no palette at all, and a mesh without joints: three ways to the same picture.
+    fn bind_pose_looks_alike_with_and_without_joints(gpu) {
+        let mut scene = Scene::of(tube()).three_quarter(Theme::Dark);
+        let without_palette = gpu.draw(&scene, 160, 100);
+        scene.palette = Palette(vec![Affine3A::IDENTITY; 2]);
+        let unmoved = gpu.draw(&scene, 160, 100);
+        scene.model.skeleton = Default::default();
+        scene.model.mesh.influences.clear();
+        let without_joints = gpu.draw(&scene, 160, 100);
+        assert_eq!(without_palette, without_joints);
+        assert!(unmoved.share_that_differs(&without_joints, 2) < 0.001);
+    }
+
+    fn a_palette_moves_the_model_and_its_shadow(gpu) {
+        let straight = gpu.draw(&bent_tube(0.0).three_quarter(Theme::Light), 160, 100);
+        let bent = gpu.draw(&bent_tube(0.9).three_quarter(Theme::Light), 160, 100);
+        assert!(straight.share_that_differs(&bent, 10) > 0.05);
+    }
+
+    /// As the palette of a model with fewer joints would, while a larger one is coming.
+    fn joints_that_the_palette_lacks_stay(gpu) {
+        let mut scene = Scene::of(tube()).three_quarter(Theme::Dark);
+        scene.palette = Palette(vec![Affine3A::IDENTITY; 2]);
+        let whole = gpu.draw(&scene, 160, 100);
+        scene.palette.0.truncate(1);
+        assert_eq!(gpu.draw(&scene, 160, 100), whole);
     }
 
     fn models_without_triangles_draw_nothing(gpu) {

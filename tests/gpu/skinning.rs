@@ -1,6 +1,7 @@
 //! Vertex blending on the GPU, read back, against a textbook in f64 and against its twin on the CPU.
 
-use bindpose::anim::Palette;
+use bindpose::anim::{Palette, SkinnedVertices, skin};
+use bindpose::model::{Influences, Mesh};
 use bindpose::render::BoneTexture;
 use bindpose::shaders::{GeometryVertex, InfluenceVertex, SKINNING_WGSL};
 use glam::{Affine3A, DMat3, DMat4, DVec3, EulerRot, Mat3, Quat, Vec3};
@@ -57,7 +58,7 @@ fn random_vertices(random: &mut Random, joints: usize) -> (Vec<GeometryVertex>, 
             tangent: random
                 .vector(1.0)
                 .normalize_or(Vec3::X)
-                .extend(if index % 2 == 0 { 1.0 } else { -1.0 })
+                .extend(if index.is_multiple_of(2) { 1.0 } else { -1.0 })
                 .to_array(),
             tex_coord: [0.0; 2],
         };
@@ -72,7 +73,7 @@ fn random_vertices(random: &mut Random, joints: usize) -> (Vec<GeometryVertex>, 
         let mut picks: [u32; 4] =
             std::array::from_fn(|_| ((random.unit() * joints as f32) as u32).min(joints as u32 - 1));
         // The last joint is the one that a texture too small would lose.
-        if index % 8 == 0 {
+        if index.is_multiple_of(8) {
             picks[0] = joints as u32 - 1;
         }
         (geometry, InfluenceVertex { joints: picks, weights })
@@ -93,7 +94,7 @@ fn skin_by_definition(palette: &Palette, geometry: &GeometryVertex, influences: 
     }
     let mut blended = DMat4::ZERO;
     for (joint, weight) in influences.joints.into_iter().zip(influences.weights) {
-        blended += DMat4::from_mat4(palette.0[joint as usize]) * f64::from(weight);
+        blended += glam::Mat4::from(palette.0[joint as usize]).as_dmat4() * f64::from(weight);
     }
     let linear = DMat3::from_mat4(blended);
     [
@@ -103,14 +104,27 @@ fn skin_by_definition(palette: &Palette, geometry: &GeometryVertex, influences: 
     ]
 }
 
-trait FromAffine {
-    fn from_mat4(affine: Affine3A) -> Self;
-}
-
-impl FromAffine for DMat4 {
-    fn from_mat4(affine: Affine3A) -> Self {
-        glam::Mat4::from(affine).as_dmat4()
-    }
+/// What the twin on the CPU says.
+fn skin_on_cpu(palette: &Palette, geometry: &[GeometryVertex], influences: &[InfluenceVertex]) -> Vec<Skinned> {
+    let mesh = Mesh {
+        positions: geometry.iter().map(|vertex| vertex.position.into()).collect(),
+        normals: geometry.iter().map(|vertex| vertex.normal.into()).collect(),
+        tangents: geometry.iter().map(|vertex| vertex.tangent.into()).collect(),
+        influences: influences
+            .iter()
+            .map(|&InfluenceVertex { joints, weights }| Influences { joints, weights })
+            .collect(),
+        ..Mesh::default()
+    };
+    let mut out = SkinnedVertices::default();
+    skin(&mesh, palette, &mut out);
+    let tangents = out.tangents.iter().map(|tangent| tangent.truncate().as_dvec3());
+    let directions = out.normals.iter().map(|normal| normal.as_dvec3()).zip(tangents);
+    let positions = out.positions.iter().map(|position| position.as_dvec3());
+    positions
+        .zip(directions)
+        .map(|(position, (normal, tangent))| [position, normal, tangent])
+        .collect()
 }
 
 /// How far from singular a blend is: near zero the normal of the exact blend says nothing about the rounded one.
@@ -253,23 +267,24 @@ fn compare(gpu: &Gpu, joints: usize) {
     let mut random = Random(joints as u64);
     let palette = random_palette(&mut random, joints);
     let (geometry, influences) = random_vertices(&mut random, joints);
-    let found = skin_on_gpu(gpu, &palette, &geometry, &influences);
+    let on_gpu = skin_on_gpu(gpu, &palette, &geometry, &influences);
+    let on_cpu = skin_on_cpu(&palette, &geometry, &influences);
     let mut compared = 0;
-    for (vertex, found) in found.into_iter().enumerate() {
+    for vertex in 0..VERTICES {
         if !is_well_conditioned(&palette, &influences[vertex]) {
             continue;
         }
         compared += 1;
-        let expected = skin_by_definition(&palette, &geometry[vertex], &influences[vertex]);
-        for (what, (found, expected)) in ["position", "normal", "tangent"]
-            .into_iter()
-            .zip(found.into_iter().zip(expected))
-        {
-            let error = found.distance(expected) / expected.length().max(1.0);
-            assert!(
-                error <= TOLERANCE,
-                "{what} of vertex {vertex}: {found} for {expected}, off by {error:e}"
-            );
+        let by_definition = skin_by_definition(&palette, &geometry[vertex], &influences[vertex]);
+        for (of, what) in ["position", "normal", "tangent"].into_iter().enumerate() {
+            let expected = by_definition[of];
+            for (by, found) in [("GPU", on_gpu[vertex][of]), ("CPU", on_cpu[vertex][of])] {
+                let error = found.distance(expected) / expected.length().max(1.0);
+                assert!(
+                    error <= TOLERANCE,
+                    "{by}: {what} of vertex {vertex}: {found} for {expected}, off by {error:e}"
+                );
+            }
         }
     }
     assert!(compared > VERTICES / 2, "only {compared} vertices were compared");

@@ -94,7 +94,11 @@ impl Pose {
         }
         let to_thumb = along.cross(FORWARD);
         let gathered = (0.6 * degrees).clamp(0.0, 9.0);
-        for (limb, degrees) in [(Limb::Index, -gathered), (Limb::Outer, gathered), (Limb::Thumb, -gathered)] {
+        for (limb, degrees) in [
+            (Limb::Index, -gathered),
+            (Limb::Outer, gathered),
+            (Limb::Thumb, -gathered),
+        ] {
             let curl = self.turns[joint(side, limb)];
             self.turns[joint(side, limb)] = turn(to_thumb, degrees) * curl;
         }

@@ -88,7 +88,7 @@ fn it_makes_a_left_handed_model_without_a_word() {
     assert_eq!(model.handedness, Handedness::Left);
     assert_eq!(model.up_axis, UpAxis::Y);
     assert!(
-        model.clips.iter().all(|clip| clip.frames().keys_per_sec == 30.0),
+        model.clips.iter().all(|clip| clip.keys_per_sec == 30.0),
         "30 keys a second"
     );
 }
