@@ -97,7 +97,12 @@ impl Rig {
     pub(super) fn new() -> Rig {
         let mut joints = Vec::with_capacity(JOINT_COUNT);
         let mut add = |parent: Option<usize>, origin: DVec3, tip: DVec3, along: DVec3| {
-            joints.push(Joint { parent, origin, tip, rotation: orientation(along) });
+            joints.push(Joint {
+                parent,
+                origin,
+                tip,
+                rotation: orientation(along),
+            });
         };
         let spine = [0.0, 0.93, 1.03, 1.13, 1.24, 1.41, 1.49, 1.78].map(|y| DVec3::new(0.0, y, 0.0));
         for index in 0..CENTRE_COUNT {

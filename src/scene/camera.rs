@@ -247,7 +247,11 @@ impl Camera {
         let tan_y = tan_half_y * free_height * FRAMED_SHARE;
         let tan_x = tan_half_y * aspect * free_width * FRAMED_SHARE;
         let (right, up, forward) = (self.right(), self.up(), self.forward());
-        let depth_share = if matches!(self.projection, Projection::Perspective { .. }) { 1.0 } else { 0.0 };
+        let depth_share = if matches!(self.projection, Projection::Perspective { .. }) {
+            1.0
+        } else {
+            0.0
+        };
 
         // Nearer points look larger, so that the middle of the points is not the middle of their picture: a few rounds of
         // fitting the distance and moving to the middle of the picture settle it.
@@ -278,6 +282,16 @@ impl Camera {
         let height = self.height_in_view();
         self.target = center - right * (insets.left - insets.right) * 0.5 * height * aspect
             + up * (insets.top - insets.bottom) * 0.5 * height;
+    }
+}
+
+impl Camera {
+    /// Where the leftmost of some points is in the picture: a share of its width from the left edge.
+    pub fn leftmost_share(&self, world_points: &[Vec3], aspect: f32) -> f32 {
+        let bounds = Aabb::from_points(world_points.iter().copied());
+        let clip_from_world = self.clip_from_view(aspect, &bounds) * self.view_from_world();
+        let x_clip = world_points.iter().map(|&point| clip_from_world.project_point3(point).x);
+        x_clip.fold(f32::INFINITY, f32::min) * 0.5 + 0.5
     }
 }
 

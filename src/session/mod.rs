@@ -84,16 +84,6 @@ impl Session {
         &self.playback
     }
 
-    /// Speed as a factor of the file's, whatever the direction.
-    pub fn speed(&self) -> f32 {
-        self.playback.speed().abs()
-    }
-
-    /// Whether it plays, or would play, backward.
-    pub fn is_backward(&self) -> bool {
-        self.playback.speed() < 0.0
-    }
-
     /// Whether the pointer holds the time.
     pub fn is_scrubbing(&self) -> bool {
         self.scrubbing
@@ -101,7 +91,9 @@ impl Session {
 
     /// Whether time moves by itself.
     pub fn is_animating(&self) -> bool {
-        self.playback.is_moving() && !self.scrubbing && self.clip().is_some()
+        // A clip of no length would loop on the spot for ever; playing it once still has to end.
+        let has_length = self.playback.duration_secs() > 0.0 || self.playback.loop_mode() == LoopMode::Once;
+        self.playback.is_playing() && !self.scrubbing && self.clip().is_some() && has_length
     }
 
     /// From where the model is seen.
@@ -212,12 +204,12 @@ impl Session {
             Command::Pause => self.set_playing(false),
             Command::TogglePlay => {
                 let playing = !self.playback.is_playing();
-                self.set_backward(false);
+                self.playback.set_backward(false);
                 self.set_playing(playing);
             }
             Command::TogglePlayBackward => {
-                let playing = !(self.playback.is_playing() && self.is_backward());
-                self.set_backward(true);
+                let playing = !(self.playback.is_playing() && self.playback.is_backward());
+                self.playback.set_backward(true);
                 self.set_playing(playing);
             }
             Command::Seek { time_secs } => self.seek(time_secs),
@@ -228,7 +220,7 @@ impl Session {
             Command::EndScrub => self.scrubbing = false,
             Command::SelectClip(clip) => self.select_clip(clip),
             Command::CycleClip(places) => self.cycle_clip(places),
-            Command::SetSpeed(speed) => self.set_speed(speed),
+            Command::SetSpeed(speed) => self.playback.set_speed(speed),
             Command::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             Command::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
             Command::SetLoopMode(mode) => self.playback.set_loop_mode(mode),
@@ -401,15 +393,10 @@ impl Session {
     }
 
     fn step_frames(&mut self, frames: i32) {
-        if self.clip().is_none() {
-            return;
-        }
-        let was_playing = self.playback.is_playing();
-        self.playback.step_frames(frames);
-        self.time_changed();
-        if was_playing {
-            self.note(Event::Pause);
-        }
+        let Some(clip) = self.clip() else { return };
+        let time_secs = clip.step_frames(self.playback.time_secs(), frames);
+        self.set_playing(false);
+        self.seek(time_secs);
     }
 
     fn select_clip(&mut self, index: usize) {
@@ -419,7 +406,8 @@ impl Session {
         if self.clip == Some(index) {
             return;
         }
-        self.playback.set_clip(clip);
+        self.playback.set_range(clip.start_secs, clip.end_secs);
+        self.playback.seek(if self.playback.is_backward() { clip.end_secs } else { clip.start_secs });
         self.clip = Some(index);
         self.time_changed();
     }
@@ -432,20 +420,9 @@ impl Session {
     }
 
     fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
-        if let Some(&speed) = pick(&SPEEDS, self.speed()) {
-            self.set_speed(speed);
+        if let Some(&speed) = pick(&SPEEDS, self.playback.speed()) {
+            self.playback.set_speed(speed);
         }
-    }
-
-    /// Keeps the direction.
-    fn set_speed(&mut self, speed: f32) {
-        let direction = if self.is_backward() { -1.0 } else { 1.0 };
-        self.playback.set_speed(speed.abs() * direction);
-    }
-
-    fn set_backward(&mut self, backward: bool) {
-        let direction = if backward { -1.0 } else { 1.0 };
-        self.playback.set_speed(self.speed() * direction);
     }
 
     fn zoom(&mut self, factor: f32, pointer: glam::Vec2) {
@@ -464,7 +441,12 @@ impl Session {
         if let Some(open) = &mut self.open {
             let (_, points) = open.extent(self.clip);
             let world_points: Vec<_> = points.iter().map(|&point| world_from_model.transform_point3(point)).collect();
-            self.camera.frame(&world_points, self.aspect, self.insets);
+            // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
+            let centered = Insets { left: 0.0, right: 0.0, ..self.insets };
+            self.camera.frame(&world_points, self.aspect, centered);
+            if self.camera.leftmost_share(&world_points, self.aspect) < self.insets.left {
+                self.camera.frame(&world_points, self.aspect, self.insets);
+            }
         }
         self.framed = true;
     }

@@ -76,12 +76,12 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands
             clip_menu(ui, session, 104.0, commands);
 
             // The read-outs have fixed widths, so that nothing moves while values change.
-            let right_width = 72.0 + 86.0 + 56.0 + control_size(ui) + 4.0 * 6.0;
+            let right_width = 72.0 + 74.0 + 48.0 + control_size(ui) + 4.0 * 6.0;
             let bar_width = (ui.available_width() - right_width).max(60.0);
             bar(ui, session, &keys.times_secs, vec2(bar_width, 30.0), commands);
             time_field(ui, session, 72.0);
-            frame_readout(ui, session, 86.0);
-            speed_menu(ui, session, 56.0, commands);
+            frame_readout(ui, session, 74.0);
+            speed_menu(ui, session, 48.0, commands);
             loop_button(ui, session, commands);
         },
     );
@@ -248,7 +248,7 @@ fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 28.0), Sense::hover());
     let Some(clip) = session.clip() else { return };
-    let frame = session.playback().frame();
+    let frame = clip.frame_at(session.playback().time_secs());
     let text = format!("{frame} of {}", clip.last_frame());
     ui.painter().text(
         rect.left_center() + vec2(2.0, 0.0),
@@ -262,7 +262,7 @@ fn frame_readout(ui: &mut Ui, session: &Session, width: f32) {
 }
 
 fn speed_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
-    let speed = session.speed();
+    let speed = session.playback().speed();
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
     if response.hovered() || response.has_focus() {

@@ -8,14 +8,28 @@ use egui::{
 use super::icons::{self, Icon};
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
-/// Side of a control: 28 points, 44 where fingers are the pointer.
-pub(super) fn control_size(ui: &Ui) -> f32 {
-    if is_touch(ui) { 44.0 } else { 28.0 }
+/// Side of a control where a mouse is the pointer.
+const MOUSE_CONTROL: f32 = 28.0;
+/// Side of a control where fingers are.
+const TOUCH_CONTROL: f32 = 44.0;
+
+/// Sizes controls for fingers or for a mouse, from the next pass on.
+pub(super) fn size_for_touch(ctx: &egui::Context, touch: bool) {
+    let side = if touch { TOUCH_CONTROL } else { MOUSE_CONTROL };
+    if ctx.global_style().spacing.interact_size.y != side {
+        ctx.all_styles_mut(|style| style.spacing.interact_size = Vec2::splat(side));
+        ctx.request_repaint();
+    }
 }
 
-/// Whether fingers were used in this session.
+/// Side of a control, in points.
+pub(super) fn control_size(ui: &Ui) -> f32 {
+    ui.spacing().interact_size.y
+}
+
+/// Whether controls are sized for fingers.
 pub(super) fn is_touch(ui: &Ui) -> bool {
-    ui.input(|input| input.has_touch_screen())
+    control_size(ui) > MOUSE_CONTROL
 }
 
 /// A square button with an icon. `on` marks a switch that is on.

@@ -60,8 +60,8 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         .with("clip", session.clip().map(|clip| clip.name.as_str()))
         .with("timeSecs", playback.time_secs())
         .with("playing", playback.is_playing())
-        .with("backward", session.is_backward())
-        .with("speed", session.speed())
+        .with("backward", playback.is_backward())
+        .with("speed", session.playback().speed())
         .with("loop", loop_name(playback.loop_mode()))
         .with(
             "camera",

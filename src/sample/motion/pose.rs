@@ -38,7 +38,10 @@ pub(super) fn roll(degrees: f64) -> DQuat {
 impl Pose {
     /// The bind pose.
     pub(super) fn bind() -> Pose {
-        Pose { turns: [DQuat::IDENTITY; JOINT_COUNT], hips_offset: DVec3::ZERO }
+        Pose {
+            turns: [DQuat::IDENTITY; JOINT_COUNT],
+            hips_offset: DVec3::ZERO,
+        }
     }
 
     /// The bind pose with arms at the sides and fingers at ease.
@@ -93,7 +96,9 @@ impl Pose {
     /// Turn of a joint away from the bind pose in model space.
     pub(super) fn model_turn(&self, rig: &Rig, joint: usize) -> DQuat {
         let own = self.turns[joint];
-        rig.joints[joint].parent.map_or(own, |parent| self.model_turn(rig, parent) * own)
+        rig.joints[joint]
+            .parent
+            .map_or(own, |parent| self.model_turn(rig, parent) * own)
     }
 
     /// Origin of a joint in model space.
