@@ -76,13 +76,15 @@ fn slerp(from: Quat, to: Quat, arc: Arc, fraction: f32) -> Quat {
 /// sin(x) / x of x², for x in 0…π/2: the Taylor polynomial whose first left-out term is below 4e-8 there.
 #[inline]
 fn sine_over_angle(angle_squared: f32) -> f32 {
+    // From the highest power down.
     const TERMS: [f32; 6] = [
-        1.0,
-        -1.0 / 6.0,
-        1.0 / 120.0,
-        -1.0 / 5_040.0,
-        1.0 / 362_880.0,
         -1.0 / 39_916_800.0,
+        1.0 / 362_880.0,
+        -1.0 / 5_040.0,
+        1.0 / 120.0,
+        -1.0 / 6.0,
+        1.0,
     ];
-    TERMS.iter().rev().fold(0.0, |sum, term| sum * angle_squared + term)
+    let [highest, lower @ ..] = TERMS;
+    lower.iter().fold(highest, |sum, term| sum * angle_squared + term)
 }
