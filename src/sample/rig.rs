@@ -3,8 +3,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Place on the ground under the figure; moves no vertex itself.
-pub(super) const ROOT: usize = 0;
+// Joint 0 is the place on the ground under the figure; it moves no vertex itself.
 pub(super) const HIPS: usize = 1;
 pub(super) const WAIST: usize = 2;
 pub(super) const RIBS: usize = 3;

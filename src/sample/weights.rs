@@ -42,7 +42,7 @@ pub(super) fn influences(skin: &Skin, body: &Body, rig: &Rig) -> Vec<Influences>
 fn by_distance(body: &Body, rig: &Rig, point: DVec3) -> Weights {
     let mut distances = [f64::INFINITY; JOINT_COUNT];
     body.for_each_joint_distance(point, |joint, distance| {
-        distances[joint] = distances[joint].min(distance)
+        distances[joint] = distances[joint].min(distance);
     });
     let nearest = (0..JOINT_COUNT).fold(0, |best, joint| {
         if distances[joint] < distances[best] {

@@ -13,7 +13,7 @@ const KEYS_PER_SEC: f64 = 30.0;
 /// A clip of `key_spans` thirtieths of a second through the poses of phases 0…1. The last key is the first pose again. A
 /// joint that keeps still has keys at both ends only.
 pub(super) fn clip(rig: &Rig, name: &str, key_spans: usize, pose: impl Fn(f64) -> Pose) -> AnimationClip {
-    let mut tracks = vec![Vec::with_capacity(key_spans + 1); JOINT_COUNT];
+    let mut tracks = vec![Vec::new(); JOINT_COUNT];
     for key in 0..=key_spans {
         let phase = (key % key_spans) as f64 / key_spans as f64;
         let time_secs = round(key as f64 / KEYS_PER_SEC, 6);

@@ -39,7 +39,7 @@ pub(super) fn pose(rig: &Rig, phase: f64) -> Pose {
     pose.set(WAIST, spine * pitch(0.4 * breath));
     pose.set(RIBS, spine * pitch(0.7 * breath));
     pose.set(CHEST, spine * pitch(0.8 * breath));
-    pose.set(NECK, yaw(0.35 * look) * pitch(-1.0 * late_breath));
+    pose.set(NECK, yaw(0.35 * look) * pitch(-late_breath));
     pose.set(
         HEAD,
         yaw(0.5 * look) * roll(-0.1 * look) * pitch(-0.8 * late_breath - 1.5),
