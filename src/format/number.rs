@@ -255,9 +255,6 @@ fn not_finite(token: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    /// Room for the eight bytes that are looked at together.
-    const ROOM: &str = "\n                        ";
-
     #[test]
     fn plain_reads_what_exporters_write() {
         for text in [
@@ -272,7 +269,7 @@ mod tests {
             "8.412415e-23",
             "13748",
         ] {
-            let padded = format!("{text}{ROOM}");
+            let padded = format!("{text}\n{:WINDOW$}", "");
             let (value, end) = plain(padded.as_bytes(), 0).unwrap_or_else(|| panic!("{text}"));
             assert_eq!(
                 (value.to_bits(), end),

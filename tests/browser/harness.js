@@ -45,6 +45,13 @@ const QUIET_FLAGS = [
   "--no-first-run",
 ];
 
+/** Small, for the sake of the software GPU, but wide enough for every panel. */
+const VIEWPORT = { width: 960, height: 600 };
+/** For pictures that people look at. */
+export const LARGE = { width: 1280, height: 800 };
+/** A place in the view that no panel covers. */
+export const CENTRE = [520, 260];
+
 /** Long enough for a debug build on a software GPU that shares two cores. */
 const PATIENCE_MS = 60_000;
 
@@ -71,7 +78,7 @@ async function launched() {
 export function test(name, options, body) {
   const { query = `?backend=${BACKEND}`, prepare, expectErrors = false, skip, bare = false, ...context } = options;
   nodeTest(`${BACKEND}: ${name}`, { skip, timeout: 4 * PATIENCE_MS }, async () => {
-    const settings = { viewport: { width: 1280, height: 800 }, colorScheme: "dark", ...context };
+    const settings = { viewport: VIEWPORT, colorScheme: "dark", ...context };
     const own = await (await launched()).newContext(settings);
     const problems = [];
     try {
@@ -126,13 +133,12 @@ export async function until(page, predicate) {
 }
 
 /** Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. */
-export async function drop(page, paths, { x = 640, y = 380, shift = false, look } = {}) {
+export async function drop(page, paths, { look } = {}) {
   const devtools = await page.context().newCDPSession(page);
   const data = { items: [], files: paths, dragOperationsMask: 1 };
-  const modifiers = shift ? 8 : 0;
   for (const type of ["dragEnter", "dragOver", "dragOver", "drop"]) {
     if (type === "drop") await look?.();
-    await devtools.send("Input.dispatchDragEvent", { type, x, y, data, modifiers });
+    await devtools.send("Input.dispatchDragEvent", { type, x: CENTRE[0], y: CENTRE[1], data });
   }
   await devtools.detach();
 }

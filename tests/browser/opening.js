@@ -5,7 +5,7 @@ import { mkdtempSync, mkdirSync, copyFileSync, readFileSync, writeFileSync } fro
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import {
-  FIXTURES, SAMPLE, SHARED, assertDrawn, call, difference, drop, dropAndWait, filesIn, keep, picture, settled, state,
+  FIXTURES, LARGE, SAMPLE, SHARED, assertDrawn, call, difference, drop, dropAndWait, filesIn, keep, picture, settled, state,
   test, unless, until,
 } from "./harness.js";
 
@@ -107,7 +107,7 @@ test("the same file again keeps the clip and the time", {}, async (page) => {
 
 const bad = [...filesIn(`${FIXTURES}bad/`, ".m3d"), ...filesIn(`${SHARED}reject/`, "d")];
 
-test("a file that cannot be read shows its error and keeps the model", {}, async (page) => {
+test("a file that cannot be read shows its error and keeps the model", { viewport: LARGE }, async (page) => {
   assert.ok(bad.length > 0, "there are bad files to try");
   await call(page, "pause");
   await call(page, "seek", 0.25);
@@ -127,6 +127,7 @@ test("a file that cannot be read shows its error and keeps the model", {}, async
   await settled(page);
   await keep(page, "error-light");
   await page.emulateMedia({ colorScheme: "dark" });
+  await settled(page);
   assert.ok(difference(before, await picture(page)) < 0.001, "the old model stays as it was");
   const { outcome, error } = await dropAndWait(page, [SAMPLE]);
   assert.equal(outcome, "load");
@@ -147,7 +148,7 @@ test("a drop with nothing useful in it is said so", {}, async (page) => {
 
 for (const model of ["d3d12/soldier", "d3d11/base", "d3d11/tree", "d3d11/rock", "d3d11/stairs", "imm/column"]) {
   const path = `${SHARED}models/${model}.m3d`;
-  test(`the real file ${model} opens and is drawn`, { skip: unless(path) }, async (page) => {
+  test(`the real file ${model} opens and is drawn`, { skip: unless(path), viewport: LARGE }, async (page) => {
     const { outcome, model: opened } = await dropAndWait(page, [path]);
     assert.equal(outcome, "load");
     assert.equal(opened.name, basename(path));
