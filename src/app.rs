@@ -21,8 +21,8 @@ pub struct App {
 }
 
 impl App {
-    /// Takes up a session, which may have a model open already.
-    pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>) -> Self {
+    /// Takes up a session, which may have a model open already. `coarse_pointer`: fingers are the device's pointer.
+    pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, coarse_pointer: bool) -> Self {
         ui::theme::install(ctx);
         gpu.renderer
             .write()
@@ -30,7 +30,7 @@ impl App {
             .insert(Compositor::new(&gpu.device, gpu.target_format));
         Self {
             session,
-            state: UiState::default(),
+            state: UiState::new(coarse_pointer),
             stage: Stage::new(gpu),
         }
     }

@@ -19,7 +19,11 @@ impl Excerpt {
     /// The last line before, at and after the mark.
     pub fn marked_parts(&self) -> (&str, &str, &str) {
         let line = self.lines.last().map_or("", |(_, line)| line.as_str());
-        let byte_of = |column: u32| line.char_indices().nth(column as usize).map_or(line.len(), |(byte, _)| byte);
+        let byte_of = |column: u32| {
+            line.char_indices()
+                .nth(column as usize)
+                .map_or(line.len(), |(byte, _)| byte)
+        };
         let first = self.mark_column.saturating_sub(1);
         let (before, rest) = line.split_at(byte_of(first));
         let (marked, after) = rest.split_at(byte_of(first.saturating_add(self.mark_length)) - before.len());
@@ -35,7 +39,13 @@ impl fmt::Display for Excerpt {
             writeln!(f, "{number:>width$} | {line}")?;
         }
         let indent = self.mark_column.saturating_sub(1) as usize;
-        writeln!(f, "{:width$} | {:indent$}{}", "", "", "^".repeat(self.mark_length as usize))
+        writeln!(
+            f,
+            "{:width$} | {:indent$}{}",
+            "",
+            "",
+            "^".repeat(self.mark_length as usize)
+        )
     }
 }
 

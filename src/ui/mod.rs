@@ -27,8 +27,8 @@ use timeline::KeyTimes;
 
 /// Width of the panel on the left.
 const SIDE_WIDTH: f32 = 246.0;
-/// Height of the bars at the top.
-const BAR_HEIGHT: f32 = 36.0;
+/// Margin around the controls of the bars at the top.
+const BAR_MARGIN: f32 = 4.0;
 
 /// What only the page around the interface can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +48,7 @@ pub struct UiState {
     pub diagnostics_open: bool,
     /// In a narrow window: the model's facts in the bottom sheet.
     pub sheet_open: bool,
+    coarse_pointer: bool,
     shown_finding: Option<usize>,
     shown_model: u64,
     key_times: KeyTimes,
@@ -55,6 +56,11 @@ pub struct UiState {
 }
 
 impl UiState {
+    /// Everything shut. `coarse_pointer`: the device says that fingers are its pointer.
+    pub fn new(coarse_pointer: bool) -> Self {
+        Self { coarse_pointer, ..Self::default() }
+    }
+
     /// What was asked of the page since the last call.
     pub fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
@@ -66,6 +72,8 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     let mut commands = Vec::new();
     let window = ui.max_rect();
     let narrow = window.width() < NARROW_WIDTH;
+    let touch = state.coarse_pointer || ui.input(egui::InputState::has_touch_screen);
+    widgets::size_for_touch(ui.ctx(), touch);
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
         state.shown_finding = None;
@@ -83,7 +91,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
         wide_layout(ui, session, state, window, &mut commands);
     }
     if state.help_open {
-        let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + BAR_HEIGHT);
+        let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
         Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {
             ui.set_width(300.0_f32.min(window.width() - 2.0 * MARGIN - 26.0));
             help::show(ui, state);
@@ -99,6 +107,11 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     commands
 }
 
+/// Height of the bars at the top.
+fn bar_height(ui: &Ui) -> f32 {
+    widgets::control_size(ui) + 2.0 * BAR_MARGIN
+}
+
 fn set_theme(ui: &Ui) -> Command {
     Command::SetTheme(if ui.visuals().dark_mode {
         Theme::Dark
@@ -109,7 +122,7 @@ fn set_theme(ui: &Ui) -> Command {
 
 /// What the panels leave free is where the model is framed.
 fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Command {
-    let top = (BAR_HEIGHT + MARGIN) / window.height();
+    let top = (bar_height(ui) + MARGIN) / window.height();
     let bottom = timeline::covered_height(ui, session, narrow) / window.height();
     let insets = Insets {
         top: top.clamp(0.0, 0.3),
@@ -125,16 +138,16 @@ fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Comma
 fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
     let left_top = window.min + Vec2::splat(MARGIN);
     Panel::new("title", Align2::LEFT_TOP, left_top).margin(Margin::symmetric(12, 6)).show(ui, |ui| {
-        ui.set_height(BAR_HEIGHT - 14.0);
+        ui.set_height(widgets::control_size(ui) - 6.0);
         title_bar::show(ui, session, false);
     });
     let right_top = window.right_top() + vec2(-MARGIN, MARGIN);
     Panel::new("toolbar", Align2::RIGHT_TOP, right_top).margin(Margin::same(3)).show(ui, |ui| {
-        ui.set_height(BAR_HEIGHT - 8.0);
+        ui.set_height(widgets::control_size(ui));
         toolbar::show(ui, session, state, commands);
     });
     let covered = timeline::covered_height(ui, session, false);
-    let side_top = left_top + vec2(0.0, MARGIN + BAR_HEIGHT);
+    let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
     let side_room = window.max.y - covered.max(MARGIN) - side_top.y - 26.0;
     if session.open_model().is_some() {
         Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {

@@ -8,14 +8,28 @@ use egui::{
 use super::icons::{self, Icon};
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
-/// Side of a control: 28 points, 44 where fingers are the pointer.
-pub(super) fn control_size(ui: &Ui) -> f32 {
-    if is_touch(ui) { 44.0 } else { 28.0 }
+/// Side of a control where a mouse is the pointer.
+const MOUSE_CONTROL: f32 = 28.0;
+/// Side of a control where fingers are.
+const TOUCH_CONTROL: f32 = 44.0;
+
+/// Sizes controls for fingers or for a mouse, from the next pass on.
+pub(super) fn size_for_touch(ctx: &egui::Context, touch: bool) {
+    let side = if touch { TOUCH_CONTROL } else { MOUSE_CONTROL };
+    if ctx.global_style().spacing.interact_size.y != side {
+        ctx.all_styles_mut(|style| style.spacing.interact_size = Vec2::splat(side));
+        ctx.request_repaint();
+    }
 }
 
-/// Whether fingers were used in this session.
+/// Side of a control, in points.
+pub(super) fn control_size(ui: &Ui) -> f32 {
+    ui.spacing().interact_size.y
+}
+
+/// Whether controls are sized for fingers.
 pub(super) fn is_touch(ui: &Ui) -> bool {
-    ui.input(|input| input.has_touch_screen())
+    control_size(ui) > MOUSE_CONTROL
 }
 
 /// A square button with an icon. `on` marks a switch that is on.
@@ -249,7 +263,9 @@ pub(super) fn measured(length: f32) -> String {
         size if size >= 100.0 => format!("{length:.0}"),
         size if size >= 10.0 => format!("{length:.1}"),
         size if size >= 1.0 => format!("{length:.2}"),
-        _ => format!("{length:.4}"),
+        size if size >= 0.1 => format!("{length:.3}"),
+        size if size >= 0.01 => format!("{length:.4}"),
+        _ => format!("{length:.5}"),
     }
 }
 
@@ -277,6 +293,7 @@ mod tests {
             (0.0, "0"),
             (73.42, "73.4"),
             (1.8, "1.80"),
+            (0.437_6, "0.438"),
             (0.012_34, "0.0123"),
             (1e9, "1.00e9"),
             (-2000.0, "−2\u{2009}000"),

@@ -134,7 +134,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
                 watch_device(&gpu.device);
-                *shell.app.borrow_mut() = Some(App::new(&creation.egui_ctx, &gpu, Rc::clone(&shell.session)));
+                *shell.app.borrow_mut() = Some(App::new(&creation.egui_ctx, &gpu, Rc::clone(&shell.session), coarse_pointer()));
                 *shared_out.borrow_mut() = Some((creation.egui_ctx.clone(), gpu));
                 Ok(Box::new(shell))
             }),
@@ -215,6 +215,12 @@ fn owns_event(event: &egui::Event) -> bool {
         egui::Event::Text(_) | egui::Event::Copy | egui::Event::Cut => false,
         _ => true,
     }
+}
+
+/// Whether the browser says that the first pointer is a finger.
+fn coarse_pointer() -> bool {
+    let query = web_sys::window().and_then(|window| window.match_media("(pointer: coarse)").ok().flatten());
+    query.is_some_and(|query| query.matches())
 }
 
 fn watch_panics() {
