@@ -26,7 +26,7 @@ fn parsing(criterion: &mut Criterion) {
     group.measurement_time(Duration::from_secs(5)).sample_size(50);
     group.bench_function("product", |bencher| bencher.iter(|| parse(black_box(&bytes))));
     group.bench_function("textbook", |bencher| {
-        bencher.iter(|| Textbook::document(black_box(&bytes)))
+        bencher.iter(|| Textbook::document(black_box(&bytes)));
     });
     group.finish();
     report_ratio(&bytes);

@@ -7,6 +7,8 @@ const HORIZON: vec3<f32> = vec3<f32>(0.29, 0.30, 0.325);
 const GROUND: vec3<f32> = vec3<f32>(0.11, 0.105, 0.105);
 
 const KEY: vec3<f32> = vec3<f32>(1.08, 1.05, 1.00);
+// The key is a soft box, not a point: its mirror image is spread by this much of alpha.
+const KEY_SIZE: f32 = 0.08;
 
 // From behind, opposite to the key: separates the silhouette from the backdrop.
 const RIM: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
@@ -46,7 +48,7 @@ fn specular(surface: Surface, to_light: vec3<f32>, n_dot_l: f32) -> vec3<f32> {
     let halfway = normalize(to_light + surface.to_eye);
     let n_dot_h = clamp(dot(surface.normal, halfway), 0.0, 1.0);
     let n_dot_v = max(dot(surface.normal, surface.to_eye), 1e-3);
-    let alpha = surface.roughness * surface.roughness;
+    let alpha = min(surface.roughness * surface.roughness + KEY_SIZE, 1.0);
     let alpha_squared = alpha * alpha;
     let spread = n_dot_h * n_dot_h * (alpha_squared - 1.0) + 1.0;
     let distribution = alpha_squared / (PI * spread * spread);

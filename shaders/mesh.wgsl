@@ -44,19 +44,24 @@ fn vertex_skinned(
 
 @fragment
 fn fragment(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
+    // Of the triangle itself, whatever its vertices say; its sign does not matter yet.
+    let flat_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), frame.forward);
     let side = select(-1.0, 1.0, clockwise) * frame.front_sign;
     var to_eye = -frame.forward;
     if frame.is_perspective > 0.5 {
         to_eye = normalize(frame.eye - mesh.world_position);
     }
     let normal = normalize_or(mesh.world_normal, to_eye * side) * side;
-    // What faces away from the key lies in its own shadow.
+    // What faces away from the key lies in its own shadow. Towards there the light fades before the map says so: on coarse
+    // triangles with smooth normals the map would draw each triangle's edge, and draw it jagged.
     var key_visible = 0.0;
     let facing_key = dot(normal, frame.to_key);
-    if facing_key > 0.0 {
+    let flat_facing_key = dot(flat_normal, frame.to_key) * select(-1.0, 1.0, dot(flat_normal, to_eye) > 0.0);
+    let own_light = smoothstep(0.0, 0.4, facing_key) * smoothstep(-0.1, 0.0, flat_facing_key);
+    if own_light > 0.0 {
         // Grazing light walks further over the surface inside one texel, so the start moves further off it.
         let off_surface = normal * frame.shadow_texel * (3.0 - 2.0 * facing_key);
-        key_visible = key_visibility(mesh.world_position + off_surface, 2.0);
+        key_visible = own_light * key_visibility(mesh.world_position + off_surface, 2.5);
     }
     let surface = Surface(material.albedo, material.fresnel0, max(material.roughness, 0.08), normal, to_eye);
     let color = soft_shoulder(shade(surface, frame.to_key, frame.to_rim, key_visible));

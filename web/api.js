@@ -32,13 +32,13 @@ export function createApi() {
     selectClip: command("selectClip"),
 
     /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
-    open(files, options = {}) {
+    open(files) {
       used = true;
       // A FileList empties itself when its input is used again, so it is copied before anything waits.
       const given = Array.from(files);
       const opened = opening.then(async () => {
         const records = await Promise.all(given.map(read));
-        return (await ready).open(records, { shift: Boolean(options.shift) });
+        return (await ready).open(records);
       });
       opening = opened.catch(() => {});
       return opened;

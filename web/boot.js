@@ -3,7 +3,7 @@
 
 import { createApi } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
-import { clearNotice, showDownloadFailure, showGpuFailure, showNotice, showPanic, wordsOf } from "./fault.js";
+import { clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showPanic, wordsOf } from "./fault.js";
 import { letTabLeave, mirrorTransport } from "./transport.js";
 
 /** A GPU that goes away more often than this within the time below does not come back for good. */
@@ -22,13 +22,13 @@ let restarts = [];
 let restarting = false;
 
 const refuse = (words) => showNotice("Some files could not be read", words);
-const receive = async (files, { shift }) => {
+const receive = async (files) => {
   clearNotice();
   if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
-  await bindpose.open(files, { shift }).catch((error) => refuse(wordsOf(error)));
+  await bindpose.open(files).catch((error) => refuse(wordsOf(error)));
 };
 const pick = takeChoices({ receive, refuse });
-takeDrops({ receive, refuse, hasModel: () => Boolean(bindpose.state().model) });
+takeDrops({ receive, refuse, openModel: () => bindpose.state().model?.name });
 const refreshTransport = mirrorTransport(bindpose);
 letTabLeave(view);
 element("open-files").addEventListener("click", () => pick(false));
@@ -52,7 +52,7 @@ async function boot() {
     await start(wantedBackend());
   } catch (error) {
     fail(error);
-    showGpuFailure(error, { backend: wantedBackend() });
+    showGpuFailure(error, wantedBackend());
     return;
   }
   attach(viewer);
@@ -139,7 +139,7 @@ async function restart(reason) {
     }
   } catch (error) {
     fail(error);
-    showGpuFailure(error, gpu);
+    showGpuLoss(error, gpu);
   } finally {
     restarting = false;
   }

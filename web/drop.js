@@ -9,10 +9,10 @@ const MAX_ENTRIES = 20_000;
 const element = (id) => document.getElementById(id);
 
 /**
- * Takes every drop on the page. `receive(files, {shift})` gets `{name, file}` records, name being the path inside what
- * was dropped; `refuse(words)` hears what could not be read; `hasModel()` tells the overlay what a drop would do.
+ * Takes every drop on the page. `receive(files)` gets `{name, file}` records, name being the path inside what was
+ * dropped; `refuse(words)` hears what could not be read; `openModel()` names the model that a drop would replace, if any.
  */
-export function takeDrops({ receive, refuse, hasModel }) {
+export function takeDrops({ receive, refuse, openModel }) {
   const overlay = element("drop-overlay");
   const hide = () => (overlay.hidden = true);
 
@@ -20,9 +20,7 @@ export function takeDrops({ receive, refuse, hasModel }) {
     if (!carriesFiles(event)) return;
     claim(event);
     event.dataTransfer.dropEffect = "copy";
-    const [does, what] = describe(event, hasModel());
-    element("drop-does").textContent = does;
-    element("drop-what").textContent = what;
+    element("drop-what").textContent = describe(event, openModel());
     overlay.hidden = false;
   };
   // In the capture phase, so that nothing below sees the drop and takes half of it.
@@ -36,10 +34,9 @@ export function takeDrops({ receive, refuse, hasModel }) {
     hide();
     // The list is emptied when this listener returns, so the entries are taken now.
     const roots = entriesOf(event.dataTransfer);
-    const shift = event.shiftKey;
     const { files, problems } = await collect(roots);
     if (problems.length) refuse(problems.join("\n"));
-    if (files.length) receive(files, { shift });
+    if (files.length) receive(files);
     else if (!problems.length) refuse("There is no model and no picture in what was dropped.");
   }, true);
 }
@@ -52,7 +49,7 @@ export function takeChoices({ receive, refuse }) {
       const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
       input.value = ""; // So that choosing the same file again is a change.
       const files = id === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
-      if (files.length) receive(files, { shift: false });
+      if (files.length) receive(files);
       else if (chosen.length) refuse("There is no model and no picture in this folder.");
     });
   }
@@ -68,16 +65,12 @@ function claim(event) {
   event.stopImmediatePropagation();
 }
 
-/** What a drop would do, in words. Before the drop a page learns how many files there are, but not their names. */
-function describe(event, hasModel) {
-  const items = Array.from(event.dataTransfer.items).filter((item) => item.kind === "file");
-  const count = items.length === 1 ? "1 item" : `${items.length} items`;
-  const what = items.length ? count : "";
-  if (hasModel && items.length && items.every((item) => item.type.startsWith("image/"))) {
-    return ["Drop to add the textures to this model", what];
-  }
-  if (hasModel && event.shiftKey) return ["Drop to add its clips to this model", what];
-  return ["Drop to open", [what, hasModel ? "Shift adds the clips to the open model" : ""].filter(Boolean).join(" · ")];
+/** What would be opened and what it replaces. Before the drop a page learns how many items there are, not their names. */
+function describe(event, openModel) {
+  const count = Array.from(event.dataTransfer.items).filter((item) => item.kind === "file").length;
+  const what = count ? [count === 1 ? "1 item" : `${count} items`] : [];
+  const then = openModel ? [`${openModel} stays until it is read`] : [];
+  return [...what, ...then].join(" · ");
 }
 
 function entriesOf(transfer) {

@@ -1,5 +1,8 @@
 // Pages and cards for what the viewer itself cannot say, because it does not run or never saw the file.
 
+/** The ways to draw, by their names in the address. */
+const BACKENDS = { webgl2: "WebGL2", webgpu: "WebGPU" };
+
 const element = (id) => document.getElementById(id);
 
 /** A card over the view that stays until it is dismissed. */
@@ -37,17 +40,25 @@ export function showPanic(message) {
   );
 }
 
-/** The graphics could not be started, or went away again and again. `gpu` is `{backend, adapter}` as far as known. */
-export function showGpuFailure(error, gpu) {
-  const backend = { webgpu: "WebGPU", webgl2: "WebGL2" }[gpu?.backend];
-  const on = gpu?.adapter ? ` on ${gpu.adapter}` : "";
+/** The graphics could not be started. `backend` is the one that was asked for by name, if any. */
+export function showGpuFailure(error, backend) {
   showFault(
     "The graphics could not be started",
-    backend
-      ? `${backend}${on} did not work. The other way to draw may.`
-      : "Neither WebGPU nor WebGL2 worked in this browser. Updating the browser or the graphics driver, or turning on hardware acceleration, helps most often.",
+    backend in BACKENDS
+      ? `${BACKENDS[backend]} was asked for and did not work. The other way to draw may.`
+      : "Neither WebGPU nor WebGL2 worked. A newer browser or graphics driver, or hardware acceleration turned on in the browser's settings, helps most often.",
     wordsOf(error),
-    [...backendLinks(), reload("Try again")],
+    [reload("Try again"), ...backendLinks()],
+  );
+}
+
+/** The GPU went away again and again. `gpu` is the `{backend, adapter}` that it was. */
+export function showGpuLoss(error, gpu) {
+  showFault(
+    "The graphics went away",
+    `${BACKENDS[gpu.backend]} on ${gpu.adapter} was lost more than once and was not started again. The other way to draw may last.`,
+    wordsOf(error),
+    [reload("Try again"), ...backendLinks()],
   );
 }
 
@@ -76,12 +87,12 @@ function reload(words) {
 }
 
 function backendLinks() {
-  return [["webgl2", "Use WebGL2"], ["webgpu", "Use WebGPU"]].map(([backend, words]) => {
+  return Object.entries(BACKENDS).map(([backend, name]) => {
     const address = new URL(location.href);
     address.searchParams.set("backend", backend);
     const link = document.createElement("a");
     link.href = address.href;
-    link.textContent = words;
+    link.textContent = `Use ${name}`;
     return link;
   });
 }

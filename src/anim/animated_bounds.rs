@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::{Palette, PoseBuffers, skin_positions};
-use crate::model::{Aabb, Clip, Mesh, Model};
+use crate::model::{Aabb, Clip, Mesh, Model, Track};
 
 /// Vertices skinned at most for one box: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
@@ -39,12 +39,7 @@ pub fn animated_bounds(model: &Model, clip: &Clip) -> Aabb {
 /// Distinct key times of all tracks inside the clip, in order; at least one.
 fn key_times(clip: &Clip) -> Vec<f32> {
     let span = clip.start_secs..=clip.end_secs;
-    let mut times_secs: Vec<f32> = clip
-        .tracks
-        .iter()
-        .flat_map(|track| track.times_secs())
-        .copied()
-        .collect();
+    let mut times_secs: Vec<f32> = clip.tracks.iter().flat_map(Track::times_secs).copied().collect();
     times_secs.retain(|time_secs| span.contains(time_secs));
     times_secs.push(clip.start_secs);
     times_secs.sort_unstable_by(f32::total_cmp);

@@ -25,8 +25,7 @@ fn sample_track(track: &Track, time_secs: f32, guess: &mut usize) -> LocalJoint 
     if time_secs >= times_secs[last] {
         return track.key(last);
     }
-    // The negation holds for NaN as well.
-    if !(time_secs > times_secs[0]) {
+    if time_secs.is_nan() || time_secs <= times_secs[0] {
         return track.key(0);
     }
     let from = span_at(times_secs, time_secs, *guess);

@@ -129,13 +129,25 @@ impl Value {
     fn subject(self) -> String {
         match self {
             Self::Count(name) => format!("The header's count of {name}"),
-            Self::Material(label) | Self::Subset(label) => label.into(),
-            Self::Vertex(label) | Self::Keyframe(label) => format!("A value of {label}"),
+            Self::Subset(label) => label.into(),
+            Self::Material(label) | Self::Vertex(label) | Self::Keyframe(label) => format!("A value of {label}"),
             Self::BlendIndex => "A blend index".into(),
             Self::VertexIndex => "A vertex index".into(),
             Self::BoneOffset => "A value of a bone offset".into(),
             Self::Parent => "A parent index".into(),
             Self::KeyframeCount => "The number of keyframes".into(),
+        }
+    }
+
+    /// What it is a part of, to be said behind what was expected.
+    fn owner(self) -> String {
+        match self {
+            Self::Material(label) | Self::Subset(label) | Self::Vertex(label) | Self::Keyframe(label) => {
+                format!(" of {label}")
+            }
+            Self::BoneOffset => " of a bone offset".into(),
+            Self::Count(name) => format!(" of {name}"),
+            Self::BlendIndex | Self::VertexIndex | Self::Parent | Self::KeyframeCount => String::new(),
         }
     }
 
@@ -179,12 +191,12 @@ impl ParseErrorKind {
             Self::Empty | Self::Stranger(_) | Self::NotM3d { .. } => Some("an m3d file header".into()),
             Self::CountMissing { count } => Some(format!("#{count}")),
             Self::WrongSection { expected, .. } => Some(format!("the {} section", expected.name())),
-            Self::RowCount { rows, announced, .. } => Some(format!("{announced} {rows}")),
+            Self::RowCount { rows, announced, .. } => Some(counted_rows(*announced, rows)),
             Self::UnexpectedEnd { expected, .. } => Some(expected.clone()),
             Self::ValueMissing { value } | Self::NotANumber { value, .. } | Self::NotInRange { value, .. } => {
                 Some(value.expected().into())
             }
-            Self::WrongLabel { expected, .. } => Some(format!("{expected}:")),
+            Self::WrongLabel { expected, .. } => Some((*expected).into()),
             Self::MaterialIncomplete { .. } => Some("the lines of a material".into()),
         }
     }
@@ -198,7 +210,7 @@ impl ParseErrorKind {
             | Self::NotInRange { found, .. } => Some(found.clone()),
             Self::Stranger(stranger) => Some(stranger.name().into()),
             Self::WrongSection { found, .. } => Some(format!("the {} section", found.name())),
-            Self::RowCount { rows, counted, .. } => Some(format!("{counted} {rows}")),
+            Self::RowCount { rows, counted, .. } => Some(counted_rows(*counted, rows)),
             Self::UnexpectedEnd { .. } => Some("the end of the file".into()),
             Self::ValueMissing { .. } => Some("the end of the line".into()),
             Self::Empty | Self::CountMissing { .. } | Self::MaterialIncomplete { .. } => None,
@@ -233,10 +245,8 @@ impl fmt::Display for ParseErrorKind {
                 announced,
                 counted,
             } => {
-                write!(
-                    f,
-                    "{announcer} announces {announced} {rows}, but {holder} holds {counted}."
-                )
+                let announced = counted_rows(*announced, rows);
+                write!(f, "{announcer} announces {announced}, but {holder} holds {counted}.")
             }
             Self::UnexpectedEnd { section, expected } => {
                 write!(
@@ -248,9 +258,9 @@ impl fmt::Display for ParseErrorKind {
             Self::ValueMissing { value } => {
                 write!(
                     f,
-                    "The line ends where {} was expected ({}).",
+                    "The line ends where {}{} was expected.",
                     value.expected(),
-                    Lower(&value.subject())
+                    value.owner()
                 )
             }
             Self::WrongLabel { expected, found } => write!(f, "{expected} must come here, but \"{found}\" was found."),
@@ -279,25 +289,17 @@ impl fmt::Display for ParseErrorKind {
                 "{} must be a whole number from {smallest} to {largest}, but \"{found}\" was found.",
                 value.subject()
             ),
-            Self::MaterialIncomplete { material } => {
-                write!(f, "Material {material} has too few lines to be a material.")
-            }
+            Self::MaterialIncomplete { .. } => write!(f, "The material that begins here has too few lines to be one."),
         }
     }
 }
 
-/// A sentence's beginning in the middle of one. Labels keep their case.
-struct Lower<'a>(&'a str);
-
-impl fmt::Display for Lower<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.strip_prefix("A ") {
-            Some(rest) => write!(f, "a {rest}"),
-            None => match self.0.strip_prefix("The ") {
-                Some(rest) => write!(f, "the {rest}"),
-                None => f.write_str(self.0),
-            },
-        }
+/// `1 vertex`, `2 vertices`.
+fn counted_rows(count: u32, rows: &str) -> String {
+    match rows {
+        _ if count != 1 => format!("{count} {rows}"),
+        "vertices" => "1 vertex".into(),
+        _ => format!("1 {}", rows.strip_suffix('s').unwrap_or(rows)),
     }
 }
 

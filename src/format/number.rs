@@ -15,111 +15,171 @@ pub(super) enum Reading {
 ///
 /// The value is the `f32` nearest to the decimal, exactly as `str::parse` gives it. `None` says nothing about the text: it is
 /// only not one of the plain cases, and [`read`] decides.
-#[inline]
-pub(super) fn plain(bytes: &[u8], mut at: usize) -> Option<(f32, usize)> {
-    let negative = *bytes.get(at)? == b'-';
-    at += usize::from(negative);
-    let mut digits = at;
+#[inline(always)]
+pub(super) fn plain(bytes: &[u8], at: usize) -> Option<(f32, usize)> {
+    let window = bytes.get(at..)?.first_chunk::<WINDOW>()?;
+    let negative = window[0] == b'-';
+    let mut end = usize::from(negative);
+    let start = end;
     let mut mantissa = 0_u64;
-    let mut byte = *bytes.get(at)?;
-    while byte.is_ascii_digit() {
-        mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
-        at += 1;
-        byte = *bytes.get(at)?;
-    }
-    digits = at - digits;
-    let mut exponent = 0;
-    if byte == b'.' {
-        at += 1;
-        let fraction = at;
-        loop {
-            let (value, count) = up_to_eight_digits(bytes, at)?;
-            mantissa = mantissa.wrapping_mul(TEN_TO[count]).wrapping_add(value);
-            at += count;
-            if count < 8 {
-                break;
-            }
+    let mut digit = window[end].wrapping_sub(b'0');
+    while digit <= 9 {
+        mantissa = mantissa * 10 + u64::from(digit);
+        end += 1;
+        if end > MOST_WHOLE_DIGITS {
+            return None;
         }
-        digits += at - fraction;
-        // At most the length of the file; more than 18 digits are turned away below.
-        exponent = fraction as i64 - at as i64;
-        byte = *bytes.get(at)?;
+        digit = window[end].wrapping_sub(b'0');
     }
-    // 18 digits keep the mantissa below 2^63.
+    let mut digits = end - start;
+    let mut exponent = 0;
+    if digit == b'.'.wrapping_sub(b'0') {
+        end += 1;
+        let (part, count) = leading_digits(eight(window, end));
+        mantissa = mantissa * TEN_TO[count & 15] + part;
+        end += count;
+        digits += count;
+        exponent = count;
+        if count == 8 {
+            let (part, more) = leading_digits(eight(window, end));
+            // Now there are at most 24 digits; more than 18 are turned away below.
+            mantissa = mantissa.wrapping_mul(TEN_TO[more & 15]).wrapping_add(part);
+            end += more;
+            digits += more;
+            exponent += more;
+        }
+    }
     if digits == 0 || digits > 18 {
         return None;
     }
-    if byte | 0x20 == b'e' {
-        at += 1;
-        byte = *bytes.get(at)?;
-        let small = byte == b'-';
-        if small || byte == b'+' {
-            at += 1;
-            byte = *bytes.get(at)?;
-        }
-        let start = at;
-        let mut written = 0_i64;
-        while byte.is_ascii_digit() && at - start < 4 {
-            written = written * 10 + i64::from(byte - b'0');
-            at += 1;
-            byte = *bytes.get(at)?;
-        }
-        if at == start {
-            return None;
-        }
-        exponent += if small { -written } else { written };
+    let mut exponent = -(exponent as i64);
+    let mut behind = window[end & INSIDE];
+    if behind | 0x20 == b'e' {
+        let (written, length) = written_exponent(window.get(end + 1..)?)?;
+        exponent += written;
+        end += 1 + length;
+        behind = *window.get(end)?;
     }
-    if !matches!(byte, b' ' | b'\n' | b'\r' | b'\t') {
+    // Whoever comes next looks closer at what stands between tokens.
+    if behind > b' ' {
         return None;
     }
     let value = nearest(mantissa, exponent)?;
-    Some((if negative { -value } else { value }, at))
+    let sign = u32::from(negative) << 31;
+    Some((f32::from_bits(value.to_bits() ^ sign), at + end))
 }
 
-/// The `f32` nearest to `mantissa * 10^exponent`, for a mantissa below 2^63; `None` where `f64` cannot decide it.
-#[inline]
-fn nearest(mantissa: u64, exponent: i64) -> Option<f32> {
-    if mantissa == 0 {
-        return Some(0.0);
-    }
-    let power = *POWERS_OF_TEN.get(usize::try_from(exponent - SMALLEST_POWER).ok()?)?;
-    // Signed, because that conversion is one instruction where the unsigned one is several.
-    let product = mantissa as i64 as f64 * power;
-    // Outside the normal numbers of f32 the rounding below would be another one.
-    if !(f64::from(f32::MIN_POSITIVE)..f64::from(f32::MAX)).contains(&product) {
+/// A whole number of up to seven digits at `at`, with a blank or a line end behind it, and the place behind it.
+#[inline(always)]
+pub(super) fn plain_whole(bytes: &[u8], at: usize) -> Option<(u32, usize)> {
+    let chunk = u64::from_le_bytes(*bytes.get(at..)?.first_chunk::<8>()?);
+    let (value, count) = leading_digits(chunk);
+    if count == 0 || count == 8 {
         return None;
     }
+    // At most seven digits, so the value fits.
+    ((chunk >> (8 * count)) as u8 <= b' ').then_some((value as u32, at + count))
+}
+
+/// Bytes that are looked at for one number. Longer ones, and those near the end of the file, are not plain.
+const WINDOW: usize = 40;
+
+/// Where digits can begin or end in the window, which leaves eight bytes behind. Taken as a mask, it shows the compiler that
+/// what is looked at is inside.
+const INSIDE: usize = 31;
+
+/// Digits before the point. Sign, these, the point, 16 more digits and an exponent stay inside the window.
+const MOST_WHOLE_DIGITS: usize = 8;
+
+/// Eight bytes of the window.
+#[inline(always)]
+fn eight(window: &[u8; WINDOW], start: usize) -> u64 {
+    let bytes = window[start & INSIDE..].first_chunk::<8>();
+    bytes.map_or(0, |bytes| u64::from_le_bytes(*bytes))
+}
+
+/// The digits that eight bytes begin with, as a number, and how many they are. The first byte is the lowest.
+#[inline(always)]
+fn leading_digits(chunk: u64) -> (u64, usize) {
+    // Digits become 0…9. The addition sets the top bit of 10…0x89, and the rest has it already or overflows: a byte that
+    // overflows is no digit, and carries only into bytes behind it, which do not matter then.
+    let values = chunk ^ 0x3030_3030_3030_3030;
+    let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
+    let bits = others.trailing_zeros() & !7;
+    // Zeros in front push out what follows the digits. Two shifts, since one by all 64 bits is not allowed.
+    let digits = values << ((64 - bits) / 2) << ((64 - bits) / 2);
+    // Pairs, fours and eights are summed in place.
+    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
+    let low = (pairs & 0x0000_00FF_0000_00FF).wrapping_mul(0x000F_4240_0000_0064);
+    let high = ((pairs >> 16) & 0x0000_00FF_0000_00FF).wrapping_mul(0x0000_2710_0000_0001);
+    (low.wrapping_add(high) >> 32, (bits / 8) as usize)
+}
+
+/// Powers that join two runs of digits; a run has at most eight.
+const TEN_TO: [u64; 16] = [
+    1,
+    10,
+    100,
+    1_000,
+    10_000,
+    100_000,
+    1_000_000,
+    10_000_000,
+    100_000_000,
+    0,
+    0,
+    0,
+    0,
+    0,
+    0,
+    0,
+];
+
+/// What stands behind `e`, up to four digits with an optional sign, and its length.
+fn written_exponent(text: &[u8]) -> Option<(i64, usize)> {
+    let negative = *text.first()? == b'-';
+    let start = usize::from(negative || text.first() == Some(&b'+'));
+    let mut at = start;
+    let mut exponent = 0_i64;
+    while at < start + 4
+        && let Some(digit) = text.get(at).filter(|byte| byte.is_ascii_digit())
+    {
+        exponent = exponent * 10 + i64::from(digit - b'0');
+        at += 1;
+    }
+    (at > start).then_some((if negative { -exponent } else { exponent }, at))
+}
+
+/// The `f32` nearest to `mantissa * 10^exponent`, for a mantissa below 10^18; `None` where `f64` cannot decide it.
+#[inline(always)]
+fn nearest(mantissa: u64, exponent: i64) -> Option<f32> {
+    // With these powers the product is zero or a normal number of f32, so that no other rounding than the usual one is met.
+    let power = *POWERS_OF_TEN.get((exponent - SMALLEST_POWER) as usize)?;
+    // Signed, because that conversion is one instruction where the unsigned one is several.
+    let product = mantissa as i64 as f64 * power;
     // Mantissa, power and product are each off by half a unit of f64 at most. Rounding to f32 can only go wrong when that
     // reaches across a midpoint between two f32, where the 29 bits that will be dropped are 1000…0.
-    let dropped = (product.to_bits() & 0x1FFF_FFFF) as i64;
-    if (dropped - 0x1000_0000).abs() <= MIDPOINT_MARGIN {
+    let dropped = product.to_bits() & 0x1FFF_FFFF;
+    if dropped.wrapping_sub(0x1000_0000 - MIDPOINT_MARGIN) <= 2 * MIDPOINT_MARGIN {
         return None;
     }
     Some(product as f32)
 }
 
 /// Units in the last place of `f64` that are kept from a midpoint: the three halves above, with room.
-const MIDPOINT_MARGIN: i64 = 8;
+const MIDPOINT_MARGIN: u64 = 8;
 
-/// Reads as many of the next eight bytes as are digits. `None` within eight bytes of the end of the file.
-#[inline]
-fn up_to_eight_digits(bytes: &[u8], at: usize) -> Option<(u64, usize)> {
-    let chunk = u64::from_le_bytes(*bytes.get(at..)?.first_chunk::<8>()?);
-    // Digits become 0…9. Adding 0x76 then sets the top bit of 10…0x8F, and the rest has it already. A byte that overflows
-    // carries into bytes behind it only, and it is itself no digit.
-    let values = chunk ^ 0x3030_3030_3030_3030;
-    let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
-    let count = (others.trailing_zeros() / 8) as usize;
-    if count == 0 {
-        return Some((0, 0));
-    }
-    // Zeros in front push out what follows the digits; then pairs, fours and eights are summed in place.
-    let values = values << (64 - 8 * count);
-    let pairs = values.wrapping_mul(10).wrapping_add(values >> 8);
-    let low = (pairs & 0x0000_00FF_0000_00FF).wrapping_mul(0x000F_4240_0000_0064);
-    let high = ((pairs >> 16) & 0x0000_00FF_0000_00FF).wrapping_mul(0x0000_2710_0000_0001);
-    Some((low.wrapping_add(high) >> 32, count))
-}
+/// Exponent of the first of [`POWERS_OF_TEN`].
+const SMALLEST_POWER: i64 = -37;
+
+/// From just above the smallest normal `f32` to where 18 digits reach its largest.
+#[rustfmt::skip]
+const POWERS_OF_TEN: [f64; 58] = [
+    1e-37, 1e-36, 1e-35, 1e-34, 1e-33, 1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22,
+    1e-21, 1e-20, 1e-19, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5,
+    1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+    1e16, 1e17, 1e18, 1e19, 1e20,
+];
 
 /// Reads a whole token as a number. `None` when it is none, even with good will.
 pub(super) fn read(token: &[u8]) -> Option<Reading> {
@@ -191,18 +251,31 @@ fn not_finite(token: &[u8]) -> bool {
         .any(|word| unsigned.eq_ignore_ascii_case(word.as_bytes()))
 }
 
-/// Powers that join two runs of digits.
-const TEN_TO: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Exponent of the first of [`POWERS_OF_TEN`]: 18 digits behind the point of the smallest normal `f32`, and some.
-const SMALLEST_POWER: i64 = -64;
-
-#[rustfmt::skip]
-const POWERS_OF_TEN: [f64; 103] = [
-    1e-64, 1e-63, 1e-62, 1e-61, 1e-60, 1e-59, 1e-58, 1e-57, 1e-56, 1e-55, 1e-54, 1e-53, 1e-52, 1e-51, 1e-50, 1e-49,
-    1e-48, 1e-47, 1e-46, 1e-45, 1e-44, 1e-43, 1e-42, 1e-41, 1e-40, 1e-39, 1e-38, 1e-37, 1e-36, 1e-35, 1e-34, 1e-33,
-    1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27, 1e-26, 1e-25, 1e-24, 1e-23, 1e-22, 1e-21, 1e-20, 1e-19, 1e-18, 1e-17,
-    1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1,
-    1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21,
-    1e22, 1e23, 1e24, 1e25, 1e26, 1e27, 1e28, 1e29, 1e30, 1e31, 1e32, 1e33, 1e34, 1e35, 1e36, 1e37, 1e38,
-];
+    #[test]
+    fn plain_reads_what_exporters_write() {
+        for text in [
+            "0",
+            "-0",
+            "1",
+            "67.88861",
+            "-0.9983482",
+            "0.05002538",
+            "0.0001278553",
+            "-1.331581E-06",
+            "8.412415e-23",
+            "13748",
+        ] {
+            let padded = format!("{text}\n{:WINDOW$}", "");
+            let (value, end) = plain(padded.as_bytes(), 0).unwrap_or_else(|| panic!("{text}"));
+            assert_eq!(
+                (value.to_bits(), end),
+                (text.parse::<f32>().map_or(1, f32::to_bits), text.len()),
+                "{text}"
+            );
+        }
+    }
+}

@@ -8,54 +8,41 @@ use super::cursor::Cursor;
 use super::document::{Keyframe, Vertex};
 use super::number;
 
-/// Labels of a vertex's lines.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct VertexLabels {
-    pub(super) position: &'static [u8],
-    pub(super) tangent: &'static [u8],
-    pub(super) normal: &'static [u8],
-    pub(super) tex_coords: &'static [u8],
-    pub(super) blend_weights: &'static [u8],
-    pub(super) blend_indices: &'static [u8],
-}
+/// Labels of a vertex's lines, in order.
+type VertexLabels = [&'static [u8]; 6];
 
 /// As in the books.
-pub(super) const LONG: VertexLabels = VertexLabels {
-    position: b"Position:",
-    tangent: b"Tangent:",
-    normal: b"Normal:",
-    tex_coords: b"Tex-Coords:",
-    blend_weights: b"BlendWeights:",
-    blend_indices: b"BlendIndices:",
-};
+const LONG: VertexLabels = [
+    b"Position:",
+    b"Tangent:",
+    b"Normal:",
+    b"Tex-Coords:",
+    b"BlendWeights:",
+    b"BlendIndices:",
+];
 
 /// As imm_engine writes them.
-pub(super) const SHORT: VertexLabels = VertexLabels {
-    position: b"P:",
-    tangent: b"T:",
-    normal: b"N:",
-    tex_coords: b"T:",
-    blend_weights: b"W:",
-    blend_indices: b"I:",
-};
+const SHORT: VertexLabels = [b"P:", b"T:", b"N:", b"T:", b"W:", b"I:"];
 
 /// Reads a vertex; with bones, its blend indices are below `bones`. Also gives the line of its position.
 #[inline]
-pub(super) fn vertex(cursor: &mut Cursor<'_>, labels: &VertexLabels, bones: u32) -> Option<(Vertex, u32)> {
+pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u32) -> Option<(Vertex, u32)> {
+    let [position, tangent, normal, tex_coords, blend_weights, blend_indices] =
+        const { if SHORT_LABELS { SHORT } else { LONG } };
     let mut ahead = *cursor;
     ahead.pass_empty_lines();
     let line = ahead.line;
     let mut vertex = Vertex {
-        position: ahead.row(labels.position)?,
-        tangent: ahead.row(labels.tangent)?,
-        normal: ahead.row(labels.normal)?,
-        tex_coords: ahead.row(labels.tex_coords)?,
+        position: ahead.row(position)?,
+        tangent: ahead.row(tangent)?,
+        normal: ahead.row(normal)?,
+        tex_coords: ahead.row(tex_coords)?,
         ..Vertex::default()
     };
     if bones > 0 {
-        vertex.blend_weights = ahead.row(labels.blend_weights)?;
+        vertex.blend_weights = ahead.row(blend_weights)?;
         ahead.blanks();
-        ahead.literal(labels.blend_indices)?;
+        ahead.literal(blend_indices)?;
         for index in &mut vertex.blend_indices {
             *index = ahead.index_below(bones)?;
         }
@@ -143,23 +130,12 @@ impl Cursor<'_> {
         }
     }
 
-    /// A whole number of up to nine digits, below `end`, with a blank or a line end behind it.
     #[inline(always)]
     fn index_below(&mut self, end: u32) -> Option<u32> {
         self.blanks();
-        let start = self.at;
-        let mut index = 0_u32;
-        loop {
-            let byte = *self.bytes.get(self.at)?;
-            let digit = byte.wrapping_sub(b'0');
-            if digit > 9 {
-                let digits = self.at - start;
-                let ends = matches!(byte, b' ' | b'\n' | b'\r' | b'\t');
-                return (ends && (1..=9).contains(&digits) && index < end).then_some(index);
-            }
-            index = index.wrapping_mul(10).wrapping_add(u32::from(digit));
-            self.at += 1;
-        }
+        let (index, behind) = number::plain_whole(self.bytes, self.at)?;
+        self.at = behind;
+        (index < end).then_some(index)
     }
 
     #[inline(always)]

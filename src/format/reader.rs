@@ -109,7 +109,16 @@ impl<'a> Reader<'a> {
                 );
             }
             self.section = section;
+            self.pass_bare_rulers();
             return Ok(Beginning::Ruler);
+        }
+    }
+
+    /// Passes decoration below a ruler.
+    fn pass_bare_rulers(&mut self) {
+        while self.peek_ruler().is_some_and(|ruler| is_bare_ruler(ruler.text)) {
+            self.cursor.skip_space();
+            self.cursor.rest_of_line();
         }
     }
 
@@ -178,13 +187,8 @@ impl<'a> Reader<'a> {
 
     /// The error of a label that is not `expected`.
     pub(super) fn wrong_label(token: Token<'_>, expected: &'static str) -> ParseError {
-        Self::error_at(
-            token,
-            ParseErrorKind::WrongLabel {
-                expected,
-                found: quoted(token.text),
-            },
-        )
+        let found = quoted(token.text.strip_suffix(b":").unwrap_or(token.text));
+        Self::error_at(token, ParseErrorKind::WrongLabel { expected, found })
     }
 
     /// The next token of this line, which must be there.

@@ -43,7 +43,8 @@ impl fmt::Display for Stranger {
             Self::Other(name) => write!(f, "This is {name}, not an .m3d file."),
             Self::Model3d(kind) => write!(
                 f,
-                "This is an {kind} \"Model 3D\" file by bzt. It shares the extension .m3d, but is another format."
+                "This is {} \"Model 3D\" file by bzt. It shares the extension .m3d, but is another format.",
+                if *kind == "binary" { "a binary" } else { "an ASCII" }
             ),
             Self::Relative(mark) => {
                 write!(
@@ -92,7 +93,7 @@ const SIGNATURES: &[(&[u8], Stranger)] = &[
     (b"\x7FELF", Stranger::Other("a program")),
     (
         b"version https://git-lfs",
-        Stranger::Other("a Git LFS pointer: the model itself was not downloaded"),
+        Stranger::Other("a Git LFS pointer (the file itself was not downloaded)"),
     ),
     (b"\xFF\xFE", Stranger::Utf16),
     (b"\xFE\xFF", Stranger::Utf16),

@@ -193,9 +193,6 @@ impl Writer<'_> {
         let (bone_label, count_label) = if self.imm { ("B", "#K") } else { ("Bone", "#Keyframes") };
         writeln!(self.text, "AnimationClip {}\n{{", line(&clip.name))?;
         for (bone, animation) in clip.bones.iter().enumerate() {
-            if bone > 0 {
-                writeln!(self.text)?;
-            }
             writeln!(
                 self.text,
                 "\t{bone_label}{bone} {count_label}: {}\n\t{{",
@@ -204,7 +201,7 @@ impl Writer<'_> {
             for keyframe in &animation.keyframes {
                 self.keyframe(keyframe)?;
             }
-            writeln!(self.text, "\t}}")?;
+            writeln!(self.text, "\t}}\n")?;
         }
         writeln!(self.text, "}}")
     }

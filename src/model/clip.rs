@@ -115,7 +115,10 @@ pub(super) fn span<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> (f32, f32
 /// Keys a second of the track with the most keys: the middle one of its steps, so that a gap or a jump does not count.
 /// Files round their times, so a rate within 0.1 % of a whole number is that number.
 pub(super) fn keys_per_sec<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> f32 {
-    let Some(densest) = tracks.into_iter().max_by_key(|track| track.key_count()) else {
+    let Some(densest) = tracks
+        .into_iter()
+        .reduce(|a, b| if b.key_count() > a.key_count() { b } else { a })
+    else {
         return DEFAULT_KEYS_PER_SEC;
     };
     let mut steps_secs: Vec<f64> = densest

@@ -15,11 +15,11 @@ pub(super) fn handedness_of(positions: &[Vec3], normals: &[Vec3], indices: &[u32
     let (mut agree, mut disagree) = (0u32, 0u32);
     for corners in indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
-        let corner_normals = [normals[a], normals[b], normals[c]];
-        if !corner_normals.into_iter().all(is_direction) {
-            continue;
-        }
-        let normal: DVec3 = corner_normals.into_iter().map(|normal| normal.as_dvec3()).sum();
+        // A corner without a normal says nothing; the others still do.
+        let known = [normals[a], normals[b], normals[c]]
+            .into_iter()
+            .filter(|&normal| is_direction(normal));
+        let normal: DVec3 = known.map(|normal| normal.as_dvec3()).sum();
         let side = facing(positions[a], positions[b], positions[c]).dot(normal);
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);

@@ -193,8 +193,7 @@ fn mended_keys(bone: u32, keys: &[crate::format::Keyframe], mended: &mut Mended)
             translation: Vec3::from_array(key.translation),
             scale: Vec3::from_array(key.scale),
         };
-        // NaN is not below the limit either.
-        if !joint.is_finite() || !(key.time_secs.abs() <= MAX_TIME_SECS) {
+        if !joint.is_finite() || key.time_secs.is_nan() || key.time_secs.abs() > MAX_TIME_SECS {
             mended.not_finite.add(bone);
             continue;
         }

@@ -20,7 +20,7 @@ pub(super) fn submeshes_from_document(
             return Vec::new();
         }
         if materials.is_empty() {
-            materials.push(default_material());
+            materials.push(default_material(materials));
         }
         notes.warn(
             "no-subsets",
@@ -50,7 +50,7 @@ pub(super) fn submeshes_from_document(
         })
         .collect();
     if let Some(first) = without_material {
-        materials.push(default_material());
+        materials.push(default_material(materials));
         let count = document.subsets.len() - first as usize;
         notes.warn(
             "subset-without-material",

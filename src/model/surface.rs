@@ -7,9 +7,11 @@ use crate::diagnostic::Subject;
 use crate::format::{self, Document, LineMap};
 
 /// What a subset without a material is drawn with: a mid grey that reads as no colour of the file.
-pub(super) fn default_material() -> Material {
+pub(super) fn default_material(others: &[Material]) -> Material {
+    let names = others.iter().map(|material| material.name.as_str()).chain(["default"]);
+    let name = unique(names, "material", |_, _| ()).pop().unwrap_or_default();
     Material {
-        name: "default".to_owned(),
+        name,
         diffuse: [0.8; 3],
         reflectance: Reflectance::Fresnel {
             fresnel0: [0.05; 3],

@@ -31,7 +31,7 @@ const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uin
 /// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal.
 const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
     constant: 2,
-    slope_scale: 1.5,
+    slope_scale: 2.5,
     clamp: 0.0,
 };
 

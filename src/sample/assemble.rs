@@ -16,8 +16,16 @@ pub(super) fn document(skin: &Skin, influences: &[Influences], rig: &Rig, clips:
     let mut document = Document {
         dialect: Dialect::D3d12,
         materials: Material::ALL.map(Material::entry).to_vec(),
-        bone_offsets: rig.joints.iter().map(|joint| offset(joint.origin, joint.rotation)).collect(),
-        bone_parents: rig.joints.iter().map(|joint| joint.parent.map_or(-1, |parent| parent as i32)).collect(),
+        bone_offsets: rig
+            .joints
+            .iter()
+            .map(|joint| offset(joint.origin, joint.rotation))
+            .collect(),
+        bone_parents: rig
+            .joints
+            .iter()
+            .map(|joint| joint.parent.map_or(-1, |parent| parent as i32))
+            .collect(),
         clips,
         ..Document::default()
     };
@@ -44,9 +52,9 @@ fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influ
         }
         let points = corners.map(|corner| skin.positions[corner as usize]);
         let centre = (points[0] + points[1] + points[2]) / 3.0;
-        let normal = corners.iter().map(|corner| skin.normals[*corner as usize]).sum::<DVec3>().normalize();
+        let normals = corners.map(|corner| skin.normals[corner as usize]);
         let moved_by = heaviest(corners.map(|corner| influences[corner as usize]));
-        let (number, chart) = texcoords::chart(rig, *region, moved_by, centre, normal);
+        let (number, chart) = texcoords::chart(rig, *region, moved_by, points, normals);
         let near = chart.tex_coords(centre, None);
         document.triangles.push(corners.map(|corner| {
             let point = skin.positions[corner as usize];
@@ -54,7 +62,9 @@ fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influ
             let key = (corner, number, tex_coords.to_array().map(f64::to_bits));
             *added.entry(key).or_insert_with(|| {
                 let normal = skin.normals[corner as usize];
-                document.vertices.push(vertex(point, normal, chart, tex_coords, influences[corner as usize]));
+                document
+                    .vertices
+                    .push(vertex(point, normal, chart, tex_coords, influences[corner as usize]));
                 document.vertices.len() as u32 - 1
             })
         }));
@@ -67,7 +77,12 @@ fn heaviest(corners: [Influences; 3]) -> usize {
     for (joint, weight) in corners.into_iter().flatten() {
         *sums.entry(joint).or_default() += weight;
     }
-    sums.into_iter().fold((0, 0), |best, (joint, sum)| if sum > best.1 { (joint, sum) } else { best }).0
+    sums.into_iter()
+        .fold(
+            (0, 0),
+            |best, (joint, sum)| if sum > best.1 { (joint, sum) } else { best },
+        )
+        .0
 }
 
 fn vertex(point: DVec3, normal: DVec3, chart: Chart, tex_coords: DVec2, influences: Influences) -> Vertex {

@@ -59,7 +59,9 @@ impl Region {
 
     /// The region that owns `point`.
     pub(super) fn of(body: &Body, rig: &Rig, point: DVec3) -> Region {
-        let owner = Region::BORDERED.into_iter().find(|region| region.border(body, rig, point) < 0.0);
+        let owner = Region::BORDERED
+            .into_iter()
+            .find(|region| region.border(body, rig, point) < 0.0);
         owner.unwrap_or(Region::Suit)
     }
 
@@ -74,17 +76,14 @@ impl Region {
             Region::Boot => point.y - 0.268,
             // Planes across the arm cut the legs too, but those are nearer to the middle.
             Region::Glove => (-0.108 - along_arm(Limb::Hand)).max(0.3 - on_left.x),
-            Region::Neck => {
-                // From the inside of the collar up to the helmet.
-                let from_axis = (point.x * point.x + point.z * point.z).sqrt();
-                let above_collar = (from_axis - 0.105).max(1.43 - point.y);
-                above_collar.max(0.006 - body.part_distance(Part::Helmet, point))
-            },
-            Region::Pack => body.part_distance(Part::Pack, point) - 0.007,
+            Region::Neck => (1.445 - point.y).max(0.011 - body.part_distance(Part::Helmet, point)),
+            Region::Pack => body.part_distance(Part::Pack, point) - 0.009,
             Region::Badge => badge(point),
             Region::EarCup => body.part_distance(Part::EarCups, point) - 0.005,
             Region::KneePad => knee_pad(on_left - rig.origin(Side::Left, Limb::Shin)),
-            Region::Stripe => band(along_arm(Limb::UpperArm), 0.125, 0.03).max(0.2 - on_left.x).max(1.1 - point.y),
+            Region::Stripe => band(along_arm(Limb::UpperArm), 0.125, 0.03)
+                .max(0.2 - on_left.x)
+                .max(1.1 - point.y),
             Region::Belt => band(point.y, 0.995, 0.02).max(on_left.x - 0.25),
             Region::Suit => 1.0,
         }

@@ -1,8 +1,8 @@
 //! The sample: a figure that the project makes itself, so that there is something to see before a file was dropped.
 //!
 //! ```text
-//! rig -> body (solids) -> skin (surface nets, relaxed, snapped) -> weights, texcoords -> Document
-//!    \-> motion (poses, two-bone legs) -> clips                                       /
+//! rig -> volumes -> body -> skin (surface nets, relaxed, snapped) -> weights, texcoords -> Document
+//!    \-> motion (poses, two-bone legs) -> clips                                        /
 //! ```
 //!
 //! The same document on every machine: the topology depends on + − × ÷ √ alone, which IEEE 754 fixes; sines and arc tangents
@@ -19,6 +19,7 @@ mod sdf;
 mod skin;
 mod surface_nets;
 mod texcoords;
+mod volumes;
 mod weights;
 
 use crate::format::Document;

@@ -3,8 +3,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Place on the ground under the figure; moves no vertex itself.
-pub(super) const ROOT: usize = 0;
+// Joint 0 is the place on the ground under the figure; it moves no vertex itself.
 pub(super) const HIPS: usize = 1;
 pub(super) const WAIST: usize = 2;
 pub(super) const RIBS: usize = 3;
@@ -97,7 +96,12 @@ impl Rig {
     pub(super) fn new() -> Rig {
         let mut joints = Vec::with_capacity(JOINT_COUNT);
         let mut add = |parent: Option<usize>, origin: DVec3, tip: DVec3, along: DVec3| {
-            joints.push(Joint { parent, origin, tip, rotation: orientation(along) });
+            joints.push(Joint {
+                parent,
+                origin,
+                tip,
+                rotation: orientation(along),
+            });
         };
         let spine = [0.0, 0.93, 1.03, 1.13, 1.24, 1.41, 1.49, 1.78].map(|y| DVec3::new(0.0, y, 0.0));
         for index in 0..CENTRE_COUNT {

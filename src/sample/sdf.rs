@@ -8,7 +8,12 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shape {
     /// Two spheres and the cone that touches both. The spheres must not contain each other.
-    RoundCone { from: DVec3, to: DVec3, from_radius: f64, to_radius: f64 },
+    RoundCone {
+        from: DVec3,
+        to: DVec3,
+        from_radius: f64,
+        to_radius: f64,
+    },
     /// Axis-aligned; the distance is a close bound, exact on the surface.
     Ellipsoid { centre: DVec3, radii: DVec3 },
     /// Axis-aligned; `half` is half the size with its rounding.
@@ -19,9 +24,15 @@ impl Shape {
     /// Least and greatest corner of a box around it.
     pub(super) fn bounds(&self) -> (DVec3, DVec3) {
         match *self {
-            Shape::RoundCone { from, to, from_radius, to_radius } => {
-                ((from - from_radius).min(to - to_radius), (from + from_radius).max(to + to_radius))
-            }
+            Shape::RoundCone {
+                from,
+                to,
+                from_radius,
+                to_radius,
+            } => (
+                (from - from_radius).min(to - to_radius),
+                (from + from_radius).max(to + to_radius),
+            ),
             Shape::Ellipsoid { centre, radii: half } | Shape::RoundBox { centre, half, .. } => {
                 (centre - half, centre + half)
             }
@@ -31,14 +42,21 @@ impl Shape {
     /// Signed distance from `point`.
     pub(super) fn distance(&self, point: DVec3) -> f64 {
         match *self {
-            Shape::RoundCone { from, to, from_radius, to_radius } => {
-                round_cone(point - from, to - from, from_radius, to_radius)
-            }
+            Shape::RoundCone {
+                from,
+                to,
+                from_radius,
+                to_radius,
+            } => round_cone(point - from, to - from, from_radius, to_radius),
             Shape::Ellipsoid { centre, radii } => {
                 let scaled = (point - centre) / radii;
                 let slope = (scaled / radii).length();
                 // At the very centre the quotient has no value; the least radius is a bound from below there.
-                if slope < 1e-9 { -radii.min_element() } else { scaled.length() * (scaled.length() - 1.0) / slope }
+                if slope < 1e-9 {
+                    -radii.min_element()
+                } else {
+                    scaled.length() * (scaled.length() - 1.0) / slope
+                }
             }
             Shape::RoundBox { centre, half, rounding } => {
                 let outside = (point - centre).abs() - (half - rounding);

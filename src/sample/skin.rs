@@ -1,5 +1,7 @@
 //! From solids to an even mesh: polygonise, find regions, then relax along the surface and snap to borders.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::body::Body;
@@ -38,24 +40,32 @@ impl Skin {
             *position = onto_surface(&field, *position, 3);
         }
 
-        let quad_regions: Vec<Region> =
-            quads.iter().map(|quad| Region::of(body, rig, onto_surface(&field, middle(&positions, quad), 1))).collect();
+        let mut quad_regions: Vec<Region> = quads
+            .iter()
+            .map(|quad| Region::of(body, rig, onto_surface(&field, middle(&positions, quad), 1)))
+            .collect();
+        fill_notches(&quads, &mut quad_regions);
         let borders = borders(positions.len(), &quads, &quad_regions);
         let neighbours = neighbours(positions.len(), &quads);
 
+        let border_of = |region: Region| move |point| region.border(body, rig, point);
         for _ in 0..RELAX_ROUNDS {
             let before = positions.clone();
             for (vertex, position) in positions.iter_mut().enumerate() {
                 let border = borders[vertex];
                 // A border vertex follows its border only, or the border would be smoothed away.
-                let around = neighbours[vertex].iter().filter(|n| border.is_none() || borders[**n as usize] == border);
+                let around = neighbours[vertex]
+                    .iter()
+                    .filter(|n| border.is_none() || borders[**n as usize] == border);
                 let (sum, count) = around.fold((DVec3::ZERO, 0.0), |(s, c), n| (s + before[*n as usize], c + 1.0));
-                let pull = if count > 0.0 { (sum / count - *position) * RELAX_RATE } else { DVec3::ZERO };
+                let pull = if count > 0.0 {
+                    (sum / count - *position) * RELAX_RATE
+                } else {
+                    DVec3::ZERO
+                };
                 *position = match border {
                     // Newton with two surfaces keeps only what is along the border.
-                    Some(region) => {
-                        onto_border(&field, &|point| region.border(body, rig, point), *position + pull)
-                    }
+                    Some(region) => onto_border(&field, &border_of(region), *position + pull, 2),
                     None => {
                         let slope = gradient(&field, *position);
                         let along_surface = pull - slope * (pull.dot(slope) / slope.length_squared());
@@ -66,18 +76,47 @@ impl Skin {
         }
 
         for (position, border) in positions.iter_mut().zip(&borders) {
-            if border.is_none() {
-                *position = onto_surface(&field, *position, 2);
-            }
+            *position = match border {
+                Some(region) => onto_border(&field, &border_of(*region), *position, 4),
+                None => onto_surface(&field, *position, 2),
+            };
         }
-        let normals = positions.iter().map(|position| gradient(&field, *position).normalize()).collect();
+        let normals: Vec<DVec3> = positions
+            .iter()
+            .map(|position| gradient(&field, *position).normalize())
+            .collect();
         let mut triangles = Vec::with_capacity(2 * quads.len());
         let mut regions = Vec::with_capacity(2 * quads.len());
         for (quad, region) in quads.iter().zip(quad_regions) {
-            triangles.extend(split(quad, &positions, &borders));
+            triangles.extend(split(quad, &positions, &normals));
             regions.extend([region; 2]);
         }
-        Skin { positions, normals, triangles, regions, neighbours }
+        Skin {
+            positions,
+            normals,
+            triangles,
+            regions,
+            neighbours,
+        }
+    }
+}
+
+/// Gives a quad that has another region on three sides to that region: snapped, its corners would all lie in one line.
+fn fill_notches(quads: &[[u32; 4]], regions: &mut [Region]) {
+    let edges = |quad: &[u32; 4]| [0, 1, 2, 3].map(|i| (quad[i], quad[(i + 1) % 4]));
+    let of_edge: BTreeMap<(u32, u32), usize> = quads
+        .iter()
+        .enumerate()
+        .flat_map(|(index, quad)| edges(quad).map(|edge| (edge, index)))
+        .collect();
+    for _ in 0..2 {
+        let before = regions.to_vec();
+        for (quad, region) in quads.iter().zip(&mut *regions) {
+            // The skin is closed: each edge runs the other way in the quad beyond it.
+            let beyond = edges(quad).map(|(a, b)| before[of_edge[&(b, a)]]);
+            let owns_three = |other: &&Region| beyond.iter().filter(|region| region == other).count() >= 3;
+            *region = *beyond.iter().find(owns_three).unwrap_or(region);
+        }
     }
 }
 
@@ -93,7 +132,11 @@ fn borders(vertex_count: usize, quads: &[[u32; 4]], regions: &[Region]) -> Vec<O
             *known = region.min(*known);
         }
     }
-    first.into_iter().zip(mixed).map(|(first, mixed)| first.filter(|_| mixed)).collect()
+    first
+        .into_iter()
+        .zip(mixed)
+        .map(|(first, mixed)| first.filter(|_| mixed))
+        .collect()
 }
 
 fn neighbours(vertex_count: usize, quads: &[[u32; 4]]) -> Vec<Vec<u32>> {
@@ -116,20 +159,32 @@ fn middle(positions: &[DVec3], quad: &[u32; 4]) -> DVec3 {
     quad.iter().map(|vertex| positions[*vertex as usize]).sum::<DVec3>() / 4.0
 }
 
-/// Two triangles along the shorter diagonal, unless that puts three border vertices into one triangle: snapped to a border
-/// they are nearly in line.
-fn split(quad: &[u32; 4], positions: &[DVec3], borders: &[Option<Region>]) -> [[u32; 3]; 2] {
+/// Two triangles along the diagonal that makes the better worst triangle. Vertices that were snapped to a border can lie in
+/// line, and a triangle of three such would have no area.
+fn split(quad: &[u32; 4], positions: &[DVec3], normals: &[DVec3]) -> [[u32; 3]; 2] {
     let [a, b, c, d] = *quad;
-    let length = |a: u32, b: u32| positions[a as usize].distance_squared(positions[b as usize]);
-    let flat = |triangles: &[[u32; 3]; 2]| {
-        triangles.iter().filter(|triangle| triangle.iter().all(|v| borders[*v as usize].is_some())).count()
+    let worst = |triangles: &[[u32; 3]; 2]| {
+        let shapes = triangles.map(|triangle| {
+            shape(
+                triangle.map(|v| positions[v as usize]),
+                triangle.map(|v| normals[v as usize]),
+            )
+        });
+        shapes[0].min(shapes[1])
     };
-    let options = [[[a, b, c], [a, c, d]], [[b, c, d], [b, d, a]]];
-    let cost = |option: usize| (flat(&options[option]), if option == 0 { length(a, c) } else { length(b, d) });
+    let (first, second) = ([[a, b, c], [a, c, d]], [[b, c, d], [b, d, a]]);
     // The slack keeps mirrored quads alike where rounding would decide.
-    let (first, second) = (cost(0), cost(1));
-    let take_second = second.0 < first.0 || (second.0 == first.0 && second.1 < first.1 * (1.0 - 1e-6));
-    options[usize::from(take_second)]
+    if worst(&second) > worst(&first) + 1e-6 {
+        second
+    } else {
+        first
+    }
+}
+
+/// How good a triangle is: its area over its squared edges, negative where it faces away from its normals.
+fn shape([a, b, c]: [DVec3; 3], normals: [DVec3; 3]) -> f64 {
+    let area = (b - a).cross(c - a).dot(normals.into_iter().sum::<DVec3>().normalize());
+    area / (a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a))
 }
 
 /// Newton steps to where `field` is zero.
@@ -142,15 +197,15 @@ fn onto_surface(field: &impl Fn(DVec3) -> f64, mut point: DVec3, steps: usize) -
 }
 
 /// Least-norm Newton steps to where both are zero; where the two nearly touch without crossing, only the field counts.
-fn onto_border(field: &impl Fn(DVec3) -> f64, border: &impl Fn(DVec3) -> f64, mut point: DVec3) -> DVec3 {
+fn onto_border(field: &impl Fn(DVec3) -> f64, border: &impl Fn(DVec3) -> f64, mut point: DVec3, steps: usize) -> DVec3 {
     /// Metres: a step longer than a cell would leave the neighbourhood.
     const LONGEST: f64 = 0.012;
-    for _ in 0..5 {
+    for _ in 0..steps {
         let (f, g) = (gradient(field, point), gradient(border, point));
         let (ff, fg, gg) = (f.length_squared(), f.dot(g), g.length_squared());
         let determinant = ff * gg - fg * fg;
         if determinant < 0.05 * ff * gg {
-            return onto_surface(field, point, 2);
+            break;
         }
         let (a, b) = (field(point), border(point));
         let step = f * ((gg * a - fg * b) / determinant) + g * ((ff * b - fg * a) / determinant);

@@ -18,8 +18,20 @@ pub(super) struct QuadMesh {
 }
 
 /// Edges of a cell as pairs of corners, whose bits are x, y and z: four along x, four along y, four along z.
-const EDGES: [(usize, usize); 12] =
-    [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)];
+const EDGES: [(usize, usize); 12] = [
+    (0, 1),
+    (2, 3),
+    (4, 5),
+    (6, 7),
+    (0, 2),
+    (1, 3),
+    (4, 6),
+    (5, 7),
+    (0, 4),
+    (1, 5),
+    (2, 6),
+    (3, 7),
+];
 
 /// Faces of a cell: four corners in turn and the edges between them, the last edge leading back to the first corner.
 const FACES: [([usize; 4], [usize; 4]); 6] = [
@@ -39,16 +51,25 @@ fn sheets(inside: &[bool; 8]) -> [Option<usize>; 12] {
         (inside[a] != inside[b]).then_some(edge)
     });
     let mut join = |a: usize, b: usize| {
-        let (Some(a), Some(b)) = (sheets[a], sheets[b]) else { return };
-        sheets.iter_mut().filter(|sheet| **sheet == Some(a.max(b))).for_each(|sheet| *sheet = Some(a.min(b)));
+        let (Some(a), Some(b)) = (sheets[a], sheets[b]) else {
+            return;
+        };
+        sheets
+            .iter_mut()
+            .filter(|sheet| **sheet == Some(a.max(b)))
+            .for_each(|sheet| *sheet = Some(a.min(b)));
     };
     for (corners, edges) in FACES {
         let is_inside = corners.map(|corner| inside[corner]);
         if is_inside[0] == is_inside[2] && is_inside[1] == is_inside[3] {
             // No edge or all four are crossed: each inside corner is cut off by itself, which keeps gaps open.
-            (0..4).filter(|corner| is_inside[*corner]).for_each(|corner| join(edges[(corner + 3) % 4], edges[corner]));
+            (0..4)
+                .filter(|corner| is_inside[*corner])
+                .for_each(|corner| join(edges[(corner + 3) % 4], edges[corner]));
         } else {
-            let mut crossed = (0..4).filter(|i| is_inside[*i] != is_inside[(*i + 1) % 4]).map(|i| edges[i]);
+            let mut crossed = (0..4)
+                .filter(|i| is_inside[*i] != is_inside[(*i + 1) % 4])
+                .map(|i| edges[i]);
             if let (Some(a), Some(b)) = (crossed.next(), crossed.next()) {
                 join(a, b);
             }
@@ -108,7 +129,11 @@ pub(super) fn polygonise<W: Fn(DVec3) -> DVec3>(lattice: &Lattice<W>, field: imp
                 let mut cell = i;
                 cell[u] -= du;
                 cell[v] -= dv;
-                let edge = if axis == 1 { 4 + dv + 2 * du } else { 4 * axis + du + 2 * dv };
+                let edge = if axis == 1 {
+                    4 + dv + 2 * du
+                } else {
+                    4 * axis + du + 2 * dv
+                };
                 cells[cell_of[at(cell)] as usize][edge]
             });
             let [a, b, c, d] = around;

@@ -23,18 +23,34 @@ pub(super) type Influences = [(usize, u32); 4];
 
 /// Influences of each vertex of the skin.
 pub(super) fn influences(skin: &Skin, body: &Body, rig: &Rig) -> Vec<Influences> {
-    let mut weights: Vec<Weights> = skin.positions.iter().map(|point| by_distance(body, rig, *point)).collect();
+    let mut weights: Vec<Weights> = skin
+        .positions
+        .iter()
+        .map(|point| by_distance(body, rig, *point))
+        .collect();
     for _ in 0..SMOOTH_ROUNDS {
         weights = smoothed(&weights, &skin.neighbours);
     }
-    weights.iter().zip(&skin.positions).map(|(weights, point)| strongest(weights, rig, *point)).collect()
+    weights
+        .iter()
+        .zip(&skin.positions)
+        .map(|(weights, point)| strongest(weights, rig, *point))
+        .collect()
 }
 
 /// The nearest volume's joint, and its parent and children where their volumes are nearly as near.
 fn by_distance(body: &Body, rig: &Rig, point: DVec3) -> Weights {
     let mut distances = [f64::INFINITY; JOINT_COUNT];
-    body.for_each_joint_distance(point, |joint, distance| distances[joint] = distances[joint].min(distance));
-    let nearest = (0..JOINT_COUNT).fold(0, |best, joint| if distances[joint] < distances[best] { joint } else { best });
+    body.for_each_joint_distance(point, |joint, distance| {
+        distances[joint] = distances[joint].min(distance);
+    });
+    let nearest = (0..JOINT_COUNT).fold(0, |best, joint| {
+        if distances[joint] < distances[best] {
+            joint
+        } else {
+            best
+        }
+    });
 
     let mut weights = [0.0; JOINT_COUNT];
     for (joint, weight) in weights.iter_mut().enumerate() {
@@ -84,7 +100,9 @@ fn strongest(weights: &Weights, rig: &Rig, point: DVec3) -> Influences {
     const LEAST: f64 = 0.004;
     let other = if point.x < 0.0 { Side::Left } else { Side::Right };
     let allowed = |j: usize| !is_below(rig, j, joint(other, Limb::Thigh));
-    let mut order: Vec<usize> = (0..JOINT_COUNT).filter(|j| weights[*j] > LEAST && allowed(*j)).collect();
+    let mut order: Vec<usize> = (0..JOINT_COUNT)
+        .filter(|j| weights[*j] > LEAST && allowed(*j))
+        .collect();
     order.sort_by(|a, b| weights[*b].total_cmp(&weights[*a]));
     order.truncate(4);
 

@@ -16,8 +16,8 @@ const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 /// Share of the picture's height and width that framing leaves to the model.
 const FRAMED_SHARE: f32 = 0.9;
 
-/// Rounds of fitting and centring: the last moves things by less than a thousandth of the picture.
-const FRAMING_ROUNDS: usize = 6;
+/// Rounds of fitting and centring, which need each other in perspective: the last moves things by less than a thousandth of the picture.
+const FRAMING_ROUNDS: usize = 8;
 
 /// How depth becomes size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -244,44 +244,52 @@ impl Camera {
         let free_width = (1.0 - insets.left - insets.right).clamp(0.2, 1.0);
         let free_height = (1.0 - insets.top - insets.bottom).clamp(0.2, 1.0);
         let tan_half_y = self.height_in_view() * 0.5 / self.distance;
-        let tan_y = tan_half_y * free_height * FRAMED_SHARE;
-        let tan_x = tan_half_y * aspect * free_width * FRAMED_SHARE;
+        let tan_half = Vec2::new(tan_half_y * aspect, tan_half_y);
+        let fitted = tan_half * Vec2::new(free_width, free_height) * FRAMED_SHARE;
+        let middle_of_free = tan_half * Vec2::new(insets.left - insets.right, insets.bottom - insets.top);
         let (right, up, forward) = (self.right(), self.up(), self.forward());
-        let depth_share = if matches!(self.projection, Projection::Perspective { .. }) {
-            1.0
-        } else {
-            0.0
-        };
+        let perspective = matches!(self.projection, Projection::Perspective { .. });
 
-        // Nearer points look larger, so that the middle of the points is not the middle of their picture: a few rounds of
-        // fitting the distance and moving to the middle of the picture settle it.
+        // Tangents of the view that the points may reach, from the picture's middle: to the right and up, to the left and down.
+        let reach_up = (fitted + middle_of_free).max(Vec2::splat(1e-3));
+        let reach_down = (fitted - middle_of_free).max(Vec2::splat(1e-3));
+
         let mut center = bounds.center();
-        let mut distance = 0.0_f32;
-        for _ in 0..FRAMING_ROUNDS {
-            distance = 0.0;
+        for round in 0..=FRAMING_ROUNDS {
+            let mut distance = 0.0_f32;
             for &point in world_points {
                 let offset = point - center;
-                let toward_eye = -offset.dot(forward) * depth_share;
-                distance = distance.max(offset.dot(right).abs() / tan_x + toward_eye);
-                distance = distance.max(offset.dot(up).abs() / tan_y + toward_eye);
+                let in_plane = Vec2::new(offset.dot(right), offset.dot(up));
+                let toward_eye = if perspective { -offset.dot(forward) } else { 0.0 };
+                let needed = (in_plane / reach_up).max(-in_plane / reach_down).max_element();
+                distance = distance.max(needed + toward_eye);
             }
-            if distance <= 0.0 {
+            // A single point has no size to frame; one unit around it is as good as any.
+            self.distance = if distance > 0.0 { distance } else { 1.0 };
+            if round == FRAMING_ROUNDS {
                 break;
             }
             let in_picture = Aabb::from_points(world_points.iter().map(|&point| {
                 let offset = point - center;
-                let depth = (distance + offset.dot(forward) * depth_share).max(distance * 1e-3);
-                Vec3::new(offset.dot(right), offset.dot(up), 0.0) / depth
+                let depth = self.distance + if perspective { offset.dot(forward) } else { 0.0 };
+                Vec3::new(offset.dot(right), offset.dot(up), 0.0) / depth.max(self.distance * 1e-3)
             }));
-            let middle = in_picture.center() * distance;
-            center += right * middle.x + up * middle.y;
+            let off_middle = in_picture.center().truncate() - middle_of_free;
+            center += (right * off_middle.x + up * off_middle.y) * self.distance;
         }
-        // A single point has no size to frame; one unit around it is as good as any.
-        self.distance = if distance > 0.0 { distance } else { 1.0 };
-        // The middle of the picture goes to the middle of its uncovered part.
-        let height = self.height_in_view();
-        self.target = center - right * (insets.left - insets.right) * 0.5 * height * aspect
-            + up * (insets.top - insets.bottom) * 0.5 * height;
+        self.target = center;
+    }
+}
+
+impl Camera {
+    /// Where the leftmost of some points is in the picture: a share of its width from the left edge.
+    pub fn leftmost_share(&self, world_points: &[Vec3], aspect: f32) -> f32 {
+        let bounds = Aabb::from_points(world_points.iter().copied());
+        let clip_from_world = self.clip_from_view(aspect, &bounds) * self.view_from_world();
+        let x_clip = world_points
+            .iter()
+            .map(|&point| clip_from_world.project_point3(point).x);
+        x_clip.fold(f32::INFINITY, f32::min) * 0.5 + 0.5
     }
 }
 

@@ -441,7 +441,12 @@ impl Session {
         if let Some(open) = &mut self.open {
             let (_, points) = open.extent(self.clip);
             let world_points: Vec<_> = points.iter().map(|&point| world_from_model.transform_point3(point)).collect();
-            self.camera.frame(&world_points, self.aspect, self.insets);
+            // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
+            let centered = Insets { left: 0.0, right: 0.0, ..self.insets };
+            self.camera.frame(&world_points, self.aspect, centered);
+            if self.camera.leftmost_share(&world_points, self.aspect) < self.insets.left {
+                self.camera.frame(&world_points, self.aspect, self.insets);
+            }
         }
         self.framed = true;
     }

@@ -57,7 +57,7 @@ fn space_rows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let chosen = session.handedness_override();
     let row = choice_row(ui, "Handedness", hand(session.handedness()), how(chosen.is_some()));
     Popup::menu(&row).show(|ui| {
-        ui.set_min_width(150.0);
+        ui.set_width(150.0);
         for (label, choice) in [
             ("As found", None),
             ("Left-handed", Some(Handedness::Left)),
@@ -77,7 +77,7 @@ fn space_rows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let chosen = session.up_axis_override();
     let row = choice_row(ui, "Up axis", axis(session.up_axis()), how(chosen.is_some()));
     Popup::menu(&row).show(|ui| {
-        ui.set_min_width(150.0);
+        ui.set_width(150.0);
         for (label, choice) in [("As found", None), ("Y up", Some(UpAxis::Y)), ("Z up", Some(UpAxis::Z))] {
             if menu_item(ui, label, chosen == choice).clicked() {
                 commands.push(Command::SetUpAxis(choice));

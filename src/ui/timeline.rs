@@ -144,7 +144,7 @@ fn clip_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Comm
     let response = text_button(ui, &shortened(name, 22), &label, true, width);
     let response = response.on_hover_text(format!("{name}\nNext clip: C"));
     Popup::menu(&response).show(|ui| {
-        ui.set_min_width(180.0);
+        ui.set_width(240.0);
         egui::ScrollArea::vertical().max_height(360.0).show(ui, |ui| {
             for (index, clip) in open.model.clips.iter().enumerate() {
                 let text = format!("{}   {:.2} s", shortened(&clip.name, 40), clip.duration_secs());
@@ -284,7 +284,7 @@ fn speed_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Com
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
     let response = response.on_hover_text("Speed: [ slower, ] faster, \\ as the file");
     Popup::menu(&response).show(|ui| {
-        ui.set_min_width(72.0);
+        ui.set_width(72.0);
         for choice in SPEEDS {
             if menu_item(ui, &format!("{}×", trimmed(choice)), (choice - speed).abs() < 1e-4).clicked() {
                 commands.push(Command::SetSpeed(choice));

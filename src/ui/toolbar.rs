@@ -54,7 +54,7 @@ fn theme_button(ui: &mut Ui, state: &mut UiState) {
 fn view_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let cube = icon_button(ui, Icon::Cube, "View from…", false);
     Popup::menu(&cube).show(|ui| {
-        ui.set_min_width(190.0);
+        ui.set_width(190.0);
         view_items(ui, session, commands);
     });
 }
@@ -74,7 +74,7 @@ fn view_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.set_min_width(200.0);
+    ui.set_width(200.0);
     if menu_item(ui, "Frame the model", false).clicked() {
         commands.push(Command::FrameModel);
         ui.close();

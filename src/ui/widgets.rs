@@ -263,7 +263,9 @@ pub(super) fn measured(length: f32) -> String {
         size if size >= 100.0 => format!("{length:.0}"),
         size if size >= 10.0 => format!("{length:.1}"),
         size if size >= 1.0 => format!("{length:.2}"),
-        _ => format!("{length:.4}"),
+        size if size >= 0.1 => format!("{length:.3}"),
+        size if size >= 0.01 => format!("{length:.4}"),
+        _ => format!("{length:.5}"),
     }
 }
 
@@ -291,6 +293,7 @@ mod tests {
             (0.0, "0"),
             (73.42, "73.4"),
             (1.8, "1.80"),
+            (0.437_6, "0.438"),
             (0.012_34, "0.0123"),
             (1e9, "1.00e9"),
             (-2000.0, "−2\u{2009}000"),

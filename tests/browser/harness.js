@@ -1,7 +1,7 @@
 // A real Chromium on one backend, and what the tests do with its pages.
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, readdirSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, rmSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { after, test as nodeTest } from "node:test";
 import { chromium } from "playwright-core";
@@ -45,9 +45,20 @@ const QUIET_FLAGS = [
   "--no-first-run",
 ];
 
+/** Small, for the sake of the software GPU, but wide enough for every panel. */
+const VIEWPORT = { width: 960, height: 600 };
+/** For pictures that people look at. */
+export const LARGE = { width: 1280, height: 800 };
+/** A place in the view that no panel covers. */
+export const CENTRE = [520, 260];
+
 /** Long enough for a debug build on a software GPU that shares two cores. */
 const PATIENCE_MS = 60_000;
 
+// The pictures of the last run would be taken for those of this one.
+for (const picture of filesIn(OUT, ".png")) {
+  if (picture.startsWith(`${OUT}${BACKEND}-`)) rmSync(picture);
+}
 mkdirSync(OUT, { recursive: true });
 let browser = null;
 after(() => browser?.close());
@@ -67,7 +78,7 @@ async function launched() {
 export function test(name, options, body) {
   const { query = `?backend=${BACKEND}`, prepare, expectErrors = false, skip, bare = false, ...context } = options;
   nodeTest(`${BACKEND}: ${name}`, { skip, timeout: 4 * PATIENCE_MS }, async () => {
-    const settings = { viewport: { width: 1280, height: 800 }, colorScheme: "dark", ...context };
+    const settings = { viewport: VIEWPORT, colorScheme: "dark", ...context };
     const own = await (await launched()).newContext(settings);
     const problems = [];
     try {
@@ -122,13 +133,12 @@ export async function until(page, predicate) {
 }
 
 /** Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. */
-export async function drop(page, paths, { x = 640, y = 380, shift = false, look } = {}) {
+export async function drop(page, paths, { look } = {}) {
   const devtools = await page.context().newCDPSession(page);
   const data = { items: [], files: paths, dragOperationsMask: 1 };
-  const modifiers = shift ? 8 : 0;
   for (const type of ["dragEnter", "dragOver", "dragOver", "drop"]) {
     if (type === "drop") await look?.();
-    await devtools.send("Input.dispatchDragEvent", { type, x, y, data, modifiers });
+    await devtools.send("Input.dispatchDragEvent", { type, x: CENTRE[0], y: CENTRE[1], data });
   }
   await devtools.detach();
 }

@@ -1,9 +1,9 @@
 // What lasts: the session through a lost GPU, and memory through many loads.
 
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
+import { existsSync, statSync } from "node:fs";
 import {
-  BACKEND, SAMPLE, SHARED, call, coloursOnScreen, difference, dropAndWait, keep, picture, settled, state, test, until,
+  BACKEND, CENTRE, SAMPLE, SHARED, call, coloursOnScreen, difference, dropAndWait, keep, picture, settled, state, test, until,
 } from "./harness.js";
 
 /** Keeps what the page asks the browser for, so that a test can take it away again. */
@@ -41,9 +41,9 @@ test("after the GPU was lost the model, the time and the camera are there again"
   await call(page, "pause");
   await call(page, "selectClip", model.clips[1].name);
   await call(page, "seek", 0.4);
-  await page.mouse.move(640, 300);
+  await page.mouse.move(...CENTRE);
   await page.mouse.down();
-  await page.mouse.move(560, 340, { steps: 5 });
+  await page.mouse.move(CENTRE[0] - 80, CENTRE[1] + 40, { steps: 5 });
   await page.mouse.up();
   await settled(page);
   const before = await picture(page);
@@ -92,7 +92,8 @@ test("thirty loads in a row do not grow the memory", {}, async (page) => {
     assert.equal(outcome, "load");
     sizes.push(await megabytes());
   }
-  // The first loads find the high-water mark; after that the memory of the old model serves the new one.
-  const [settledAt, end] = [sizes[9], sizes.at(-1)];
-  assert.ok(end <= settledAt * 1.05, `${settledAt} MB after 10 loads, ${end} MB after 30: ${sizes.map(Math.round)}`);
+  // The first loads find the high-water mark; after that the memory of the old model serves the new one, but for gaps.
+  const [early, end] = [sizes[4], sizes.at(-1)];
+  const files = statSync(path).size / 1e6;
+  assert.ok(end - early < 2 * files, `25 loads of a file of ${files} MB each took: ${sizes.map(Math.round).join(" ")} MB`);
 });

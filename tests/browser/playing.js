@@ -1,7 +1,7 @@
 // Time: it advances, it can be scrubbed, and the same time is the same picture. Keys, and the transport in the DOM.
 
 import assert from "node:assert/strict";
-import { call, difference, keep, picture, settled, state, test, until } from "./harness.js";
+import { CENTRE, call, difference, keep, picture, settled, state, test, until } from "./harness.js";
 
 test("time advances, with events, and pauses", {}, async (page) => {
   await page.evaluate(() => {
@@ -59,7 +59,7 @@ test("a clip is chosen by its name; a name that is not there changes nothing", {
 
 /** Presses keys in the viewer, the way a person does after a click into the view. */
 async function focusView(page) {
-  await page.mouse.click(640, 300);
+  await page.mouse.click(...CENTRE);
   await settled(page);
 }
 
@@ -114,9 +114,9 @@ test("the mouse orbits, the wheel zooms and F frames the model again", {}, async
   await call(page, "pause");
   await focusView(page);
   const before = await picture(page);
-  await page.mouse.move(640, 300);
+  await page.mouse.move(...CENTRE);
   await page.mouse.down();
-  await page.mouse.move(760, 330, { steps: 6 });
+  await page.mouse.move(CENTRE[0] + 120, CENTRE[1] + 30, { steps: 6 });
   await page.mouse.up();
   await settled(page);
   const orbited = await picture(page);

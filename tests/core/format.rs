@@ -1,3 +1,69 @@
 //! Tests of `format`.
 
+mod damage;
+mod excerpt;
+mod fixtures;
+mod limits;
+mod numbers;
 mod real_files;
+mod values;
+mod write;
+
+use std::path::{Path, PathBuf};
+
+use bindpose::diagnostic::Diagnostic;
+
+/// A fixture, by its folder (`good` or `bad`) and its name without the extension.
+struct Fixture {
+    name: String,
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+/// All fixtures of a folder, in the order of their names.
+fn fixtures(folder: &str) -> Vec<Fixture> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures")
+        .join(folder);
+    let mut fixtures: Vec<_> = std::fs::read_dir(&folder)
+        .expect("the fixtures are there")
+        .map(|entry| entry.expect("the folder can be read").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "m3d"))
+        .map(|path| {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let bytes = std::fs::read(&path).expect("the fixture can be read");
+            Fixture { name, path, bytes }
+        })
+        .collect();
+    assert!(!fixtures.is_empty(), "{} holds no fixtures", folder.display());
+    fixtures.sort_by(|a, b| a.name.cmp(&b.name));
+    fixtures
+}
+
+/// The bytes of one good fixture.
+fn good(name: &str) -> Vec<u8> {
+    let fixture = fixtures("good").into_iter().find(|fixture| fixture.name == name);
+    fixture.unwrap_or_else(|| panic!("no fixture good/{name}.m3d")).bytes
+}
+
+/// A real file, where those are at hand; says so where they are not.
+#[expect(clippy::print_stderr, reason = "a check that did not run must say so")]
+fn real_file(path: &str) -> Option<Vec<u8>> {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared")).join(path);
+    let bytes = std::fs::read(&path).ok();
+    if bytes.is_none() {
+        eprintln!("skipped: {} is not there", path.display());
+    }
+    bytes
+}
+
+/// `severity[code] line:column: message`
+fn one_line(diagnostic: &Diagnostic) -> String {
+    let place = diagnostic
+        .position
+        .map_or_else(String::new, |place| format!("{}:{}: ", place.line, place.column));
+    format!(
+        "{}[{}] {place}{}",
+        diagnostic.severity, diagnostic.code, diagnostic.message
+    )
+}

@@ -1,7 +1,9 @@
 //! Tests of the core: they need neither GPU nor UI.
 
 mod anim;
+mod documents;
 mod format;
 mod model;
 mod sample;
 mod shaders;
+mod textbook;

@@ -1,7 +1,7 @@
 //! What must hold for any picture, whatever the look.
 
 use bindpose::anim::Palette;
-use bindpose::render::{Compositor, Target};
+use bindpose::render::{Compositor, Renderer, SampleCount, Target};
 use bindpose::scene::{Background, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
@@ -124,6 +124,18 @@ on_both_backends! {
         }
         target.resize(&gpu.open.device, 0, 0);
         assert_eq!(target.size(), [1, 1]);
+    }
+
+    /// Where a device has no multisampling: the same picture but for edges.
+    fn one_sample_a_pixel_is_enough_for_a_picture(gpu) {
+        let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
+        let device = &gpu.open.device;
+        let mut renderer = Renderer::with_samples(device, &gpu.open.queue, SampleCount::One);
+        renderer.set_model(&scene.model).expect("small");
+        let mut target = Target::with_samples(device, 160, 100, SampleCount::One);
+        renderer.render(&scene.frame(), &mut target);
+        let differs = gpu.read(&target).share_that_differs(&gpu.draw(&scene, 160, 100), 4);
+        assert!(differs < 0.03, "{differs}");
     }
 
     fn a_cleared_model_is_gone(gpu) {

@@ -58,7 +58,7 @@ fn random_vertices(random: &mut Random, joints: usize) -> (Vec<GeometryVertex>, 
             tangent: random
                 .vector(1.0)
                 .normalize_or(Vec3::X)
-                .extend(if index % 2 == 0 { 1.0 } else { -1.0 })
+                .extend(if index.is_multiple_of(2) { 1.0 } else { -1.0 })
                 .to_array(),
             tex_coord: [0.0; 2],
         };
@@ -73,7 +73,7 @@ fn random_vertices(random: &mut Random, joints: usize) -> (Vec<GeometryVertex>, 
         let mut picks: [u32; 4] =
             std::array::from_fn(|_| ((random.unit() * joints as f32) as u32).min(joints as u32 - 1));
         // The last joint is the one that a texture too small would lose.
-        if index % 8 == 0 {
+        if index.is_multiple_of(8) {
             picks[0] = joints as u32 - 1;
         }
         (geometry, InfluenceVertex { joints: picks, weights })

@@ -30,6 +30,7 @@ pub(in crate::format) fn clips(
     let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for index in 0..count {
         pass_surplus_braces(reader);
+        let before = reader.cursor;
         let Some((label, behind)) = reader.peek_label() else {
             return Err(reader.end(format!("clip {} of {count}", index + 1)));
         };
@@ -40,6 +41,11 @@ pub(in crate::format) fn clips(
             return Err(Reader::wrong_label(label, "AnimationClip"));
         }
         reader.cursor = behind;
+        if !label.text.ends_with(b":") {
+            // A colon that stands apart belongs to the name.
+            reader.cursor = before;
+            reader.cursor.token();
+        }
         let (clip, bone_lines) = clip(reader, bones)?;
         lines.push(ClipLines {
             clip: label.position.line,

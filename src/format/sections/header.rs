@@ -99,7 +99,7 @@ fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, Pa
             kind,
         }
     };
-    let materials = materials.or(subsets).ok_or_else(|| missing("Materials"))?;
+    let materials = materials.ok_or_else(|| missing("Materials"))?;
     let vertices = vertices.ok_or_else(|| missing("Vertices"))?;
     let triangles = triangles.ok_or_else(|| missing("Triangles"))?;
     let mut assumed = |count: Option<u32>, name| {

@@ -32,11 +32,15 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     const SMALLEST: usize = 32;
     reader.begin_rows(Section::Vertices)?;
     let short_labels = reader.peek_label().is_some_and(|(label, _)| same(label.text, "p"));
-    let labels = if short_labels { &quick::SHORT } else { &quick::LONG };
+    let quick = if short_labels {
+        quick::vertex::<true>
+    } else {
+        quick::vertex::<false>
+    };
     let room = reader.room_for(count, SMALLEST);
     let (mut vertices, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for row in 0..count {
-        let (vertex, line) = match quick::vertex(&mut reader.cursor, labels, bones) {
+        let (vertex, line) = match quick(&mut reader.cursor, bones) {
             Some(read) => read,
             None => vertex(reader, row, count, bones)?,
         };

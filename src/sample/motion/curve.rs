@@ -24,7 +24,11 @@ impl<'a> Curve<'a> {
         let (before, here, after) = (self.key(index - 1), self.key(index), self.key(index + 1));
         let left = (here.1 - before.1) / (here.0 - before.0);
         let right = (after.1 - here.1) / (after.0 - here.0);
-        if left * right <= 0.0 { 0.0 } else { 2.0 * left * right / (left + right) }
+        if left * right <= 0.0 {
+            0.0
+        } else {
+            2.0 * left * right / (left + right)
+        }
     }
 
     /// Value at any phase.
@@ -36,15 +40,18 @@ impl<'a> Curve<'a> {
         let from = self.keys.partition_point(|key| key.0 <= phase) as isize - 1;
         let ((start, a), (end, b)) = (self.key(from), self.key(from + 1));
         let span = end - start;
-        hermite((phase - start) / span, a, self.slope(from) * span, b, self.slope(from + 1) * span)
+        hermite(
+            (phase - start) / span,
+            a,
+            self.slope(from) * span,
+            b,
+            self.slope(from + 1) * span,
+        )
     }
 }
 
 /// Cubic from `a` to `b` over 0…1 with the given slopes at its ends.
 pub(super) fn hermite(t: f64, a: f64, a_slope: f64, b: f64, b_slope: f64) -> f64 {
     let (t2, t3) = (t * t, t * t * t);
-    a * (2.0 * t3 - 3.0 * t2 + 1.0)
-        + a_slope * (t3 - 2.0 * t2 + t)
-        + b * (3.0 * t2 - 2.0 * t3)
-        + b_slope * (t3 - t2)
+    a * (2.0 * t3 - 3.0 * t2 + 1.0) + a_slope * (t3 - 2.0 * t2 + t) + b * (3.0 * t2 - 2.0 * t3) + b_slope * (t3 - t2)
 }

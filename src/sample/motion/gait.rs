@@ -58,10 +58,18 @@ pub(super) const WALK: Gait = Gait {
         (0.83, -8.0),
         (0.93, 17.0),
     ]),
-    toes: Curve::new(&[(0.0, 8.0), (0.09, 0.0), (0.33, 0.0), (0.48, 17.0), (0.61, 50.0), (0.72, 12.0), (0.93, 8.0)]),
+    toes: Curve::new(&[
+        (0.0, 8.0),
+        (0.09, 0.0),
+        (0.33, 0.0),
+        (0.48, 17.0),
+        (0.61, 50.0),
+        (0.72, 12.0),
+        (0.93, 8.0),
+    ]),
     lift: Curve::new(&[(0.0, 0.0), (0.61, 0.0), (0.73, 0.052), (0.87, 0.03), (0.97, 0.004)]),
-    hips_drop: 0.034,
-    bob: 0.018,
+    hips_drop: 0.031,
+    bob: 0.017,
     lowest: 0.07,
     sway: 0.024,
     hips_yaw: 7.0,
@@ -91,8 +99,23 @@ pub(super) const RUN: Gait = Gait {
         (0.80, -12.0),
         (0.93, 10.0),
     ]),
-    toes: Curve::new(&[(0.0, 6.0), (0.06, 0.0), (0.16, 0.0), (0.26, 22.0), (0.36, 50.0), (0.50, 8.0), (0.93, 6.0)]),
-    lift: Curve::new(&[(0.0, 0.0), (0.36, 0.0), (0.50, 0.20), (0.62, 0.27), (0.80, 0.16), (0.95, 0.015)]),
+    toes: Curve::new(&[
+        (0.0, 6.0),
+        (0.06, 0.0),
+        (0.16, 0.0),
+        (0.26, 22.0),
+        (0.36, 50.0),
+        (0.50, 8.0),
+        (0.93, 6.0),
+    ]),
+    lift: Curve::new(&[
+        (0.0, 0.0),
+        (0.36, 0.0),
+        (0.50, 0.20),
+        (0.62, 0.27),
+        (0.80, 0.16),
+        (0.95, 0.015),
+    ]),
     hips_drop: 0.045,
     bob: 0.034,
     lowest: 0.15,
@@ -129,7 +152,10 @@ impl Gait {
         let over = (TAU * (phase - self.stance / 2.0 + 0.25)).sin();
         let height = -self.hips_drop - self.bob * (2.0 * TAU * (phase - self.lowest)).cos();
         pose.hips_offset = DVec3::new(self.sway * over, height, 0.0);
-        pose.set(HIPS, yaw(self.hips_yaw * step) * roll(self.hips_roll * over) * pitch(-0.35 * self.lean));
+        pose.set(
+            HIPS,
+            yaw(self.hips_yaw * step) * roll(self.hips_roll * over) * pitch(-0.35 * self.lean),
+        );
 
         // The spine takes the hips' turn back and turns the chest against it, a third in each joint.
         let third = |amount: f64| amount / 3.0;

@@ -13,7 +13,15 @@ use crate::sample::rig::{CHEST, HEAD, HIPS, NECK, RIBS, Rig, Side, WAIST};
 pub(super) const KEY_SPANS: usize = 108;
 
 /// Degrees to the figure's right.
-const LOOK: Curve<'_> = Curve::new(&[(0.0, 0.0), (0.1, 0.0), (0.2, 15.0), (0.4, 14.0), (0.56, -13.0), (0.78, -11.0), (0.92, 0.0)]);
+const LOOK: Curve<'_> = Curve::new(&[
+    (0.0, 0.0),
+    (0.1, 0.0),
+    (0.2, 15.0),
+    (0.4, 14.0),
+    (0.56, -13.0),
+    (0.78, -11.0),
+    (0.92, 0.0),
+]);
 /// Weight on the left leg, −1…1.
 const WEIGHT: Curve<'_> = Curve::new(&[(0.02, -0.7), (0.16, -0.8), (0.42, 1.0), (0.64, 0.9), (0.9, -0.7)]);
 
@@ -31,8 +39,11 @@ pub(super) fn pose(rig: &Rig, phase: f64) -> Pose {
     pose.set(WAIST, spine * pitch(0.4 * breath));
     pose.set(RIBS, spine * pitch(0.7 * breath));
     pose.set(CHEST, spine * pitch(0.8 * breath));
-    pose.set(NECK, yaw(0.35 * look) * pitch(-1.0 * late_breath));
-    pose.set(HEAD, yaw(0.5 * look) * roll(-0.1 * look) * pitch(-0.8 * late_breath - 1.5));
+    pose.set(NECK, yaw(0.35 * look) * pitch(-late_breath));
+    pose.set(
+        HEAD,
+        yaw(0.5 * look) * roll(-0.1 * look) * pitch(-0.8 * late_breath - 1.5),
+    );
 
     for side in Side::BOTH {
         let rest = Arm::default();
@@ -44,7 +55,15 @@ pub(super) fn pose(rig: &Rig, phase: f64) -> Pose {
             ..rest
         };
         pose.set_arm(side, arm);
-        set_leg(&mut pose, rig, side, Footing { splay_degrees: 9.0, ..Footing::default() });
+        set_leg(
+            &mut pose,
+            rig,
+            side,
+            Footing {
+                splay_degrees: 9.0,
+                ..Footing::default()
+            },
+        );
     }
     pose
 }

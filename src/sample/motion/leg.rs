@@ -30,7 +30,11 @@ pub(super) fn set_leg(pose: &mut Pose, rig: &Rig, side: Side, footing: Footing) 
 
     let splay = super::pose::yaw(-side.sign() * footing.splay_degrees);
     let foot_turn = splay * pitch(footing.roll_degrees);
-    let pivot = if footing.roll_degrees < 0.0 { ball } else { DVec3::new(ankle.x, 0.0, HEEL) };
+    let pivot = if footing.roll_degrees < 0.0 {
+        ball
+    } else {
+        DVec3::new(ankle.x, 0.0, HEEL)
+    };
     // Splayed about the ankle, rolled about the pivot, then moved.
     let target = footing.offset + ankle + splay * (pivot - ankle) + foot_turn * (ankle - pivot);
 

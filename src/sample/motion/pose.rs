@@ -38,7 +38,10 @@ pub(super) fn roll(degrees: f64) -> DQuat {
 impl Pose {
     /// The bind pose.
     pub(super) fn bind() -> Pose {
-        Pose { turns: [DQuat::IDENTITY; JOINT_COUNT], hips_offset: DVec3::ZERO }
+        Pose {
+            turns: [DQuat::IDENTITY; JOINT_COUNT],
+            hips_offset: DVec3::ZERO,
+        }
     }
 
     /// The bind pose with arms at the sides and fingers at ease.
@@ -72,10 +75,11 @@ impl Pose {
             degrees(forwards, arm.hand_forward_degrees) * degrees(to_palm, arm.hand_to_palm_degrees);
     }
 
-    /// Curls all fingers towards the palm, the thumb a little less.
+    /// Curls all fingers towards the palm, the thumb a little less, and gathers what the bind pose spreads.
     pub(super) fn curl_fingers(&mut self, side: Side, degrees: f64) {
-        let to_palm = side.mirror(ARM).cross(side.mirror(PALM));
-        let turn = |share: f64| DQuat::from_axis_angle(to_palm, (degrees * share).to_radians());
+        let along = side.mirror(ARM);
+        let to_palm = along.cross(side.mirror(PALM));
+        let turn = |axis: DVec3, degrees: f64| DQuat::from_axis_angle(axis, degrees.to_radians());
         for (limb, share) in [
             (Limb::Index, 0.9),
             (Limb::IndexTip, 1.1),
@@ -86,14 +90,26 @@ impl Pose {
             (Limb::Thumb, 0.3),
             (Limb::ThumbTip, 0.7),
         ] {
-            self.turns[joint(side, limb)] = turn(share);
+            self.turns[joint(side, limb)] = turn(to_palm, degrees * share);
+        }
+        let to_thumb = along.cross(FORWARD);
+        let gathered = (0.6 * degrees).clamp(0.0, 9.0);
+        for (limb, degrees) in [
+            (Limb::Index, -gathered),
+            (Limb::Outer, gathered),
+            (Limb::Thumb, -gathered),
+        ] {
+            let curl = self.turns[joint(side, limb)];
+            self.turns[joint(side, limb)] = turn(to_thumb, degrees) * curl;
         }
     }
 
     /// Turn of a joint away from the bind pose in model space.
     pub(super) fn model_turn(&self, rig: &Rig, joint: usize) -> DQuat {
         let own = self.turns[joint];
-        rig.joints[joint].parent.map_or(own, |parent| self.model_turn(rig, parent) * own)
+        rig.joints[joint]
+            .parent
+            .map_or(own, |parent| self.model_turn(rig, parent) * own)
     }
 
     /// Origin of a joint in model space.

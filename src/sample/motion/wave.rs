@@ -13,7 +13,14 @@ use crate::sample::rig::{CHEST, HEAD, HIPS, NECK, RIBS, Rig, Side, WAIST};
 pub(super) const KEY_SPANS: usize = 90;
 
 /// Share of the raised arm; the elbow leads, the hand follows.
-const RAISED: Curve<'_> = Curve::new(&[(0.0, 0.0), (0.04, -0.03), (0.2, 1.04), (0.25, 1.0), (0.78, 1.0), (0.96, 0.0)]);
+const RAISED: Curve<'_> = Curve::new(&[
+    (0.0, 0.0),
+    (0.04, -0.03),
+    (0.2, 1.04),
+    (0.25, 1.0),
+    (0.78, 1.0),
+    (0.96, 0.0),
+]);
 const HAND_RAISED: Curve<'_> = Curve::new(&[(0.0, 0.0), (0.06, 0.0), (0.24, 1.0), (0.8, 1.0), (0.985, 0.0)]);
 /// How wide the hand waves.
 const WAVING: Curve<'_> = Curve::new(&[(0.0, 0.0), (0.2, 0.0), (0.32, 1.0), (0.66, 1.0), (0.8, 0.0)]);
@@ -37,7 +44,10 @@ pub(super) fn pose(rig: &Rig, phase: f64) -> Pose {
         pose.set(joint, spine);
     }
     pose.set(NECK, roll(-2.5 * raised) * yaw(2.5 * raised));
-    pose.set(HEAD, roll(-4.5 * raised - 1.2 * late_wave) * yaw(3.0 * raised) * pitch(1.5 * raised));
+    pose.set(
+        HEAD,
+        roll(-4.5 * raised - 1.2 * late_wave) * yaw(3.0 * raised) * pitch(1.5 * raised),
+    );
 
     let rest = Arm::default();
     let between = |rest: f64, up: f64, share: f64| rest + (up - rest) * share;
@@ -54,9 +64,23 @@ pub(super) fn pose(rig: &Rig, phase: f64) -> Pose {
         },
     );
     pose.curl_fingers(Side::Right, between(16.0, -2.0, hand));
-    pose.set_arm(Side::Left, Arm { raise_degrees: rest.raise_degrees + 3.0 * raised - 0.8 * wave, ..rest });
+    pose.set_arm(
+        Side::Left,
+        Arm {
+            raise_degrees: rest.raise_degrees + 3.0 * raised - 0.8 * wave,
+            ..rest
+        },
+    );
     for side in Side::BOTH {
-        set_leg(&mut pose, rig, side, Footing { splay_degrees: 8.0, ..Footing::default() });
+        set_leg(
+            &mut pose,
+            rig,
+            side,
+            Footing {
+                splay_degrees: 8.0,
+                ..Footing::default()
+            },
+        );
     }
     pose
 }

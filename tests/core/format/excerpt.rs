@@ -1,0 +1,95 @@
+//! Excerpts are safe to print, and their mark stands under what is meant.
+
+use bindpose::diagnostic::Position;
+use bindpose::format::{Excerpt, excerpt};
+
+fn at(line: u32, column: u32) -> Position {
+    Position { line, column }
+}
+
+/// The characters under the mark.
+fn marked(excerpt: &Excerpt) -> String {
+    let (_, line) = excerpt.lines.last().expect("there is always a line");
+    line.chars()
+        .skip(excerpt.mark_column as usize - 1)
+        .take(excerpt.mark_length as usize)
+        .collect()
+}
+
+#[test]
+fn the_mark_stands_under_the_token() {
+    let text = b"BlendWeights: 0.7470379 0.2529621 0 0\nBlendIndices: 7 9 5x 0\nrest\n";
+    let shown = excerpt(text, at(2, 19), 2);
+    let lines = vec![
+        (1, "BlendWeights: 0.7470379 0.2529621 0 0".into()),
+        (2, "BlendIndices: 7 9 5x 0".into()),
+    ];
+    assert_eq!(
+        shown,
+        Excerpt {
+            lines,
+            mark_column: 19,
+            mark_length: 2
+        }
+    );
+    assert_eq!(marked(&shown), "5x");
+}
+
+#[test]
+fn tabs_keep_the_mark_aligned() {
+    let shown = excerpt(b"\tTime:\t0 Pos: x", at(1, 15), 1);
+    assert_eq!(shown.lines, [(1, "    Time:   0 Pos: x".into())]);
+    assert_eq!(marked(&shown), "x");
+}
+
+#[test]
+fn line_ends_of_every_kind_part_lines() {
+    let shown = excerpt(b"\xEF\xBB\xBFone\r\ntwo\rthree", at(3, 1), 5);
+    assert_eq!(shown.lines, [(2, "two".into()), (3, "three".into())]);
+    assert_eq!(marked(&shown), "three");
+    assert_eq!(marked(&excerpt(b"\xEF\xBB\xBFone\r\n", at(1, 1), 3)), "one");
+}
+
+#[test]
+fn control_bytes_and_broken_text_are_replaced() {
+    let shown = excerpt(b"h\xC3\xA4ut \x1B[31m \xFF \xE2\x80\xAE q\0x", at(1, 19), 1);
+    assert_eq!(
+        shown.lines,
+        [(1, "häut \u{FFFD}[31m \u{FFFD} \u{FFFD} q\u{FFFD}x".into())]
+    );
+    assert_eq!(marked(&shown), "q");
+}
+
+#[test]
+fn of_long_lines_the_part_around_the_mark_is_shown() {
+    let mut text = vec![b'a'; 100_000];
+    text[50_000..50_003].copy_from_slice(b"BAD");
+    let shown = excerpt(&text, at(1, 50_001), 3);
+    assert_eq!(marked(&shown), "BAD");
+    let (_, line) = &shown.lines[0];
+    assert!(
+        line.len() < 200 && line.starts_with('…') && line.ends_with('…'),
+        "{line}"
+    );
+    // What is marked may itself be long.
+    let shown = excerpt(&text, at(1, 1), 100_000);
+    assert!(shown.mark_length < 200);
+}
+
+#[test]
+fn places_outside_give_the_nearest_line() {
+    assert_eq!(
+        excerpt(b"", at(1, 1), 0),
+        Excerpt {
+            lines: vec![(1, String::new())],
+            mark_column: 1,
+            mark_length: 1
+        }
+    );
+    assert_eq!(
+        excerpt(b"one\ntwo", at(9, 9), 4).lines,
+        [(1, "one".into()), (2, "two".into())]
+    );
+    assert_eq!(excerpt(b"one\ntwo", at(2, 4), 0).mark_column, 4);
+    assert_eq!(excerpt(b"one", at(u32::MAX, u32::MAX), u32::MAX).lines.len(), 1);
+}
