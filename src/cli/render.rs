@@ -142,10 +142,10 @@ fn open(arguments: &Arguments) -> Result<Session, Failure> {
             error: Box::new(error.clone()),
         });
     }
-    if let (Some(OpenModel { model, .. }), Some(asked)) = (session.open_model(), &arguments.clip) {
-        if let Some(clip) = clip::choose(model, path, Some(asked))? {
-            session.apply(Command::SelectClip(clip));
-        }
+    if let (Some(OpenModel { model, .. }), Some(asked)) = (session.open_model(), &arguments.clip)
+        && let Some(clip) = clip::choose(model, path, Some(asked))?
+    {
+        session.apply(Command::SelectClip(clip));
     }
     if let Some(time_secs) = arguments.time {
         session.apply(Command::Seek { time_secs });
