@@ -83,10 +83,7 @@ pub(crate) fn ensure() -> Result<(), Failure> {
     }
     Err(Failure::Remedy {
         what: format!("the checks need what this machine does not have: {}", still.join(", ")),
-        remedy: format!(
-            "sudo apt-get update && sudo apt-get install --yes {}",
-            packages.join(" ")
-        ),
+        remedy: remedy(&packages),
     })
 }
 
