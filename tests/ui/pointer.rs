@@ -71,6 +71,7 @@ fn the_wheel_comes_nearer_to_what_is_under_the_pointer() {
         let before = *window.session().camera();
         window.harness.hover_at(START);
         window.harness.event(Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
             unit: MouseWheelUnit::Line,
             delta: vec2(0.0, lines),
             phase: TouchPhase::Move,
@@ -81,7 +82,7 @@ fn the_wheel_comes_nearer_to_what_is_under_the_pointer() {
         let ratio = after.distance / before.distance;
         assert!(if nearer { ratio < 0.9 } else { ratio > 1.1 }, "{ratio}");
         // The point of the target's plane under the pointer stays there.
-        let shares = (START - pos2(WIDE.x, WIDE.y) * 0.5).to_vec2() / WIDE.y;
+        let shares = (START - pos2(WIDE.x * 0.5, WIDE.y * 0.5)) / WIDE.y;
         let under = before.target + (before.right() * shares.x - before.up() * shares.y) * before.height_in_view();
         assert!(in_window(&after, WIDE, under).distance(START) < 1.0, "{:?}", in_window(&after, WIDE, under));
     }
@@ -114,6 +115,7 @@ fn what_happens_on_a_panel_does_not_reach_the_view() {
         window.harness.drop_at(pos + vec2(200.0, 30.0));
         window.harness.hover_at(pos);
         window.harness.event(Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
             unit: MouseWheelUnit::Line,
             delta: vec2(0.0, 3.0),
             phase: TouchPhase::Move,
