@@ -56,9 +56,9 @@ fn posing(criterion: &mut Criterion) {
         input::report_ratio(
             &format!("pose/{name}/{order}"),
             || {
-                times_secs
-                    .iter()
-                    .for_each(|&time_secs| drop(black_box(textbook.palette(time_secs))))
+                for &time_secs in &times_secs {
+                    black_box(textbook.palette(time_secs));
+                }
             },
             || {
                 for &time_secs in &times_secs {

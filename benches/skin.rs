@@ -31,10 +31,10 @@ fn skinning(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(mesh.vertex_count() as u64));
     group.measurement_time(Duration::from_secs(3));
     group.bench_function("product", |bencher| {
-        bencher.iter(|| skin(black_box(mesh), palette, &mut ours))
+        bencher.iter(|| skin(black_box(mesh), palette, &mut ours));
     });
     group.bench_function("textbook", |bencher| {
-        bencher.iter(|| textbook(black_box(mesh), &matrices, &mut theirs))
+        bencher.iter(|| textbook(black_box(mesh), &matrices, &mut theirs));
     });
     group.finish();
     input::report_ratio(

@@ -19,7 +19,7 @@ pub(super) fn handedness_of(positions: &[Vec3], normals: &[Vec3], indices: &[u32
         let known = [normals[a], normals[b], normals[c]]
             .into_iter()
             .filter(|&normal| is_direction(normal));
-        let normal: DVec3 = known.map(|normal| normal.as_dvec3()).sum();
+        let normal: DVec3 = known.map(Vec3::as_dvec3).sum();
         let side = facing(positions[a], positions[b], positions[c]).dot(normal);
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);

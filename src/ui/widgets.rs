@@ -242,7 +242,7 @@ pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push('\u{2009}');
         }
         text.push(digit);
@@ -255,7 +255,7 @@ pub(super) fn measured(length: f32) -> String {
     match length.abs() {
         _ if !length.is_finite() => "–".to_owned(),
         0.0 => "0".to_owned(),
-        size if size >= 1e7 || size < 1e-3 => format!("{length:.2e}"),
+        size if !(1e-3..1e7).contains(&size) => format!("{length:.2e}"),
         size if size >= 1000.0 => {
             let sign = if length < 0.0 { "−" } else { "" };
             format!("{sign}{}", grouped(size.round() as usize))

@@ -2,8 +2,8 @@
 
 use bindpose::anim::{PoseBuffers, SkinnedVertices, animated_bounds, skin};
 use bindpose::format::{AnimationClip, Document, Keyframe, LineMap, Vertex};
-use bindpose::model::Model;
-use glam::Mat4;
+use bindpose::model::{Model, Track};
+use glam::{Affine3A, Mat4};
 use proptest::prelude::*;
 
 use crate::documents::{model_of, subset, track, vertex};
@@ -143,7 +143,7 @@ proptest! {
         let bounds = animated_bounds(&model, clip);
         let mut buffers = PoseBuffers::default();
         let mut out = SkinnedVertices::default();
-        for time_secs in clip.tracks.iter().flat_map(|track| track.times_secs()) {
+        for time_secs in clip.tracks.iter().flat_map(Track::times_secs) {
             buffers.evaluate(&model.skeleton, clip, *time_secs);
             skin(&model.mesh, &buffers.palette, &mut out);
             for position in &out.positions {
@@ -180,7 +180,7 @@ proptest! {
         let (model, _) = Model::from_document(&document, &LineMap::default()).expect("all references hold");
         let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
         buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
-        prop_assert!(buffers.palette.0.iter().all(|matrix| matrix.is_finite()));
+        prop_assert!(buffers.palette.0.iter().all(Affine3A::is_finite));
         let mut out = SkinnedVertices::default();
         skin(&model.mesh, &buffers.palette, &mut out);
         prop_assert!(out.positions.iter().all(|position| position.is_finite()));

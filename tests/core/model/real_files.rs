@@ -1,6 +1,6 @@
 //! Facts of real files, measured with other programs.
 
-use bindpose::model::{Handedness, Model, UpAxis};
+use bindpose::model::{Handedness, Model, Track, UpAxis};
 use glam::Vec3;
 
 use crate::documents::{REAL_FILES, real_file};
@@ -61,7 +61,7 @@ fn the_soldier() {
         (60.0, 4_400, 75)
     );
     assert_eq!(clip.frame_at(0.517), 31);
-    let mut ends: Vec<usize> = clip.tracks.iter().map(|track| track.key_count()).collect();
+    let mut ends: Vec<usize> = clip.tracks.iter().map(Track::key_count).collect();
     ends.sort_unstable();
     ends.dedup();
     assert_eq!(ends, [73, 75, 76]);

@@ -1,7 +1,7 @@
 //! Order of joints, offsets and the pose at rest.
 
 use bindpose::format::LineMap;
-use bindpose::model::{JointIndex, Model};
+use bindpose::model::{JointIndex, LocalJoint, Model};
 use glam::{Affine3A, Vec3};
 
 use crate::documents::{arm, message_of, model_of, offset, reordered, track};
@@ -91,8 +91,8 @@ fn offsets_that_are_no_affine_or_invertible_matrices_are_told() {
     let skeleton = &model.skeleton;
     assert_eq!(skeleton.joint_from_bind()[0], Affine3A::IDENTITY);
     assert_eq!(skeleton.joint_from_bind()[2], Affine3A::IDENTITY);
-    assert!(skeleton.rest().iter().all(|joint| joint.is_finite()));
-    assert!(skeleton.bind_model_from_joint().iter().all(|matrix| matrix.is_finite()));
+    assert!(skeleton.rest().iter().all(LocalJoint::is_finite));
+    assert!(skeleton.bind_model_from_joint().iter().all(Affine3A::is_finite));
 }
 
 #[test]
