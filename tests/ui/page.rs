@@ -48,6 +48,11 @@ pub(crate) fn window(size: Vec2, files: Vec<File>) -> Window {
     Window::new(size, false, files)
 }
 
+/// A window for fingers.
+pub(crate) fn touch_window(size: Vec2, files: Vec<File>) -> Window {
+    Window::new(size, true, files)
+}
+
 /// A phone, with these files opened.
 pub(crate) fn phone(files: Vec<File>) -> Window {
     Window::new(PHONE, true, files)
@@ -70,7 +75,7 @@ impl Window {
             .with_step_dt(STEP_SECS)
             .with_max_steps(12)
             .with_context_setup(ui::theme::install)
-            .build_ui_state(|ui, page: &mut Page| page.pass(ui), page);
+            .build_ui_state(|ui, page: &mut Page| page.pass(&mut whole_window(ui)), page);
         harness.run();
         Self { harness }
     }
@@ -141,6 +146,14 @@ impl Window {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
     }
+}
+
+/// The window without the margin that the harness keeps: the page has none.
+pub(crate) fn whole_window(ui: &mut egui::Ui) -> egui::Ui {
+    let window = ui.ctx().content_rect();
+    let mut whole = ui.new_child(egui::UiBuilder::new().max_rect(window));
+    whole.set_clip_rect(window);
+    whole
 }
 
 /// What a screen reader says.
