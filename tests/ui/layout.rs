@@ -160,6 +160,7 @@ fn targets_are_large_enough_for_fingers() {
     }
     for (opener, item) in [("Clip ", "Turn"), ("More", "Front"), ("Speed ", "0.5×"), ("Handedness", "As found")] {
         window.click(opener);
+        eprintln!("{opener} {:?}", window.rect(opener));
         let rect = window.rect(item);
         assert!(rect.height() >= 44.0, "{item}: {rect}");
         window.press(egui::Modifiers::NONE, egui::Key::Escape);

@@ -86,7 +86,7 @@ fn a_click_on_a_finding_shows_its_lines() {
         let lines = |window: &Window| window.named(|name| name.contains(" | ") && name.contains(&line)).len();
         assert_eq!(lines(&window), 0);
         window.click(&shown[notice]);
-        assert_eq!(lines(&window), 1, "{:?}", window.widgets());
+        assert_eq!(lines(&window), 1, "{shown:?} {line} {:?}", window.widgets());
         window.click(&shown[notice]);
         assert_eq!(lines(&window), 0);
         window.click("Close");
