@@ -35,6 +35,8 @@
 pub mod anim;
 #[cfg(feature = "viewer")]
 pub mod app;
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub mod cli;
 pub mod diagnostic;
 pub mod format;
 pub mod image;

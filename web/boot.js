@@ -12,7 +12,8 @@ const RESTARTS_FORGOTTEN_MS = 60_000;
 
 const element = (id) => document.getElementById(id);
 const view = element("view");
-const options = new URLSearchParams(location.search);
+/** What the address asks for, before the `#` or after it. */
+const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
 const { bindpose, wasUsed, attach, fail, emit } = createApi();
 globalThis.bindpose = bindpose;
 
@@ -166,8 +167,7 @@ function onPanic(message) {
 
 /** What the page opens by itself: the files that the address names, else the sample. */
 async function fetchOpening() {
-  const hash = new URLSearchParams(location.hash.slice(1));
-  const named = ["src", "tex"].flatMap((key) => [...options.getAll(key), ...hash.getAll(key)]);
+  const named = ["src", "tex"].flatMap((key) => options.getAll(key));
   const addresses = named.length ? named : [new URL("sample/figure.m3d", import.meta.url).href];
   try {
     return await Promise.all(addresses.map(fetchFile));

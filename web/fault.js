@@ -90,6 +90,7 @@ function backendLinks() {
   return Object.entries(BACKENDS).map(([backend, name]) => {
     const address = new URL(location.href);
     address.searchParams.set("backend", backend);
+    address.hash = ""; // It may name the other one.
     const link = document.createElement("a");
     link.href = address.href;
     link.textContent = `Use ${name}`;

@@ -171,7 +171,7 @@ fn shown(line: &[u8], cut: usize) -> Shown {
 }
 
 /// False for control characters, and for those that turn or hide the text around them.
-fn is_printable(character: char) -> bool {
+pub fn is_printable(character: char) -> bool {
     let hidden =
         matches!(character, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{2069}' | '\u{FEFF}');
     !character.is_control() && !hidden

@@ -12,6 +12,16 @@ pub enum Handedness {
     Right,
 }
 
+impl Handedness {
+    /// The word that outputs use: `left`, `right`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
 /// Which axis of the file points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum UpAxis {
@@ -20,6 +30,16 @@ pub enum UpAxis {
     Y,
     /// As Blender's exporters write.
     Z,
+}
+
+impl UpAxis {
+    /// The letter that outputs use: `y`, `z`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
 }
 
 /// The matrix from the file's space into the world, which is left-handed with y up. Scale is kept.

@@ -6,7 +6,7 @@ use super::body::{Body, Part};
 use super::rig::{ARM, Limb, Rig, Side};
 use crate::format;
 
-/// A region of the skin; the first of [`Region::ALL`] that contains a point owns it, the suit owns the rest.
+/// A region of the skin; the first of [`Region::BORDERED`] that contains a point owns it, the suit owns the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Region {
     Visor,

@@ -3,7 +3,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-// Joint 0 is the place on the ground under the figure; it moves no vertex itself.
+/// Joint 0, the root, is the place on the ground under the figure: it moves no vertex itself. The hips hang from it.
 pub(super) const HIPS: usize = 1;
 pub(super) const WAIST: usize = 2;
 pub(super) const RIBS: usize = 3;
@@ -80,7 +80,7 @@ pub(super) struct Joint {
     pub(super) parent: Option<usize>,
     /// Model space.
     pub(super) origin: DVec3,
-    /// Where the bone ends: for drawing weights and solids; the first child's origin where there is one.
+    /// Where the bone ends, model space.
     pub(super) tip: DVec3,
     /// Model from joint: +y runs along the bone, +z as far backwards as that allows.
     pub(super) rotation: DQuat,

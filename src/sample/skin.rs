@@ -48,39 +48,16 @@ impl Skin {
         let borders = borders(positions.len(), &quads, &quad_regions);
         let neighbours = neighbours(positions.len(), &quads);
 
-        let border_of = |region: Region| move |point| region.border(body, rig, point);
+        let surface = Surface {
+            body,
+            rig,
+            borders: &borders,
+        };
         for _ in 0..RELAX_ROUNDS {
-            let before = positions.clone();
-            for (vertex, position) in positions.iter_mut().enumerate() {
-                let border = borders[vertex];
-                // A border vertex follows its border only, or the border would be smoothed away.
-                let around = neighbours[vertex]
-                    .iter()
-                    .filter(|n| border.is_none() || borders[**n as usize] == border);
-                let (sum, count) = around.fold((DVec3::ZERO, 0.0), |(s, c), n| (s + before[*n as usize], c + 1.0));
-                let pull = if count > 0.0 {
-                    (sum / count - *position) * RELAX_RATE
-                } else {
-                    DVec3::ZERO
-                };
-                *position = match border {
-                    // Newton with two surfaces keeps only what is along the border.
-                    Some(region) => onto_border(&field, &border_of(region), *position + pull, 2),
-                    None => {
-                        let slope = gradient(&field, *position);
-                        let along_surface = pull - slope * (pull.dot(slope) / slope.length_squared());
-                        onto_surface(&field, *position + along_surface, 1)
-                    }
-                };
-            }
+            surface.relax(&mut positions, &neighbours);
         }
+        surface.settle(&mut positions);
 
-        for (position, border) in positions.iter_mut().zip(&borders) {
-            *position = match border {
-                Some(region) => onto_border(&field, &border_of(*region), *position, 4),
-                None => onto_surface(&field, *position, 2),
-            };
-        }
         let normals: Vec<DVec3> = positions
             .iter()
             .map(|position| gradient(&field, *position).normalize())
@@ -97,6 +74,63 @@ impl Skin {
             triangles,
             regions,
             neighbours,
+        }
+    }
+}
+
+/// What vertices keep to while they move.
+struct Surface<'a> {
+    body: &'a Body,
+    rig: &'a Rig,
+    /// For each vertex the region whose border it keeps to.
+    borders: &'a [Option<Region>],
+}
+
+impl Surface<'_> {
+    fn field(&self) -> impl Fn(DVec3) -> f64 {
+        |point| self.body.distance(point)
+    }
+
+    fn border(&self, region: Region) -> impl Fn(DVec3) -> f64 {
+        move |point| region.border(self.body, self.rig, point)
+    }
+
+    /// Moves all vertices along the surface towards the middle of their neighbours.
+    fn relax(&self, positions: &mut [DVec3], neighbours: &[Vec<u32>]) {
+        let before = positions.to_vec();
+        for (vertex, position) in positions.iter_mut().enumerate() {
+            let border = self.borders[vertex];
+            // A border vertex follows its border only, or the border would be smoothed away.
+            let follows = |other: &&u32| border.is_none() || self.borders[**other as usize] == border;
+            let around = neighbours[vertex]
+                .iter()
+                .filter(follows)
+                .map(|other| before[*other as usize]);
+            let (sum, count) = around.fold((DVec3::ZERO, 0.0), |(sum, count), point| (sum + point, count + 1.0));
+            let pull = if count > 0.0 {
+                (sum / count - *position) * RELAX_RATE
+            } else {
+                DVec3::ZERO
+            };
+            *position = match border {
+                // Newton with two surfaces keeps only what is along the border.
+                Some(region) => onto_border(&self.field(), &self.border(region), *position + pull, 2),
+                None => {
+                    let slope = gradient(&self.field(), *position);
+                    let along_surface = pull - slope * (pull.dot(slope) / slope.length_squared());
+                    onto_surface(&self.field(), *position + along_surface, 1)
+                }
+            };
+        }
+    }
+
+    /// Brings all vertices onto the surface and their borders, to less than the file can say.
+    fn settle(&self, positions: &mut [DVec3]) {
+        for (position, border) in positions.iter_mut().zip(self.borders) {
+            *position = match border {
+                Some(region) => onto_border(&self.field(), &self.border(*region), *position, 4),
+                None => onto_surface(&self.field(), *position, 2),
+            };
         }
     }
 }

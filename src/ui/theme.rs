@@ -65,38 +65,38 @@ impl Tokens {
     /// Light words on dark ground.
     pub fn dark() -> Self {
         Self {
-            text: rgb(0xE7_EA_F0),
-            muted: rgb(0x98_A1_B0),
-            faint: rgb(0x66_70_80),
-            panel: over(0x18_1B_21, 94.0),
-            hairline: over(0xFF_FF_FF, 7.5),
-            field: over(0xFF_FF_FF, 5.5),
-            field_hovered: over(0xFF_FF_FF, 10.0),
-            accent: rgb(0x5A_A9_FF),
-            accent_ground: over(0x5A_A9_FF, 16.0),
-            on_accent: rgb(0x0C_16_22),
-            warning: rgb(0xFF_B4_54),
-            error: rgb(0xFF_6B_6B),
-            shadow: over(0x00_00_00, 34.0),
+            text: rgb(0xE7EAF0),
+            muted: rgb(0x98A1B0),
+            faint: rgb(0x667080),
+            panel: over(0x181B21, 94.0),
+            hairline: over(0xFFFFFF, 7.5),
+            field: over(0xFFFFFF, 5.5),
+            field_hovered: over(0xFFFFFF, 10.0),
+            accent: rgb(0x5AA9FF),
+            accent_ground: over(0x5AA9FF, 16.0),
+            on_accent: rgb(0x0C1622),
+            warning: rgb(0xFFB454),
+            error: rgb(0xFF6B6B),
+            shadow: over(0x000000, 34.0),
         }
     }
 
     /// Dark words on light ground.
     pub fn light() -> Self {
         Self {
-            text: rgb(0x1B_20_29),
-            muted: rgb(0x5B_65_74),
-            faint: rgb(0x8A_94_A3),
-            panel: over(0xFC_FD_FE, 96.0),
-            hairline: over(0x1B_20_29, 10.0),
-            field: over(0x1B_20_29, 5.0),
-            field_hovered: over(0x1B_20_29, 9.0),
-            accent: rgb(0x17_69_D2),
-            accent_ground: over(0x17_69_D2, 12.0),
-            on_accent: rgb(0xFF_FF_FF),
-            warning: rgb(0xC2_6A_00),
-            error: rgb(0xC8_32_32),
-            shadow: over(0x1B_20_29, 17.0),
+            text: rgb(0x1B2029),
+            muted: rgb(0x5B6574),
+            faint: rgb(0x8A94A3),
+            panel: over(0xFCFDFE, 96.0),
+            hairline: over(0x1B2029, 10.0),
+            field: over(0x1B2029, 5.0),
+            field_hovered: over(0x1B2029, 9.0),
+            accent: rgb(0x1769D2),
+            accent_ground: over(0x1769D2, 12.0),
+            on_accent: rgb(0xFFFFFF),
+            warning: rgb(0xC26A00),
+            error: rgb(0xC83232),
+            shadow: over(0x1B2029, 17.0),
         }
     }
 

@@ -19,7 +19,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> Resp
     let height = rect.height().max(1.0);
     let shares = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;
 
-    if let Some(touch) = ui.input(|input| input.multi_touch())
+    if let Some(touch) = ui.input(egui::InputState::multi_touch)
         && rect.contains(touch.center_pos)
         && response.is_pointer_button_down_on()
     {

@@ -53,36 +53,47 @@ export const LARGE = { width: 1280, height: 800 };
 export const CENTRE = [520, 260];
 
 /** Long enough for a debug build on a software GPU that shares two cores. */
-const PATIENCE_MS = 60_000;
+const PATIENCE_MS = 120_000;
 
 // The pictures of the last run would be taken for those of this one.
 for (const picture of filesIn(OUT, ".png")) {
   if (picture.startsWith(`${OUT}${BACKEND}-`)) rmSync(picture);
 }
 mkdirSync(OUT, { recursive: true });
-let browser = null;
-after(() => browser?.close());
+const browsers = new Map();
+after(() => Promise.all(Array.from(browsers.values(), (browser) => browser.close())));
 
-async function launched() {
-  browser ??= await chromium.launch({
-    executablePath: CHROMIUM,
-    args: [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...(process.getuid?.() === 0 ? ["--no-sandbox"] : [])],
-  });
-  return browser;
+/** The browser with the screen's own scale: emulating it on a page leaves the size of a canvas in pixels as it was. */
+async function browserAt(scale) {
+  if (!browsers.has(scale)) {
+    const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+    const args = [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, `--force-device-scale-factor=${scale}`];
+    browsers.set(scale, await chromium.launch({ executablePath: CHROMIUM, args }));
+  }
+  return browsers.get(scale);
+}
+
+/** A page on a small screen with two pixels to the point, touched by fingers. */
+async function phonePage(context) {
+  const page = await context.newPage();
+  const devtools = await context.newCDPSession(page);
+  await devtools.send("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 0, mobile: false });
+  return page;
 }
 
 /**
  * A test with a page of its own. `options` go to the browser's context; `query` is added to the address; `prepare` may
- * change the page before it loads. The test fails when the page logs an error, unless `expectErrors` says that it may.
+ * change the page before it loads; `bare` does not wait for the viewer; `phone` gives a small screen. The test fails when
+ * the page logs an error, unless `expectErrors` says that it may.
  */
 export function test(name, options, body) {
-  const { query = `?backend=${BACKEND}`, prepare, expectErrors = false, skip, bare = false, ...context } = options;
+  const { query = `?backend=${BACKEND}`, prepare, expectErrors = false, skip, bare = false, phone = false, ...context } = options;
   nodeTest(`${BACKEND}: ${name}`, { skip, timeout: 4 * PATIENCE_MS }, async () => {
-    const settings = { viewport: VIEWPORT, colorScheme: "dark", ...context };
-    const own = await (await launched()).newContext(settings);
+    const screen = phone ? { viewport: null, hasTouch: true } : { viewport: VIEWPORT };
+    const own = await (await browserAt(phone ? 2 : 1)).newContext({ ...screen, colorScheme: "dark", ...context });
     const problems = [];
     try {
-      const page = await own.newPage();
+      const page = phone ? await phonePage(own) : await own.newPage();
       page.setDefaultTimeout(PATIENCE_MS);
       page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
       page.on("pageerror", (error) => problems.push(error.message));

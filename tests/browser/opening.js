@@ -97,8 +97,10 @@ test("the same file again keeps the clip and the time", {}, async (page) => {
   await call(page, "pause");
   await call(page, "selectClip", model.clips[1].name);
   await call(page, "seek", 0.3);
+  await settled(page);
   const before = await picture(page);
   await dropAndWait(page, [path]);
+  await settled(page);
   const after = await state(page);
   assert.equal(after.clip, model.clips[1].name);
   assert.ok(Math.abs(after.timeSecs - 0.3) < 1e-4, `${after.timeSecs}`);
@@ -111,6 +113,7 @@ test("a file that cannot be read shows its error and keeps the model", { viewpor
   assert.ok(bad.length > 0, "there are bad files to try");
   await call(page, "pause");
   await call(page, "seek", 0.25);
+  await settled(page);
   const before = await picture(page);
   for (const path of bad) {
     const { outcome, model, error } = await dropAndWait(page, [path]);

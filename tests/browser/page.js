@@ -22,14 +22,17 @@ test("the light scheme is followed", { colorScheme: "light", viewport: LARGE }, 
   assert.ok((await coloursOnScreen(page)) > 200);
 });
 
-test("a narrow window works", { viewport: { width: 390, height: 844 }, hasTouch: true, deviceScaleFactor: 2 }, async (page) => {
+test("a phone's screen works", { phone: true }, async (page) => {
   await settled(page);
-  await keep(page, "narrow");
+  await keep(page, "phone-dark");
   assert.ok((await coloursOnScreen(page)) > 200);
   const scrolls = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   assert.equal(scrolls, false, "nothing sticks out of the window");
   const canvas = await page.evaluate(() => [document.querySelector("canvas").width, innerWidth * devicePixelRatio]);
-  assert.equal(canvas[0], canvas[1], "the canvas has a pixel for each of the screen's");
+  assert.deepEqual(canvas, [780, 780], "the canvas has a pixel for each of the screen's");
+  await page.emulateMedia({ colorScheme: "light" });
+  await settled(page);
+  await keep(page, "phone-light");
 });
 
 test("the canvas follows the window", {}, async (page) => {

@@ -25,6 +25,7 @@ test("scrubbing moves pixels, and the same time is the same picture", {}, async 
   await call(page, "pause");
   const [first] = (await state(page)).model.clips;
   await call(page, "selectClip", first.name);
+  await settled(page);
   const at = async (part) => {
     await call(page, "seek", first.startSecs + part * (first.endSecs - first.startSecs));
     return picture(page);

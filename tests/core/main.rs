@@ -5,5 +5,6 @@ mod documents;
 mod format;
 mod model;
 mod sample;
+mod session;
 mod shaders;
 mod textbook;

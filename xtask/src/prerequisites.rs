@@ -83,11 +83,22 @@ pub(crate) fn ensure() -> Result<(), Failure> {
     }
     Err(Failure::Remedy {
         what: format!("the checks need what this machine does not have: {}", still.join(", ")),
-        remedy: format!(
-            "sudo apt-get update && sudo apt-get install --yes {}",
-            packages.join(" ")
-        ),
+        remedy: remedy(&packages),
     })
+}
+
+/// The command that brings the packages, which are named as Debian names them.
+fn remedy(packages: &[&str]) -> String {
+    let packages = packages.join(" ");
+    if cfg!(target_os = "macos") {
+        "brew install node && brew install --cask chromium".to_owned()
+    } else if cfg!(windows) {
+        "winget install OpenJS.NodeJS.LTS && winget install Hibbiki.Chromium".to_owned()
+    } else if on_path("apt-get").is_some() {
+        format!("sudo apt-get update && sudo apt-get install --yes {packages}")
+    } else {
+        format!("(with this system's package manager; the names are Debian's) install {packages}")
+    }
 }
 
 /// The Chromium to drive: what `CHROMIUM` names, else the first of its names on the `PATH`.

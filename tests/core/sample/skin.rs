@@ -37,7 +37,7 @@ fn the_skin_is_closed_and_each_edge_has_two_opposite_triangles() {
 fn winding_and_normals_point_outwards_as_in_left_handed_files() {
     let mut inside_out = Vec::new();
     for triangle in &FIGURE.triangles {
-        let [a, b, c] = triangle.map(|corner| position(corner));
+        let [a, b, c] = triangle.map(position);
         let normals = triangle.map(|corner| vector(FIGURE.vertices[corner as usize].normal));
         let facing = (b - a)
             .cross(c - a)
