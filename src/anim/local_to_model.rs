@@ -3,16 +3,28 @@
 use glam::Affine3A;
 
 use super::{LocalPose, ModelPose};
-use crate::model::Skeleton;
+use crate::model::{JointIndex, JointLanes, Skeleton};
 
 /// `model_from_joint` of each joint: a forward pass, since parents come first. Joints that `local` lacks are at rest.
 pub fn local_to_model(skeleton: &Skeleton, local: &LocalPose, model: &mut ModelPose) {
     model.0.resize(skeleton.joint_count(), Affine3A::IDENTITY);
-    for (index, (parent, rest)) in skeleton.parents().iter().zip(skeleton.rest()).enumerate() {
-        let parent_from_joint = local.joints.get(index).unwrap_or(rest).parent_from_joint();
-        model.0[index] = match parent {
-            Some(parent) => model.0[parent.index()] * parent_from_joint,
-            None => parent_from_joint,
-        };
+    let model_from_joint = model.0.as_mut_slice();
+    let posed = local.joint_count().min(skeleton.joint_count());
+    let (posed_parents, unposed_parents) = skeleton.parents().split_at(posed);
+    for (group, (parents, joints)) in posed_parents.chunks(JointLanes::COUNT).zip(&local.groups).enumerate() {
+        let parent_from_joint = joints.parent_from_joint();
+        for (lane, parent) in parents.iter().enumerate() {
+            let model_from_parent = placed(model_from_joint, *parent);
+            model_from_joint[group * JointLanes::COUNT + lane] = parent_from_joint.after(model_from_parent, lane);
+        }
     }
+    for (joint, (parent, rest)) in (posed..).zip(unposed_parents.iter().zip(&skeleton.rest()[posed..])) {
+        model_from_joint[joint] = *placed(model_from_joint, *parent) * rest.parent_from_joint();
+    }
+}
+
+/// Where the parent stands; a root stands on the model itself.
+#[inline]
+fn placed(model_from_joint: &[Affine3A], parent: Option<JointIndex>) -> &Affine3A {
+    parent.map_or(&Affine3A::IDENTITY, |parent| &model_from_joint[parent.index()])
 }

@@ -3,13 +3,47 @@
 use glam::Affine3A;
 
 use super::{local_to_model, palette, sample};
-use crate::model::{Clip, LocalJoint, Skeleton};
+use crate::model::{Clip, JointLanes, LocalJoint, Skeleton};
 
-/// Each joint relative to its parent: `parent_from_joint`, kept in parts.
-#[derive(Clone, Debug, Default)]
+/// Each joint relative to its parent: `parent_from_joint`, kept in parts, four joints side by side.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LocalPose {
-    /// One per joint.
-    pub joints: Vec<LocalJoint>,
+    /// Joints 0 to 3, joints 4 to 7 and so on. What the lanes behind the last joint hold means nothing.
+    pub groups: Vec<JointLanes>,
+    joint_count: usize,
+}
+
+impl LocalPose {
+    /// Number of joints.
+    pub fn joint_count(&self) -> usize {
+        self.joint_count
+    }
+
+    /// Each joint on its own, in the skeleton's order.
+    pub fn joints(&self) -> impl Iterator<Item = LocalJoint> {
+        let lanes = self
+            .groups
+            .iter()
+            .flat_map(|group| (0..JointLanes::COUNT).map(|lane| group.joint(lane)));
+        lanes.take(self.joint_count)
+    }
+
+    /// Sets the number of joints. New ones are identities until they are written.
+    pub fn resize(&mut self, joint_count: usize) {
+        self.groups
+            .resize(joint_count.div_ceil(JointLanes::COUNT), JointLanes::IDENTITY);
+        self.joint_count = joint_count;
+    }
+
+    /// Takes on these joints.
+    pub fn set_joints(&mut self, joints: &[LocalJoint]) {
+        self.resize(joints.len());
+        for (group, joints) in self.groups.iter_mut().zip(joints.chunks(JointLanes::COUNT)) {
+            for (lane, &joint) in joints.iter().enumerate() {
+                group.set_joint(lane, joint);
+            }
+        }
+    }
 }
 
 /// Each joint relative to the model: `model_from_joint`.
@@ -49,8 +83,7 @@ impl PoseBuffers {
 
     /// The pose in which the mesh was skinned. Its palette is the identity by meaning, so it is set and not computed.
     pub fn set_bind_pose(&mut self, skeleton: &Skeleton) {
-        self.local.joints.clear();
-        self.local.joints.extend_from_slice(skeleton.rest());
+        self.local.set_joints(skeleton.rest());
         self.model.0.clear();
         self.model.0.extend_from_slice(skeleton.bind_model_from_joint());
         self.palette.0.clear();

@@ -1,32 +1,34 @@
 //! A clip at a time.
 
-use glam::{Quat, Vec3, Vec4};
+use std::array::from_fn;
 
-use super::{LocalJoint, LocalPose};
-use crate::model::{Arc, Clip, Track};
+use glam::Vec4;
+
+use super::LocalPose;
+use crate::model::{Clip, JointLanes, KeyLanes, TrackGroup};
 
 /// Each track of a clip at `time_secs`: translation and scale blended in a straight line, rotation along the shorter arc
 /// at even speed. Before its first and after its last key a track holds that key. A time that is no number is the start.
 ///
 /// The result does not depend on earlier calls, so scrubbing costs the same as playing.
 pub fn sample(clip: &Clip, time_secs: f32, local: &mut LocalPose) {
-    local.joints.resize(clip.tracks.len(), LocalJoint::IDENTITY);
-    // Tracks of a clip mostly share their key times: the place found for one is where the next looks first.
+    local.resize(clip.tracks.len());
+    // Tracks of a clip mostly share their key times: the place found for one group is where the next looks first.
     let mut guess = 0;
-    for (joint, track) in local.joints.iter_mut().zip(&clip.tracks) {
-        *joint = sample_track(track, time_secs, &mut guess);
+    for (joints, group) in local.groups.iter_mut().zip(clip.tracks.groups()) {
+        *joints = sample_group(group, time_secs, &mut guess);
     }
 }
 
 #[inline]
-fn sample_track(track: &Track, time_secs: f32, guess: &mut usize) -> LocalJoint {
-    let times_secs = track.times_secs();
+fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize) -> JointLanes {
+    let (times_secs, keys) = (group.times_secs(), group.keys());
     let last = times_secs.len() - 1;
     if time_secs >= times_secs[last] {
-        return track.key(last);
+        return keys[last].joints;
     }
     if time_secs.is_nan() || time_secs <= times_secs[0] {
-        return track.key(0);
+        return keys[0].joints;
     }
     let from = span_at(times_secs, time_secs, *guess);
     *guess = from;
@@ -34,13 +36,7 @@ fn sample_track(track: &Track, time_secs: f32, guess: &mut usize) -> LocalJoint 
     // In f64 neither the least nor the greatest step between two f32 can overflow or vanish.
     let start_secs = f64::from(times_secs[from]);
     let fraction = (f64::from(time_secs) - start_secs) / (f64::from(times_secs[to]) - start_secs);
-    let (rotations, translations, scales) = (track.rotations(), track.translations(), track.scales());
-    let fraction = fraction as f32;
-    LocalJoint {
-        rotation: slerp(rotations[from], rotations[to], track.arcs()[from], fraction),
-        translation: blend(translations[from], translations[to], fraction),
-        scale: blend(scales[from], scales[to], fraction),
-    }
+    blend(&keys[from], &keys[to].joints, fraction as f32)
 }
 
 /// The key at or before a time that lies between the first and the last key: the guess where it holds, else a binary
@@ -57,25 +53,25 @@ fn span_at(times_secs: &[f32], time_secs: f32, guess: usize) -> usize {
     times_secs.partition_point(|&key_secs| key_secs <= time_secs) - 1
 }
 
-/// Exact at both ends, which `from + (to - from) * fraction` is not.
+/// Four joints between a key and the next, exact at both ends. The rotation goes along the arc at even speed: the weight
+/// of each end is sin(part · angle) / sin(angle), written with [`sine_over_angle`] so that it holds for an angle of 0 too.
 #[inline]
-fn blend(from: Vec3, to: Vec3, fraction: f32) -> Vec3 {
-    from * (1.0 - fraction) + to * fraction
-}
-
-/// Along the arc at even speed: the weight of each end is sin(part · angle) / sin(angle). Written with
-/// [`sine_over_angle`], it holds for an angle of 0 too.
-#[inline]
-fn slerp(from: Quat, to: Quat, arc: Arc, fraction: f32) -> Quat {
-    let rest = 1.0 - fraction;
-    let from_weight = rest * sine_over_angle(arc.angle_squared * rest * rest) * arc.angle_over_sine;
-    let to_weight = fraction * sine_over_angle(arc.angle_squared * fraction * fraction) * arc.angle_over_sine;
-    Quat::from_vec4(Vec4::from(from) * from_weight + Vec4::from(to) * to_weight)
+fn blend(key: &KeyLanes, to: &JointLanes, fraction: f32) -> JointLanes {
+    let from = &key.joints;
+    let part = Vec4::splat(fraction);
+    let rest = Vec4::ONE - part;
+    let from_weight = rest * sine_over_angle(key.angle_squared * rest * rest) * key.angle_over_sine;
+    let to_weight = part * sine_over_angle(key.angle_squared * part * part) * key.angle_over_sine;
+    JointLanes {
+        rotation: from_fn(|i| from.rotation[i] * from_weight + to.rotation[i] * to_weight),
+        translation: from_fn(|i| from.translation[i] * rest + to.translation[i] * part),
+        scale: from_fn(|i| from.scale[i] * rest + to.scale[i] * part),
+    }
 }
 
 /// sin(x) / x of x², for x in 0…π/2: the Taylor polynomial whose first left-out term is below 4e-8 there.
 #[inline]
-fn sine_over_angle(angle_squared: f32) -> f32 {
+fn sine_over_angle(angle_squared: Vec4) -> Vec4 {
     // From the highest power down.
     const TERMS: [f32; 6] = [
         -1.0 / 39_916_800.0,
@@ -85,6 +81,6 @@ fn sine_over_angle(angle_squared: f32) -> f32 {
         -1.0 / 6.0,
         1.0,
     ];
-    let [highest, lower @ ..] = TERMS;
-    lower.iter().fold(highest, |sum, term| sum * angle_squared + term)
+    let [highest, lower @ ..] = TERMS.map(Vec4::splat);
+    lower.into_iter().fold(highest, |sum, term| sum * angle_squared + term)
 }

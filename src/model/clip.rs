@@ -1,6 +1,6 @@
 //! Named motions and their frames.
 
-use super::Track;
+use super::{Track, Tracks};
 
 /// Frames a second of a clip in which no track has two keys.
 const DEFAULT_KEYS_PER_SEC: f32 = 30.0;
@@ -17,7 +17,7 @@ pub struct Clip {
     /// Name to show, unique in the model.
     pub name: String,
     /// One per joint.
-    pub tracks: Vec<Track>,
+    pub tracks: Tracks,
     /// Least key time of all tracks.
     pub start_secs: f32,
     /// Greatest key time of all tracks.
@@ -38,7 +38,7 @@ impl Clip {
             end_secs,
             keys_per_sec: keys_per_sec(&tracks),
             key_count: tracks.iter().map(Track::key_count).sum(),
-            tracks,
+            tracks: tracks.into(),
         }
     }
 

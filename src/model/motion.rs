@@ -105,7 +105,7 @@ impl ClipReader<'_> {
             end_secs,
             keys_per_sec,
             key_count: bones.iter().map(|bone| bone.keyframes.len()).sum(),
-            tracks,
+            tracks: tracks.into(),
         })
     }
 

@@ -1,6 +1,6 @@
 //! The keys of one joint.
 
-use glam::{Quat, Vec3};
+use glam::{DQuat, Quat, Vec3};
 
 use super::{LocalJoint, ModelError, ModelErrorKind};
 
@@ -13,16 +13,6 @@ pub struct Track {
     translations: Vec<Vec3>,
     rotations: Vec<Quat>,
     scales: Vec<Vec3>,
-    arcs: Vec<Arc>,
-}
-
-/// What blending the rotations of two neighbouring keys needs and does not change with time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Arc {
-    /// Square of the angle between the two quaternions, radians², 0…(π/2)².
-    pub(crate) angle_squared: f32,
-    /// angle / sin(angle), 1 for equal rotations.
-    pub(crate) angle_over_sine: f32,
 }
 
 /// One key at rest on its parent at time 0.
@@ -71,19 +61,15 @@ impl Track {
             translations: Vec::with_capacity(keys),
             rotations: Vec::with_capacity(keys),
             scales: Vec::with_capacity(keys),
-            arcs: Vec::with_capacity(keys),
         }
     }
 
     /// A key after all others, of unit rotation.
     fn push(&mut self, time_secs: f32, joint: LocalJoint) {
         let mut rotation = joint.rotation;
-        if let Some(&before) = self.rotations.last() {
-            // q and −q are the same rotation, but blending across them spins the long way.
-            if rotation.dot(before) < 0.0 {
-                rotation = -rotation;
-            }
-            self.arcs.push(Arc::between(before, rotation));
+        // q and −q are the same rotation, but blending across them spins the long way.
+        if self.rotations.last().is_some_and(|&before| rotation.dot(before) < 0.0) {
+            rotation = -rotation;
         }
         self.times_secs.push(time_secs);
         self.translations.push(joint.translation);
@@ -126,11 +112,6 @@ impl Track {
         &self.scales
     }
 
-    /// From each key to the next: one fewer than there are keys.
-    pub(crate) fn arcs(&self) -> &[Arc] {
-        &self.arcs
-    }
-
     /// One key as a joint.
     pub fn key(&self, index: usize) -> LocalJoint {
         LocalJoint {
@@ -141,18 +122,10 @@ impl Track {
     }
 }
 
-impl Arc {
-    /// Between two unit quaternions of one side.
-    fn between(from: Quat, to: Quat) -> Self {
-        let (from, to) = (from.as_dquat(), to.as_dquat());
-        // Twice the half angle by its tangent: exact for small angles, where the cosine tells nothing.
-        let angle = 2.0 * (to - from).length().atan2((to + from).length());
-        let sine = angle.sin();
-        Self {
-            angle_squared: (angle * angle) as f32,
-            angle_over_sine: if sine > 0.0 { (angle / sine) as f32 } else { 1.0 },
-        }
-    }
+/// The angle between two unit quaternions, in radians: half of what turns one rotation into the other.
+pub(super) fn angle_between(from: DQuat, to: DQuat) -> f64 {
+    // Twice the half angle by its tangent: exact for small angles, where the cosine tells nothing.
+    2.0 * (to - from).length().atan2((to + from).length())
 }
 
 /// The rotation at unit length; `None` when it has no direction.

@@ -221,7 +221,7 @@ fn buffers_are_filled_anew_and_not_grown() {
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     let places = |buffers: &PoseBuffers| {
         (
-            buffers.local.joints.as_ptr(),
+            buffers.local.groups.as_ptr(),
             buffers.model.0.as_ptr(),
             buffers.palette.0.as_ptr(),
         )
@@ -249,7 +249,7 @@ fn buffers_are_filled_anew_and_not_grown() {
     buffers.evaluate(&small.skeleton, &small.clips[0], 0.5);
     assert_eq!(
         (
-            buffers.local.joints.len(),
+            buffers.local.joint_count(),
             buffers.model.0.len(),
             buffers.palette.0.len()
         ),
@@ -261,7 +261,7 @@ fn buffers_are_filled_anew_and_not_grown() {
 fn a_static_model_has_an_empty_palette() {
     let (model, _) = model_of(&crate::documents::quad());
     let buffers = PoseBuffers::for_skeleton(&model.skeleton);
-    assert!(buffers.palette.0.is_empty() && buffers.local.joints.is_empty());
+    assert!(buffers.palette.0.is_empty() && buffers.local.groups.is_empty());
 }
 
 /// Keys a millisecond apart with nearly equal rotations, and keys almost a half turn apart: both ends of what the arc's
