@@ -9,7 +9,7 @@ mod pose;
 mod sample;
 mod skin;
 
-pub use crate::model::LocalJoint;
+pub use crate::model::{JointLanes, LocalJoint};
 pub use animated_bounds::animated_bounds;
 pub use extreme_points::extreme_points;
 pub use local_to_model::local_to_model;

@@ -14,9 +14,9 @@ pub struct LocalPose {
 }
 
 impl LocalPose {
-    /// Number of joints.
+    /// Number of joints, at most four for each group.
     pub fn joint_count(&self) -> usize {
-        self.joint_count
+        self.joint_count.min(self.groups.len() * JointLanes::COUNT)
     }
 
     /// Each joint on its own, in the skeleton's order.
@@ -25,10 +25,10 @@ impl LocalPose {
             .groups
             .iter()
             .flat_map(|group| (0..JointLanes::COUNT).map(|lane| group.joint(lane)));
-        lanes.take(self.joint_count)
+        lanes.take(self.joint_count())
     }
 
-    /// Sets the number of joints. New ones are identities until they are written.
+    /// Sets the number of joints. What new ones are is not told until they are written.
     pub fn resize(&mut self, joint_count: usize) {
         self.groups
             .resize(joint_count.div_ceil(JointLanes::COUNT), JointLanes::IDENTITY);

@@ -1,5 +1,6 @@
 //! Collects what was mended while a document becomes a model.
 
+use super::CODES;
 use crate::diagnostic::{Diagnostic, Position, Severity, Subject};
 
 /// The start of a line.
@@ -23,6 +24,10 @@ impl Notes {
     }
 
     fn push(&mut self, severity: Severity, code: &'static str, place: Place, message: String) {
+        debug_assert!(
+            CODES.iter().any(|&(listed, of, _)| (listed, of) == (code, severity)),
+            "the table of codes lacks {code} as a {severity}"
+        );
         self.0.push(Diagnostic {
             severity,
             code,

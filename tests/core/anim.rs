@@ -1,8 +1,10 @@
 //! Tests of `anim`.
 
 mod bounds;
+mod files;
 mod palette;
 mod playback;
+mod pose;
 mod random;
 mod sample;
 mod skin;

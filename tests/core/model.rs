@@ -1,6 +1,7 @@
 //! Tests of `model`.
 
 mod clips;
+mod codes;
 mod errors;
 mod geometry;
 mod influences;

@@ -12,10 +12,15 @@ use crate::textbook::{self, Matrix};
 const TOLERANCE: f64 = 1e-4;
 
 /// What f32 loses through three joints with numbers below 4: about ten steps of the last place.
-const SMALL_TOLERANCE: f64 = 5e-6;
+pub(super) const SMALL_TOLERANCE: f64 = 5e-6;
 
 /// Greatest difference between our palette and the textbook's, over all bones, numbers and times.
-fn greatest_error(document: &Document, model: &Model, clip: usize, times_secs: impl Iterator<Item = f32>) -> f64 {
+pub(super) fn greatest_error(
+    document: &Document,
+    model: &Model,
+    clip: usize,
+    times_secs: impl Iterator<Item = f32>,
+) -> f64 {
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     let mut greatest = 0.0;
     for time_secs in times_secs {
@@ -41,7 +46,7 @@ fn difference(ours: &Affine3A, theirs: &Matrix) -> f64 {
 }
 
 /// From before the first key to after the last one, and every key time itself.
-fn times_of(document: &Document, clip: usize, steps: u16) -> Vec<f32> {
+pub(super) fn times_of(document: &Document, clip: usize, steps: u16) -> Vec<f32> {
     let keys = || {
         document.clips[clip]
             .bones

@@ -1,0 +1,103 @@
+//! The table of codes against the documents that give them.
+
+use std::collections::BTreeSet;
+
+use bindpose::diagnostic::Severity;
+use bindpose::format::{Document, LineMap, Subset};
+use bindpose::model::{CODES, Model};
+
+use crate::documents::{arm, key, material, offset, reordered, subset, track};
+
+/// What turns a sound arm into one that a single code, or a few, are about: every way that the model has.
+const CHANGES: &[fn(&mut Document)] = &[
+    |arm| arm.bone_parents[2] = 3,
+    |arm| arm.bone_parents = vec![-1, 1, 1],
+    |arm| arm.bone_offsets.truncate(2),
+    |arm| arm.triangles[3] = [0, 14, 1],
+    |arm| arm.vertices[4].blend_indices[0] = 3,
+    |arm| arm.materials.push(material("skin")),
+    |arm| arm.subsets.clear(),
+    |arm| arm.materials.clear(),
+    |arm| arm.subsets = vec![subset(0, 13)],
+    |arm| arm.subsets = vec![subset(0, 11)],
+    |arm| arm.subsets = vec![subset(0, 12); 2],
+    |arm| {
+        arm.subsets[0] = Subset {
+            vertex_start: 4,
+            vertex_count: 4,
+            ..subset(0, 2)
+        }
+    },
+    |arm| *arm = reordered(arm, &[2, 1, 0]),
+    |arm| {
+        arm.clips.clear();
+        arm.bone_offsets.resize(300, offset([0.0; 3]));
+        arm.bone_parents.resize(300, 0);
+        arm.vertices[0].blend_indices[0] = 299;
+    },
+    |arm| arm.bone_offsets[1][0] = f32::NAN,
+    |arm| arm.bone_offsets[1][3] = 0.5,
+    |arm| arm.bone_offsets[1][..11].fill(0.0),
+    |arm| arm.vertices.resize(65_536, arm.vertices[0].clone()),
+    |arm| arm.vertices[0].position[0] = f32::INFINITY,
+    |arm| arm.triangles[..6].iter_mut().for_each(|corners| corners.swap(1, 2)),
+    |arm| arm.vertices[0].normal = [0.0; 3],
+    |arm| arm.vertices[0].tangent = [0.0; 4],
+    |arm| arm.vertices[0].tangent[3] = 0.5,
+    |arm| arm.vertices[0].blend_weights = [1.0, -0.5, 0.0, 0.0],
+    |arm| arm.vertices[0].blend_weights = [0.5, 0.0, 0.0, 0.0],
+    |arm| arm.vertices[0].blend_weights = [0.0; 4],
+    |arm| arm.clips.push(arm.clips[0].clone()),
+    |arm| arm.clips[0].bones.truncate(2),
+    |arm| arm.clips[0].bones.push(track([key(0.0, [0.0; 3])])),
+    |arm| arm.clips[0].bones[2].keyframes.clear(),
+    |arm| arm.clips[0].bones[1].keyframes[1].time_secs = f32::NAN,
+    |arm| arm.clips[0].bones[1].keyframes.reverse(),
+    |arm| arm.clips[0].bones[1].keyframes[1].time_secs = 0.0,
+    |arm| arm.clips[0].bones[1].keyframes[1].rotation = [0.0, 0.0, 0.0, 2.0],
+    |arm| arm.clips[0].bones[1].keyframes[1].rotation = [0.0; 4],
+    |arm| arm.clips[0].bones[1].keyframes[0].translation = [20.0, 0.0, 0.0],
+];
+
+#[test]
+fn the_table_of_codes_is_that_of_the_documents() {
+    let findings = |document: &Document| match Model::from_document(document, &LineMap::default()) {
+        Ok((_, findings)) => findings,
+        Err(error) => vec![error.diagnostic()],
+    };
+    assert_eq!(findings(&arm()), [], "nothing is wrong with the arm");
+    let mut given: BTreeSet<(&str, Severity)> = BTreeSet::new();
+    for (index, change) in CHANGES.iter().enumerate() {
+        let mut document = arm();
+        change(&mut document);
+        let before = given.len();
+        given.extend(
+            findings(&document)
+                .iter()
+                .map(|finding| (finding.code, finding.severity)),
+        );
+        assert!(given.len() > before, "change {index} gives nothing new");
+    }
+    let table: BTreeSet<_> = CODES.iter().map(|&(code, severity, _)| (code, severity)).collect();
+    assert_eq!(given, table);
+    assert_eq!(table.len(), CODES.len(), "a code stands twice in the table");
+}
+
+#[test]
+fn parser_and_model_share_no_code() {
+    for (code, ..) in CODES {
+        assert!(
+            bindpose::format::CODES.iter().all(|(other, ..)| other != code),
+            "{code}"
+        );
+    }
+}
+
+#[test]
+fn the_documentation_has_the_same_table() {
+    let documentation = include_str!("../../../src/model/mod.rs");
+    for (code, severity, meaning) in CODES {
+        let row = format!("//! | `{code}` | {severity} | {meaning} |");
+        assert!(documentation.contains(&row), "missing: {row}");
+    }
+}
