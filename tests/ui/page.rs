@@ -107,7 +107,12 @@ impl Window {
     /// Every widget with a name, and where it is; pictures of the view aside.
     pub(crate) fn widgets(&self) -> Vec<(String, Rect)> {
         let named = |node: Node<'_>| Some((name(&node)?, node.rect()));
-        self.harness.root().children_recursive().filter_map(named).filter(|(name, _)| name != "Model view").collect()
+        self.harness
+            .root()
+            .children_recursive()
+            .filter_map(named)
+            .filter(|(name, _)| name != "Model view")
+            .collect()
     }
 
     /// The widgets whose names satisfy something.
@@ -127,7 +132,10 @@ impl Window {
         let found = self.named(|name| name.starts_with(start));
         match &found[..] {
             [(_, rect)] => *rect,
-            [] => panic!("no {start:?} among {:?}", self.widgets().into_iter().map(|(name, _)| name).collect::<Vec<_>>()),
+            [] => panic!(
+                "no {start:?} among {:?}",
+                self.widgets().into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+            ),
             _ => panic!("{start:?} is not one: {found:?}"),
         }
     }
