@@ -9,12 +9,23 @@ use crate::page::{WIDE, Window, phone, window};
 #[track_caller]
 fn assert_settles(window: &mut Window) {
     window.harness.run();
-    assert!(!window.harness.ctx.has_requested_repaint(), "{:?}", window.harness.ctx.repaint_causes());
+    assert!(
+        !window.harness.ctx.has_requested_repaint(),
+        "{:?}",
+        window.harness.ctx.repaint_causes()
+    );
 }
 
 #[test]
 fn a_window_that_nobody_touches_asks_for_no_pass() {
-    let files = || vec![vec![], vec![moving("a.m3d")], vec![still("a.m3d")], vec![File::new("a.m3d", *b"")]];
+    let files = || {
+        vec![
+            vec![],
+            vec![moving("a.m3d")],
+            vec![still("a.m3d")],
+            vec![File::new("a.m3d", *b"")],
+        ]
+    };
     let wide = files().into_iter().map(|files| window(WIDE, files));
     for mut window in wide.chain(files().into_iter().map(phone)) {
         assert_settles(&mut window);
@@ -46,7 +57,14 @@ fn a_clip_of_no_length_asks_for_no_pass() {
 #[test]
 fn what_was_touched_settles() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    for label in ["Diagnostics", "Keys (?)", "Loops", "Ground grid", "Frame the model", "Last frame"] {
+    for label in [
+        "Diagnostics",
+        "Keys (?)",
+        "Loops",
+        "Ground grid",
+        "Frame the model",
+        "Last frame",
+    ] {
         window.click(label);
         assert_settles(&mut window);
     }

@@ -95,7 +95,11 @@ fn digits_look_from_named_sides() {
     ] {
         window.press(modifiers, key);
         let camera = window.session().camera();
-        assert_eq!((camera.yaw_radians, camera.pitch_radians), preset.yaw_pitch_radians(), "{preset:?}");
+        assert_eq!(
+            (camera.yaw_radians, camera.pitch_radians),
+            preset.yaw_pitch_radians(),
+            "{preset:?}"
+        );
     }
     window.press(PLAIN, Key::Num5);
     assert_eq!(window.session().camera().projection, Projection::Orthographic);
@@ -139,7 +143,11 @@ fn escape_takes_away_what_lies_on_top() {
     window.click("Keys (?)");
     window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
     let lying = |window: &Window| {
-        (window.shows("b.m3d could not be read"), window.shows("Space: play or pause"), window.harness.state().state.diagnostics_open)
+        (
+            window.shows("b.m3d could not be read"),
+            window.shows("Space: play or pause"),
+            window.harness.state().state.diagnostics_open,
+        )
     };
     assert_eq!(lying(&window), (true, true, true));
     for rest in [(false, true, true), (false, false, true), (false, false, false)] {
@@ -152,12 +160,28 @@ fn escape_takes_away_what_lies_on_top() {
 fn keys_of_the_browser_do_nothing_here() {
     let mut window = open();
     let before = (*window.session().camera(), window.session().picture_revision());
-    for key in [Key::F, Key::L, Key::C, Key::G, Key::W, Key::T, Key::N, Key::Num5, Key::Home] {
+    for key in [
+        Key::F,
+        Key::L,
+        Key::C,
+        Key::G,
+        Key::W,
+        Key::T,
+        Key::N,
+        Key::Num5,
+        Key::Home,
+    ] {
         window.press(CTRL, key);
         window.press(Modifiers::ALT, key);
     }
-    assert_eq!((*window.session().camera(), window.session().picture_revision()), before);
-    assert_eq!((window.session().clip_index(), window.session().playback().loop_mode()), (Some(0), LoopMode::Loop));
+    assert_eq!(
+        (*window.session().camera(), window.session().picture_revision()),
+        before
+    );
+    assert_eq!(
+        (window.session().clip_index(), window.session().playback().loop_mode()),
+        (Some(0), LoopMode::Loop)
+    );
 }
 
 #[test]
@@ -181,6 +205,10 @@ fn a_focused_control_keeps_space_for_itself() {
 
 fn focused_name(window: &Window) -> Option<String> {
     use egui_kittest::kittest::NodeT as _;
-    let focused = window.harness.root().children_recursive().find(egui_kittest::Node::is_focused)?;
+    let focused = window
+        .harness
+        .root()
+        .children_recursive()
+        .find(egui_kittest::Node::is_focused)?;
     focused.accesskit_node().label()
 }

@@ -107,7 +107,12 @@ impl Window {
     /// Every widget with a name, and where it is; pictures of the view aside.
     pub(crate) fn widgets(&self) -> Vec<(String, Rect)> {
         let named = |node: Node<'_>| Some((name(&node)?, node.rect()));
-        self.harness.root().children_recursive().filter_map(named).filter(|(name, _)| name != "Model view").collect()
+        self.harness
+            .root()
+            .children_recursive()
+            .filter_map(named)
+            .filter(|(name, _)| name != "Model view")
+            .collect()
     }
 
     /// The widgets whose names satisfy something.
@@ -121,18 +126,24 @@ impl Window {
         !self.named(|name| name == wanted).is_empty()
     }
 
-    /// Where the only widget is whose name begins so.
+    /// Where the widget of this name is, or else the only one whose name begins so.
     #[track_caller]
     pub(crate) fn rect(&self, start: &str) -> Rect {
+        if let [(_, rect)] = &self.named(|name| name == start)[..] {
+            return *rect;
+        }
         let found = self.named(|name| name.starts_with(start));
         match &found[..] {
             [(_, rect)] => *rect,
-            [] => panic!("no {start:?} among {:?}", self.widgets().into_iter().map(|(name, _)| name).collect::<Vec<_>>()),
+            [] => panic!(
+                "no {start:?} among {:?}",
+                self.widgets().into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+            ),
             _ => panic!("{start:?} is not one: {found:?}"),
         }
     }
 
-    /// Clicks the only widget whose name begins so, and takes the pointer away.
+    /// Clicks the widget of [`Window::rect`], and takes the pointer away.
     #[track_caller]
     pub(crate) fn click(&mut self, start: &str) {
         let at = self.rect(start).center();

@@ -53,7 +53,13 @@ fn handedness_and_up_axis_can_be_chosen_and_given_back() {
         window.click(row);
         window.click("As found");
     }
-    assert_eq!((window.session().handedness_override(), window.session().up_axis_override()), (None, None));
+    assert_eq!(
+        (
+            window.session().handedness_override(),
+            window.session().up_axis_override()
+        ),
+        (None, None)
+    );
     assert!(window.shows("Handedness: Left found") && window.shows("Up axis: Y found"));
 }
 
@@ -62,7 +68,10 @@ fn the_other_models_of_a_drop_are_one_click_away() {
     let mut window = window(WIDE, vec![moving("large.m3d"), still("small.m3d")]);
     assert!(window.shows("In this drop"));
     window.click("small.m3d");
-    assert_eq!(window.session().open_model().map(|open| open.file.path.as_str()), Some("small.m3d"));
+    assert_eq!(
+        window.session().open_model().map(|open| open.file.path.as_str()),
+        Some("small.m3d")
+    );
 }
 
 fn findings(window: &Window) -> Vec<String> {
@@ -81,7 +90,10 @@ fn a_click_on_a_finding_shows_its_lines() {
         window.click("Diagnostics: ");
         let shown = findings(&window);
         assert_eq!(shown.len(), notices.len());
-        let notice = notices.iter().position(|notice| notice.position.is_some()).expect("one has a place");
+        let notice = notices
+            .iter()
+            .position(|notice| notice.position.is_some())
+            .expect("one has a place");
         let line = notices[notice].position.expect("found by it").line.to_string();
         let lines = |window: &Window| window.named(|name| name.contains(" | ") && name.contains(&line)).len();
         assert_eq!(lines(&window), 0);
@@ -113,8 +125,15 @@ fn the_error_card_says_what_and_where_and_copies_it() {
         let excerpt = window.named(|name| name.starts_with(&place));
         assert_eq!(excerpt.len(), 1, "{place}");
         let (text, _) = &excerpt[0];
-        assert!(text.contains(&format!("{} | ", at.line)) && text.contains('^'), "{text}");
-        for words in ["bad.m3d could not be read", &error.diagnostic.message, error.diagnostic.code] {
+        assert!(
+            text.contains(&format!("{} | ", at.line)) && text.contains('^'),
+            "{text}"
+        );
+        for words in [
+            "bad.m3d could not be read",
+            &error.diagnostic.message,
+            error.diagnostic.code,
+        ] {
             assert!(window.shows(words), "{words}");
         }
         assert!(window.shows("The model that was open stays open.") && window.shows("a.m3d"));
@@ -123,7 +142,12 @@ fn the_error_card_says_what_and_where_and_copies_it() {
         window.harness.hover_at(at);
         window.harness.drag_at(at);
         let button = egui::PointerButton::Primary;
-        window.harness.event(egui::Event::PointerButton { pos: at, button, pressed: false, modifiers: Modifiers::NONE });
+        window.harness.event(egui::Event::PointerButton {
+            pos: at,
+            button,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        });
         window.harness.step();
         let at_once = copied_text(&window);
         window.pass_on();
@@ -136,10 +160,16 @@ fn the_error_card_says_what_and_where_and_copies_it() {
 }
 
 fn copied_text(window: &Window) -> Option<String> {
-    window.harness.output().platform_output.commands.iter().find_map(|command| match command {
-        OutputCommand::CopyText(text) => Some(text.clone()),
-        _ => None,
-    })
+    window
+        .harness
+        .output()
+        .platform_output
+        .commands
+        .iter()
+        .find_map(|command| match command {
+            OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        })
 }
 
 #[test]
@@ -177,7 +207,10 @@ fn the_bar_looks_frames_and_hides_the_grid() {
     window.click("View from");
     window.click("Left");
     let camera = window.session().camera();
-    assert_eq!((camera.yaw_radians, camera.pitch_radians), ViewPreset::Left.yaw_pitch_radians());
+    assert_eq!(
+        (camera.yaw_radians, camera.pitch_radians),
+        ViewPreset::Left.yaw_pitch_radians()
+    );
     window.click("View from");
     window.click("Orthographic");
     assert_eq!(window.session().camera().projection, Projection::Orthographic);

@@ -27,7 +27,9 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
     let session = Rc::new(RefCell::new(Session::new(true)));
     let figure = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/sample/figure.m3d");
     let bytes = std::fs::read(&figure).unwrap_or_else(|error| panic!("{}: {error}", figure.display()));
-    session.borrow_mut().apply(Command::AddFiles(vec![File::new("figure.m3d", bytes)]));
+    session
+        .borrow_mut()
+        .apply(Command::AddFiles(vec![File::new("figure.m3d", bytes)]));
     session.borrow_mut().apply(Command::Seek { time_secs: 0.4 });
     for command in then {
         session.borrow_mut().apply(command);
@@ -42,8 +44,7 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
         .with_context_setup(ui::theme::install)
         .renderer(WgpuTestRenderer::from_render_state(gpu))
         .build_ui(move |ui| {
-            let app = app
-                .get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), coarse_pointer));
+            let app = app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), coarse_pointer));
             app.ui(&mut whole_window(ui));
         });
     harness.run();
@@ -61,7 +62,9 @@ fn compare(name: &str, actual: &RgbaImage) {
         actual.save(&path).expect("writes a PNG");
         return;
     }
-    let expected = image::open(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).into_rgba8();
+    let expected = image::open(&path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+        .into_rgba8();
     let differs = share_that_differs(&actual, &expected);
     assert!(
         differs <= SHARE,
@@ -74,9 +77,8 @@ fn compare(name: &str, actual: &RgbaImage) {
 
 fn share_that_differs(a: &RgbaImage, b: &RgbaImage) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
-    let differs = |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| {
-        a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > TOLERANCE)
-    };
+    let differs =
+        |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > TOLERANCE);
     a.pixels().zip(b.pixels()).filter(differs).count() as f64 / (a.width() * a.height()) as f64
 }
 
@@ -89,7 +91,10 @@ fn wide_and_dark() {
 fn wide_and_light_with_an_error() {
     let text = "***************m3d-File-Header***************\n#Materials 1\n#Vertices 3\n#Triangles many\n#Bones 0\n";
     let bad = File::new("soldier.m3d", text.as_bytes());
-    compare("wide-light-error", &draw(WIDE, Theme::Light, false, vec![Command::AddFiles(vec![bad])]));
+    compare(
+        "wide-light-error",
+        &draw(WIDE, Theme::Light, false, vec![Command::AddFiles(vec![bad])]),
+    );
 }
 
 #[test]

@@ -92,7 +92,10 @@ fn the_clip_menu_lists_all_clips_and_shows_one() {
         }
         window.click("Turn   2.00 s");
         assert_eq!(window.session().clip_index(), Some(1));
-        assert!(window.shows("Clip Turn") && !window.shows("Turn   2.00 s"), "the menu is shut");
+        assert!(
+            window.shows("Clip Turn") && !window.shows("Turn   2.00 s"),
+            "the menu is shut"
+        );
         assert!(window.shows("Time 0.500 s") && window.shows("Frame 0 of 60"));
     }
 }
@@ -125,7 +128,15 @@ fn the_loop_button_goes_through_the_modes() {
 
 #[test]
 fn without_clips_there_is_no_strip() {
-    for window in [window(WIDE, vec![still("a.m3d")]), window(WIDE, vec![]), phone(vec![still("a.m3d")])] {
-        assert!(window.named(|name| name.contains("Space") || name.starts_with("Time") || name.starts_with("Speed")).is_empty());
+    for window in [
+        window(WIDE, vec![still("a.m3d")]),
+        window(WIDE, vec![]),
+        phone(vec![still("a.m3d")]),
+    ] {
+        assert!(
+            window
+                .named(|name| name.contains("Space") || name.starts_with("Time") || name.starts_with("Speed"))
+                .is_empty()
+        );
     }
 }

@@ -9,7 +9,12 @@ use glam::{Vec2, Vec3};
 use super::models::{self, moving, still};
 use super::opened;
 
-const FREE: Insets = Insets { left: 0.0, right: 0.0, top: 0.0, bottom: 0.0 };
+const FREE: Insets = Insets {
+    left: 0.0,
+    right: 0.0,
+    top: 0.0,
+    bottom: 0.0,
+};
 
 /// All that the clip on show reaches at its frames, in the picture: x right and y up, −1…1, and depth.
 fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
@@ -38,10 +43,24 @@ fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
 fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
     let all_insets = [
         FREE,
-        Insets { top: 0.06, bottom: 0.1, ..FREE },
-        Insets { left: 0.3, top: 0.06, bottom: 0.1, ..FREE },
+        Insets {
+            top: 0.06,
+            bottom: 0.1,
+            ..FREE
+        },
+        Insets {
+            left: 0.3,
+            top: 0.06,
+            bottom: 0.1,
+            ..FREE
+        },
         Insets { right: 0.3, ..FREE },
-        Insets { left: 0.2, right: 0.2, top: 0.2, bottom: 0.3 },
+        Insets {
+            left: 0.2,
+            right: 0.2,
+            top: 0.2,
+            bottom: 0.3,
+        },
     ];
     for file in [moving("a.m3d"), still("a.m3d")] {
         let mut session = opened(file);
@@ -49,7 +68,10 @@ fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
             if session.camera().projection != projection {
                 session.apply(Command::ToggleProjection);
             }
-            for (aspect, insets) in [0.46, 1.0, 1.6, 3.5].into_iter().flat_map(|aspect| all_insets.map(|i| (aspect, i))) {
+            for (aspect, insets) in [0.46, 1.0, 1.6, 3.5]
+                .into_iter()
+                .flat_map(|aspect| all_insets.map(|i| (aspect, i)))
+            {
                 session.apply(Command::SetViewport { aspect, insets });
                 for preset in ViewPreset::ALL {
                     session.apply(Command::LookFrom(preset));
@@ -59,11 +81,20 @@ fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
                     for point in points {
                         (least, greatest) = (least.min(point), greatest.max(point));
                     }
-                    assert!(least.x >= -1.0 + 2.0 * insets.left && greatest.x <= 1.0 - 2.0 * insets.right, "{what}");
-                    assert!(least.y >= -1.0 + 2.0 * insets.bottom && greatest.y <= 1.0 - 2.0 * insets.top, "{what}");
+                    assert!(
+                        least.x >= -1.0 + 2.0 * insets.left && greatest.x <= 1.0 - 2.0 * insets.right,
+                        "{what}"
+                    );
+                    assert!(
+                        least.y >= -1.0 + 2.0 * insets.bottom && greatest.y <= 1.0 - 2.0 * insets.top,
+                        "{what}"
+                    );
                     assert!(least.z >= 0.0 && greatest.z <= 1.0, "{what}: no plane cuts");
                     // And it is no dot in the middle: one of the two ways is well used.
-                    let free = Vec2::new(2.0 - 2.0 * (insets.left + insets.right), 2.0 - 2.0 * (insets.top + insets.bottom));
+                    let free = Vec2::new(
+                        2.0 - 2.0 * (insets.left + insets.right),
+                        2.0 - 2.0 * (insets.top + insets.bottom),
+                    );
                     let used = ((greatest - least).truncate() / free).max_element();
                     assert!(used > 0.6, "{what}: {used}");
                 }
@@ -74,8 +105,14 @@ fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
 
 #[test]
 fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
-    let narrow = Command::SetViewport { aspect: 0.25, insets: FREE };
-    let wide = Command::SetViewport { aspect: 2.0, insets: FREE };
+    let narrow = Command::SetViewport {
+        aspect: 0.25,
+        insets: FREE,
+    };
+    let wide = Command::SetViewport {
+        aspect: 2.0,
+        insets: FREE,
+    };
     let mut session = opened(still("a.m3d"));
     session.apply(wide.clone());
     let in_wide = session.camera().distance;
@@ -84,13 +121,21 @@ fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
     session.apply(wide.clone());
     assert!((session.camera().distance / in_wide - 1.0).abs() < 1e-3);
 
-    session.apply(Command::Orbit { yaw_radians: 0.4, pitch_radians: 0.1 });
+    session.apply(Command::Orbit {
+        yaw_radians: 0.4,
+        pitch_radians: 0.1,
+    });
     session.apply(narrow.clone());
     assert!(session.camera().distance > in_wide * 1.2, "turning leaves it framed");
 
     for command in [
-        Command::Pan { drag: Vec2::new(0.1, 0.0) },
-        Command::Zoom { factor: 0.9, pointer: Vec2::ZERO },
+        Command::Pan {
+            drag: Vec2::new(0.1, 0.0),
+        },
+        Command::Zoom {
+            factor: 0.9,
+            pointer: Vec2::ZERO,
+        },
     ] {
         session.apply(Command::FrameModel);
         session.apply(command);
@@ -108,8 +153,17 @@ fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
 fn a_window_without_a_shape_is_left_out() {
     let mut session = opened(still("a.m3d"));
     let before = *session.camera();
-    for (aspect, left) in [(0.0, 0.0), (f32::NAN, 0.0), (f32::INFINITY, 0.0), (-1.0, 0.0), (1.0, f32::NAN)] {
-        session.apply(Command::SetViewport { aspect, insets: Insets { left, ..FREE } });
+    for (aspect, left) in [
+        (0.0, 0.0),
+        (f32::NAN, 0.0),
+        (f32::INFINITY, 0.0),
+        (-1.0, 0.0),
+        (1.0, f32::NAN),
+    ] {
+        session.apply(Command::SetViewport {
+            aspect,
+            insets: Insets { left, ..FREE },
+        });
         session.apply(Command::FrameModel);
         assert_eq!(session.camera(), &before);
     }
@@ -119,12 +173,23 @@ fn a_window_without_a_shape_is_left_out() {
 fn zooming_ends_before_the_model_is_passed_or_a_dot() {
     let mut session = opened(still("a.m3d"));
     let radius = session.world_bounds().radius();
-    for (factor, distance) in [(0.5, radius * 1e-2), (2.0, radius * 100.0), (0.0, radius * 1e-2), (f32::INFINITY, radius * 100.0)] {
+    for (factor, distance) in [
+        (0.5, radius * 1e-2),
+        (2.0, radius * 100.0),
+        (0.0, radius * 1e-2),
+        (f32::INFINITY, radius * 100.0),
+    ] {
         for _ in 0..64 {
-            session.apply(Command::Zoom { factor, pointer: Vec2::new(0.2, -0.3) });
+            session.apply(Command::Zoom {
+                factor,
+                pointer: Vec2::new(0.2, -0.3),
+            });
         }
         let reached = session.camera().distance;
-        assert!((reached / distance - 1.0).abs() < 1e-4, "{reached} instead of {distance}");
+        assert!(
+            (reached / distance - 1.0).abs() < 1e-4,
+            "{reached} instead of {distance}"
+        );
         assert!(session.camera().target.is_finite());
     }
 }
@@ -134,16 +199,32 @@ fn what_is_no_number_leaves_the_camera_alone() {
     let mut session = opened(moving("a.m3d"));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let before = *session.camera();
-        session.apply(Command::Orbit { yaw_radians: bad, pitch_radians: 0.1 });
-        session.apply(Command::Orbit { yaw_radians: 0.1, pitch_radians: bad });
-        session.apply(Command::Pan { drag: Vec2::new(bad, 0.0) });
-        session.apply(Command::Pan { drag: Vec2::new(0.0, bad) });
+        session.apply(Command::Orbit {
+            yaw_radians: bad,
+            pitch_radians: 0.1,
+        });
+        session.apply(Command::Orbit {
+            yaw_radians: 0.1,
+            pitch_radians: bad,
+        });
+        session.apply(Command::Pan {
+            drag: Vec2::new(bad, 0.0),
+        });
+        session.apply(Command::Pan {
+            drag: Vec2::new(0.0, bad),
+        });
         assert_eq!(session.camera(), &before);
-        session.apply(Command::Zoom { factor: 0.9, pointer: Vec2::new(bad, 0.1) });
+        session.apply(Command::Zoom {
+            factor: 0.9,
+            pointer: Vec2::new(bad, 0.1),
+        });
         assert!(session.camera().target.is_finite());
     }
     let before = *session.camera();
-    session.apply(Command::Zoom { factor: f32::NAN, pointer: Vec2::ZERO });
+    session.apply(Command::Zoom {
+        factor: f32::NAN,
+        pointer: Vec2::ZERO,
+    });
     assert_eq!(session.camera(), &before);
 }
 
@@ -157,10 +238,16 @@ fn a_model_of_absurd_size_leaves_the_camera_finite() {
         let mut session = opened(models::file("a.m3d", &document));
         for preset in ViewPreset::ALL {
             session.apply(Command::LookFrom(preset));
-            session.apply(Command::Zoom { factor: 0.8, pointer: Vec2::ONE });
+            session.apply(Command::Zoom {
+                factor: 0.8,
+                pointer: Vec2::ONE,
+            });
             session.apply(Command::Pan { drag: Vec2::ONE });
             let camera = session.camera();
-            assert!(camera.target.is_finite() && camera.distance.is_finite() && camera.distance > 0.0, "{size}: {camera:?}");
+            assert!(
+                camera.target.is_finite() && camera.distance.is_finite() && camera.distance > 0.0,
+                "{size}: {camera:?}"
+            );
         }
     }
 }
@@ -199,7 +286,10 @@ fn handedness_and_up_axis_change_the_world_and_back() {
 
     session.apply(Command::SetHandedness(None));
     session.apply(Command::SetUpAxis(None));
-    assert_eq!((session.handedness_override(), session.up_axis_override()), (None, None));
+    assert_eq!(
+        (session.handedness_override(), session.up_axis_override()),
+        (None, None)
+    );
     assert_eq!(world(&mut session), found);
     assert_eq!(session.camera(), &camera, "framed as at first");
 }
@@ -211,7 +301,10 @@ fn the_box_of_the_world_holds_all_that_the_clip_reaches() {
     assert!(bent.min.x < models::BOX[0].x - 1.0 && bent.max.y > models::BOX[1].y - 1e-3);
     session.apply(Command::SelectClip(2));
     let unbent = session.world_bounds();
-    assert!(unbent.min.abs_diff_eq(models::BOX[0], 1e-4) && unbent.max.abs_diff_eq(models::BOX[1], 1e-4), "{unbent:?}");
+    assert!(
+        unbent.min.abs_diff_eq(models::BOX[0], 1e-4) && unbent.max.abs_diff_eq(models::BOX[1], 1e-4),
+        "{unbent:?}"
+    );
 }
 
 /// Applies a command and tells whether the picture is another one by it.
@@ -235,9 +328,15 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         Command::SeekEnd,
         Command::SelectClip(1),
         Command::CycleClip(1),
-        Command::Orbit { yaw_radians: 0.1, pitch_radians: 0.0 },
+        Command::Orbit {
+            yaw_radians: 0.1,
+            pitch_radians: 0.0,
+        },
         Command::Pan { drag: Vec2::X },
-        Command::Zoom { factor: 0.5, pointer: Vec2::ZERO },
+        Command::Zoom {
+            factor: 0.5,
+            pointer: Vec2::ZERO,
+        },
         Command::FrameModel,
         Command::LookFrom(ViewPreset::Left),
         Command::ToggleProjection,
@@ -247,7 +346,10 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         Command::SetGridVisible(false),
         Command::ToggleGrid,
         Command::SetTheme(Theme::Light),
-        Command::SetViewport { aspect: 0.5, insets: FREE },
+        Command::SetViewport {
+            aspect: 0.5,
+            insets: FREE,
+        },
         Command::AddFiles(vec![moving("a.m3d")]),
         Command::AddFiles(vec![moving("b.m3d")]),
     ];
@@ -273,7 +375,10 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         Command::Pan { drag: Vec2::ZERO },
         Command::SetGridVisible(true),
         Command::SetTheme(Theme::Light),
-        Command::SetViewport { aspect: 0.5, insets: FREE },
+        Command::SetViewport {
+            aspect: 0.5,
+            insets: FREE,
+        },
         Command::SetHandedness(None),
         Command::SetUpAxis(Some(UpAxis::Y)),
         Command::OpenFile("nowhere".to_owned()),
@@ -303,7 +408,10 @@ fn with_nothing_open_everything_is_in_order() {
     for command in [
         Command::Play,
         Command::FrameModel,
-        Command::Zoom { factor: 0.5, pointer: Vec2::ZERO },
+        Command::Zoom {
+            factor: 0.5,
+            pointer: Vec2::ZERO,
+        },
         Command::SelectClip(0),
         Command::OpenFile("a.m3d".to_owned()),
     ] {

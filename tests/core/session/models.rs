@@ -71,7 +71,9 @@ fn clip(&(name, start_secs, keys): &ClipPlan<'_>) -> AnimationClip {
     };
     let swing = |index: u32| 1.2 * (index as f32 * 0.2).sin();
     let lower = (0..keys).map(|index| key(index, [0.0; 3], 0.0)).collect();
-    let upper = (0..keys).map(|index| key(index, [0.0, 2.0, 0.0], swing(index))).collect();
+    let upper = (0..keys)
+        .map(|index| key(index, [0.0, 2.0, 0.0], swing(index)))
+        .collect();
     AnimationClip {
         name: name.to_owned(),
         bones: vec![BoneAnimation { keyframes: lower }, BoneAnimation { keyframes: upper }],
@@ -97,7 +99,11 @@ pub(crate) fn document() -> Document {
                 ..Vertex::default()
             });
         }
-        let corners = if sign > 0.0 { [[0, 1, 2], [0, 2, 3]] } else { [[0, 2, 1], [0, 3, 2]] };
+        let corners = if sign > 0.0 {
+            [[0, 1, 2], [0, 2, 3]]
+        } else {
+            [[0, 2, 1], [0, 3, 2]]
+        };
         triangles.extend(corners.map(|corners| corners.map(|corner| first + corner)));
     }
     Document {
@@ -105,7 +111,10 @@ pub(crate) fn document() -> Document {
         materials: vec![Material {
             name: "Painted".to_owned(),
             diffuse: [0.7, 0.3, 0.2],
-            reflectance: Reflectance::Fresnel { fresnel0: [0.04; 3], roughness: 0.5 },
+            reflectance: Reflectance::Fresnel {
+                fresnel0: [0.04; 3],
+                roughness: 0.5,
+            },
             alpha_clip: false,
             type_name: "Skinned".to_owned(),
             diffuse_map: None,

@@ -24,7 +24,10 @@ fn a_new_model_plays_its_first_clip_around_and_around() {
     assert!(effect.model_replaced);
     assert_eq!(session.take_events(), [Event::Load, Event::Play, Event::TimeUpdate]);
     let playback = session.playback();
-    assert_eq!((playback.time_secs(), playback.speed(), playback.loop_mode()), (0.0, 1.0, LoopMode::Loop));
+    assert_eq!(
+        (playback.time_secs(), playback.speed(), playback.loop_mode()),
+        (0.0, 1.0, LoopMode::Loop)
+    );
     assert_eq!(session.clip().map(|clip| clip.name.as_str()), Some("Bend"));
     assert!(session.is_animating());
 }
@@ -51,8 +54,13 @@ fn the_same_file_again_keeps_camera_clip_time_and_playing() {
         session.apply(Command::SetSpeed(0.5));
         session.apply(Command::SetLoopMode(LoopMode::PingPong));
         session.apply(Command::SetHandedness(Some(Handedness::Right)));
-        session.apply(Command::Orbit { yaw_radians: 1.0, pitch_radians: 0.2 });
-        session.apply(Command::Pan { drag: Vec2::new(0.1, 0.2) });
+        session.apply(Command::Orbit {
+            yaw_radians: 1.0,
+            pitch_radians: 0.2,
+        });
+        session.apply(Command::Pan {
+            drag: Vec2::new(0.1, 0.2),
+        });
         session.apply(if playing { Command::Play } else { Command::Pause });
         session.take_events();
         let (camera, playback) = (*session.camera(), session.playback().clone());
@@ -74,7 +82,10 @@ fn the_same_file_with_its_clips_in_another_order_keeps_the_clip_by_name() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::SelectClip(1));
     let turned: Vec<_> = models::CLIPS.iter().rev().copied().collect();
-    session.apply(Command::AddFiles(vec![models::file("a.m3d", &models::skinned(&turned))]));
+    session.apply(Command::AddFiles(vec![models::file(
+        "a.m3d",
+        &models::skinned(&turned),
+    )]));
     assert_eq!(session.clip().map(|clip| clip.name.as_str()), Some("Turn"));
 }
 
@@ -82,7 +93,10 @@ fn the_same_file_with_its_clips_in_another_order_keeps_the_clip_by_name() {
 fn the_same_file_with_a_shorter_clip_keeps_the_time_inside_it() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::Seek { time_secs: 0.9 });
-    session.apply(Command::AddFiles(vec![models::file("a.m3d", &models::skinned(&[("Bend", 0.0, 16)]))]));
+    session.apply(Command::AddFiles(vec![models::file(
+        "a.m3d",
+        &models::skinned(&[("Bend", 0.0, 16)]),
+    )]));
     assert_eq!(session.playback().time_secs(), 0.5);
 }
 
@@ -110,7 +124,10 @@ fn another_file_starts_anew() {
     assert_eq!(session.camera(), &framed);
     assert_eq!((session.clip_index(), session.handedness_override()), (Some(0), None));
     let playback = session.playback();
-    assert_eq!((playback.speed(), playback.loop_mode(), playback.time_secs()), (1.0, LoopMode::Loop, 0.0));
+    assert_eq!(
+        (playback.speed(), playback.loop_mode(), playback.time_secs()),
+        (1.0, LoopMode::Loop, 0.0)
+    );
     assert_eq!(session.take_events(), [Event::Load, Event::Play, Event::TimeUpdate]);
 }
 
@@ -123,7 +140,10 @@ fn a_failed_load_keeps_the_model_and_says_why() {
     let effect = session.apply(Command::AddFiles(vec![broken("in/b.m3d")]));
     assert!(!effect.model_replaced);
     assert_eq!(session.take_events(), [Event::Error]);
-    assert_eq!((session.model_revision(), session.picture_revision()), (revision, picture));
+    assert_eq!(
+        (session.model_revision(), session.picture_revision()),
+        (revision, picture)
+    );
     assert_eq!(open_path(&session), Some("a.m3d"));
     assert_eq!(session.playback().time_secs(), 0.5);
     assert!(session.is_animating());
@@ -155,13 +175,29 @@ fn the_next_success_takes_the_error_away_and_the_next_failure_replaces_it() {
 #[test]
 fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
     let mut session = Session::new(false);
-    let files = vec![still("x/small.m3d"), moving("x/large.m3d"), picture("x/skin.dds"), jointed("x/middle.m3d")];
+    let files = vec![
+        still("x/small.m3d"),
+        moving("x/large.m3d"),
+        picture("x/skin.dds"),
+        jointed("x/middle.m3d"),
+    ];
     session.apply(Command::AddFiles(files));
     assert_eq!(open_path(&session), Some("x/large.m3d"));
-    let listed = |session: &Session| session.files().models().iter().map(|file| file.path.clone()).collect::<Vec<_>>();
+    let listed = |session: &Session| {
+        session
+            .files()
+            .models()
+            .iter()
+            .map(|file| file.path.clone())
+            .collect::<Vec<_>>()
+    };
     assert_eq!(listed(&session), ["x/large.m3d", "x/middle.m3d", "x/small.m3d"]);
 
-    assert!(session.apply(Command::OpenFile("x/small.m3d".to_owned())).model_replaced);
+    assert!(
+        session
+            .apply(Command::OpenFile("x/small.m3d".to_owned()))
+            .model_replaced
+    );
     assert_eq!(open_path(&session), Some("x/small.m3d"));
     assert_eq!(listed(&session).len(), 3);
 
@@ -190,7 +226,11 @@ fn a_drop_of_pictures_has_no_model() {
         assert!(!session.apply(Command::AddFiles(files)).model_replaced);
         let error = session.error().expect("nothing to open");
         assert_eq!((error.diagnostic.code, error.file_name.as_str()), ("no-model", ""));
-        assert!(error.diagnostic.message.contains(message), "{}", error.diagnostic.message);
+        assert!(
+            error.diagnostic.message.contains(message),
+            "{}",
+            error.diagnostic.message
+        );
         assert!(error.to_text().contains("error[no-model]"));
         assert_eq!(open_path(&session), Some("a.m3d"));
     }
@@ -202,5 +242,9 @@ fn a_drop_of_nothing_changes_nothing_but_says_so() {
     session.apply(Command::AddFiles(Vec::new()));
     let error = session.error().expect("nothing came");
     assert_eq!(error.diagnostic.code, "no-model");
-    assert!(!error.diagnostic.message.contains("picture"), "{}", error.diagnostic.message);
+    assert!(
+        !error.diagnostic.message.contains("picture"),
+        "{}",
+        error.diagnostic.message
+    );
 }

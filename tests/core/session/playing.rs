@@ -59,7 +59,13 @@ fn toggling_backward_turns_a_forward_clip_and_pauses_a_backward_one() {
 fn seeking_stays_inside_the_clip() {
     let mut session = paused();
     session.apply(Command::SelectClip(1));
-    for (wish, time) in [(1.0, 1.0), (-3.0, 0.5), (99.0, 2.5), (f32::INFINITY, 2.5), (f32::NEG_INFINITY, 0.5)] {
+    for (wish, time) in [
+        (1.0, 1.0),
+        (-3.0, 0.5),
+        (99.0, 2.5),
+        (f32::INFINITY, 2.5),
+        (f32::NEG_INFINITY, 0.5),
+    ] {
         session.apply(Command::Seek { time_secs: wish });
         assert_near(time_secs(&session), time);
     }
@@ -128,7 +134,11 @@ fn each_loop_mode_ends_in_its_way() {
         session.advance(after_secs);
         assert_near(time_secs(&session), time);
         assert_eq!(session.playback().is_playing(), playing, "{mode:?}");
-        let ended = if playing { vec![Event::TimeUpdate] } else { vec![Event::TimeUpdate, Event::Pause] };
+        let ended = if playing {
+            vec![Event::TimeUpdate]
+        } else {
+            vec![Event::TimeUpdate, Event::Pause]
+        };
         assert_eq!(session.take_events(), ended, "{mode:?}");
     }
 }
@@ -186,7 +196,14 @@ fn speeds_go_up_and_down_by_steps_and_end_at_the_ends() {
 fn clips_come_in_turn_around_both_ends_and_begin_at_their_start() {
     let mut session = opened(moving("a.m3d"));
     session.advance(0.7);
-    for (places, clip, start_secs) in [(1, 1, 0.5), (1, 2, 0.25), (1, 0, 0.0), (-1, 2, 0.25), (-2, 0, 0.0), (7, 1, 0.5)] {
+    for (places, clip, start_secs) in [
+        (1, 1, 0.5),
+        (1, 2, 0.25),
+        (1, 0, 0.0),
+        (-1, 2, 0.25),
+        (-2, 0, 0.0),
+        (7, 1, 0.5),
+    ] {
         session.apply(Command::CycleClip(places));
         assert_eq!(session.clip_index(), Some(clip));
         assert_near(time_secs(&session), start_secs);
@@ -225,7 +242,10 @@ fn without_clips_there_is_no_time() {
             session.apply(command);
             session.advance(0.1);
         }
-        assert_eq!((session.clip_index(), time_secs(&session), session.is_animating()), (None, 0.0, false));
+        assert_eq!(
+            (session.clip_index(), time_secs(&session), session.is_animating()),
+            (None, 0.0, false)
+        );
         assert_eq!((session.take_events(), session.picture_revision()), (vec![], picture));
     }
 }

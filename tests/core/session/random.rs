@@ -55,8 +55,10 @@ fn command() -> impl Strategy<Value = Command> {
         Just(Command::CycleLoopMode),
     ];
     let looking = prop_oneof![
-        (number(), number())
-            .prop_map(|(yaw_radians, pitch_radians)| Command::Orbit { yaw_radians, pitch_radians }),
+        (number(), number()).prop_map(|(yaw_radians, pitch_radians)| Command::Orbit {
+            yaw_radians,
+            pitch_radians
+        }),
         vector().prop_map(|drag| Command::Pan { drag }),
         (number(), vector()).prop_map(|(factor, pointer)| Command::Zoom { factor, pointer }),
         Just(Command::FrameModel),
@@ -65,7 +67,11 @@ fn command() -> impl Strategy<Value = Command> {
         Just(Command::ResetCamera),
         (number(), number(), number()).prop_map(|(aspect, left, bottom)| Command::SetViewport {
             aspect,
-            insets: Insets { left, bottom, ..Insets::default() },
+            insets: Insets {
+                left,
+                bottom,
+                ..Insets::default()
+            },
         }),
         prop::sample::select(vec![None, Some(Handedness::Left), Some(Handedness::Right)])
             .prop_map(Command::SetHandedness),
@@ -85,7 +91,10 @@ fn command() -> impl Strategy<Value = Command> {
 
 fn check(session: &mut Session) -> Result<(), TestCaseError> {
     let camera = *session.camera();
-    prop_assert!(camera.target.is_finite() && camera.yaw_radians.is_finite(), "{camera:?}");
+    prop_assert!(
+        camera.target.is_finite() && camera.yaw_radians.is_finite(),
+        "{camera:?}"
+    );
     prop_assert!(camera.pitch_radians.abs() < std::f32::consts::FRAC_PI_2, "{camera:?}");
     prop_assert!(camera.distance.is_finite() && camera.distance > 0.0, "{camera:?}");
 
@@ -95,7 +104,11 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     prop_assert!(playback.speed().is_finite() && playback.speed() > 0.0);
 
     let clips = session.open_model().map_or(0, |open| open.model.clips.len());
-    prop_assert_eq!(session.clip_index().is_some(), clips > 0, "a model with clips shows one");
+    prop_assert_eq!(
+        session.clip_index().is_some(),
+        clips > 0,
+        "a model with clips shows one"
+    );
     prop_assert!(session.clip_index().is_none_or(|clip| clip < clips));
     if let Some(clip) = session.clip() {
         prop_assert_eq!(span, clip.start_secs..=clip.end_secs);
