@@ -282,7 +282,11 @@ impl Camera {
                 distance = distance.max(needed + toward_eye);
             }
             // A single point has no size to frame; one unit around it is as good as any.
-            self.distance = if distance > 0.0 { distance.clamp(LEAST_DISTANCE, GREATEST_DISTANCE) } else { 1.0 };
+            self.distance = if distance > 0.0 {
+                distance.clamp(LEAST_DISTANCE, GREATEST_DISTANCE)
+            } else {
+                1.0
+            };
             if round == FRAMING_ROUNDS {
                 break;
             }

@@ -434,7 +434,11 @@ impl Session {
             return false;
         };
         self.playback.set_range(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() { clip.end_secs } else { clip.start_secs });
+        self.playback.seek(if self.playback.is_backward() {
+            clip.end_secs
+        } else {
+            clip.start_secs
+        });
         self.clip = Some(index);
         true
     }
@@ -464,9 +468,16 @@ impl Session {
         let world_from_model = world_from_model(self.handedness(), self.up_axis());
         if let Some(open) = &mut self.open {
             let (_, points) = open.extent(self.clip);
-            let world_points: Vec<_> = points.iter().map(|&point| world_from_model.transform_point3(point)).collect();
+            let world_points: Vec<_> = points
+                .iter()
+                .map(|&point| world_from_model.transform_point3(point))
+                .collect();
             // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
-            let centered = Insets { left: 0.0, right: 0.0, ..self.insets };
+            let centered = Insets {
+                left: 0.0,
+                right: 0.0,
+                ..self.insets
+            };
             self.camera.frame(&world_points, self.aspect, centered);
             let (left, right) = self.camera.free_at_sides(&world_points, self.aspect);
             if left < self.insets.left || right < self.insets.right {
@@ -478,7 +489,12 @@ impl Session {
 
     /// A model that nobody panned or zoomed stays framed in a picture of another shape. A shape that is none is left out.
     fn set_viewport(&mut self, aspect: f32, insets: Insets) {
-        let Insets { left, right, top, bottom } = insets;
+        let Insets {
+            left,
+            right,
+            top,
+            bottom,
+        } = insets;
         if !(aspect.is_finite() && aspect > 0.0 && [left, right, top, bottom].into_iter().all(f32::is_finite)) {
             return;
         }

@@ -17,7 +17,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_heig
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
     ui.horizontal(|ui| {
-        let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width() - control_size(ui) - 6.0, 28.0), Sense::hover());
+        let (heading, _) = ui.allocate_exact_size(
+            vec2(ui.available_width() - control_size(ui) - 6.0, 28.0),
+            Sense::hover(),
+        );
         ui.painter().text(
             heading.left_center(),
             Align2::LEFT_CENTER,

@@ -32,7 +32,15 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
                 commands.push(Command::DismissError);
             }
-            if text_button(ui, "Copy", "Copy the error", false, egui::Rangef::new(control_size(ui), f32::INFINITY)).clicked() {
+            if text_button(
+                ui,
+                "Copy",
+                "Copy the error",
+                false,
+                egui::Rangef::new(control_size(ui), f32::INFINITY),
+            )
+            .clicked()
+            {
                 ui.ctx().copy_text(error.to_text());
             }
         });

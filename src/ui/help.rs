@@ -44,7 +44,10 @@ const KEYS: [&[(&str, &str)]; 3] = [
 pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     let tokens = Tokens::of(ui);
     ui.horizontal(|ui| {
-        let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width() - control_size(ui) - 6.0, 28.0), Sense::hover());
+        let (heading, _) = ui.allocate_exact_size(
+            vec2(ui.available_width() - control_size(ui) - 6.0, 28.0),
+            Sense::hover(),
+        );
         ui.painter().text(
             heading.left_center(),
             Align2::LEFT_CENTER,
@@ -57,26 +60,23 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
         }
     });
     let most = ui.ctx().content_rect().height() - 160.0;
-    scrolled("keys", most)
-        .show(ui, |ui| {
-            for group in KEYS {
-                rule(ui, 12.0);
-                for (keys, does) in group {
-                    let (rect, response) =
-                        ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-                    ui.painter().text(
-                        rect.left_center(),
-                        Align2::LEFT_CENTER,
-                        *keys,
-                        theme::mono(12.0),
-                        tokens.text,
-                    );
-                    let at = rect.left_center() + vec2(112.0, 0.0);
-                    ui.painter()
-                        .text(at, Align2::LEFT_CENTER, *does, FontId::proportional(13.0), tokens.muted);
-                    response
-                        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{keys}: {does}")));
-                }
+    scrolled("keys", most).show(ui, |ui| {
+        for group in KEYS {
+            rule(ui, 12.0);
+            for (keys, does) in group {
+                let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+                ui.painter().text(
+                    rect.left_center(),
+                    Align2::LEFT_CENTER,
+                    *keys,
+                    theme::mono(12.0),
+                    tokens.text,
+                );
+                let at = rect.left_center() + vec2(112.0, 0.0);
+                ui.painter()
+                    .text(at, Align2::LEFT_CENTER, *does, FontId::proportional(13.0), tokens.muted);
+                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{keys}: {does}")));
             }
-        });
+        }
+    });
 }

@@ -1,6 +1,8 @@
 //! The strip at the bottom: transport, clip, bar with keys, read-outs, speed and loop mode.
 
-use egui::{Align2, CursorIcon, FontId, Popup, Rangef, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, CursorIcon, FontId, Popup, Rangef, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
 
 use super::icons::{self, Icon};
 use super::panel::scrolled;
@@ -112,7 +114,10 @@ pub(super) fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, comman
         let frame_width = 76.0 + spacing;
         let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + others_width + frame_width;
         let right_width = others_width + if shows_frame { frame_width } else { 0.0 };
-        let clip_width = Rangef::new(CLIP_WIDTH_NARROW, (ui.available_width() - right_width).max(CLIP_WIDTH_NARROW));
+        let clip_width = Rangef::new(
+            CLIP_WIDTH_NARROW,
+            (ui.available_width() - right_width).max(CLIP_WIDTH_NARROW),
+        );
         clip_menu(ui, session, clip_width, commands);
         ui.add_space((ui.available_width() - right_width).max(0.0));
         time_field(ui, session, 72.0);
