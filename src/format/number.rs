@@ -11,62 +11,83 @@ pub(super) enum Reading {
     NotFinite,
 }
 
-/// Reads the number at `at`, which must start there and end at a blank, and gives it with the place behind it.
+/// Reads the number that begins at `window[1]` and ends before a blank, and gives it with the place of that blank. What
+/// stands at `window[0]` does not matter; it is the blank before the number.
 ///
 /// The value is the `f32` nearest to the decimal, exactly as `str::parse` gives it. `None` says nothing about the text: it is
 /// only not one of the plain cases, and [`read`] decides.
 #[inline(always)]
-pub(super) fn plain(bytes: &[u8], at: usize) -> Option<(f32, usize)> {
-    let window = bytes.get(at..)?.first_chunk::<WINDOW>()?;
-    let negative = window[0] == b'-';
-    let mut end = usize::from(negative);
-    let start = end;
-    let mut mantissa = 0_u64;
-    let mut digit = window[end].wrapping_sub(b'0');
-    while digit <= 9 {
-        mantissa = mantissa * 10 + u64::from(digit);
-        end += 1;
-        if end > MOST_WHOLE_DIGITS {
-            return None;
-        }
-        digit = window[end].wrapping_sub(b'0');
-    }
-    let mut digits = end - start;
-    let mut exponent = 0;
-    if digit == b'.'.wrapping_sub(b'0') {
-        end += 1;
-        let (part, count) = leading_digits(eight(window, end));
-        mantissa = mantissa * TEN_TO[count & 15] + part;
-        end += count;
-        digits += count;
-        exponent = count;
-        if count == 8 {
-            let (part, more) = leading_digits(eight(window, end));
-            // Now there are at most 24 digits; more than 18 are turned away below.
-            mantissa = mantissa.wrapping_mul(TEN_TO[more & 15]).wrapping_add(part);
-            end += more;
-            digits += more;
-            exponent += more;
-        }
-    }
-    if digits == 0 || digits > 18 {
+pub(super) fn plain(window: &[u8; WINDOW]) -> Option<(f32, usize)> {
+    let end = end_of_token(window)?;
+    let negative = window[1] == b'-';
+    let start = 1 + usize::from(negative);
+    let first = u64::from(window[start].wrapping_sub(b'0'));
+    if first > 9 {
         return None;
     }
-    let mut exponent = -(exponent as i64);
-    let mut behind = window[end & INSIDE];
-    if behind | 0x20 == b'e' {
-        let (written, length) = written_exponent(window.get(end + 1..)?)?;
-        exponent += written;
-        end += 1 + length;
-        behind = *window.get(end)?;
+    // One or two digits before the point are the common cases by far.
+    let second = u64::from(window[start + 1].wrapping_sub(b'0'));
+    let (whole, point) = if window[start + 1] == b'.' {
+        (first, start + 1)
+    } else if window[start + 2] == b'.' && second <= 9 {
+        (first * 10 + second, start + 2)
+    } else {
+        whole_part(window, start)?
+    };
+    let value = if point == end {
+        // Seven digits, which f32 holds exactly.
+        whole as i64 as f32
+    } else if window[point & INSIDE] != b'.' {
+        with_exponent(window, whole, 0, point, end)?
+    } else {
+        let (part, count) = leading_digits(eight(window, point + 1));
+        let mantissa = whole * TEN_TO[count & 15] + part;
+        if point + 1 + count == end {
+            nearest(mantissa, -(count as i64))?
+        } else {
+            more_digits(window, mantissa, count, point + 1 + count, end)?
+        }
+    };
+    // Only the sign bit, so that -0 keeps it.
+    Some((f32::from_bits(value.to_bits() ^ (u32::from(negative) << 31)), end))
+}
+
+/// Goes on behind `count` digits of the fraction: with more of them, when these were eight, and an exponent.
+#[inline(never)]
+fn more_digits(window: &[u8; WINDOW], mantissa: u64, count: usize, behind: usize, end: usize) -> Option<f32> {
+    if count < 8 {
+        return with_exponent(window, mantissa, count, behind, end);
     }
-    // Whoever comes next looks closer at what stands between tokens.
-    if behind > b' ' {
+    let (part, more) = leading_digits(eight(window, behind));
+    // 18 digits keep the mantissa below 2^63.
+    if mantissa >= 10_000_000_000 {
         return None;
     }
-    let value = nearest(mantissa, exponent)?;
-    let sign = u32::from(negative) << 31;
-    Some((f32::from_bits(value.to_bits() ^ sign), at + end))
+    let mantissa = mantissa * TEN_TO[more & 15] + part;
+    if behind + more == end {
+        return nearest(mantissa, -8 - more as i64);
+    }
+    with_exponent(window, mantissa, 8 + more, behind + more, end)
+}
+
+/// The value of `mantissa` with `fraction` digits behind its point, and of the exponent at `behind`, which must reach to `end`.
+#[inline(never)]
+fn with_exponent(window: &[u8; WINDOW], mantissa: u64, fraction: usize, behind: usize, end: usize) -> Option<f32> {
+    if window.get(behind)? | 0x20 != b'e' {
+        return None;
+    }
+    let (exponent, length) = written_exponent(window.get(behind + 1..)?)?;
+    if behind + 1 + length != end {
+        return None;
+    }
+    nearest(mantissa, exponent - fraction as i64)
+}
+
+/// The digits before the point, at most seven, and the place behind them.
+#[inline(always)]
+fn whole_part(window: &[u8; WINDOW], start: usize) -> Option<(u64, usize)> {
+    let (whole, count) = leading_digits(eight(window, start));
+    (count < 8).then_some((whole, start + count))
 }
 
 /// A whole number of up to seven digits at `at`, with a blank or a line end behind it, and the place behind it.
@@ -81,15 +102,32 @@ pub(super) fn plain_whole(bytes: &[u8], at: usize) -> Option<(u32, usize)> {
     ((chunk >> (8 * count)) as u8 <= b' ').then_some((value as u32, at + count))
 }
 
+/// The place of the first blank or line end behind `window[1]`, for tokens of up to 15 bytes. It takes no look at the number
+/// itself, so that the processor can begin with the next one while it still works on this one.
+#[inline(always)]
+fn end_of_token(window: &[u8; WINDOW]) -> Option<usize> {
+    let first = blanks(eight(window, 1));
+    let second = blanks(eight(window, 9));
+    let ahead = if first == 0 {
+        64 + second.trailing_zeros()
+    } else {
+        first.trailing_zeros()
+    };
+    (first | second != 0).then_some(1 + (ahead / 8) as usize)
+}
+
+/// The top bit of the first byte that is a blank or another control character, and unreliable bits behind it.
+#[inline(always)]
+fn blanks(chunk: u64) -> u64 {
+    chunk.wrapping_sub(0x2121_2121_2121_2121) & !chunk & 0x8080_8080_8080_8080
+}
+
 /// Bytes that are looked at for one number. Longer ones, and those near the end of the file, are not plain.
-const WINDOW: usize = 40;
+pub(super) const WINDOW: usize = 40;
 
 /// Where digits can begin or end in the window, which leaves eight bytes behind. Taken as a mask, it shows the compiler that
 /// what is looked at is inside.
 const INSIDE: usize = 31;
-
-/// Digits before the point. Sign, these, the point, 16 more digits and an exponent stay inside the window.
-const MOST_WHOLE_DIGITS: usize = 8;
 
 /// Eight bytes of the window.
 #[inline(always)]
@@ -255,9 +293,14 @@ fn not_finite(token: &[u8]) -> bool {
 mod tests {
     use super::*;
 
+    /// A number with the blank before it and enough behind it.
+    fn quickly(text: &str) -> Option<(f32, usize)> {
+        plain(format!(" {text}\n{:WINDOW$}", "").as_bytes().first_chunk()?)
+    }
+
     #[test]
     fn plain_reads_what_exporters_write() {
-        for text in [
+        let texts = [
             "0",
             "-0",
             "1",
@@ -268,14 +311,46 @@ mod tests {
             "-1.331581E-06",
             "8.412415e-23",
             "13748",
-        ] {
-            let padded = format!("{text}\n{:WINDOW$}", "");
-            let (value, end) = plain(padded.as_bytes(), 0).unwrap_or_else(|| panic!("{text}"));
+            "100.25",
+            "-123.456789",
+            "5.7701E-08",
+        ];
+        for text in texts {
+            let expected = text.parse::<f32>().map(|value| (value.to_bits(), 1 + text.len())).ok();
             assert_eq!(
-                (value.to_bits(), end),
-                (text.parse::<f32>().map_or(1, f32::to_bits), text.len()),
+                quickly(text).map(|(value, end)| (value.to_bits(), end)),
+                expected,
                 "{text}"
             );
+        }
+    }
+
+    #[test]
+    fn plain_turns_away_what_is_not_plain() {
+        let texts = [
+            "",
+            "-",
+            "+1",
+            ".5",
+            "1x",
+            "1x.5",
+            "1.5x",
+            "1.5.5",
+            "1e",
+            "1e+",
+            "1.5f",
+            "1,5",
+            "nan",
+            "--1",
+            "- 1",
+            "12345678",
+            "1e99",
+            "1e-99",
+            "16777217.0",
+            "1.00000000000001",
+        ];
+        for text in texts {
+            assert_eq!(quickly(text), None, "{text}");
         }
     }
 }
