@@ -25,31 +25,36 @@ pub(super) fn plain(window: &[u8; WINDOW]) -> Option<(f32, usize)> {
     if first > 9 {
         return None;
     }
+    // Only the sign bit, so that -0 keeps it.
+    let signed = |value: f32| (f32::from_bits(value.to_bits() ^ (u32::from(negative) << 31)), end);
     // One or two digits before the point are the common cases by far.
     let second = u64::from(window[start + 1].wrapping_sub(b'0'));
     let (whole, point) = if window[start + 1] == b'.' {
         (first, start + 1)
     } else if window[start + 2] == b'.' && second <= 9 {
         (first * 10 + second, start + 2)
+    } else if start + 1 == end {
+        return Some(signed(first as i64 as f32));
     } else {
-        whole_part(window, start)?
-    };
-    let value = if point == end {
-        // Seven digits, which f32 holds exactly.
-        whole as i64 as f32
-    } else if window[point & INSIDE] != b'.' {
-        with_exponent(window, whole, 0, point, end)?
-    } else {
-        let (part, count) = leading_digits(eight(window, point + 1));
-        let mantissa = whole * TEN_TO[count & 15] + part;
-        if point + 1 + count == end {
-            nearest(mantissa, -(count as i64))?
-        } else {
-            more_digits(window, mantissa, count, point + 1 + count, end)?
+        let (whole, behind) = whole_part(window, start)?;
+        if behind == end {
+            // Seven digits, which f32 holds exactly.
+            return Some(signed(whole as i64 as f32));
         }
+        if window[behind & INSIDE] != b'.' {
+            return with_exponent(window, whole, 0, behind, end).map(signed);
+        }
+        (whole, behind)
     };
-    // Only the sign bit, so that -0 keeps it.
-    Some((f32::from_bits(value.to_bits() ^ (u32::from(negative) << 31)), end))
+    let (part, count) = leading_digits(eight(window, point + 1));
+    if count == 0 {
+        return None;
+    }
+    let mantissa = whole * TEN_TO[count & 15] + part;
+    if point + 1 + count == end {
+        return scaled(mantissa, PART_OF[count & 15]).map(signed);
+    }
+    more_digits(window, mantissa, count, point + 1 + count, end).map(signed)
 }
 
 /// Goes on behind `count` digits of the fraction: with more of them, when these were eight, and an exponent.
@@ -63,7 +68,11 @@ fn more_digits(window: &[u8; WINDOW], mantissa: u64, count: usize, behind: usize
     if mantissa >= 10_000_000_000 {
         return None;
     }
-    let mantissa = mantissa * TEN_TO[more & 15] + part;
+    let mantissa = if more > 0 {
+        mantissa * TEN_TO[more & 15] + part
+    } else {
+        mantissa
+    };
     if behind + more == end {
         return nearest(mantissa, -8 - more as i64);
     }
@@ -87,19 +96,46 @@ fn with_exponent(window: &[u8; WINDOW], mantissa: u64, fraction: usize, behind: 
 #[inline(always)]
 fn whole_part(window: &[u8; WINDOW], start: usize) -> Option<(u64, usize)> {
     let (whole, count) = leading_digits(eight(window, start));
-    (count < 8).then_some((whole, start + count))
+    (1..8).contains(&count).then_some((whole, start + count))
 }
 
-/// A whole number of up to seven digits at `at`, with a blank or a line end behind it, and the place behind it.
+/// Reads `N` whole numbers of up to seven digits with one blank between them, and gives them with the place behind them,
+/// where a blank or a line end is. They must fit into 32 bytes.
 #[inline(always)]
-pub(super) fn plain_whole(bytes: &[u8], at: usize) -> Option<(u32, usize)> {
-    let chunk = u64::from_le_bytes(*bytes.get(at..)?.first_chunk::<8>()?);
-    let (value, count) = leading_digits(chunk);
-    if count == 0 || count == 8 {
-        return None;
+pub(super) fn plain_wholes<const N: usize>(window: &[u8; WINDOW]) -> Option<([u32; N], usize)> {
+    // All their ends at once, so that no number waits for the one before it.
+    let mut ends = 0;
+    for lane in 0..4 {
+        ends |= gathered(all_blanks(eight(window, 8 * lane))) << (8 * lane);
     }
-    // At most seven digits, so the value fits.
-    ((chunk >> (8 * count)) as u8 <= b' ').then_some((value as u32, at + count))
+    let mut numbers = [0; N];
+    let mut start = 0;
+    for number in &mut numbers {
+        let end = ends.trailing_zeros() as usize;
+        let (value, count) = leading_digits(eight(window, start));
+        if count == 0 || count == 8 || start + count != end {
+            return None;
+        }
+        // At most seven digits, so the value fits.
+        *number = value as u32;
+        start = end + 1;
+        ends &= ends - 1;
+    }
+    Some((numbers, start - 1))
+}
+
+/// The top bit of each byte that is a blank or another control character.
+#[inline(always)]
+fn all_blanks(chunk: u64) -> u64 {
+    const TOP_BITS: u64 = 0x8080_8080_8080_8080;
+    // With its top bit set no byte borrows from the next one; the bit is gone where less than 0x21 was below it.
+    !((chunk | TOP_BITS).wrapping_sub(0x2121_2121_2121_2121) | chunk) & TOP_BITS
+}
+
+/// The eight top bits as one byte, the first byte's lowest.
+#[inline(always)]
+fn gathered(top_bits: u64) -> u64 {
+    (top_bits >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
 }
 
 /// The place of the first blank or line end behind `window[1]`, for tokens of up to 15 bytes. It takes no look at the number
@@ -136,7 +172,8 @@ fn eight(window: &[u8; WINDOW], start: usize) -> u64 {
     bytes.map_or(0, |bytes| u64::from_le_bytes(*bytes))
 }
 
-/// The digits that eight bytes begin with, as a number, and how many they are. The first byte is the lowest.
+/// The digits that eight bytes begin with, as a number, and how many they are. The first byte is the lowest. Without digits
+/// the number means nothing.
 #[inline(always)]
 fn leading_digits(chunk: u64) -> (u64, usize) {
     // Digits become 0…9. The addition sets the top bit of 10…0x89, and the rest has it already or overflows: a byte that
@@ -144,8 +181,8 @@ fn leading_digits(chunk: u64) -> (u64, usize) {
     let values = chunk ^ 0x3030_3030_3030_3030;
     let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
     let bits = others.trailing_zeros() & !7;
-    // Zeros in front push out what follows the digits. Two shifts, since one by all 64 bits is not allowed.
-    let digits = values << ((64 - bits) / 2) << ((64 - bits) / 2);
+    // Zeros in front push out what follows the digits.
+    let digits = values.wrapping_shl(64 - bits);
     // Pairs, fours and eights are summed in place.
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00FF_0000_00FF).wrapping_mul(0x000F_4240_0000_0064);
@@ -173,6 +210,11 @@ const TEN_TO: [u64; 16] = [
     0,
 ];
 
+/// What a unit is worth behind as many digits of a fraction.
+const PART_OF: [f64; 16] = [
+    1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+];
+
 /// What stands behind `e`, up to four digits with an optional sign, and its length.
 fn written_exponent(text: &[u8]) -> Option<(i64, usize)> {
     let negative = *text.first()? == b'-';
@@ -192,7 +234,12 @@ fn written_exponent(text: &[u8]) -> Option<(i64, usize)> {
 #[inline(always)]
 fn nearest(mantissa: u64, exponent: i64) -> Option<f32> {
     // With these powers the product is zero or a normal number of f32, so that no other rounding than the usual one is met.
-    let power = *POWERS_OF_TEN.get((exponent - SMALLEST_POWER) as usize)?;
+    scaled(mantissa, *POWERS_OF_TEN.get((exponent - SMALLEST_POWER) as usize)?)
+}
+
+/// The `f32` nearest to `mantissa * power`, where `power` is as near to a power of ten as `f64` can be.
+#[inline(always)]
+fn scaled(mantissa: u64, power: f64) -> Option<f32> {
     // Signed, because that conversion is one instruction where the unsigned one is several.
     let product = mantissa as i64 as f64 * power;
     // Mantissa, power and product are each off by half a unit of f64 at most. Rounding to f32 can only go wrong when that

@@ -50,13 +50,7 @@ pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
         vertex.blend_weights = ahead.four()?;
         ahead.line_end()?;
         ahead.label(blend_indices)?;
-        let index = |cursor: &mut Cursor<'_>| cursor.index_below(bones);
-        vertex.blend_indices = [
-            index(&mut ahead)?,
-            index(&mut ahead)?,
-            index(&mut ahead)?,
-            index(&mut ahead)?,
-        ];
+        vertex.blend_indices = ahead.indices_below(bones)?;
         ahead.line_end()?;
     }
     *cursor = ahead;
@@ -68,14 +62,22 @@ pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
 pub(super) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
     let mut ahead = *cursor;
     let line = ahead.line;
-    let triangle = [
-        ahead.index_below(vertices)?,
-        ahead.index_below(vertices)?,
-        ahead.index_below(vertices)?,
-    ];
+    let triangle = ahead.indices_below(vertices)?;
     ahead.line_end()?;
     *cursor = ahead;
     Some((triangle, line))
+}
+
+/// Reads the sixteen numbers behind the label of a bone offset, and the end of their line.
+pub(super) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
+    let mut ahead = *cursor;
+    let mut offset = [0.0; 16];
+    for number in &mut offset {
+        *number = ahead.number()?;
+    }
+    ahead.line_end()?;
+    *cursor = ahead;
+    Some(offset)
 }
 
 /// Reads a key on its line.
@@ -156,12 +158,13 @@ impl Cursor<'_> {
         }
     }
 
+    /// Whole numbers of up to seven digits, below `end`, with one blank between them.
     #[inline(always)]
-    fn index_below(&mut self, end: u32) -> Option<u32> {
+    fn indices_below<const N: usize>(&mut self, end: u32) -> Option<[u32; N]> {
         self.blanks();
-        let (index, behind) = number::plain_whole(self.bytes, self.at)?;
-        self.at = behind;
-        (index < end).then_some(index)
+        let (indices, length) = number::plain_wholes(self.bytes.get(self.at..)?.first_chunk()?)?;
+        self.at += length;
+        indices.iter().all(|&index| index < end).then_some(indices)
     }
 
     #[inline(always)]
@@ -183,7 +186,7 @@ impl Cursor<'_> {
 
     #[inline(always)]
     fn pass_empty_lines(&mut self) {
-        loop {
+        while let Some(b'\n' | b'\r' | b' ' | b'\t') = self.bytes.get(self.at) {
             let before = *self;
             if self.line_end().is_none() {
                 *self = before;
