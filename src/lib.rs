@@ -1,7 +1,53 @@
 //! Bindpose: skinned `.m3d` models, from bytes to pixels.
+//!
+//! # Map
+//! ```text
+//! bytes -> Document -> Model -> LocalPose -> ModelPose -> Palette -> RenderFrame -> pixels
+//!         format      model    anim::sample  local_to_model palette   scene          render
+//! ```
+//! [`session`] holds what is open and how it is looked at; commands change it, time moves it. The `ui` and the `web` page, the
+//! command line and the tests are shells around that core, which knows no GPU, no window, no browser and no clock.
+//!
+//! # Conventions
+//! - Matrices multiply column vectors and are named `to_from`: `model_from_bind = model_from_joint * joint_from_bind`.
+//! - The world is left-handed with y up, clockwise triangles face the viewer, depth runs from 0 to 1.
+//! - File data keeps the file's space; [`model::world_from_model`] brings it into the world.
+//! - Times are in seconds (`_secs`), angles in radians, colours linear unless named `_srgb`.
+//! - A file stores row-vector matrices row by row: the same 16 numbers are the columns of ours.
+//!
+//! # From a file to a palette
+//! ```
+//! use bindpose::anim::PoseBuffers;
+//! use bindpose::format;
+//! use bindpose::model::Model;
+//!
+//! let bytes = format::write(&bindpose::sample::figure());
+//! let parsed = format::parse(bytes.as_bytes())?;
+//! let (model, notices) = Model::from_document(&parsed.document, &parsed.lines)?;
+//! assert!(notices.is_empty());
+//!
+//! let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+//! pose.evaluate(&model.skeleton, &model.clips[0], 0.25);
+//! assert_eq!(pose.palette.0.len(), model.skeleton.joint_count());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod anim;
+#[cfg(feature = "viewer")]
+pub mod app;
+#[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+pub mod cli;
 pub mod diagnostic;
 pub mod format;
+pub mod image;
 pub mod model;
+#[cfg(feature = "render")]
+pub mod render;
+pub mod sample;
 pub mod scene;
+pub mod session;
+pub mod shaders;
+#[cfg(feature = "viewer")]
+pub mod ui;
+#[cfg(all(feature = "viewer", target_arch = "wasm32"))]
+mod web;

@@ -1,23 +1,15 @@
 //! A type for each space, so that poses cannot be swapped by mistake.
 
-use glam::{Affine3A, Quat, Vec3};
+use glam::Affine3A;
+
+use super::{local_to_model, palette, sample};
+use crate::model::{Clip, LocalJoint, Skeleton};
 
 /// Each joint relative to its parent: `parent_from_joint`, kept in parts.
 #[derive(Clone, Debug, Default)]
 pub struct LocalPose {
     /// One per joint.
     pub joints: Vec<LocalJoint>,
-}
-
-/// One joint relative to its parent: scale, then rotate, then translate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LocalJoint {
-    /// Unit rotation.
-    pub rotation: Quat,
-    /// Translation in the parent's space.
-    pub translation: Vec3,
-    /// Scale along the joint's own axes.
-    pub scale: Vec3,
 }
 
 /// Each joint relative to the model: `model_from_joint`.
@@ -37,4 +29,31 @@ pub struct PoseBuffers {
     pub model: ModelPose,
     /// Output of `palette`.
     pub palette: Palette,
+}
+
+impl PoseBuffers {
+    /// Buffers of the right size, in the bind pose: the skeleton at rest, and a palette of identities.
+    pub fn for_skeleton(skeleton: &Skeleton) -> Self {
+        let mut buffers = Self::default();
+        buffers.set_bind_pose(skeleton);
+        buffers
+    }
+
+    /// The pose of a clip of this skeleton at a time: `sample`, `local_to_model` and `palette` in turn. Allocates only when
+    /// the buffers were sized for a smaller skeleton.
+    pub fn evaluate(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) {
+        sample(clip, time_secs, &mut self.local);
+        local_to_model(skeleton, &self.local, &mut self.model);
+        palette(skeleton, &self.model, &mut self.palette);
+    }
+
+    /// The pose in which the mesh was skinned. Its palette is the identity by meaning, so it is set and not computed.
+    pub fn set_bind_pose(&mut self, skeleton: &Skeleton) {
+        self.local.joints.clear();
+        self.local.joints.extend_from_slice(skeleton.rest());
+        self.model.0.clear();
+        self.model.0.extend_from_slice(skeleton.bind_model_from_joint());
+        self.palette.0.clear();
+        self.palette.0.resize(skeleton.joint_count(), Affine3A::IDENTITY);
+    }
 }

@@ -12,6 +12,17 @@ pub enum Dialect {
     Imm,
 }
 
+impl Dialect {
+    /// The short word that outputs use: `d3d12`, `d3d11`, `imm`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::D3d12 => "d3d12",
+            Self::D3d11 => "d3d11",
+            Self::Imm => "imm",
+        }
+    }
+}
+
 /// A parsed file. Lists keep the file's order; nothing is mended.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {

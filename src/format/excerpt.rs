@@ -1,5 +1,7 @@
 //! The lines around a place in a file, safe to print.
 
+use std::fmt;
+
 use crate::diagnostic::Position;
 
 /// A line and the one before it, with a mark under a part of the last one.
@@ -11,6 +13,40 @@ pub struct Excerpt {
     pub mark_column: u32,
     /// Marked characters, at least 1.
     pub mark_length: u32,
+}
+
+impl Excerpt {
+    /// The last line before, at and after the mark.
+    pub fn marked_parts(&self) -> (&str, &str, &str) {
+        let line = self.lines.last().map_or("", |(_, line)| line.as_str());
+        let byte_of = |column: u32| {
+            line.char_indices()
+                .nth(column as usize)
+                .map_or(line.len(), |(byte, _)| byte)
+        };
+        let first = self.mark_column.saturating_sub(1);
+        let (before, rest) = line.split_at(byte_of(first));
+        let (marked, after) = rest.split_at(byte_of(first.saturating_add(self.mark_length)) - before.len());
+        (before, marked, after)
+    }
+}
+
+/// Lines with their numbers, and carets under the mark.
+impl fmt::Display for Excerpt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let width = self.lines.last().map_or(0, |(number, _)| number.to_string().len());
+        for (number, line) in &self.lines {
+            writeln!(f, "{number:>width$} | {line}")?;
+        }
+        let indent = self.mark_column.saturating_sub(1) as usize;
+        writeln!(
+            f,
+            "{:width$} | {:indent$}{}",
+            "",
+            "",
+            "^".repeat(self.mark_length as usize)
+        )
+    }
 }
 
 /// Columns of a tab.
@@ -135,7 +171,7 @@ fn shown(line: &[u8], cut: usize) -> Shown {
 }
 
 /// False for control characters, and for those that turn or hide the text around them.
-fn is_printable(character: char) -> bool {
+pub fn is_printable(character: char) -> bool {
     let hidden =
         matches!(character, '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{2069}' | '\u{FEFF}');
     !character.is_control() && !hidden

@@ -92,7 +92,7 @@ mod write;
 pub use codes::CODES;
 pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
-pub use excerpt::{Excerpt, excerpt};
+pub use excerpt::{Excerpt, excerpt, is_printable};
 pub use label::Section;
 pub use relatives::Stranger;
 pub use write::write;

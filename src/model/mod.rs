@@ -1,16 +1,44 @@
 //! A model in our words, every index and order proved.
+//!
+//! [`Model::from_document`] translates what a file says: bones become joints with parents first, weights sum to 1, keys
+//! are sorted and finite, missing normals and tangents are computed, ranges lie inside the mesh. What was mended comes
+//! back as findings; what names something that does not exist is a [`ModelError`].
 
+mod bounds;
 mod clip;
+mod error;
+mod exploded;
+mod geometry;
+mod handedness;
+mod hierarchy;
+mod influences;
+mod local_joint;
 mod material;
 mod mesh;
+mod motion;
+mod names;
+mod normals;
+mod notes;
 mod skeleton;
 mod space;
+mod subsets;
+mod surface;
+mod tangents;
+mod track;
 
-pub use clip::{Clip, Track};
+pub use bounds::Aabb;
+pub use clip::Clip;
+pub use error::{ModelError, ModelErrorKind};
+pub use local_joint::LocalJoint;
 pub use material::{Material, Reflectance};
 pub use mesh::{Influences, Mesh, Submesh};
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Handedness, UpAxis, world_from_model};
+pub(crate) use track::Arc;
+pub use track::Track;
+
+use crate::diagnostic::Diagnostic;
+use crate::format::{Dialect, Document, LineMap, Parsed};
 
 /// A model that can be animated and drawn: after it exists no later stage can fail.
 #[derive(Clone, Debug, Default)]
@@ -21,10 +49,55 @@ pub struct Model {
     pub mesh: Mesh,
     /// Joints, parents first. Empty for a static model.
     pub skeleton: Skeleton,
-    /// Named motions.
+    /// Named motions; none for a static model.
     pub clips: Vec<Clip>,
     /// The handedness of the file's space, found by the winding test.
     pub handedness: Handedness,
     /// The up axis of the file's space, as the dialect suggests.
     pub up_axis: UpAxis,
+}
+
+impl Model {
+    /// What a document means, and what had to be mended for it. `lines` places the findings; it may be empty.
+    ///
+    /// # Errors
+    /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
+    pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Self, Vec<Diagnostic>), ModelError> {
+        let mut notes = notes::Notes::default();
+        let mut materials = surface::materials_from_document(document, lines, &mut notes);
+        let submeshes = subsets::submeshes_from_document(document, lines, &mut materials, &mut notes);
+        let skeleton = hierarchy::skeleton_from_document(document, lines, &mut notes)?;
+        let (mut mesh, handedness) = geometry::mesh_from_document(document, lines, &skeleton, &mut notes)?;
+        mesh.submeshes = submeshes;
+        let clips = motion::clips_from_document(document, lines, &skeleton, &mut notes)?;
+        exploded::note_exploded(&mesh, &skeleton, &clips, lines, &mut notes);
+        let up_axis = match document.dialect {
+            Dialect::Imm => UpAxis::Z,
+            Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
+        };
+        let model = Self {
+            materials,
+            mesh,
+            skeleton,
+            clips,
+            handedness,
+            up_axis,
+        };
+        Ok((model, notes.0))
+    }
+
+    /// The model of a parsed file. The findings of both stages, the parser's first.
+    ///
+    /// # Errors
+    /// As [`Model::from_document`].
+    pub fn from_parsed(parsed: &Parsed) -> Result<(Self, Vec<Diagnostic>), ModelError> {
+        let (model, notices) = Self::from_document(&parsed.document, &parsed.lines)?;
+        let all = parsed.notices.iter().cloned().chain(notices).collect();
+        Ok((model, all))
+    }
+
+    /// Box of all vertices in bind space, also those that no triangle uses.
+    pub fn bind_bounds(&self) -> Aabb {
+        Aabb::from_points(self.mesh.positions.iter().copied())
+    }
 }

@@ -1,6 +1,8 @@
 //! Joints, parents before children.
 
-use glam::Affine3A;
+use glam::{Affine3A, DAffine3};
+
+use super::{LocalJoint, ModelError, ModelErrorKind};
 
 /// Index of a joint in its skeleton (parents-first order).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,12 +18,57 @@ impl JointIndex {
 /// A hierarchy of joints: every parent has a lower index than its children. Several roots are fine.
 #[derive(Clone, Debug, Default)]
 pub struct Skeleton {
-    pub(super) parents: Vec<Option<JointIndex>>,
-    pub(super) joint_from_bind: Vec<Affine3A>,
-    pub(super) file_bones: Vec<u32>,
+    parents: Vec<Option<JointIndex>>,
+    joint_from_bind: Vec<Affine3A>,
+    model_from_joint: Vec<Affine3A>,
+    rest: Vec<LocalJoint>,
+    file_bones: Vec<u32>,
+    joint_of_bone: Vec<JointIndex>,
 }
 
 impl Skeleton {
+    /// A skeleton of joints in parents-first order; `joint_from_bind` are the inverse bind matrices, `file_bones` the
+    /// number that each joint has in the file (an order of `0..joint_count`).
+    ///
+    /// # Errors
+    /// When the lists differ in length, a parent does not come before its child, a matrix is not finite, or the file's
+    /// numbers are not an order.
+    pub fn new(
+        parents: Vec<Option<JointIndex>>,
+        joint_from_bind: Vec<Affine3A>,
+        file_bones: Vec<u32>,
+    ) -> Result<Self, ModelError> {
+        let joint_count = parents.len();
+        if joint_from_bind.len() != joint_count || file_bones.len() != joint_count {
+            return Err(ModelErrorKind::JointCountMismatch {
+                parents: joint_count,
+                matrices: joint_from_bind.len(),
+                file_bones: file_bones.len(),
+            }
+            .into());
+        }
+        for (joint, parent) in (0u32..).zip(&parents) {
+            if let &Some(JointIndex(parent)) = parent
+                && parent >= joint
+            {
+                return Err(ModelErrorKind::ParentNotBefore { joint, parent }.into());
+            }
+        }
+        if let Some(joint) = (0u32..).zip(&joint_from_bind).find(|(_, matrix)| !matrix.is_finite()) {
+            return Err(ModelErrorKind::MatrixNotFinite { joint: joint.0 }.into());
+        }
+        let joint_of_bone = inverse_order(&file_bones)?;
+        let (model_from_joint, rest) = rest_pose(&parents, &joint_from_bind);
+        Ok(Self {
+            parents,
+            joint_from_bind,
+            model_from_joint,
+            rest,
+            file_bones,
+            joint_of_bone,
+        })
+    }
+
     /// Number of joints.
     pub fn joint_count(&self) -> usize {
         self.parents.len()
@@ -37,8 +84,64 @@ impl Skeleton {
         &self.joint_from_bind
     }
 
+    /// Each joint of the bind pose relative to the model; the identity for a joint whose inverse bind matrix is singular.
+    pub fn bind_model_from_joint(&self) -> &[Affine3A] {
+        &self.model_from_joint
+    }
+
+    /// Each joint of the bind pose relative to its parent. Shear, which has no part of its own, is left out.
+    pub fn rest(&self) -> &[LocalJoint] {
+        &self.rest
+    }
+
     /// The file's bone number of each joint, for display and for outputs in the file's order.
     pub fn file_bones(&self) -> &[u32] {
         &self.file_bones
     }
+
+    /// The joint of each bone of the file: the inverse of [`Skeleton::file_bones`].
+    pub fn joint_of_bone(&self) -> &[JointIndex] {
+        &self.joint_of_bone
+    }
+}
+
+/// Where each file bone stands; an error unless the numbers are an order of all joints.
+fn inverse_order(file_bones: &[u32]) -> Result<Vec<JointIndex>, ModelError> {
+    let mut joint_of_bone = vec![None; file_bones.len()];
+    for (joint, &bone) in (0u32..).zip(file_bones) {
+        match joint_of_bone.get_mut(bone as usize) {
+            Some(place @ None) => *place = Some(JointIndex(joint)),
+            _ => return Err(ModelErrorKind::FileBoneNotUnique { joint, bone }.into()),
+        }
+    }
+    // As many distinct numbers in range as there are places: none is left empty.
+    Ok(joint_of_bone.into_iter().flatten().collect())
+}
+
+/// The bind pose, relative to the model and relative to each parent. Inverted in f64: offsets of real files are near
+/// rigid, but the chain of a long skeleton multiplies what is lost here.
+fn rest_pose(parents: &[Option<JointIndex>], joint_from_bind: &[Affine3A]) -> (Vec<Affine3A>, Vec<LocalJoint>) {
+    let model_from_joint: Vec<DAffine3> = joint_from_bind
+        .iter()
+        .map(|joint_from_bind| {
+            let inverse = joint_from_bind.as_daffine3().inverse();
+            if inverse.as_affine3a().is_finite() {
+                inverse
+            } else {
+                DAffine3::IDENTITY
+            }
+        })
+        .collect();
+    let rest = parents
+        .iter()
+        .zip(&model_from_joint)
+        .map(|(parent, &model_from_joint_of_child)| {
+            let parent_from_model = match parent {
+                Some(parent) => model_from_joint[parent.index()].inverse(),
+                None => DAffine3::IDENTITY,
+            };
+            LocalJoint::from_matrix(&(parent_from_model * model_from_joint_of_child))
+        })
+        .collect();
+    (model_from_joint.iter().map(DAffine3::as_affine3a).collect(), rest)
 }

@@ -12,6 +12,16 @@ pub enum Handedness {
     Right,
 }
 
+impl Handedness {
+    /// The word that outputs use: `left`, `right`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
 /// Which axis of the file points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum UpAxis {
@@ -22,19 +32,28 @@ pub enum UpAxis {
     Z,
 }
 
+impl UpAxis {
+    /// The letter that outputs use: `y`, `z`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
+}
+
 /// The matrix from the file's space into the world, which is left-handed with y up. Scale is kept.
 ///
-/// A right-handed y-up file mirrors z, as the books' demo does. A z-up file turns about x first, so that its z becomes y.
+/// A model that faces −z (y up) or −y (z up), as characters do in the books and in Blender, faces −z in the world, towards
+/// the default camera. So a right-handed y-up file mirrors x, which is what the books' demo comes to (it mirrors z and
+/// turns by π about y), and a right-handed z-up file swaps y and z.
 pub fn world_from_model(handedness: Handedness, up_axis: UpAxis) -> Affine3A {
-    let upright = match (up_axis, handedness) {
-        (UpAxis::Y, _) => Mat3A::IDENTITY,
-        // x stays, y points away (+z in a left-handed world looking along +z), z points up: a reflection that swaps y and z
-        // changes handedness, so each side takes the rotation that keeps its own.
-        (UpAxis::Z, _) => Mat3A::from_cols(Vec3A::X, Vec3A::NEG_Z, Vec3A::Y),
+    let upright = match up_axis {
+        UpAxis::Y => Mat3A::IDENTITY,
+        // A reflection: it changes handedness by itself.
+        UpAxis::Z => Mat3A::from_cols(Vec3A::X, Vec3A::Z, Vec3A::Y),
     };
-    let mirror = match handedness {
-        Handedness::Left => Mat3A::IDENTITY,
-        Handedness::Right => Mat3A::from_diagonal(Vec3::new(1.0, 1.0, -1.0)),
-    };
+    let mirrors = (handedness == Handedness::Right) != (up_axis == UpAxis::Z);
+    let mirror = Mat3A::from_diagonal(Vec3::new(if mirrors { -1.0 } else { 1.0 }, 1.0, 1.0));
     Affine3A::from_mat3(glam::Mat3::from(mirror * upright))
 }

@@ -1,6 +1,10 @@
 //! Tests of the core: they need neither GPU nor UI.
 
 mod anim;
+mod documents;
 mod format;
 mod model;
 mod sample;
+mod session;
+mod shaders;
+mod textbook;

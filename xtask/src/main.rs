@@ -1,1 +1,68 @@
-fn main() {}
+//! The project's own commands, run as `cargo xtask serve | test | dist`.
+//!
+//! Each does all of its set-up itself, so that a fresh machine with rustup needs nothing else: the wasm target is added,
+//! wasm-bindgen is a library here rather than a tool to install, and what the tests draw with is installed or named.
+//!
+//! | module | does |
+//! |---|---|
+//! | [`args`] | the command line |
+//! | [`wasm`] | build the library for the browser and bind it: `pkg/` |
+//! | [`site`] | which files make the site, their types, the policy they run under |
+//! | [`serve`] | the site over HTTP on this machine alone |
+//! | [`http`] | as much of the protocol as that takes |
+//! | [`check`] | every check, in order |
+//! | [`prerequisites`] | what the checks need beside Rust |
+//! | [`dist`] | the static site: hashed names, compressed twice |
+
+mod args;
+mod check;
+mod compress;
+mod dist;
+mod failure;
+mod http;
+mod prerequisites;
+mod process;
+mod serve;
+mod site;
+mod wasm;
+mod watch;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use args::Task;
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let outcome = args::parse(std::env::args().skip(1)).and_then(|task| match task {
+        Task::Help => {
+            print!("{}", args::HELP);
+            Ok(())
+        }
+        Task::Serve(options) => serve::run(&options),
+        Task::Test(options) => check::run(&options),
+        Task::Dist => dist::run(),
+    });
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("\nxtask: {failure}");
+            // 2 for wrong use, as the tools around it do.
+            ExitCode::from(if matches!(failure, Failure::Usage(_)) { 2 } else { 1 })
+        }
+    }
+}
+
+/// The repository: the folder above this package.
+fn root() -> PathBuf {
+    let package = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    package.parent().map_or(package.clone(), PathBuf::from)
+}
+
+/// Where cargo builds. Every cargo that is started here is told this folder, so that all of them agree.
+fn target_dir() -> PathBuf {
+    match std::env::var_os("CARGO_TARGET_DIR") {
+        Some(dir) => root().join(dir),
+        None => root().join("target"),
+    }
+}

@@ -11,6 +11,12 @@ pub struct Aabb {
     pub max: Vec3,
 }
 
+impl Default for Aabb {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 impl Aabb {
     /// Holds nothing; the neutral element of [`Aabb::include`].
     pub const EMPTY: Self = Self {
@@ -43,7 +49,7 @@ impl Aabb {
 
     /// Whether it holds nothing.
     pub fn is_empty(&self) -> bool {
-        !(self.min.cmple(self.max).all())
+        !self.min.cmple(self.max).all()
     }
 
     /// Middle; the origin for an empty box.
@@ -51,7 +57,7 @@ impl Aabb {
         if self.is_empty() {
             Vec3::ZERO
         } else {
-            (self.min + self.max) * 0.5
+            self.min * 0.5 + self.max * 0.5
         }
     }
 
@@ -69,19 +75,49 @@ impl Aabb {
         self.size().length() * 0.5
     }
 
-    /// The box of the eight transformed corners.
+    /// The eight corners.
+    pub fn corners(&self) -> [Vec3; 8] {
+        let ends = [self.min, self.max];
+        std::array::from_fn(|i| Vec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2 & 1].z))
+    }
+
+    /// The box around the eight transformed corners.
     #[must_use]
     pub fn transformed(&self, to_from_this: Affine3A) -> Self {
         if self.is_empty() {
             return *self;
         }
-        Self::from_points((0..8).map(|corner| {
-            let pick = |bit: u32, min: f32, max: f32| if corner >> bit & 1 == 0 { min } else { max };
-            to_from_this.transform_point3(Vec3::new(
-                pick(0, self.min.x, self.max.x),
-                pick(1, self.min.y, self.max.y),
-                pick(2, self.min.z, self.max.z),
-            ))
-        }))
+        Self::from_points(self.corners().map(|corner| to_from_this.transform_point3(corner)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_box_stays_empty_and_has_no_size() {
+        assert!(Aabb::EMPTY.is_empty());
+        assert_eq!(
+            Aabb::EMPTY.transformed(Affine3A::from_scale(Vec3::NEG_ONE)),
+            Aabb::EMPTY
+        );
+        assert_eq!(
+            (Aabb::EMPTY.size(), Aabb::EMPTY.center(), Aabb::EMPTY.radius()),
+            (Vec3::ZERO, Vec3::ZERO, 0.0)
+        );
+    }
+
+    #[test]
+    fn mirroring_swaps_the_ends_of_an_axis() {
+        let bounds = Aabb::from_points([Vec3::new(1.0, 2.0, 3.0), Vec3::new(-1.0, 0.0, 5.0)]);
+        let mirrored = bounds.transformed(Affine3A::from_scale(Vec3::new(1.0, 1.0, -1.0)));
+        assert_eq!(
+            mirrored,
+            Aabb {
+                min: Vec3::new(-1.0, 0.0, -5.0),
+                max: Vec3::new(1.0, 2.0, -3.0)
+            }
+        );
     }
 }

@@ -1,0 +1,165 @@
+//! A clip at a time to a palette: the product beside the textbook, in one run.
+//!
+//! The textbook does what the books' `SkinnedData` does, in f32 with the same maths library: it walks over the keys of each
+//! bone, blends two of them into a matrix, multiplies down the hierarchy and with the offsets, each into a new list.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use bindpose::anim::PoseBuffers;
+use bindpose::format::{Document, Keyframe};
+use bindpose::model::Clip;
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use glam::{Mat4, Quat, Vec3};
+
+mod input;
+
+/// What two ways in f32 may differ by on a model 72 units high.
+const TOLERANCE: f32 = 2e-4;
+
+fn posing(criterion: &mut Criterion) {
+    let (name, document, model) = input::input();
+    let textbook = Textbook::new(&document);
+    let (skeleton, clip) = (&model.skeleton, &model.clips[0]);
+    let mut buffers = PoseBuffers::for_skeleton(skeleton);
+    for (order, times_secs) in forward_and_random_times(clip) {
+        for &time_secs in &times_secs {
+            buffers.evaluate(skeleton, clip, time_secs);
+            let expected = textbook.palette(time_secs);
+            for (&matrix, &bone) in buffers.palette.0.iter().zip(skeleton.file_bones()) {
+                let (ours, theirs) = (Mat4::from(matrix), expected[bone as usize]);
+                assert!(
+                    ours.abs_diff_eq(theirs, TOLERANCE),
+                    "bone {bone} at {time_secs} s: {ours} {theirs}"
+                );
+            }
+        }
+
+        let mut group = criterion.benchmark_group(format!("pose/{name}/{order}"));
+        group.throughput(Throughput::Elements(skeleton.joint_count() as u64));
+        group.measurement_time(Duration::from_secs(3));
+        let mut turn = times_secs.iter().cycle();
+        group.bench_function("product", |bencher| {
+            bencher.iter(|| {
+                let &time_secs = turn.next().expect("a cycle has no end");
+                buffers.evaluate(skeleton, clip, black_box(time_secs));
+                black_box(&buffers.palette);
+            });
+        });
+        group.bench_function("textbook", |bencher| {
+            bencher.iter(|| {
+                let &time_secs = turn.next().expect("a cycle has no end");
+                textbook.palette(black_box(time_secs))
+            });
+        });
+        group.finish();
+        input::report_ratio(
+            &format!("pose/{name}/{order}"),
+            || {
+                for &time_secs in &times_secs {
+                    black_box(textbook.palette(time_secs));
+                }
+            },
+            || {
+                for &time_secs in &times_secs {
+                    buffers.evaluate(skeleton, clip, time_secs);
+                    black_box(&buffers.palette);
+                }
+            },
+        );
+    }
+}
+
+/// Times inside the clip: one after the other, and in any order.
+fn forward_and_random_times(clip: &Clip) -> [(&'static str, Vec<f32>); 2] {
+    const COUNT: u16 = 1_024;
+    let at = |part: f32| clip.start_secs + part * clip.duration_secs();
+    let forward = (0..COUNT).map(|step| at(f32::from(step) / f32::from(COUNT))).collect();
+    let mut next = input::noise();
+    let random = (0..COUNT).map(|_| at(next())).collect();
+    [("forward", forward), ("random", random)]
+}
+
+struct Textbook {
+    bones: Vec<Vec<Key>>,
+    parents: Vec<Option<usize>>,
+    offsets: Vec<Mat4>,
+}
+
+struct Key {
+    time_secs: f32,
+    translation: Vec3,
+    scale: Vec3,
+    rotation: Quat,
+}
+
+impl From<&Keyframe> for Key {
+    fn from(key: &Keyframe) -> Self {
+        Self {
+            time_secs: key.time_secs,
+            translation: key.translation.into(),
+            scale: key.scale.into(),
+            rotation: Quat::from_array(key.rotation),
+        }
+    }
+}
+
+impl Textbook {
+    /// Parents must come first, as the books' loader asks.
+    fn new(document: &Document) -> Self {
+        Self {
+            bones: document.clips[0]
+                .bones
+                .iter()
+                .map(|bone| bone.keyframes.iter().map(Key::from).collect())
+                .collect(),
+            parents: document
+                .bone_parents
+                .iter()
+                .map(|&parent| usize::try_from(parent).ok())
+                .collect(),
+            offsets: document.bone_offsets.iter().map(Mat4::from_cols_array).collect(),
+        }
+    }
+
+    fn palette(&self, time_secs: f32) -> Vec<Mat4> {
+        let to_parent: Vec<Mat4> = self.bones.iter().map(|keys| interpolated(keys, time_secs)).collect();
+        let mut to_root = Vec::with_capacity(to_parent.len());
+        for (bone, &to_parent) in to_parent.iter().enumerate() {
+            to_root.push(match self.parents[bone] {
+                Some(parent) => to_root[parent] * to_parent,
+                None => to_parent,
+            });
+        }
+        to_root
+            .iter()
+            .zip(&self.offsets)
+            .map(|(&to_root, &offset)| to_root * offset)
+            .collect()
+    }
+}
+
+fn interpolated(keys: &[Key], time_secs: f32) -> Mat4 {
+    let (first, last) = (&keys[0], &keys[keys.len() - 1]);
+    if time_secs <= first.time_secs {
+        return Mat4::from_scale_rotation_translation(first.scale, first.rotation, first.translation);
+    }
+    if time_secs >= last.time_secs {
+        return Mat4::from_scale_rotation_translation(last.scale, last.rotation, last.translation);
+    }
+    for pair in keys.windows(2) {
+        let (from, to) = (&pair[0], &pair[1]);
+        if from.time_secs <= time_secs && time_secs <= to.time_secs {
+            let part = (time_secs - from.time_secs) / (to.time_secs - from.time_secs);
+            return Mat4::from_scale_rotation_translation(
+                from.scale.lerp(to.scale, part),
+                from.rotation.slerp(to.rotation, part),
+                from.translation.lerp(to.translation, part),
+            );
+        }
+    }
+    unreachable!("a time between the first and the last key lies between two keys")
+}
+
+criterion_group!(benches, posing);
+criterion_main!(benches);

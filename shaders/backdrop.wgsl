@@ -1,0 +1,62 @@
+// Backdrop, ground grid and the shadow on the ground in one pass over the view, before the model: nothing to fight for depth
+// with, and one dithered rounding at the end instead of a blend in eight bits.
+
+// How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
+const BACKDROP_FALLOFF: f32 = 0.76;
+// The lightest row, ndc y: a little above the middle, where the horizon of a three-quarter view lies.
+const BACKDROP_ROW: f32 = 0.06;
+
+fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
+    let offset = vec2<f32>(ndc.x * 0.16, ndc.y - BACKDROP_ROW);
+    // Rounded at the middle, so that no crease shows there.
+    let away = (sqrt(dot(offset, offset) + 0.012) - 0.11) * BACKDROP_FALLOFF;
+    return mix(frame.backdrop_center_srgb.rgb, frame.backdrop_edge_srgb.rgb, clamp(away, 0.0, 1.0));
+}
+
+// Coverage of lines at whole numbers of `coordinate`, `width_pixels` wide; `per_pixel` is how far a pixel steps.
+fn line_coverage(coordinate: vec2<f32>, per_pixel: vec2<f32>, width_pixels: f32) -> f32 {
+    let distance_pixels = (0.5 - abs(fract(coordinate) - 0.5)) / per_pixel;
+    let sharp = clamp(vec2<f32>(0.5 + 0.5 * width_pixels) - distance_pixels, vec2<f32>(0.0), vec2<f32>(min(width_pixels, 1.0)));
+    // Lines closer than a few pixels would shimmer: they are gone before.
+    let crowded = smoothstep(vec2<f32>(0.08), vec2<f32>(0.35), per_pixel);
+    let lines = sharp * (vec2<f32>(1.0) - crowded);
+    return max(lines.x, lines.y);
+}
+
+@fragment
+fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
+    var color = linear_from_srgb(backdrop_srgb(view.ndc));
+    let eye = frame.eye + view.ndc.x * frame.eye_per_x + view.ndc.y * frame.eye_per_y;
+    let ray = frame.forward + view.ndc.x * frame.forward_per_x + view.ndc.y * frame.forward_per_y;
+    let along = (frame.ground_height - eye.y) / ray.y;
+    if ray.y != 0.0 && along > 0.0 {
+        let point = eye + ray * along;
+        let from_center = point.xz - frame.grid_center;
+        let away = length(from_center) / frame.grid_reach;
+        if away < 1.0 {
+            if ray.y < 0.0 && frame.shadow_strength > 0.0 {
+                let lit = key_visibility(point, 6.0);
+                color *= 1.0 - frame.shadow_strength * (1.0 - lit);
+            }
+            // How the point moves from one pixel to the next, exact: screen derivatives would tear at the horizon.
+            let along_x = -(frame.eye_per_x.y + along * frame.forward_per_x.y) / ray.y;
+            let along_y = -(frame.eye_per_y.y + along * frame.forward_per_y.y) / ray.y;
+            let point_x = frame.eye_per_x + along * frame.forward_per_x + along_x * ray;
+            let point_y = frame.eye_per_y + along * frame.forward_per_y + along_y * ray;
+            let ndc_per_pixel = 2.0 / frame.viewport_pixels;
+            let step_x = abs(point_x.xz) * ndc_per_pixel.x;
+            let step_y = abs(point_y.xz) * ndc_per_pixel.y;
+            let per_pixel = sqrt(step_x * step_x + step_y * step_y) / frame.grid_cell;
+
+            let coordinate = point.xz / frame.grid_cell;
+            let minor = line_coverage(coordinate, per_pixel, 1.0) * frame.grid_minor.a;
+            let major = line_coverage(coordinate * 0.1, per_pixel * 0.1, 1.35) * frame.grid_major.a;
+            let fade = (1.0 - away) * (1.0 - away);
+            let grazing = smoothstep(0.0, 0.12, abs(ray.y) / length(ray));
+            let strength = fade * grazing * frame.grid_strength;
+            color = mix(color, frame.grid_minor.rgb, minor * strength);
+            color = mix(color, frame.grid_major.rgb, major * strength);
+        }
+    }
+    return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), view.clip.xy), 1.0);
+}

@@ -1,0 +1,24 @@
+// Linear colour, its sRGB encoding, and the last step before eight bits.
+
+fn srgb_from_linear(linear: vec3<f32>) -> vec3<f32> {
+    let low = linear * 12.92;
+    let high = 1.055 * pow(max(linear, vec3<f32>(0.0031308)), vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, low, linear <= vec3<f32>(0.0031308));
+}
+
+fn linear_from_srgb(srgb: vec3<f32>) -> vec3<f32> {
+    let low = srgb / 12.92;
+    let high = pow((max(srgb, vec3<f32>(0.04045)) + 0.055) / 1.055, vec3<f32>(2.4));
+    return select(high, low, srgb <= vec3<f32>(0.04045));
+}
+
+// Interleaved gradient noise: even over any small neighbourhood, the same every frame.
+fn dither_noise(pixel: vec2<f32>) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
+}
+
+// Spreads the rounding to eight bits over the neighbourhood, so that dark gradients show no bands.
+// Takes encoded and gives linear: the target encodes again as it stores.
+fn dithered_linear_from_srgb(srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
+    return linear_from_srgb(clamp(srgb + dither_noise(pixel) / 255.0, vec3<f32>(0.0), vec3<f32>(1.0)));
+}

@@ -1,0 +1,13 @@
+// The finished picture onto a surface that wants encoded values, as egui's does.
+
+@group(0) @binding(0) var picture: texture_2d<f32>;
+@group(0) @binding(1) var picture_sampler: sampler;
+
+@fragment
+fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
+    let uv = view.ndc * vec2<f32>(0.5, -0.5) + 0.5;
+    // The picture is premultiplied in linear light, the surface blends premultiplied encoded values.
+    let texel = textureSampleLevel(picture, picture_sampler, uv, 0.0);
+    let straight = texel.rgb / max(texel.a, 1e-6);
+    return vec4<f32>(srgb_from_linear(straight) * texel.a, texel.a);
+}

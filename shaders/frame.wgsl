@@ -1,0 +1,40 @@
+// What every program knows about the frame. Twin: `shaders::Frame`.
+
+struct Frame {
+    clip_from_world: mat4x4<f32>,
+    world_from_model: mat4x4<f32>,
+    shadow_clip_from_world: mat4x4<f32>,
+    // A pixel at ndc (x, y) sees along forward + x * forward_per_x + y * forward_per_y,
+    // from eye + x * eye_per_x + y * eye_per_y: the one is zero for parallel, the other for perspective projection.
+    eye: vec3<f32>,
+    // +1 when clockwise triangles show their front in the world, -1 when counter-clockwise ones do.
+    front_sign: f32,
+    forward: vec3<f32>,
+    is_perspective: f32,
+    eye_per_x: vec3<f32>,
+    ground_height: f32,
+    eye_per_y: vec3<f32>,
+    // World units between minor lines; ten of them between major lines.
+    grid_cell: f32,
+    forward_per_x: vec3<f32>,
+    // Distance from the middle of the scene where the grid is gone.
+    grid_reach: f32,
+    forward_per_y: vec3<f32>,
+    // World units that a texel of the shadow map covers.
+    shadow_texel: f32,
+    // Unit vectors towards the lights.
+    to_key: vec3<f32>,
+    shadow_strength: f32,
+    to_rim: vec3<f32>,
+    grid_strength: f32,
+    // sRGB-encoded, so that the gradient is even to the eye. Opaque.
+    backdrop_center_srgb: vec4<f32>,
+    backdrop_edge_srgb: vec4<f32>,
+    // Colour and opacity.
+    grid_minor: vec4<f32>,
+    grid_major: vec4<f32>,
+    grid_center: vec2<f32>,
+    viewport_pixels: vec2<f32>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;

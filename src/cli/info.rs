@@ -1,0 +1,245 @@
+//! `bindpose info`: what is in a file.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::finding::{Notice, worded_place};
+use super::text::{Plain, counted, grouped};
+use super::{Failure, input};
+use crate::anim::animated_bounds;
+use crate::diagnostic::Severity;
+use crate::format::Dialect;
+use crate::model::{Aabb, Handedness, Model, UpAxis};
+use crate::session::OpenModel;
+
+/// Say what is in a model.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = JSON)]
+pub(super) struct Arguments {
+    /// Model to read.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Print JSON; see below for its keys.
+    #[arg(long)]
+    json: bool,
+}
+
+const JSON: &str = "\
+JSON: an object
+  file              the path as given
+  dialect           \"d3d12\", \"d3d11\" or \"imm\"
+  handedness        \"left\" or \"right\", found from the triangles
+  up_axis           \"y\" or \"z\", as the dialect suggests
+  counts            materials, vertices, triangles, bones, clips
+  materials         array of names
+  clips             array
+    name
+    start_secs      least and
+    end_secs        greatest time of its keys
+    keys            number of keys in the file
+  bind_bounds       box of all vertices as the file has them: min and max, each [x, y, z];
+                    null without vertices
+  animated_bounds   box of all that the clips reach, likewise; bind_bounds without clips
+  notices           array: what was mended or is worth knowing, in the order of the file
+    severity        \"note\" or \"warning\"
+    code            stable name of the kind of finding
+    message         one sentence
+    line, column    place, both from 1; null when it is about the whole file
+
+A file with errors has no such output: the error is told on standard error, with exit code 1.";
+
+/// The result.
+#[derive(Debug, Serialize)]
+struct Info<'a> {
+    file: String,
+    dialect: &'static str,
+    handedness: &'static str,
+    up_axis: &'static str,
+    counts: Counts,
+    materials: Vec<&'a str>,
+    clips: Vec<Clip<'a>>,
+    bind_bounds: Option<Bounds>,
+    animated_bounds: Option<Bounds>,
+    notices: Vec<Notice<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct Counts {
+    materials: usize,
+    vertices: usize,
+    triangles: usize,
+    bones: usize,
+    clips: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Clip<'a> {
+    name: &'a str,
+    start_secs: f32,
+    end_secs: f32,
+    keys: usize,
+}
+
+#[derive(Clone, Copy, Debug, Serialize)]
+struct Bounds {
+    min: [f32; 3],
+    max: [f32; 3],
+}
+
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let open = input::load(&arguments.file)?;
+    let info = Info::new(arguments.file.display().to_string(), &open);
+    if arguments.json {
+        serde_json::to_writer_pretty(&mut *out, &info)?;
+        writeln!(out)?;
+    } else {
+        write_text(out, &info, &open)?;
+    }
+    Ok(())
+}
+
+impl<'a> Info<'a> {
+    fn new(file: String, open: &'a OpenModel) -> Self {
+        let model = &open.model;
+        Self {
+            file,
+            dialect: open.dialect.as_str(),
+            handedness: model.handedness.as_str(),
+            up_axis: model.up_axis.as_str(),
+            counts: Counts {
+                materials: model.materials.len(),
+                vertices: model.mesh.vertex_count(),
+                triangles: model.mesh.triangle_count(),
+                bones: model.skeleton.joint_count(),
+                clips: model.clips.len(),
+            },
+            materials: model.materials.iter().map(|material| material.name.as_str()).collect(),
+            clips: model
+                .clips
+                .iter()
+                .map(|clip| Clip {
+                    name: &clip.name,
+                    start_secs: clip.start_secs,
+                    end_secs: clip.end_secs,
+                    keys: clip.key_count,
+                })
+                .collect(),
+            bind_bounds: bounds(open.bind_bounds),
+            animated_bounds: bounds(bounds_of_all_clips(model)),
+            notices: open.notices.iter().map(Notice::from).collect(),
+        }
+    }
+}
+
+fn bounds_of_all_clips(model: &Model) -> Aabb {
+    let of_clips = model.clips.iter().map(|clip| animated_bounds(model, clip));
+    of_clips.reduce(Aabb::union).unwrap_or_else(|| model.bind_bounds())
+}
+
+fn bounds(bounds: Aabb) -> Option<Bounds> {
+    (!bounds.is_empty()).then(|| Bounds {
+        min: bounds.min.to_array(),
+        max: bounds.max.to_array(),
+    })
+}
+
+fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel) -> io::Result<()> {
+    let dialect = match open.dialect {
+        Dialect::D3d12 => "D3D12 book",
+        Dialect::D3d11 => "D3D11 book",
+        Dialect::Imm => "imm exporter",
+    };
+    let hand = match open.model.handedness {
+        Handedness::Left => "left-handed",
+        Handedness::Right => "right-handed",
+    };
+    let up = match open.model.up_axis {
+        UpAxis::Y => "y up",
+        UpAxis::Z => "z up",
+    };
+    writeln!(out, "{}", Plain(&info.file))?;
+    writeln!(out, "{dialect}, {hand}, {up}\n")?;
+
+    let counts = [
+        ("Vertices", info.counts.vertices),
+        ("Triangles", info.counts.triangles),
+        ("Bones", info.counts.bones),
+    ];
+    for (name, count) in counts {
+        writeln!(out, "{name:<10}{:>12}", grouped(count))?;
+    }
+    write_bounds(out, info)?;
+    write_materials(out, &open.model)?;
+    write_clips(out, info)?;
+    write_notices(out, open)
+}
+
+fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
+    let (Some(bind), Some(animated)) = (info.bind_bounds, info.animated_bounds) else {
+        return Ok(());
+    };
+    writeln!(out, "\nBounds {:>18} {:>12} {:>12}", "x", "y", "z")?;
+    let mut row = |name: &str, [x, y, z]: [f32; 3]| writeln!(out, "  {name:<10}{x:>13.4}{y:>13.4}{z:>13.4}");
+    row("bind min", bind.min)?;
+    row("bind max", bind.max)?;
+    if !info.clips.is_empty() {
+        row("clips min", animated.min)?;
+        row("clips max", animated.max)?;
+    }
+    Ok(())
+}
+
+fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    writeln!(out, "\n{}", counted(model.materials.len(), "material"))?;
+    let width = widest(model.materials.iter().map(|material| material.name.as_str()));
+    for (index, material) in (0u32..).zip(&model.materials) {
+        let submeshes = model.mesh.submeshes.iter().filter(|submesh| submesh.material == index);
+        let triangles: usize = submeshes.map(|submesh| submesh.triangle_count as usize).sum();
+        let name = Plain(&material.name).to_string();
+        writeln!(out, "  {name:<width$}  {:>10} triangles", grouped(triangles))?;
+    }
+    Ok(())
+}
+
+fn write_clips(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
+    if info.clips.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n{}", counted(info.clips.len(), "clip"))?;
+    let width = widest(info.clips.iter().map(|clip| clip.name));
+    for clip in &info.clips {
+        let name = Plain(clip.name).to_string();
+        let (start_secs, end_secs) = (clip.start_secs, clip.end_secs);
+        let keys = grouped(clip.keys);
+        writeln!(
+            out,
+            "  {name:<width$}  {start_secs:>8.3} … {end_secs:.3} s  {keys:>8} keys"
+        )?;
+    }
+    Ok(())
+}
+
+fn write_notices(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
+    if open.notices.is_empty() {
+        return Ok(());
+    }
+    let count = |severity| open.notices.iter().filter(|notice| notice.severity == severity).count();
+    let parts: Vec<String> = [(Severity::Warning, "warning"), (Severity::Note, "note")]
+        .into_iter()
+        .map(|(severity, word)| (count(severity), word))
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, word)| counted(count, word))
+        .collect();
+    writeln!(out, "\n{}", parts.join(", "))?;
+    for notice in &open.notices {
+        writeln!(out, "  {}", Plain(&worded_place(notice)))?;
+    }
+    Ok(())
+}
+
+/// Characters of the longest name.
+fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+    names.map(|name| name.chars().count()).max().unwrap_or(0)
+}

@@ -1,0 +1,119 @@
+//! The native command `bindpose`: the core and the renderer, asked from a terminal. Nothing is computed here.
+//!
+//! Results go to standard output and failures to standard error. The exit code is 0 when all is well, 1 when a file has
+//! errors, 2 for wrong use, an unreadable file or a missing GPU; the worst of several files counts.
+
+mod check;
+mod clip;
+mod failure;
+mod finding;
+mod info;
+mod input;
+mod output;
+mod pose;
+mod render;
+mod text;
+
+use std::io::{self, BufWriter, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use failure::Failure;
+use output::UntilClosed;
+
+/// Looks at skinned .m3d models: the text format of Frank Luna's DirectX books.
+#[derive(Debug, Parser)]
+#[command(name = "bindpose", version, after_help = EXIT_CODES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  all is well
+  1  a file has errors
+  2  wrong use, or something is missing: a file that can be read, a clip, a GPU";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Info(info::Arguments),
+    Check(check::Arguments),
+    Pose(pose::Arguments),
+    Render(render::Arguments),
+}
+
+/// How it went, from best to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Outcome {
+    /// All is well.
+    Fine,
+    /// A file has errors.
+    FileHasErrors,
+    /// Wrong use, or something is missing.
+    Failed,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        Self::from(match outcome {
+            Outcome::Fine => 0,
+            Outcome::FileHasErrors => 1,
+            Outcome::Failed => 2,
+        })
+    }
+}
+
+/// Runs the command with the arguments of this process.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help asked for goes to standard output with code 0, wrong use to standard error with code 2. Neither can be
+            // said to anybody when its stream is closed.
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).map_or(Outcome::Failed.into(), ExitCode::from);
+        }
+    };
+    let mut out = BufWriter::new(UntilClosed::new(io::stdout().lock()));
+    let mut err = io::stderr().lock();
+    let outcome = run(&arguments.command, &mut out, &mut err).and_then(|outcome| {
+        out.flush()?;
+        Ok(outcome)
+    });
+    let outcome = outcome.unwrap_or_else(|failure| {
+        // What was written before the failure comes before it; that it cannot be written is no worse.
+        let _ = out.flush();
+        failure.report(&mut err)
+    });
+    outcome.into()
+}
+
+fn run(command: &Command, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
+    match command {
+        Command::Info(arguments) => info::run(arguments, out)?,
+        Command::Check(arguments) => return check::run(arguments, out, err),
+        Command::Pose(arguments) => pose::run(arguments, out)?,
+        Command::Render(arguments) => render::run(arguments, out)?,
+    }
+    Ok(Outcome::Fine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_make_sense_to_their_parser() {
+        use clap::CommandFactory as _;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn the_worst_outcome_counts() {
+        use Outcome::{Failed, FileHasErrors, Fine};
+        assert_eq!([Fine, Failed, FileHasErrors].into_iter().max(), Some(Failed));
+        assert_eq!([Fine, FileHasErrors, Fine].into_iter().max(), Some(FileHasErrors));
+    }
+}

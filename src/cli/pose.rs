@@ -1,0 +1,123 @@
+//! `bindpose pose`: the matrix palette at a time, and the vertices it moves.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use glam::{Mat4, Vec3};
+use serde::Serialize;
+
+use super::text::Plain;
+use super::{Failure, clip, input};
+use crate::anim::{Palette, PoseBuffers, skin_positions};
+use crate::model::{Model, Skeleton};
+
+/// Print the matrix palette of a clip at a time.
+///
+/// Bones come in the file's order. Each matrix is the books' final transform, offset * toRoot, as the file writes its bone
+/// offsets: for row vectors, row by row, with the translation in the last four of its sixteen numbers.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = JSON)]
+pub(super) struct Arguments {
+    /// Model to read.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Clip by its name; may be left out when there is only one.
+    #[arg(long, value_name = "NAME")]
+    clip: Option<String>,
+    /// Seconds in the clip's own time [default: where the clip starts].
+    ///
+    /// Before its first and after its last key a bone holds still.
+    #[arg(long, value_name = "SECS", value_parser = clip::seconds, allow_negative_numbers = true)]
+    time: Option<f32>,
+    /// Print JSON; see below for its keys.
+    #[arg(long)]
+    json: bool,
+    /// Print the position of every vertex too.
+    #[arg(long)]
+    positions: bool,
+}
+
+const JSON: &str = "\
+JSON: an object
+  clip        name of the clip; null for a model without clips, which is shown as it was bound
+  time_secs   the time as asked for
+  palette     array: for each bone, in the file's order, sixteen numbers, row by row, for row vectors
+  positions   only with --positions: for each vertex, in the file's order, [x, y, z] after skinning,
+              in the file's own space";
+
+/// The result.
+#[derive(Debug, Serialize)]
+struct Posed<'a> {
+    clip: Option<&'a str>,
+    time_secs: f32,
+    palette: Vec<[f32; 16]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    positions: Option<Vec<[f32; 3]>>,
+}
+
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let open = input::load(&arguments.file)?;
+    let model = &open.model;
+    let clip =
+        clip::choose(model, &arguments.file, arguments.clip.as_deref())?.and_then(|index| model.clips.get(index));
+    let time_secs = arguments.time.unwrap_or(clip.map_or(0.0, |clip| clip.start_secs));
+    let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+    if let Some(clip) = clip {
+        pose.evaluate(&model.skeleton, clip, time_secs);
+    }
+    let posed = Posed {
+        clip: clip.map(|clip| clip.name.as_str()),
+        time_secs,
+        palette: in_file_order(&model.skeleton, &pose.palette),
+        positions: arguments.positions.then(|| positions(model, &pose.palette)),
+    };
+    if arguments.json {
+        serde_json::to_writer(&mut *out, &posed)?;
+        writeln!(out)?;
+    } else {
+        write_text(out, &posed)?;
+    }
+    Ok(())
+}
+
+/// Sixteen numbers for each bone of the file. What our column-vector matrix has in its columns are the rows of the books'.
+fn in_file_order(skeleton: &Skeleton, palette: &Palette) -> Vec<[f32; 16]> {
+    let of_bones = skeleton
+        .joint_of_bone()
+        .iter()
+        .filter_map(|joint| palette.0.get(joint.index()));
+    of_bones
+        .map(|&model_from_bind| Mat4::from(model_from_bind).to_cols_array())
+        .collect()
+}
+
+fn positions(model: &Model, palette: &Palette) -> Vec<[f32; 3]> {
+    let mut positions = Vec::new();
+    skin_positions(&model.mesh, palette, &mut positions);
+    positions.iter().map(Vec3::to_array).collect()
+}
+
+fn write_text(out: &mut dyn Write, posed: &Posed<'_>) -> io::Result<()> {
+    match posed.clip {
+        Some(clip) => writeln!(out, "{} at {} s", Plain(clip), posed.time_secs)?,
+        None => writeln!(out, "bind pose")?,
+    }
+    for (bone, matrix) in posed.palette.iter().enumerate() {
+        writeln!(out, "bone {bone}")?;
+        for row in matrix.chunks_exact(4) {
+            write_row(out, row)?;
+        }
+    }
+    for (vertex, position) in posed.positions.iter().flatten().enumerate() {
+        write!(out, "vertex {vertex:<9}")?;
+        write_row(out, position)?;
+    }
+    Ok(())
+}
+
+fn write_row(out: &mut dyn Write, numbers: &[f32]) -> io::Result<()> {
+    for number in numbers {
+        write!(out, " {number:>13.6}")?;
+    }
+    writeln!(out)
+}

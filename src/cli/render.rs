@@ -1,0 +1,240 @@
+//! `bindpose render`: the page's picture, without a page.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+
+use super::text::Plain;
+use super::{Failure, clip, input};
+use crate::image::encode_png;
+use crate::render::device::{self, Gpu};
+use crate::render::{Renderer, Target, read_back_blocking};
+use crate::scene::{self, Background, Insets, ViewPreset};
+use crate::session::{Command, Session};
+
+/// Draw a model into a PNG file.
+///
+/// The same picture that the page shows, drawn without a window. A software GPU is enough.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// Model to read.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Picture to write.
+    #[arg(short, long, value_name = "PNG")]
+    output: PathBuf,
+    /// Clip by its name [default: the first].
+    #[arg(long, value_name = "NAME")]
+    clip: Option<String>,
+    /// Seconds in the clip's own time, kept inside the clip [default: where the clip starts].
+    #[arg(long, value_name = "SECS", value_parser = clip::seconds, allow_negative_numbers = true)]
+    time: Option<f32>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
+    size: [u32; 2],
+    /// Where to look from; the model is framed.
+    #[arg(long, value_enum, default_value = "three-quarter")]
+    view: View,
+    /// Way to the GPU [default: vulkan, or gl where that is missing].
+    #[arg(long, value_enum)]
+    backend: Option<Backend>,
+    /// Surroundings.
+    #[arg(long, value_enum, default_value = "dark")]
+    theme: Theme,
+    /// Leave out everything behind the model.
+    #[arg(long)]
+    transparent: bool,
+    /// Leave out the ground grid.
+    #[arg(long)]
+    no_grid: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum View {
+    ThreeQuarter,
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    Bottom,
+    Isometric,
+}
+
+impl From<View> for ViewPreset {
+    fn from(view: View) -> Self {
+        match view {
+            View::ThreeQuarter => Self::ThreeQuarter,
+            View::Front => Self::Front,
+            View::Back => Self::Back,
+            View::Left => Self::Left,
+            View::Right => Self::Right,
+            View::Top => Self::Top,
+            View::Bottom => Self::Bottom,
+            View::Isometric => Self::Isometric,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Backend {
+    Vulkan,
+    Gl,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Theme {
+    Dark,
+    Light,
+}
+
+impl From<Theme> for scene::Theme {
+    fn from(theme: Theme) -> Self {
+        match theme {
+            Theme::Dark => Self::Dark,
+            Theme::Light => Self::Light,
+        }
+    }
+}
+
+/// `1280x720`.
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    let sides = sides.and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    match sides {
+        Some([width, height]) if width > 0 && height > 0 => Ok([width, height]),
+        _ => Err("a size is a width and a height in pixels, such as 1280x720".into()),
+    }
+}
+
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+    let mut session = open(arguments)?;
+    let (gpu, backend) = open_gpu(arguments.backend)?;
+    let png = draw(arguments, &mut session, &gpu, backend)?;
+    std::fs::write(&arguments.output, png).map_err(|reason| Failure::Unwritable {
+        path: arguments.output.clone(),
+        reason,
+    })?;
+
+    let [width, height] = arguments.size;
+    let posed = session.clip().map_or_else(String::new, |clip| {
+        format!(", {} at {} s", clip.name, session.playback().time_secs())
+    });
+    let output = arguments.output.display();
+    let line = format!(
+        "{output}: {width}x{height}{posed}, drawn by {} ({backend})",
+        gpu.info.name
+    );
+    writeln!(out, "{}", Plain(&line))?;
+    Ok(())
+}
+
+/// A session that shows what was asked for, as the page's would.
+fn open(arguments: &Arguments) -> Result<Session, Failure> {
+    let path = &arguments.file;
+    // At rest: time stands where it is put.
+    let mut session = Session::new(true);
+    session.apply(Command::AddFiles(vec![input::read(path)?]));
+    if let Some(error) = session.error() {
+        return Err(Failure::Refused {
+            path: path.clone(),
+            error: Box::new(error.clone()),
+        });
+    }
+    if let (Some(open), Some(asked)) = (session.open_model(), &arguments.clip)
+        && let Some(clip) = clip::choose(&open.model, path, Some(asked))?
+    {
+        session.apply(Command::SelectClip(clip));
+    }
+    if let Some(time_secs) = arguments.time {
+        session.apply(Command::Seek { time_secs });
+    }
+    let [width, height] = arguments.size;
+    session.apply(Command::SetViewport {
+        aspect: width as f32 / height as f32,
+        insets: Insets::default(),
+    });
+    session.apply(Command::SetTheme(arguments.theme.into()));
+    session.apply(Command::SetGridVisible(!arguments.no_grid));
+    session.apply(Command::LookFrom(arguments.view.into()));
+    Ok(session)
+}
+
+fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure> {
+    let open = |backend| pollster::block_on(device::headless(backend)).map(|gpu| (gpu, backend));
+    match backend {
+        Some(Backend::Vulkan) => Ok(open(device::Backend::Vulkan)?),
+        Some(Backend::Gl) => Ok(open(device::Backend::Gl)?),
+        None => open(device::Backend::Vulkan)
+            .or_else(|vulkan| open(device::Backend::Gl).map_err(|gl| Failure::NoDeviceAtAll { vulkan, gl })),
+    }
+}
+
+/// The picture as the bytes of a PNG file.
+fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu, backend: device::Backend) -> Result<Vec<u8>, Failure> {
+    let [width, height] = arguments.size;
+    fits(gpu, backend, arguments.size)?;
+    let Gpu {
+        device, queue, samples, ..
+    } = gpu;
+    // Without scopes, an error of the driver would end the process with a panic.
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+
+    let mut renderer = Renderer::with_samples(device, queue, *samples);
+    let uploaded = session
+        .open_model()
+        .map_or(Ok(()), |open| renderer.set_model(&open.model));
+    let mut target = Target::with_samples(device, width, height, *samples);
+    let mut frame = session.frame();
+    if arguments.transparent {
+        frame.options.background = Background::Transparent;
+    }
+    renderer.render(&frame, &mut target);
+    let pixels = read_back_blocking(device, queue, &target);
+
+    for scope in [internal, validation, memory] {
+        if let Some(error) = pollster::block_on(scope.pop()) {
+            return Err(Failure::Gpu(error.to_string()));
+        }
+    }
+    uploaded?;
+    Ok(encode_png(&pixels?, width, height)?)
+}
+
+/// Whether the device can draw a picture of this size and hand it over.
+fn fits(gpu: &Gpu, backend: device::Backend, [width, height]: [u32; 2]) -> Result<(), Failure> {
+    let limits = gpu.device.limits();
+    let too_large = |largest| Failure::TooLarge {
+        width,
+        height,
+        backend,
+        largest,
+    };
+    let side = limits.max_texture_dimension_2d;
+    if width.max(height) > side {
+        return Err(too_large(format!("at most {side} pixels a side")));
+    }
+    let row_bytes = (u64::from(width) * 4).next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+    if row_bytes * u64::from(height) > limits.max_buffer_size {
+        let pixels = limits.max_buffer_size / 4;
+        return Err(too_large(format!("at most {pixels} pixels in all")));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_numbers_above_zero() {
+        assert_eq!(size("1280x720"), Ok([1280, 720]));
+        assert_eq!(size("1X2"), Ok([1, 2]));
+        for wrong in ["", "1280", "0x5", "5x0", "-1x5", "axb", "1x2x3", "99999999999x1"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

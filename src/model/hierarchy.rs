@@ -1,0 +1,193 @@
+//! From the file's bones in any order to joints with parents first.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::{Affine3A, Mat4};
+
+use super::notes::{Notes, Place, Tally, counted};
+use super::{JointIndex, ModelError, ModelErrorKind, Skeleton};
+use crate::diagnostic::Subject;
+use crate::format::{Document, LineMap};
+
+/// Bones that the loaders of both books can hold in their constant buffer.
+const BOOK_BONE_LIMIT: usize = 96;
+
+/// The skeleton of a document. A file whose order is already valid keeps it; otherwise each bone follows its parent as
+/// soon as the bones with lower numbers allow.
+pub(super) fn skeleton_from_document(
+    document: &Document,
+    lines: &LineMap,
+    notes: &mut Notes,
+) -> Result<Skeleton, ModelError> {
+    let bone_count = document.bone_parents.len();
+    if document.bone_offsets.len() != bone_count {
+        return Err(ModelErrorKind::BoneCountMismatch {
+            offsets: document.bone_offsets.len(),
+            parents: bone_count,
+        }
+        .on_line(lines.bone_parents.first().or(lines.bone_offsets.first()).copied()));
+    }
+    let bone_parents = parents_in_range(&document.bone_parents, lines)?;
+    let file_bones = parents_first(&bone_parents, lines)?;
+    note_order(&file_bones, &bone_parents, lines, notes);
+    if bone_count > BOOK_BONE_LIMIT {
+        notes.note(
+            "many-bones",
+            Place::default(),
+            format!("There are {bone_count} bones; the books' shaders hold {BOOK_BONE_LIMIT}."),
+        );
+    }
+
+    let mut joint_of_bone = vec![JointIndex(0); bone_count];
+    for (joint, &bone) in (0u32..).zip(&file_bones) {
+        joint_of_bone[bone as usize] = JointIndex(joint);
+    }
+    let parents = file_bones
+        .iter()
+        .map(|&bone| bone_parents[bone as usize].map(|parent| joint_of_bone[parent as usize]))
+        .collect();
+    let offsets = offsets(&document.bone_offsets, lines, notes);
+    let joint_from_bind = file_bones.iter().map(|&bone| offsets[bone as usize]).collect();
+    Skeleton::new(parents, joint_from_bind, file_bones)
+}
+
+/// The file's parents: −1 is a root, anything else must be a bone.
+fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>, ModelError> {
+    let bone_count = parents.len() as u32;
+    (0u32..)
+        .zip(parents)
+        .map(|(bone, &parent)| match u32::try_from(parent) {
+            _ if parent == -1 => Ok(None),
+            Ok(number) if number < bone_count => Ok(Some(number)),
+            _ => Err(ModelErrorKind::ParentOutOfRange {
+                bone,
+                parent,
+                bone_count,
+            }
+            .on_line(lines.bone_parents.get(bone as usize).copied())),
+        })
+        .collect()
+}
+
+/// File bones in an order in which parents come first: of the bones that may stand next, always the lowest number.
+fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, ModelError> {
+    let mut children = vec![Vec::new(); parents.len()];
+    let mut ready = BinaryHeap::new();
+    for (bone, parent) in (0u32..).zip(parents) {
+        match parent {
+            Some(parent) => children[*parent as usize].push(bone),
+            None => ready.push(Reverse(bone)),
+        }
+    }
+    let mut order = Vec::with_capacity(parents.len());
+    while let Some(Reverse(bone)) = ready.pop() {
+        order.push(bone);
+        ready.extend(children[bone as usize].iter().map(|&child| Reverse(child)));
+    }
+    if order.len() == parents.len() {
+        return Ok(order);
+    }
+    let bones = circle_of(parents, &order);
+    let line = bones.first().and_then(|&bone| lines.bone_parents.get(bone as usize));
+    let line = line.copied();
+    Err(ModelErrorKind::ParentCycle { bones }.on_line(line))
+}
+
+/// A circle among the bones that no root reaches, from its lowest number on.
+fn circle_of(parents: &[Option<u32>], placed: &[u32]) -> Vec<u32> {
+    let mut reached = vec![false; parents.len()];
+    for &bone in placed {
+        reached[bone as usize] = true;
+    }
+    let Some(outside) = reached.iter().position(|reached| !reached) else {
+        return Vec::new();
+    };
+    // Every bone that no root reaches has a parent of the same kind, so this walk must meet itself.
+    let step = |bone: u32| parents[bone as usize].unwrap_or(bone);
+    let mut bone = outside as u32;
+    for _ in 0..parents.len() {
+        bone = step(bone);
+    }
+    let mut circle = vec![bone];
+    let mut next = step(bone);
+    while next != bone {
+        circle.push(next);
+        next = step(next);
+    }
+    let lowest = (0..circle.len()).min_by_key(|&place| circle[place]).unwrap_or(0);
+    circle.rotate_left(lowest);
+    circle
+}
+
+fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, notes: &mut Notes) {
+    if file_bones.is_sorted() {
+        return;
+    }
+    let mut late = Tally::default();
+    for (bone, parent) in (0u32..).zip(parents) {
+        if parent.is_some_and(|parent| parent > bone) {
+            late.add(bone);
+        }
+    }
+    let stand = counted(late.count, "bone stands", "bones stand");
+    notes.note(
+        "bones-reordered",
+        Place::of(Subject::Bone(late.first), &lines.bone_parents),
+        format!("{stand} before the parent; the joints are sorted and keep the file's numbers for display."),
+    );
+}
+
+/// Inverse bind matrices in the file's numbering, each finite and affine.
+fn offsets(rows: &[[f32; 16]], lines: &LineMap, notes: &mut Notes) -> Vec<Affine3A> {
+    let (mut not_finite, mut not_affine, mut singular) = (Tally::default(), Tally::default(), Tally::default());
+    let matrices = (0u32..)
+        .zip(rows)
+        .map(|(bone, row)| {
+            if !row.iter().all(|number| number.is_finite()) {
+                not_finite.add(bone);
+                return Affine3A::IDENTITY;
+            }
+            // Row vectors, row by row, are the columns of our column-vector matrix.
+            let matrix = Mat4::from_cols_array(row);
+            if matrix.row(3) != glam::Vec4::W {
+                not_affine.add(bone);
+            }
+            let joint_from_bind = Affine3A::from_mat4(matrix);
+            if is_singular(&joint_from_bind) {
+                singular.add(bone);
+            }
+            joint_from_bind
+        })
+        .collect();
+    let mut warn = |code, tally: Tally, rule: &str| {
+        if tally.count > 0 {
+            let offsets = counted(tally.count, "bone offset has", "bone offsets have");
+            let place = Place::of(Subject::Bone(tally.first), &lines.bone_offsets);
+            notes.warn(code, place, format!("{offsets} {rule}"));
+        }
+    };
+    warn(
+        "offset-not-finite",
+        not_finite,
+        "a number that is not finite; the identity stands in.",
+    );
+    warn(
+        "offset-not-affine",
+        not_affine,
+        "a fourth column that is not 0 0 0 1; that column was left out.",
+    );
+    warn(
+        "offset-singular",
+        singular,
+        "no inverse; the bone's place in the bind pose is unknown.",
+    );
+    matrices
+}
+
+/// Whether the matrix flattens space, whatever its unit.
+fn is_singular(joint_from_bind: &Affine3A) -> bool {
+    let matrix = joint_from_bind.as_daffine3().matrix3;
+    let volume = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
+    matrix.determinant().abs() <= 1e-9 * volume
+}

@@ -1,0 +1,236 @@
+//! From the file's clips to tracks: one per joint, sorted, finite, of unit rotations.
+
+use glam::{Quat, Vec3};
+
+use super::clip::{keys_per_sec, span};
+use super::names::unique;
+use super::notes::{Notes, Place, Tally, counted};
+use super::track::unit;
+use super::{Clip, LocalJoint, ModelError, Skeleton, Track};
+use crate::diagnostic::Subject;
+use crate::format::{BoneAnimation, ClipLines, Document, LineMap};
+
+/// A rotation whose length is off by more than this was not meant to be rounded.
+const UNIT_TOLERANCE: f32 = 1e-3;
+
+/// Thirty years: a time beyond it is no time, and its next neighbour could not be told from it.
+const MAX_TIME_SECS: f32 = 1e9;
+
+/// All clips of a document for a skeleton.
+pub(super) fn clips_from_document(
+    document: &Document,
+    lines: &LineMap,
+    skeleton: &Skeleton,
+    notes: &mut Notes,
+) -> Result<Vec<Clip>, ModelError> {
+    let clip_lines: Vec<u32> = lines.clips.iter().map(|lines| lines.clip).collect();
+    let names = unique(
+        document.clips.iter().map(|clip| clip.name.as_str()),
+        "clip",
+        |index, name| {
+            notes.note(
+                "duplicate-clip-name",
+                Place::of(Subject::Clip(index), &clip_lines),
+                format!("Another clip has the same name; this one is shown as \"{name}\"."),
+            );
+        },
+    );
+    let no_lines = ClipLines::default();
+    (0u32..)
+        .zip(document.clips.iter().zip(names))
+        .map(|(index, (clip, name))| {
+            let reader = ClipReader {
+                clip: index,
+                lines: lines.clips.get(index as usize).unwrap_or(&no_lines),
+                skeleton,
+            };
+            reader.read(name, &clip.bones, notes)
+        })
+        .collect()
+}
+
+/// What is mended in the keys of one clip, counted over its bones.
+#[derive(Default)]
+struct Mended {
+    unsorted: Tally,
+    equal_times: Tally,
+    not_finite: Tally,
+    not_unit: Tally,
+    zero_rotation: Tally,
+    empty: Tally,
+}
+
+struct ClipReader<'a> {
+    clip: u32,
+    lines: &'a ClipLines,
+    skeleton: &'a Skeleton,
+}
+
+impl ClipReader<'_> {
+    fn read(&self, name: String, bones: &[BoneAnimation], notes: &mut Notes) -> Result<Clip, ModelError> {
+        let mut mended = Mended::default();
+        let mut tracks = Vec::with_capacity(self.skeleton.joint_count());
+        let mut has_keys = Vec::with_capacity(self.skeleton.joint_count());
+        for (&bone, &rest) in self.skeleton.file_bones().iter().zip(self.skeleton.rest()) {
+            let keys = bones
+                .get(bone as usize)
+                .map(|bone| bone.keyframes.as_slice())
+                .unwrap_or_default();
+            let keys = mended_keys(bone, keys, &mut mended);
+            has_keys.push(!keys.is_empty());
+            if keys.is_empty() {
+                if (bone as usize) < bones.len() {
+                    mended.empty.add(bone);
+                }
+                tracks.push(Track::constant(0.0, rest));
+            } else {
+                tracks.push(Track::new(keys)?);
+            }
+        }
+        self.note(&mended, bones.len(), notes);
+
+        // A bone without keys rests at every time: it takes no part in the span.
+        let keyed = || {
+            tracks
+                .iter()
+                .zip(&has_keys)
+                .filter(|(_, has_keys)| **has_keys)
+                .map(|(track, _)| track)
+        };
+        let (start_secs, end_secs) = span(keyed());
+        let keys_per_sec = keys_per_sec(keyed());
+        Ok(Clip {
+            name,
+            start_secs,
+            end_secs,
+            keys_per_sec,
+            key_count: bones.iter().map(|bone| bone.keyframes.len()).sum(),
+            tracks,
+        })
+    }
+
+    fn note(&self, mended: &Mended, bone_count: usize, notes: &mut Notes) {
+        let joint_count = self.skeleton.joint_count();
+        let clip_line = Some(self.lines.clip).filter(|&line| line > 0);
+        let at_clip = Place::on(Subject::Clip(self.clip), clip_line);
+        if bone_count < joint_count {
+            let missing = counted(joint_count - bone_count, "bone has", "bones have");
+            notes.warn(
+                "clip-bones-missing",
+                at_clip,
+                format!("{missing} no track in this clip; at rest as in the bind pose."),
+            );
+        }
+        if bone_count > joint_count {
+            let more = counted(bone_count - joint_count, "track", "tracks");
+            notes.warn(
+                "clip-bones-extra",
+                at_clip,
+                format!("The clip has {more} more than the skeleton has bones; left out."),
+            );
+        }
+        let mut warn = |code, tally: Tally, one: &str, many: &str, rule: &str| {
+            if tally.count > 0 {
+                let line = self.lines.bones.get(tally.first as usize).copied().or(clip_line);
+                let message = format!("{} {rule}", counted(tally.count, one, many));
+                notes.warn(code, Place::on(Subject::Clip(self.clip), line), message);
+            }
+        };
+        let bones = ("bone has", "bones have");
+        let keys = ("key has", "keys have");
+        warn(
+            "track-empty",
+            mended.empty,
+            bones.0,
+            bones.1,
+            "no keys in this clip; at rest as in the bind pose.",
+        );
+        warn(
+            "keys-not-finite",
+            mended.not_finite,
+            keys.0,
+            keys.1,
+            "a number that is not finite or a time beyond 10⁹ s; left out.",
+        );
+        warn(
+            "keys-not-sorted",
+            mended.unsorted,
+            bones.0,
+            bones.1,
+            "keys that are not in the order of time; sorted.",
+        );
+        warn(
+            "keys-at-equal-times",
+            mended.equal_times,
+            keys.0,
+            keys.1,
+            "the time of the key before; the first and the last key of a time are kept as a jump.",
+        );
+        warn(
+            "rotation-not-unit",
+            mended.not_unit,
+            keys.0,
+            keys.1,
+            "a rotation that is not of unit length; normalised.",
+        );
+        warn(
+            "rotation-zero",
+            mended.zero_rotation,
+            keys.0,
+            keys.1,
+            "a rotation of length 0; taken as no rotation.",
+        );
+    }
+}
+
+/// The keys of a bone: finite, in strictly increasing time.
+fn mended_keys(bone: u32, keys: &[crate::format::Keyframe], mended: &mut Mended) -> Vec<(f32, LocalJoint)> {
+    let mut sound = Vec::with_capacity(keys.len());
+    for key in keys {
+        let stored = Quat::from_array(key.rotation);
+        let joint = LocalJoint {
+            rotation: stored,
+            translation: Vec3::from_array(key.translation),
+            scale: Vec3::from_array(key.scale),
+        };
+        if !joint.is_finite() || key.time_secs.is_nan() || key.time_secs.abs() > MAX_TIME_SECS {
+            mended.not_finite.add(bone);
+            continue;
+        }
+        let rotation = unit(stored).unwrap_or_else(|| {
+            mended.zero_rotation.add(bone);
+            Quat::IDENTITY
+        });
+        if (stored.length() - 1.0).abs() > UNIT_TOLERANCE && stored.length() > 0.0 {
+            mended.not_unit.add(bone);
+        }
+        // Adding 0 makes −0 and 0 the same time for the sort as well.
+        sound.push((key.time_secs + 0.0, LocalJoint { rotation, ..joint }));
+    }
+    if !sound.is_sorted_by(|a, b| a.0 <= b.0) {
+        mended.unsorted.add(bone);
+        sound.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    apart(bone, sound, mended)
+}
+
+/// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are
+/// never seen. The last is moved to the next time that a number can name.
+fn apart(bone: u32, keys: Vec<(f32, LocalJoint)>, mended: &mut Mended) -> Vec<(f32, LocalJoint)> {
+    if keys.is_sorted_by(|a, b| a.0 < b.0) {
+        return keys;
+    }
+    let mut kept: Vec<(f32, LocalJoint)> = Vec::with_capacity(keys.len());
+    for group in keys.chunk_by(|a, b| a.0 == b.0) {
+        let (time_secs, first) = group[0];
+        let (_, last) = group[group.len() - 1];
+        (1..group.len()).for_each(|_| mended.equal_times.add(bone));
+        if kept.last().is_none_or(|before| before.0 < time_secs) {
+            kept.push((time_secs, first));
+        }
+        if group.len() > 1 {
+            kept.push((time_secs.next_up(), last));
+        }
+    }
+    kept
+}

@@ -1,0 +1,74 @@
+//! Normals: unit length, computed where the file has none.
+
+use glam::{DVec3, Vec3};
+
+use super::Handedness;
+use super::handedness::facing;
+use super::notes::{Notes, Place, Tally, counted};
+use crate::diagnostic::Subject;
+use crate::format::LineMap;
+
+/// Shorter than this is no direction.
+const LEAST_LENGTH: f64 = 1e-6;
+
+/// Whether a stored vector can be made a unit vector.
+pub(super) fn is_direction(vector: Vec3) -> bool {
+    vector.is_finite() && vector.as_dvec3().length() > LEAST_LENGTH
+}
+
+/// Unit normals. Those that are zero or not finite become the mean of the triangles around, weighted by their area; a
+/// vertex without such triangles gets +y.
+pub(super) fn mended_normals(
+    mut normals: Vec<Vec3>,
+    positions: &[Vec3],
+    indices: &[u32],
+    handedness: Handedness,
+    lines: &LineMap,
+    notes: &mut Notes,
+) -> Vec<Vec3> {
+    let mut missing = Tally::default();
+    for (index, normal) in (0u32..).zip(&normals) {
+        if !is_direction(*normal) {
+            missing.add(index);
+        }
+    }
+    let computed = if missing.count > 0 {
+        notes.warn(
+            "normals-missing",
+            Place::of(Subject::Vertex(missing.first), &lines.vertices),
+            format!(
+                "{} a normal that is zero or not finite; computed from the triangles.",
+                counted(missing.count, "vertex has", "vertices have")
+            ),
+        );
+        area_weighted(positions, indices, handedness)
+    } else {
+        Vec::new()
+    };
+    for (index, normal) in normals.iter_mut().enumerate() {
+        let direction = if is_direction(*normal) {
+            normal.as_dvec3()
+        } else {
+            computed[index]
+        };
+        *normal = direction.try_normalize().unwrap_or(DVec3::Y).as_vec3();
+    }
+    normals
+}
+
+/// Sum of the facing sides of the triangles around each vertex, as long as twice their area.
+fn area_weighted(positions: &[Vec3], indices: &[u32], handedness: Handedness) -> Vec<DVec3> {
+    let outward = match handedness {
+        Handedness::Left => 1.0,
+        Handedness::Right => -1.0,
+    };
+    let mut sums = vec![DVec3::ZERO; positions.len()];
+    for corners in indices.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
+        let side = facing(positions[a], positions[b], positions[c]) * outward;
+        for corner in [a, b, c] {
+            sums[corner] += side;
+        }
+    }
+    sums
+}

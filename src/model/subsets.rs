@@ -1,0 +1,147 @@
+//! From the file's subset table to triangle ranges that lie inside the mesh.
+
+use super::notes::{Notes, Place, counted};
+use super::surface::default_material;
+use super::{Material, Submesh};
+use crate::diagnostic::Subject;
+use crate::format::{Document, LineMap, Subset};
+
+/// The ranges to draw. May add one default material for subsets that have none.
+pub(super) fn submeshes_from_document(
+    document: &Document,
+    lines: &LineMap,
+    materials: &mut Vec<Material>,
+    notes: &mut Notes,
+) -> Vec<Submesh> {
+    let triangle_count = document.triangles.len() as u32;
+    let file_materials = materials.len() as u32;
+    if document.subsets.is_empty() {
+        if triangle_count == 0 {
+            return Vec::new();
+        }
+        if materials.is_empty() {
+            materials.push(default_material(materials));
+        }
+        notes.warn(
+            "no-subsets",
+            Place::default(),
+            format!("The file has no subset; all {triangle_count} triangles are drawn with the first material."),
+        );
+        return vec![Submesh {
+            triangle_start: 0,
+            triangle_count,
+            material: 0,
+        }];
+    }
+
+    let mut without_material = None;
+    let submeshes: Vec<Submesh> = (0u32..)
+        .zip(&document.subsets)
+        .map(|(index, subset)| {
+            let (triangle_start, triangle_count) = clamped(index, subset, triangle_count, lines, notes);
+            if index >= file_materials {
+                without_material.get_or_insert(index);
+            }
+            Submesh {
+                triangle_start,
+                triangle_count,
+                material: index.min(file_materials),
+            }
+        })
+        .collect();
+    if let Some(first) = without_material {
+        materials.push(default_material(materials));
+        let count = document.subsets.len() - first as usize;
+        notes.warn(
+            "subset-without-material",
+            Place::of(Subject::Subset(first), &lines.subsets),
+            format!(
+                "{} no material; drawn in a default grey.",
+                counted(count, "subset has", "subsets have")
+            ),
+        );
+    }
+    note_coverage(&submeshes, triangle_count, notes);
+    note_relative_indices(document, lines, notes);
+    submeshes
+}
+
+/// The part of a subset's range that exists.
+fn clamped(index: u32, subset: &Subset, triangle_count: u32, lines: &LineMap, notes: &mut Notes) -> (u32, u32) {
+    let start = subset.face_start.min(triangle_count);
+    let count = subset.face_count.min(triangle_count - start);
+    if (start, count) != (subset.face_start, subset.face_count) {
+        let (first, wanted) = (subset.face_start, subset.face_count);
+        notes.warn(
+            "subset-out-of-range",
+            Place::of(Subject::Subset(index), &lines.subsets),
+            format!(
+                "Subset {index} asks for {wanted} triangles from {first} on, but the file has {triangle_count}; {count} of \
+                 them are drawn.",
+            ),
+        );
+    }
+    (start, count)
+}
+
+/// Triangles in no range are not drawn; triangles in several are drawn again.
+fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) {
+    let mut ranges: Vec<(u32, u32)> = submeshes
+        .iter()
+        .filter(|submesh| submesh.triangle_count > 0)
+        .map(|submesh| (submesh.triangle_start, submesh.triangle_start + submesh.triangle_count))
+        .collect();
+    ranges.sort_unstable();
+    let (mut drawn_to, mut undrawn, mut again) = (0, 0, 0);
+    for (start, end) in ranges {
+        undrawn += start.saturating_sub(drawn_to);
+        again += drawn_to.min(end).saturating_sub(start);
+        drawn_to = drawn_to.max(end);
+    }
+    undrawn += triangle_count - drawn_to;
+    if undrawn > 0 {
+        let belong = counted(undrawn as usize, "triangle belongs", "triangles belong");
+        notes.warn(
+            "triangles-undrawn",
+            Place::default(),
+            format!("{belong} to no subset; not drawn."),
+        );
+    }
+    if again > 0 {
+        let belong = counted(again as usize, "triangle belongs", "triangles belong");
+        notes.note(
+            "triangles-shared",
+            Place::default(),
+            format!("{belong} to more than one subset."),
+        );
+    }
+}
+
+/// Indices are absolute in every known file. A later subset whose indices all lie below its `VertexStart`, but would fill
+/// its vertex range when counted from there, was most likely written for a loader that adds `VertexStart`.
+fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes) {
+    for (index, subset) in (0u32..).zip(&document.subsets) {
+        let faces = document
+            .triangles
+            .iter()
+            .skip(subset.face_start as usize)
+            .take(subset.face_count as usize);
+        let Some(highest) = faces.flatten().copied().max() else {
+            continue;
+        };
+        let fits = subset.vertex_count > 0
+            && highest == subset.vertex_count - 1
+            && u64::from(subset.vertex_start) + u64::from(subset.vertex_count) <= document.vertices.len() as u64;
+        if fits && highest < subset.vertex_start {
+            notes.note(
+                "indices-look-relative",
+                Place::of(Subject::Subset(index), &lines.subsets),
+                format!(
+                    "The triangles of subset {index} name only vertices before its VertexStart {}; they are taken as they \
+                     stand, but look counted from there.",
+                    subset.vertex_start
+                ),
+            );
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Colours of the surroundings and the places of the lights.
+
+use glam::Vec3;
+
+use crate::scene::{Camera, Theme, linear_from_srgb8};
+
+/// Colours of one theme, sRGB.
+pub(super) struct Look {
+    /// Backdrop at its lightest.
+    pub(super) backdrop_center: [u8; 3],
+    /// Backdrop far from there.
+    pub(super) backdrop_edge: [u8; 3],
+    pub(super) grid_minor: [u8; 3],
+    pub(super) grid_minor_opacity: f32,
+    pub(super) grid_major: [u8; 3],
+    pub(super) grid_major_opacity: f32,
+    /// Share of the ground's light that the shadow takes.
+    pub(super) shadow_strength: f32,
+}
+
+const DARK: Look = Look {
+    backdrop_center: [0x33, 0x38, 0x42],
+    backdrop_edge: [0x14, 0x16, 0x1A],
+    grid_minor: [0x6B, 0x76, 0x8A],
+    grid_minor_opacity: 0.24,
+    grid_major: [0x7E, 0x8B, 0xA2],
+    grid_major_opacity: 0.36,
+    shadow_strength: 0.66,
+};
+
+const LIGHT: Look = Look {
+    backdrop_center: [0xF4, 0xF5, 0xF7],
+    backdrop_edge: [0xCF, 0xD4, 0xDC],
+    grid_minor: [0x8A, 0x90, 0x9C],
+    grid_minor_opacity: 0.5,
+    grid_major: [0x5B, 0x63, 0x70],
+    grid_major_opacity: 0.7,
+    shadow_strength: 0.6,
+};
+
+/// The look of a theme.
+pub(super) fn look(theme: Theme) -> &'static Look {
+    match theme {
+        Theme::Dark => &DARK,
+        Theme::Light => &LIGHT,
+    }
+}
+
+/// Where the lights stand. They keep their place beside the viewer, as if the model stood on a turntable: whichever side is
+/// looked at is lit well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lights {
+    /// Unit vector towards the key: high over the viewer's right shoulder.
+    pub(super) to_key: Vec3,
+    /// Unit vector towards the rim: behind the model, from the left.
+    pub(super) to_rim: Vec3,
+}
+
+impl Lights {
+    pub(super) fn beside(camera: &Camera) -> Self {
+        let right = camera.right();
+        let ahead = right.cross(Vec3::Y);
+        let towards = |x: f32, y: f32, z: f32| (right * x + Vec3::Y * y + ahead * z).normalize();
+        Self {
+            to_key: towards(0.64, 0.74, -0.34),
+            to_rim: towards(-0.72, 0.36, 0.58),
+        }
+    }
+}
+
+/// An encoded opaque colour, 0…1 a channel.
+pub(super) fn encoded([red, green, blue]: [u8; 3]) -> [f32; 4] {
+    [red, green, blue, 255].map(|channel| f32::from(channel) / 255.0)
+}
+
+/// A linear colour with opacity.
+pub(super) fn linear(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
+    let [red, green, blue] = srgb.map(linear_from_srgb8);
+    [red, green, blue, opacity]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Projection;
+
+    #[test]
+    fn the_key_is_above_to_the_right_and_before_the_model_from_every_side() {
+        for yaw_radians in [0.0, 1.0, 2.5, -3.0] {
+            let camera = Camera {
+                target: Vec3::ZERO,
+                distance: 1.0,
+                yaw_radians,
+                pitch_radians: 0.3,
+                projection: Projection::Orthographic,
+            };
+            let Lights { to_key, to_rim } = Lights::beside(&camera);
+            assert!(to_key.y > 0.5 && to_key.dot(camera.right()) > 0.4 && to_key.dot(camera.forward()) < -0.3);
+            assert!(to_rim.dot(camera.right()) < -0.4 && to_rim.dot(camera.forward()) > 0.3);
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! The picture as bytes.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::target::Target;
+use crate::scene::{linear_from_srgb8, srgb8_from_linear};
+
+const BYTES_PER_PIXEL: u32 = 4;
+
+/// Why a picture could not be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReadBackError {
+    /// The device is gone or out of memory.
+    #[error("the picture could not be read back from the GPU: {0}")]
+    Gpu(String),
+}
+
+/// Reads a target's picture: RGBA, 8 bits a channel, sRGB, straight alpha, rows from the top without padding.
+///
+/// `pause` is awaited until the GPU is done, and is where platforms differ: a page must give its event loop a turn (WebGL reports
+/// nothing within one), a native caller can just use [`read_back_blocking`].
+pub async fn read_back(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    target: &Target,
+    pause: impl AsyncFn(),
+) -> Result<Vec<u8>, ReadBackError> {
+    let pending = Pending::start(device, queue, target);
+    loop {
+        device.poll(wgpu::PollType::Poll).map_err(gpu_error)?;
+        if let Some(outcome) = pending.outcome() {
+            return pending.finish(outcome);
+        }
+        pause().await;
+    }
+}
+
+/// As [`read_back`], for where a thread may wait: not on the web.
+pub fn read_back_blocking(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    target: &Target,
+) -> Result<Vec<u8>, ReadBackError> {
+    let pending = Pending::start(device, queue, target);
+    device.poll(wgpu::PollType::wait_indefinitely()).map_err(gpu_error)?;
+    match pending.outcome() {
+        Some(outcome) => pending.finish(outcome),
+        None => Err(ReadBackError::Gpu("this platform cannot wait for it".into())),
+    }
+}
+
+type Outcome = Result<(), wgpu::BufferAsyncError>;
+
+/// A copy under way.
+struct Pending {
+    buffer: wgpu::Buffer,
+    row_bytes: usize,
+    padded_row_bytes: usize,
+    outcome: Arc<Mutex<Option<Outcome>>>,
+}
+
+impl Pending {
+    fn start(device: &wgpu::Device, queue: &wgpu::Queue, target: &Target) -> Self {
+        let [width, height] = target.size();
+        let row_bytes = width * BYTES_PER_PIXEL;
+        let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size: u64::from(padded_row_bytes) * u64::from(height),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
+            label: Some("read back"),
+        });
+        encoder.copy_texture_to_buffer(
+            target.texture().as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded_row_bytes),
+                    rows_per_image: None,
+                },
+            },
+            target.texture().size(),
+        );
+        queue.submit([encoder.finish()]);
+        let outcome = Arc::new(Mutex::new(None));
+        let arrived = Arc::clone(&outcome);
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            *arrived.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+        });
+        Self {
+            buffer,
+            row_bytes: row_bytes as usize,
+            padded_row_bytes: padded_row_bytes as usize,
+            outcome,
+        }
+    }
+
+    fn outcome(&self) -> Option<Outcome> {
+        self.outcome.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn finish(&self, outcome: Outcome) -> Result<Vec<u8>, ReadBackError> {
+        outcome.map_err(gpu_error)?;
+        let mapped = self.buffer.get_mapped_range(..).map_err(gpu_error)?;
+        let rows = mapped.chunks_exact(self.padded_row_bytes);
+        let mut pixels: Vec<u8> = rows.flat_map(|row| &row[..self.row_bytes]).copied().collect();
+        for pixel in pixels.chunks_exact_mut(BYTES_PER_PIXEL as usize) {
+            make_alpha_straight(pixel);
+        }
+        Ok(pixels)
+    }
+}
+
+fn gpu_error(error: impl std::fmt::Display) -> ReadBackError {
+    ReadBackError::Gpu(error.to_string())
+}
+
+/// Divides a pixel's colour by its alpha, in linear light as it was multiplied.
+fn make_alpha_straight(pixel: &mut [u8]) {
+    if let [red, green, blue, alpha @ 1..=254] = pixel {
+        let share = f32::from(*alpha) / 255.0;
+        for channel in [red, green, blue] {
+            *channel = srgb8_from_linear(linear_from_srgb8(*channel) / share);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alpha_is_taken_out_of_the_colour_in_linear_light() {
+        let half_covered = srgb8_from_linear(0.5 * linear_from_srgb8(200));
+        for (premultiplied, straight) in [
+            ([half_covered, 0, 0, 128], [200, 0, 0, 128]),
+            ([200, 100, 50, 255], [200, 100, 50, 255]),
+            ([0, 0, 0, 0], [0, 0, 0, 0]),
+        ] {
+            let mut pixel = premultiplied;
+            make_alpha_straight(&mut pixel);
+            for (found, expected) in pixel.into_iter().zip(straight) {
+                assert!(found.abs_diff(expected) <= 1, "{pixel:?} for {straight:?}");
+            }
+        }
+    }
+}

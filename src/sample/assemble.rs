@@ -1,0 +1,116 @@
+//! From the parts to the file's words, every number rounded to the decimals that matter.
+
+use std::collections::BTreeMap;
+
+use glam::{DMat4, DVec2, DVec3};
+
+use super::materials::Material;
+use super::rig::Rig;
+use super::skin::Skin;
+use super::texcoords::{self, Chart};
+use super::weights::Influences;
+use crate::format::{AnimationClip, Dialect, Document, Subset, Vertex};
+
+/// The whole document.
+pub(super) fn document(skin: &Skin, influences: &[Influences], rig: &Rig, clips: Vec<AnimationClip>) -> Document {
+    let mut document = Document {
+        dialect: Dialect::D3d12,
+        materials: Material::ALL.map(Material::entry).to_vec(),
+        bone_offsets: rig
+            .joints
+            .iter()
+            .map(|joint| offset(joint.origin, joint.rotation))
+            .collect(),
+        bone_parents: rig
+            .joints
+            .iter()
+            .map(|joint| joint.parent.map_or(-1, |parent| parent as i32))
+            .collect(),
+        clips,
+        ..Document::default()
+    };
+    for (id, material) in Material::ALL.into_iter().enumerate() {
+        let (vertex_start, face_start) = (document.vertices.len() as u32, document.triangles.len() as u32);
+        add_triangles(&mut document, material, skin, influences, rig);
+        document.subsets.push(Subset {
+            id: id as u32,
+            vertex_start,
+            vertex_count: document.vertices.len() as u32 - vertex_start,
+            face_start,
+            face_count: document.triangles.len() as u32 - face_start,
+        });
+    }
+    document
+}
+
+/// Adds the triangles of one material, with vertices of their own, split where charts meet or wrap.
+fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influences: &[Influences], rig: &Rig) {
+    let mut added = BTreeMap::<(u32, u32, [u64; 2]), u32>::new();
+    for (corners, region) in skin.triangles.iter().zip(&skin.regions) {
+        if region.material() != material {
+            continue;
+        }
+        let points = corners.map(|corner| skin.positions[corner as usize]);
+        let centre = (points[0] + points[1] + points[2]) / 3.0;
+        let normals = corners.map(|corner| skin.normals[corner as usize]);
+        let moved_by = heaviest(corners.map(|corner| influences[corner as usize]));
+        let (number, chart) = texcoords::chart(rig, *region, moved_by, points, normals);
+        let near = chart.tex_coords(centre, None);
+        document.triangles.push(corners.map(|corner| {
+            let point = skin.positions[corner as usize];
+            let tex_coords = chart.tex_coords(point, Some(near));
+            let key = (corner, number, tex_coords.to_array().map(f64::to_bits));
+            *added.entry(key).or_insert_with(|| {
+                let normal = skin.normals[corner as usize];
+                document
+                    .vertices
+                    .push(vertex(point, normal, chart, tex_coords, influences[corner as usize]));
+                document.vertices.len() as u32 - 1
+            })
+        }));
+    }
+}
+
+/// The joint that moves a triangle most; the lower one of equals.
+fn heaviest(corners: [Influences; 3]) -> usize {
+    let mut sums = BTreeMap::<usize, u32>::new();
+    for (joint, weight) in corners.into_iter().flatten() {
+        *sums.entry(joint).or_default() += weight;
+    }
+    sums.into_iter()
+        .fold(
+            (0, 0),
+            |best, (joint, sum)| if sum > best.1 { (joint, sum) } else { best },
+        )
+        .0
+}
+
+fn vertex(point: DVec3, normal: DVec3, chart: Chart, tex_coords: DVec2, influences: Influences) -> Vertex {
+    let (tangent, sign) = chart.tangent(point, normal);
+    let [x, y, z] = rounded(tangent, 4);
+    Vertex {
+        position: rounded(point, 5),
+        tangent: [x, y, z, sign as f32],
+        normal: rounded(normal, 4),
+        tex_coords: tex_coords.to_array().map(|value| round(value, 4)),
+        blend_weights: influences.map(|(_, weight)| round(f64::from(weight) / 10_000.0, 4)),
+        blend_indices: influences.map(|(joint, _)| joint as u32),
+    }
+}
+
+/// Joint from bind in the file's order.
+fn offset(origin: DVec3, rotation: glam::DQuat) -> [f32; 16] {
+    let joint_from_bind = DMat4::from_rotation_translation(rotation, origin).inverse();
+    joint_from_bind.to_cols_array().map(|value| round(value, 6))
+}
+
+/// Three numbers rounded.
+pub(super) fn rounded(vector: DVec3, decimals: i32) -> [f32; 3] {
+    vector.to_array().map(|value| round(value, decimals))
+}
+
+/// Rounded to this many decimals, without a negative zero, as the nearest f32: its shortest text is those decimals.
+pub(super) fn round(value: f64, decimals: i32) -> f32 {
+    let unit = 10f64.powi(decimals);
+    ((value * unit).round() / unit + 0.0) as f32
+}

@@ -1,0 +1,135 @@
+//! Which part of the skin is made of what. Borders are level sets, so that the mesh can be snapped to them.
+
+use glam::DVec3;
+
+use super::body::{Body, Part};
+use super::rig::{ARM, Limb, Rig, Side};
+use crate::format;
+
+/// A region of the skin; the first of [`Region::BORDERED`] that contains a point owns it, the suit owns the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Region {
+    Visor,
+    Sole,
+    Boot,
+    Glove,
+    EarCup,
+    Neck,
+    Pack,
+    Badge,
+    KneePad,
+    Stripe,
+    Belt,
+    Suit,
+}
+
+/// One of the file's materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Material {
+    Suit,
+    Trim,
+    Rubber,
+    Visor,
+}
+
+impl Region {
+    const BORDERED: [Region; 11] = [
+        Region::Visor,
+        Region::Sole,
+        Region::Boot,
+        Region::Glove,
+        Region::EarCup,
+        Region::Neck,
+        Region::Pack,
+        Region::Badge,
+        Region::KneePad,
+        Region::Stripe,
+        Region::Belt,
+    ];
+
+    /// What it is made of.
+    pub(super) fn material(self) -> Material {
+        match self {
+            Region::Visor | Region::Badge => Material::Visor,
+            Region::Boot | Region::Glove | Region::Pack | Region::EarCup | Region::Stripe => Material::Trim,
+            Region::Sole | Region::Neck | Region::Belt | Region::KneePad => Material::Rubber,
+            Region::Suit => Material::Suit,
+        }
+    }
+
+    /// The region that owns `point`.
+    pub(super) fn of(body: &Body, rig: &Rig, point: DVec3) -> Region {
+        let owner = Region::BORDERED
+            .into_iter()
+            .find(|region| region.border(body, rig, point) < 0.0);
+        owner.unwrap_or(Region::Suit)
+    }
+
+    /// Negative inside, about metres near the border. The suit has no border of its own.
+    pub(super) fn border(self, body: &Body, rig: &Rig, point: DVec3) -> f64 {
+        let band = |y: f64, middle: f64, half: f64| (y - middle).abs() - half;
+        let on_left = DVec3::new(point.x.abs(), point.y, point.z);
+        let along_arm = |limb| (on_left - rig.origin(Side::Left, limb)).dot(ARM);
+        match self {
+            Region::Visor => visor(point),
+            Region::Sole => point.y - 0.042,
+            Region::Boot => point.y - 0.268,
+            // Planes across the arm cut the legs too, but those are nearer to the middle.
+            Region::Glove => (-0.108 - along_arm(Limb::Hand)).max(0.3 - on_left.x),
+            Region::Neck => (1.445 - point.y).max(0.011 - body.part_distance(Part::Helmet, point)),
+            Region::Pack => body.part_distance(Part::Pack, point) - 0.009,
+            Region::Badge => badge(point),
+            Region::EarCup => body.part_distance(Part::EarCups, point) - 0.005,
+            Region::KneePad => knee_pad(on_left - rig.origin(Side::Left, Limb::Shin)),
+            Region::Stripe => band(along_arm(Limb::UpperArm), 0.125, 0.03)
+                .max(0.2 - on_left.x)
+                .max(1.1 - point.y),
+            Region::Belt => band(point.y, 0.995, 0.02).max(on_left.x - 0.25),
+            Region::Suit => 1.0,
+        }
+    }
+}
+
+/// A rounded pane in front of the face.
+fn visor(point: DVec3) -> f64 {
+    let (x, y) = (point.x / 0.126, (point.y - 1.618) / 0.083);
+    // Between a circle and a square.
+    let pane = ((x * x * x * x + y * y * y * y).sqrt().sqrt() - 1.0) * 0.08;
+    pane.max(point.z)
+}
+
+/// A disc on the breast.
+fn badge(point: DVec3) -> f64 {
+    let (x, y) = (point.x, point.y - 1.275);
+    ((x * x + y * y).sqrt() - 0.05).max(point.z)
+}
+
+/// An oval in front of the left knee.
+fn knee_pad(from_knee: DVec3) -> f64 {
+    let (x, y) = (from_knee.x / 0.047, from_knee.y / 0.06);
+    (((x * x + y * y).sqrt() - 1.0) * 0.05).max(from_knee.z)
+}
+
+impl Material {
+    /// In the order of the file's subsets.
+    pub(super) const ALL: [Material; 4] = [Material::Suit, Material::Trim, Material::Rubber, Material::Visor];
+
+    /// The file's words; colours are linear.
+    pub(super) fn entry(self) -> format::Material {
+        let (name, diffuse, fresnel0, roughness) = match self {
+            Material::Suit => ("Suit", [0.64, 0.62, 0.58], [0.04; 3], 0.62),
+            Material::Trim => ("Trim", [0.82, 0.235, 0.045], [0.04; 3], 0.5),
+            Material::Rubber => ("Rubber", [0.045, 0.05, 0.06], [0.04; 3], 0.7),
+            Material::Visor => ("Visor", [0.012, 0.02, 0.034], [0.09, 0.1, 0.12], 0.12),
+        };
+        format::Material {
+            name: name.into(),
+            diffuse,
+            reflectance: format::Reflectance::Fresnel { fresnel0, roughness },
+            alpha_clip: false,
+            type_name: "Skinned".into(),
+            diffuse_map: None,
+            normal_map: None,
+        }
+    }
+}

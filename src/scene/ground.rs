@@ -1,0 +1,74 @@
+//! Where the ground lies under a scene, and how its grid is spaced.
+
+use super::Aabb;
+
+/// The ground plane under a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ground {
+    /// World y of the plane.
+    pub height: f32,
+    /// World units between two minor grid lines, a power of ten; ten of them lie between two major lines.
+    pub cell: f32,
+}
+
+/// How far above y = 0 a model may float, in heights of its own, and still belong to that ground: leaps.
+const FLOATING_SHARE: f32 = 1.0;
+/// Minor cells that fit the radius of the scene, about.
+const CELLS_PER_RADIUS: f32 = 6.0;
+
+impl Ground {
+    /// y = 0, or the floor of the box when that is lower (the ground never cuts a model) or far above. An empty scene lies on y = 0 with cells of 1.
+    pub fn under(world_bounds: &Aabb) -> Self {
+        if world_bounds.is_empty() {
+            return Self { height: 0.0, cell: 1.0 };
+        }
+        let floor = world_bounds.min.y;
+        let tall = world_bounds.size().y;
+        let is_near_zero = (0.0..=FLOATING_SHARE * tall).contains(&floor);
+        let exponent = (world_bounds.radius() / CELLS_PER_RADIUS).log10().round();
+        Self {
+            height: if is_near_zero { 0.0 } else { floor },
+            // A single point has no size to go by.
+            cell: if exponent.is_finite() {
+                10f32.powf(exponent.clamp(-30.0, 30.0))
+            } else {
+                1.0
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    fn ground(min: Vec3, max: Vec3) -> Ground {
+        Ground::under(&Aabb { min, max })
+    }
+
+    #[test]
+    fn lies_at_zero_and_never_cuts_a_model() {
+        for (min_y, max_y, height) in [
+            (0.0, 70.0, 0.0),
+            (-3.0, 70.0, -3.0),
+            (5.0, 70.0, 0.0),
+            (-1.0, 1.0, -1.0),
+            (90.0, 91.0, 90.0),
+        ] {
+            let found = ground(Vec3::new(-1.0, min_y, -1.0), Vec3::new(1.0, max_y, 1.0));
+            assert_eq!(found.height, height, "{min_y}..{max_y}");
+        }
+    }
+
+    #[test]
+    fn cells_follow_the_size_by_powers_of_ten() {
+        for (size, cell) in [(0.01, 0.001), (1.0, 0.1), (75.0, 10.0), (10_000.0, 1000.0)] {
+            let found = ground(Vec3::ZERO, Vec3::splat(size));
+            assert!((found.cell / cell - 1.0).abs() < 1e-4, "{size}: {}", found.cell);
+        }
+        assert_eq!(ground(Vec3::ONE, Vec3::ONE).cell, 1.0);
+        assert_eq!(Ground::under(&Aabb::EMPTY), Ground { height: 0.0, cell: 1.0 });
+    }
+}

@@ -1,0 +1,138 @@
+//! All that a person or a program can ask for, and what came of it.
+
+use glam::Vec2;
+
+use super::files::File;
+use crate::anim::LoopMode;
+use crate::model::{Handedness, UpAxis};
+use crate::scene::{Insets, Theme, ViewPreset};
+
+/// A wish. [`super::Session::apply`] is the one place where things change.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Opens the largest model of a drop; the others are listed, pictures are kept beside it.
+    AddFiles(Vec<File>),
+    /// Opens another model of the last drop, by its path.
+    OpenFile(String),
+    /// Takes the error card away.
+    DismissError,
+
+    /// Plays on in the direction it had; a clip that stopped at its end starts over.
+    Play,
+    /// Stops where it is.
+    Pause,
+    /// Plays or pauses.
+    TogglePlay,
+    /// Plays backward, or pauses when it does.
+    TogglePlayBackward,
+    /// Goes to a time, clamped to the clip.
+    Seek {
+        /// Seconds in the clip's own time.
+        time_secs: f32,
+    },
+    /// Pauses and goes some frames on (or back), to a whole frame.
+    StepFrames(i32),
+    /// First frame.
+    SeekStart,
+    /// Last frame.
+    SeekEnd,
+    /// The pointer holds the time: playing waits until [`Command::EndScrub`].
+    BeginScrub,
+    /// The pointer let go: playing goes on if it played before.
+    EndScrub,
+    /// Shows a clip, by its index.
+    SelectClip(usize),
+    /// Shows the clip some places further, around the end.
+    CycleClip(i32),
+    /// Speed as a factor of the file's.
+    SetSpeed(f32),
+    /// One of the [`super::SPEEDS`] down.
+    Slower,
+    /// One of the [`super::SPEEDS`] up.
+    Faster,
+    /// What happens at the end.
+    SetLoopMode(LoopMode),
+    /// Once, loop, ping-pong, in turn.
+    CycleLoopMode,
+
+    /// Turns the camera about its target.
+    Orbit {
+        /// Positive moves the eye to its left.
+        yaw_radians: f32,
+        /// Positive lifts the eye.
+        pitch_radians: f32,
+    },
+    /// Moves the scene with the pointer.
+    Pan {
+        /// Shares of the picture's height, x right, y down.
+        drag: Vec2,
+    },
+    /// Comes nearer (factor below 1) to what is under the pointer.
+    Zoom {
+        /// Factor of the distance.
+        factor: f32,
+        /// Shares of the picture's height from its centre, x right, y down.
+        pointer: Vec2,
+    },
+    /// Frames all that the clip reaches.
+    FrameModel,
+    /// Looks from a named direction and frames.
+    LookFrom(ViewPreset),
+    /// Perspective or orthographic.
+    ToggleProjection,
+    /// The default view.
+    ResetCamera,
+    /// The picture's shape, and what of it is covered by panels.
+    SetViewport {
+        /// Width / height.
+        aspect: f32,
+        /// Covered margins.
+        insets: Insets,
+    },
+
+    /// Takes the file as left- or right-handed; `None` is what was found.
+    SetHandedness(Option<Handedness>),
+    /// Takes the file's up axis as given; `None` is what was found.
+    SetUpAxis(Option<UpAxis>),
+    /// Shows or hides the ground grid.
+    SetGridVisible(bool),
+    /// Shows or hides the ground grid, in turn.
+    ToggleGrid,
+    /// Dark or light surroundings.
+    SetTheme(Theme),
+}
+
+/// What an [`super::Session::apply`] did that others must know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effect {
+    /// Another model is open: a renderer must take it up.
+    pub model_replaced: bool,
+}
+
+/// Something that happened, for programs that listen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Event {
+    /// A model was opened.
+    Load,
+    /// A file could not be opened.
+    Error,
+    /// Playing began.
+    Play,
+    /// Playing ended.
+    Pause,
+    /// The time is another one.
+    TimeUpdate,
+}
+
+impl Event {
+    /// The name that listeners use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Load => "load",
+            Self::Error => "error",
+            Self::Play => "play",
+            Self::Pause => "pause",
+            Self::TimeUpdate => "timeupdate",
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Dropped files by name, as they came from one drop.
+
+use std::sync::Arc;
+
+/// One file: where it lay relative to what was dropped, and its bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Relative path with `/`, as the drop gave it: `soldier/soldier.m3d`.
+    pub path: String,
+    /// Its bytes.
+    pub bytes: Arc<[u8]>,
+}
+
+impl File {
+    /// A file with its path in one form: `/` between the parts, no leading `/` or `./`.
+    pub fn new(path: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
+        let path = path.replace('\\', "/");
+        let path = path.trim_start_matches("./").trim_start_matches('/');
+        Self {
+            path: path.to_owned(),
+            bytes: bytes.into(),
+        }
+    }
+
+    /// Last part of the path.
+    pub fn base_name(&self) -> &str {
+        self.path.rsplit('/').next().unwrap_or(&self.path)
+    }
+
+    /// What follows the last dot of the base name, in lower case; empty without a dot.
+    pub fn extension(&self) -> String {
+        self.base_name()
+            .rsplit_once('.')
+            .map(|(_, extension)| extension.to_ascii_lowercase())
+            .unwrap_or_default()
+    }
+}
+
+/// What a drop brought.
+#[derive(Clone, Debug, Default)]
+pub struct FileSet {
+    files: Vec<File>,
+}
+
+/// Extensions of pictures that models name as their maps.
+const IMAGE_EXTENSIONS: [&str; 7] = ["dds", "png", "jpg", "jpeg", "tga", "bmp", "hdr"];
+
+impl FileSet {
+    /// A set of these files, in their order. Of two files with one path the later is kept.
+    pub fn new(files: impl IntoIterator<Item = File>) -> Self {
+        let mut set = Self::default();
+        for file in files {
+            match set.files.iter_mut().find(|known| known.path == file.path) {
+                Some(known) => *known = file,
+                None => set.files.push(file),
+            }
+        }
+        set
+    }
+
+    /// All files.
+    pub fn files(&self) -> &[File] {
+        &self.files
+    }
+
+    /// Files that are models by their name, the largest first. When there is none, any file that is no picture
+    /// counts, so that a renamed model opens and any other file is told what it is.
+    pub fn models(&self) -> Vec<&File> {
+        let by_name = |wanted: fn(&File) -> bool| self.files.iter().filter(|file| wanted(file)).collect::<Vec<_>>();
+        let mut models = by_name(|file| file.extension() == "m3d");
+        if models.is_empty() {
+            models = by_name(|file| !is_image(file));
+        }
+        models.sort_by_key(|file| std::cmp::Reverse(file.bytes.len()));
+        models
+    }
+
+    /// Files that are pictures by their name.
+    pub fn images(&self) -> impl Iterator<Item = &File> {
+        self.files.iter().filter(|file| is_image(file))
+    }
+
+    /// The file with this path.
+    pub fn get(&self, path: &str) -> Option<&File> {
+        self.files.iter().find(|file| file.path == path)
+    }
+}
+
+fn is_image(file: &File) -> bool {
+    IMAGE_EXTENSIONS.contains(&file.extension().as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(path: &str, len: usize) -> File {
+        File::new(path, vec![0; len])
+    }
+
+    #[test]
+    fn paths_have_one_form_and_names_are_their_last_part() {
+        let file = file("\\media\\Soldier.M3D", 1);
+        assert_eq!(
+            (file.path.as_str(), file.base_name()),
+            ("media/Soldier.M3D", "Soldier.M3D")
+        );
+        assert_eq!(file.extension(), "m3d");
+        assert_eq!(File::new("./a", []).path, "a");
+        assert_eq!(File::new("README", []).extension(), "");
+    }
+
+    #[test]
+    fn models_come_largest_first_and_pictures_are_none() {
+        let set = FileSet::new([
+            file("a.m3d", 3),
+            file("t/b.dds", 100),
+            file("c.m3d", 9),
+            file("notes.txt", 50),
+        ]);
+        assert_eq!(
+            set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(),
+            ["c.m3d", "a.m3d"]
+        );
+        assert_eq!(set.images().count(), 1);
+    }
+
+    #[test]
+    fn without_a_model_by_name_anything_but_pictures_is_tried() {
+        let set = FileSet::new([file("a.png", 3), file("model.txt", 1)]);
+        assert_eq!(
+            set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(),
+            ["model.txt"]
+        );
+        assert!(FileSet::new([file("a.png", 3)]).models().is_empty());
+    }
+
+    #[test]
+    fn the_later_of_two_files_with_one_path_is_kept() {
+        let set = FileSet::new([file("a.m3d", 3), file("a.m3d", 4)]);
+        assert_eq!(set.files().len(), 1);
+        assert_eq!(set.get("a.m3d").map(|f| f.bytes.len()), Some(4));
+    }
+}

@@ -1,0 +1,74 @@
+//! Twins of the WGSL structs and of the vertex inputs. A test compares each offset with what naga computes for the shader.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Twin of `Frame` in `frame.wgsl`, which says what each member means. Matrices are column by column, as in glam.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in frame.wgsl, where each is used")]
+pub struct Frame {
+    pub clip_from_world: [[f32; 4]; 4],
+    pub world_from_model: [[f32; 4]; 4],
+    pub shadow_clip_from_world: [[f32; 4]; 4],
+    pub eye: [f32; 3],
+    pub front_sign: f32,
+    pub forward: [f32; 3],
+    pub is_perspective: f32,
+    pub eye_per_x: [f32; 3],
+    pub ground_height: f32,
+    pub eye_per_y: [f32; 3],
+    pub grid_cell: f32,
+    pub forward_per_x: [f32; 3],
+    pub grid_reach: f32,
+    pub forward_per_y: [f32; 3],
+    pub shadow_texel: f32,
+    pub to_key: [f32; 3],
+    pub shadow_strength: f32,
+    pub to_rim: [f32; 3],
+    pub grid_strength: f32,
+    pub backdrop_center_srgb: [f32; 4],
+    pub backdrop_edge_srgb: [f32; 4],
+    pub grid_minor: [f32; 4],
+    pub grid_major: [f32; 4],
+    pub grid_center: [f32; 2],
+    pub viewport_pixels: [f32; 2],
+}
+
+/// Twin of `Material` in `mesh.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Material {
+    /// Linear.
+    pub albedo: [f32; 3],
+    /// 0 smooth … 1 rough.
+    pub roughness: f32,
+    /// Reflectance at normal incidence, linear.
+    pub fresnel0: [f32; 3],
+    /// Fills the struct to 16 bytes.
+    pub unused: f32,
+}
+
+/// What every vertex has: shader locations 0–3, bind space.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct GeometryVertex {
+    /// Location 0.
+    pub position: [f32; 3],
+    /// Location 1, unit.
+    pub normal: [f32; 3],
+    /// Location 2; w = ±1.
+    pub tangent: [f32; 4],
+    /// Location 3.
+    pub tex_coord: [f32; 2],
+}
+
+/// What a skinned vertex has besides: shader locations 4 and 5. Indices have 32 bits, as a skeleton may have more than
+/// 65 536 joints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct InfluenceVertex {
+    /// Location 4.
+    pub joints: [u32; 4],
+    /// Location 5.
+    pub weights: [f32; 4],
+}

@@ -1,0 +1,80 @@
+//! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
+
+use egui::{Align, Align2, Layout, RichText, Sense, Ui, vec2};
+
+use super::excerpt;
+use super::icons::Icon;
+use super::theme::{self, Tokens};
+use super::widgets::{control_size, icon_button, rule, text_button};
+use crate::session::{Command, LoadError, Session};
+
+const CARD_MARGIN: f32 = 12.0;
+
+/// The card's contents.
+pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
+    let tokens = Tokens::of(ui);
+    let title = match error.file_name.as_str() {
+        "" => "Nothing to open".to_owned(),
+        name => format!("{} could not be read", super::timeline::shortened(name, 40)),
+    };
+    ui.horizontal(|ui| {
+        let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width() - 106.0, 28.0), Sense::hover());
+        let clip = ui.painter().with_clip_rect(heading);
+        clip.text(
+            heading.left_center(),
+            Align2::LEFT_CENTER,
+            &title,
+            theme::semibold(13.5),
+            tokens.error,
+        );
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &title));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
+                commands.push(Command::DismissError);
+            }
+            if text_button(
+                ui,
+                "Copy",
+                "Copy the error",
+                false,
+                egui::Rangef::new(control_size(ui), f32::INFINITY),
+            )
+            .clicked()
+            {
+                ui.ctx().copy_text(error.to_text());
+            }
+        });
+    });
+    rule(ui, CARD_MARGIN);
+    ui.label(RichText::new(&error.diagnostic.message).color(tokens.text));
+    if let Some(lines) = &error.excerpt {
+        ui.add_space(9.0);
+        let place = error
+            .diagnostic
+            .position
+            .map(|p| format!("{}:{}:{}", error.file_name, p.line, p.column));
+        let expected = error
+            .diagnostic
+            .expected
+            .as_ref()
+            .map(|expected| format!("expected {expected}"));
+        let words = (place.unwrap_or_default(), expected.unwrap_or_default());
+        excerpt::show(ui, lines, Some((&words.0, &words.1)), tokens.error);
+    }
+    ui.add_space(9.0);
+    let after = if session.open_model().is_some() {
+        "The model that was open stays open."
+    } else {
+        "Nothing is open yet."
+    };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(after).color(tokens.muted));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(
+                RichText::new(error.diagnostic.code)
+                    .color(tokens.faint)
+                    .font(theme::mono(11.0)),
+            );
+        });
+    });
+}

@@ -1,0 +1,81 @@
+//! What the keys do.
+
+use egui::{Align2, FontId, Sense, Ui, vec2};
+
+use super::UiState;
+use super::icons::Icon;
+use super::theme::{self, ROW_HEIGHT, Tokens};
+use super::widgets::{icon_button, rule};
+
+/// Keys and what they do, in groups.
+const KEYS: [&[(&str, &str)]; 3] = [
+    &[
+        ("Space", "play or pause"),
+        ("Shift Space", "play backward"),
+        ("← →", "one frame"),
+        ("Shift ← →", "ten frames"),
+        ("Home End", "first, last frame"),
+        ("[ ] \\", "slower, faster, 1×"),
+        ("L", "once, loop, there and back"),
+        ("C", "next clip"),
+        ("Shift C", "previous clip"),
+    ],
+    &[
+        ("Drag", "orbit"),
+        ("Right drag", "pan"),
+        ("Wheel", "zoom to the pointer"),
+        ("One finger", "orbit"),
+        ("Two fingers", "pan and zoom"),
+        ("F", "frame the model"),
+        ("1 3 7", "front, right, top"),
+        ("Ctrl 1 3 7", "the opposite side"),
+        ("5", "orthographic"),
+        ("9 0", "isometric, reset"),
+    ],
+    &[
+        ("G", "ground grid"),
+        ("?", "this table"),
+        ("Esc", "close, then leave with Tab"),
+    ],
+];
+
+/// The table.
+pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
+    let tokens = Tokens::of(ui);
+    ui.horizontal(|ui| {
+        let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width() - 34.0, 28.0), Sense::hover());
+        ui.painter().text(
+            heading.left_center(),
+            Align2::LEFT_CENTER,
+            "Keys",
+            theme::semibold(13.0),
+            tokens.text,
+        );
+        if icon_button(ui, Icon::Close, "Close", false).clicked() {
+            state.help_open = false;
+        }
+    });
+    egui::ScrollArea::vertical()
+        .max_height(ui.ctx().content_rect().height() - 160.0)
+        .show(ui, |ui| {
+            for group in KEYS {
+                rule(ui, 12.0);
+                for (keys, does) in group {
+                    let (rect, response) =
+                        ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+                    ui.painter().text(
+                        rect.left_center(),
+                        Align2::LEFT_CENTER,
+                        *keys,
+                        theme::mono(12.0),
+                        tokens.text,
+                    );
+                    let at = rect.left_center() + vec2(112.0, 0.0);
+                    ui.painter()
+                        .text(at, Align2::LEFT_CENTER, *does, FontId::proportional(13.0), tokens.muted);
+                    response
+                        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{keys}: {does}")));
+                }
+            }
+        });
+}

@@ -1,0 +1,170 @@
+//! One family of icons, drawn with lines of one weight in a box of 16 units.
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
+
+/// Line weight in points.
+const LINE_WIDTH: f32 = 1.4;
+
+/// What an icon says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Icon {
+    /// Start playing.
+    Play,
+    /// Stop playing.
+    Pause,
+    /// To the first frame.
+    SkipStart,
+    /// To the last frame.
+    SkipEnd,
+    /// Stop at the end.
+    Once,
+    /// Start over at the end.
+    Loop,
+    /// Turn round at the end.
+    PingPong,
+    /// Ground grid.
+    Grid,
+    /// Fit into view.
+    Frame,
+    /// Direction to look from.
+    Cube,
+    /// Open files.
+    Open,
+    /// Dark surroundings.
+    Moon,
+    /// Light surroundings.
+    Sun,
+    /// What keys do.
+    Help,
+    /// Take away.
+    Close,
+    /// Opens a list below.
+    ChevronDown,
+    /// More.
+    Dots,
+}
+
+/// Draws an icon centred in `rect`, 16 points high.
+pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
+    let origin = rect.center() - vec2(8.0, 8.0);
+    let at = |x: f32, y: f32| -> Pos2 { origin + vec2(x, y) };
+    let stroke = Stroke::new(LINE_WIDTH, color);
+    let line = |points: &[(f32, f32)]| {
+        painter.add(Shape::line(points.iter().map(|&(x, y)| at(x, y)).collect(), stroke));
+    };
+    let closed = |points: &[(f32, f32)]| {
+        painter.add(Shape::closed_line(
+            points.iter().map(|&(x, y)| at(x, y)).collect(),
+            stroke,
+        ));
+    };
+    let filled = |points: &[(f32, f32)]| {
+        painter.add(Shape::convex_polygon(
+            points.iter().map(|&(x, y)| at(x, y)).collect(),
+            color,
+            Stroke::NONE,
+        ));
+    };
+    let box_of = |x0: f32, y0: f32, x1: f32, y1: f32| Rect::from_min_max(at(x0, y0), at(x1, y1));
+    // Part of a circle about (cx, cy), angles in quarter turns clockwise from the right.
+    let arc = |cx: f32, cy: f32, radius: f32, from: f32, to: f32| {
+        let points = (0..=20).map(|i| {
+            let angle = (from + (to - from) * i as f32 / 20.0) * std::f32::consts::FRAC_PI_2;
+            at(cx + radius * angle.cos(), cy + radius * angle.sin())
+        });
+        painter.add(Shape::line(points.collect(), stroke));
+    };
+    match icon {
+        Icon::Play => filled(&[(5.0, 3.2), (13.2, 8.0), (5.0, 12.8)]),
+        Icon::Pause => {
+            painter.rect_filled(box_of(4.2, 3.4, 6.8, 12.6), 0.8, color);
+            painter.rect_filled(box_of(9.2, 3.4, 11.8, 12.6), 0.8, color);
+        }
+        Icon::SkipStart => {
+            line(&[(3.6, 3.6), (3.6, 12.4)]);
+            filled(&[(12.4, 3.6), (12.4, 12.4), (5.6, 8.0)]);
+        }
+        Icon::SkipEnd => {
+            line(&[(12.4, 3.6), (12.4, 12.4)]);
+            filled(&[(3.6, 3.6), (10.4, 8.0), (3.6, 12.4)]);
+        }
+        Icon::Once => {
+            line(&[(2.0, 8.0), (11.0, 8.0)]);
+            line(&[(8.0, 5.0), (11.0, 8.0), (8.0, 11.0)]);
+            line(&[(13.6, 3.6), (13.6, 12.4)]);
+        }
+        Icon::Loop => {
+            line(&[(2.4, 7.4), (2.4, 6.4), (3.0, 5.0), (4.4, 4.4), (13.2, 4.4)]);
+            line(&[(10.8, 2.0), (13.2, 4.4), (10.8, 6.8)]);
+            line(&[(13.6, 8.6), (13.6, 9.6), (13.0, 11.0), (11.6, 11.6), (2.8, 11.6)]);
+            line(&[(5.2, 14.0), (2.8, 11.6), (5.2, 9.2)]);
+        }
+        Icon::PingPong => {
+            line(&[(2.0, 8.0), (14.0, 8.0)]);
+            line(&[(5.0, 5.0), (2.0, 8.0), (5.0, 11.0)]);
+            line(&[(11.0, 5.0), (14.0, 8.0), (11.0, 11.0)]);
+        }
+        Icon::Grid => {
+            for offset in [5.6, 10.4] {
+                line(&[(offset, 2.0), (offset, 14.0)]);
+                line(&[(2.0, offset), (14.0, offset)]);
+            }
+        }
+        Icon::Frame => {
+            line(&[(2.4, 5.4), (2.4, 2.4), (5.4, 2.4)]);
+            line(&[(10.6, 2.4), (13.6, 2.4), (13.6, 5.4)]);
+            line(&[(13.6, 10.6), (13.6, 13.6), (10.6, 13.6)]);
+            line(&[(5.4, 13.6), (2.4, 13.6), (2.4, 10.6)]);
+            painter.circle_filled(at(8.0, 8.0), 1.6, color);
+        }
+        Icon::Cube => {
+            closed(&[
+                (8.0, 1.8),
+                (13.6, 4.9),
+                (13.6, 11.1),
+                (8.0, 14.2),
+                (2.4, 11.1),
+                (2.4, 4.9),
+            ]);
+            line(&[(2.4, 4.9), (8.0, 8.0), (13.6, 4.9)]);
+            line(&[(8.0, 8.0), (8.0, 14.2)]);
+        }
+        Icon::Open => {
+            line(&[
+                (2.0, 12.6),
+                (2.0, 3.4),
+                (6.2, 3.4),
+                (7.8, 5.2),
+                (13.0, 5.2),
+                (13.0, 7.2),
+            ]);
+            closed(&[(2.0, 12.6), (4.4, 7.2), (15.0, 7.2), (12.6, 12.6)]);
+        }
+        Icon::Moon => {
+            arc(8.0, 8.0, 5.6, -0.85, -3.15);
+            arc(10.9, 5.1, 4.35, 0.55, 2.42);
+        }
+        Icon::Sun => {
+            painter.circle_stroke(at(8.0, 8.0), 2.9, stroke);
+            for i in 0..8 {
+                let (sin, cos) = (i as f32 * std::f32::consts::FRAC_PI_4).sin_cos();
+                line(&[(8.0 + 5.0 * cos, 8.0 + 5.0 * sin), (8.0 + 6.6 * cos, 8.0 + 6.6 * sin)]);
+            }
+        }
+        Icon::Help => {
+            arc(8.0, 5.9, 2.9, 2.0, 4.9);
+            line(&[(10.65, 7.1), (8.0, 8.7), (8.0, 10.2)]);
+            painter.circle_filled(at(8.0, 12.7), 1.0, color);
+        }
+        Icon::Close => {
+            line(&[(4.2, 4.2), (11.8, 11.8)]);
+            line(&[(11.8, 4.2), (4.2, 11.8)]);
+        }
+        Icon::ChevronDown => line(&[(4.6, 6.4), (8.0, 9.8), (11.4, 6.4)]),
+        Icon::Dots => {
+            for x in [3.6, 8.0, 12.4] {
+                painter.circle_filled(at(x, 8.0), 1.2, color);
+            }
+        }
+    }
+}

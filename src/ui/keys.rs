@@ -1,0 +1,128 @@
+//! Keys to commands. Only what the viewer owns: the browser keeps its own.
+
+use egui::{Event, Key, Modifiers, Ui};
+
+use super::UiState;
+use crate::scene::ViewPreset;
+use crate::session::{Command, Session};
+
+/// Reads the keys of this frame. Nothing while words are typed.
+pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    if ui.ctx().text_edit_focused() {
+        return;
+    }
+    let events = ui.input(|input| input.events.clone());
+    // Space and Enter belong to a focused control.
+    let control_focused = ui.memory(|memory| memory.focused().is_some());
+    for event in events {
+        match event {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } => {
+                if control_focused && matches!(key, Key::Space | Key::Enter) {
+                    continue;
+                }
+                commands.extend(command_for(key, modifiers));
+                if key == Key::Escape {
+                    escape(session, state, commands);
+                }
+            }
+            // The question mark is on different keys of different keyboards.
+            Event::Text(text) if text == "?" => state.help_open = !state.help_open,
+            _ => {}
+        }
+    }
+}
+
+/// Takes away what lies on top.
+fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    if session.error().is_some() {
+        commands.push(Command::DismissError);
+    } else if state.help_open {
+        state.help_open = false;
+    } else {
+        state.diagnostics_open = false;
+    }
+}
+
+/// What a key asks for.
+pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
+    let Modifiers {
+        shift,
+        command: ctrl,
+        alt,
+        ..
+    } = modifiers;
+    if alt || (ctrl && !matches!(key, Key::Num1 | Key::Num3 | Key::Num7)) {
+        return None;
+    }
+    let opposite = |preset, other| Some(Command::LookFrom(if ctrl { other } else { preset }));
+    let frames = if shift { 10 } else { 1 };
+    match key {
+        Key::Space if shift => Some(Command::TogglePlayBackward),
+        Key::Space => Some(Command::TogglePlay),
+        Key::ArrowLeft | Key::Comma => Some(Command::StepFrames(-frames)),
+        Key::ArrowRight | Key::Period => Some(Command::StepFrames(frames)),
+        Key::Home => Some(Command::SeekStart),
+        Key::End => Some(Command::SeekEnd),
+        Key::OpenBracket => Some(Command::Slower),
+        Key::CloseBracket => Some(Command::Faster),
+        Key::Backslash => Some(Command::SetSpeed(1.0)),
+        Key::L => Some(Command::CycleLoopMode),
+        Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
+        Key::F => Some(Command::FrameModel),
+        Key::G => Some(Command::ToggleGrid),
+        Key::Num1 => opposite(ViewPreset::Front, ViewPreset::Back),
+        Key::Num3 => opposite(ViewPreset::Right, ViewPreset::Left),
+        Key::Num7 => opposite(ViewPreset::Top, ViewPreset::Bottom),
+        Key::Num5 => Some(Command::ToggleProjection),
+        Key::Num9 => Some(Command::LookFrom(ViewPreset::Isometric)),
+        Key::Num0 => Some(Command::ResetCamera),
+        _ => None,
+    }
+}
+
+/// Whether a key is the viewer's, so that the browser must not act on it too.
+pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
+    key == Key::Escape || command_for(key, modifiers).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_of_the_browser_are_left_alone() {
+        for key in [Key::L, Key::F, Key::C, Key::W, Key::T, Key::Num5, Key::ArrowLeft] {
+            assert_eq!(command_for(key, Modifiers::COMMAND), None, "{key:?}");
+            assert_eq!(command_for(key, Modifiers::ALT), None, "{key:?}");
+        }
+    }
+
+    #[test]
+    fn shift_makes_ten_frames_of_one() {
+        assert_eq!(
+            command_for(Key::ArrowLeft, Modifiers::NONE),
+            Some(Command::StepFrames(-1))
+        );
+        assert_eq!(
+            command_for(Key::ArrowRight, Modifiers::SHIFT),
+            Some(Command::StepFrames(10))
+        );
+    }
+
+    #[test]
+    fn ctrl_looks_from_the_opposite_side() {
+        assert_eq!(
+            command_for(Key::Num1, Modifiers::NONE),
+            Some(Command::LookFrom(ViewPreset::Front))
+        );
+        assert_eq!(
+            command_for(Key::Num1, Modifiers::COMMAND),
+            Some(Command::LookFrom(ViewPreset::Back))
+        );
+    }
+}

@@ -1,0 +1,210 @@
+//! What is open: counts, handedness, up axis, size, subsets, other models of the drop, the count of diagnostics.
+
+use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
+
+use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+use super::timeline::shortened;
+use super::widgets::{choice_row, grouped, is_touch, measured, menu_item, rule, section_name, value_row};
+use super::{UiState, title_bar};
+use crate::diagnostic::Severity;
+use crate::model::{Handedness, UpAxis};
+use crate::scene::display_color;
+use crate::session::{Command, OpenModel, Session};
+
+/// Margin inside the panel.
+pub(super) const PANEL_MARGIN: f32 = 12.0;
+/// Subsets listed before the list scrolls.
+const SUBSET_ROWS: f32 = 8.0;
+
+/// The panel's contents.
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let Some(open) = session.open_model() else { return };
+    let tokens = Tokens::of(ui);
+    let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    ui.painter().text(
+        heading.left_center(),
+        Align2::LEFT_CENTER,
+        "Model",
+        theme::semibold(13.0),
+        tokens.text,
+    );
+    rule(ui, PANEL_MARGIN);
+    counts(ui, open);
+    space_rows(ui, session, commands);
+    bounds_row(ui, open);
+    rule(ui, PANEL_MARGIN);
+    subsets(ui, open);
+    other_models(ui, session, commands);
+    rule(ui, PANEL_MARGIN);
+    diagnostics_row(ui, open, state);
+}
+
+fn counts(ui: &mut Ui, open: &OpenModel) {
+    let model = &open.model;
+    value_row(ui, "Dialect", title_bar::dialect_name(open.dialect));
+    value_row(ui, "Vertices", &grouped(model.mesh.vertex_count()));
+    value_row(ui, "Triangles", &grouped(model.mesh.triangle_count()));
+    value_row(ui, "Bones", &grouped(model.skeleton.joint_count()));
+    value_row(ui, "Clips", &grouped(model.clips.len()));
+}
+
+fn space_rows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let how = |chosen: bool| if chosen { "chosen" } else { "found" };
+    let hand = |handedness| match handedness {
+        Handedness::Left => "Left",
+        Handedness::Right => "Right",
+    };
+    let chosen = session.handedness_override();
+    let row = choice_row(ui, "Handedness", hand(session.handedness()), how(chosen.is_some()));
+    Popup::menu(&row).show(|ui| {
+        ui.set_width(150.0);
+        for (label, choice) in [
+            ("As found", None),
+            ("Left-handed", Some(Handedness::Left)),
+            ("Right-handed", Some(Handedness::Right)),
+        ] {
+            if menu_item(ui, label, chosen == choice).clicked() {
+                commands.push(Command::SetHandedness(choice));
+                ui.close();
+            }
+        }
+    });
+
+    let axis = |up_axis| match up_axis {
+        UpAxis::Y => "Y",
+        UpAxis::Z => "Z",
+    };
+    let chosen = session.up_axis_override();
+    let row = choice_row(ui, "Up axis", axis(session.up_axis()), how(chosen.is_some()));
+    Popup::menu(&row).show(|ui| {
+        ui.set_width(150.0);
+        for (label, choice) in [("As found", None), ("Y up", Some(UpAxis::Y)), ("Z up", Some(UpAxis::Z))] {
+            if menu_item(ui, label, chosen == choice).clicked() {
+                commands.push(Command::SetUpAxis(choice));
+                ui.close();
+            }
+        }
+    });
+}
+
+fn bounds_row(ui: &mut Ui, open: &OpenModel) {
+    let size = open.bind_bounds.size();
+    let text = format!("{} × {} × {}", measured(size.x), measured(size.y), measured(size.z));
+    let (min, max) = (open.bind_bounds.min, open.bind_bounds.max);
+    let corner = |v: glam::Vec3| format!("({}, {}, {})", measured(v.x), measured(v.y), measured(v.z));
+    value_row(ui, "Size", &text).on_hover_text(format!(
+        "Bind pose, in the file's axes\nfrom {}\nto {}",
+        corner(min),
+        corner(max)
+    ));
+}
+
+fn subsets(ui: &mut Ui, open: &OpenModel) {
+    let tokens = Tokens::of(ui);
+    section_name(ui, "Subsets");
+    let submeshes = &open.model.mesh.submeshes;
+    let list = egui::ScrollArea::vertical()
+        .id_salt("subsets")
+        .max_height(SUBSET_ROWS * ROW_HEIGHT);
+    list.auto_shrink([false, true]).show(ui, |ui| {
+        for submesh in submeshes {
+            let Some(material) = open.model.materials.get(submesh.material as usize) else {
+                continue;
+            };
+            let color = display_color(submesh.material as usize, material);
+            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+            let swatch = egui::Rect::from_center_size(rect.left_center() + vec2(5.0, 0.0), vec2(10.0, 10.0));
+            ui.painter().rect_filled(swatch, 2.5, color_srgb(color));
+            let count = grouped(submesh.triangle_count as usize);
+            let font = FontId::proportional(13.0);
+            let name = shortened(&material.name, 22);
+            let name_at = rect.left_center() + vec2(18.0, 0.0);
+            ui.painter()
+                .text(name_at, Align2::LEFT_CENTER, name, font.clone(), tokens.text);
+            ui.painter()
+                .text(rect.right_center(), Align2::RIGHT_CENTER, &count, font, tokens.muted);
+            let label = format!("{}, {count} triangles", material.name);
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+            response.on_hover_text(label);
+        }
+    });
+}
+
+/// Linear colour to what egui paints.
+fn color_srgb(linear: [f32; 3]) -> Color32 {
+    let [r, g, b] = linear;
+    egui::Rgba::from_rgb(r, g, b).into()
+}
+
+fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let models = session.files().models();
+    if models.len() < 2 {
+        return;
+    }
+    rule(ui, PANEL_MARGIN);
+    section_name(ui, "In this drop");
+    let open_path = session.open_model().map(|open| open.file.path.as_str());
+    let list = egui::ScrollArea::vertical().id_salt("drop").max_height(5.0 * 26.0);
+    list.auto_shrink([false, true]).show(ui, |ui| {
+        for file in models {
+            let response = menu_item(
+                ui,
+                &shortened(file.base_name(), 28),
+                open_path == Some(file.path.as_str()),
+            );
+            if response.on_hover_text(&file.path).clicked() {
+                commands.push(Command::OpenFile(file.path.clone()));
+            }
+        }
+    });
+}
+
+fn diagnostics_row(ui: &mut Ui, open: &OpenModel, state: &mut UiState) {
+    let tokens = Tokens::of(ui);
+    let height = if is_touch(ui) { 44.0 } else { 24.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+    if response.hovered() || response.has_focus() {
+        ui.painter()
+            .rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);
+    }
+    let font = FontId::proportional(13.0);
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        "Diagnostics",
+        font,
+        tokens.text,
+    );
+    let (count, color) = summary(open, &tokens);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(count.clone(), FontId::proportional(11.5), color);
+    let chip = egui::Rect::from_min_size(
+        egui::pos2(
+            rect.max.x - galley.size().x - 14.0,
+            rect.center().y - galley.size().y * 0.5 - 2.5,
+        ),
+        galley.size() + vec2(14.0, 5.0),
+    );
+    ui.painter().rect_filled(chip, chip.height() * 0.5, tokens.field);
+    ui.painter().galley(chip.min + vec2(7.0, 2.5), galley, color);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Diagnostics: {count}")));
+    if response.on_hover_text("What was found in the file").clicked() {
+        state.diagnostics_open = !state.diagnostics_open;
+    }
+}
+
+/// `2 warnings`, `1 note`, `none`, with the colour that says how bad it is.
+fn summary(open: &OpenModel, tokens: &Tokens) -> (String, Color32) {
+    let count = |severity| open.notices.iter().filter(|notice| notice.severity == severity).count();
+    let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
+    match (count(Severity::Warning), count(Severity::Note)) {
+        (0, 0) => ("none".to_owned(), tokens.muted),
+        (0, notes) => (plural(notes, "note"), tokens.muted),
+        (warnings, 0) => (plural(warnings, "warning"), tokens.warning),
+        (warnings, notes) => (
+            format!("{}, {}", plural(warnings, "warning"), plural(notes, "note")),
+            tokens.warning,
+        ),
+    }
+}

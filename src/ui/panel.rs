@@ -1,0 +1,73 @@
+//! Panels that float over the view.
+
+use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, Ui};
+
+use super::theme::{self, Tokens};
+
+/// Where a panel is and what it looks like.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Panel {
+    name: &'static str,
+    pivot: Align2,
+    at: Pos2,
+    order: Order,
+    margin: Margin,
+    corner_radius: CornerRadius,
+}
+
+impl Panel {
+    /// A panel whose `pivot` corner is at a point.
+    pub(super) fn new(name: &'static str, pivot: Align2, at: Pos2) -> Self {
+        let corner_radius = CornerRadius::same(theme::PANEL_RADIUS);
+        Self {
+            name,
+            pivot,
+            at,
+            order: Order::Middle,
+            margin: Margin::same(12),
+            corner_radius,
+        }
+    }
+
+    /// Over the other panels.
+    pub(super) fn on_top(self) -> Self {
+        Self {
+            order: Order::Foreground,
+            ..self
+        }
+    }
+
+    /// Room between border and contents; 12 points unless told.
+    pub(super) fn margin(self, margin: Margin) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// Round corners at the top alone, as a sheet that comes from below.
+    pub(super) fn sheet(self) -> Self {
+        Self {
+            corner_radius: CornerRadius {
+                nw: 14,
+                ne: 14,
+                sw: 0,
+                se: 0,
+            },
+            ..self
+        }
+    }
+
+    /// Shows it.
+    pub(super) fn show(self, ui: &Ui, contents: impl FnOnce(&mut Ui)) {
+        let frame: Frame = theme::panel_frame(&Tokens::of(ui))
+            .inner_margin(self.margin)
+            .corner_radius(self.corner_radius);
+        Area::new(Id::unique(("panel", self.name)))
+            .order(self.order)
+            .pivot(self.pivot)
+            .fixed_pos(self.at)
+            .constrain_to(ui.max_rect())
+            // What a panel may grow to before it is first measured.
+            .default_size(ui.max_rect().size())
+            .fade_in(false)
+            .show(ui.ctx(), |ui| frame.show(ui, contents));
+    }
+}

@@ -1,0 +1,140 @@
+//! What scripts can ask for. Every call acts on the session at once; the window draws it in its next frame.
+
+use js_sys::{Array, Reflect, Uint8Array};
+use wasm_bindgen::prelude::*;
+
+use super::{PAGE, Running, state, tell_events};
+use crate::render::read_back;
+use crate::session::{Command, File, Session};
+
+/// Largest side of a picture that is asked for, where the GPU allows it.
+const MAX_PICTURE_SIDE: u32 = 8192;
+
+/// Applies a command and asks for a frame.
+fn apply(command: Command) {
+    PAGE.with_borrow(|page| {
+        let Some(page) = page else { return };
+        page.session.borrow_mut().apply(command);
+        if let Some(running) = &page.running {
+            running.ctx.request_repaint();
+        }
+    });
+    let session = PAGE.with_borrow(|page| page.as_ref().map(|page| page.session.clone()));
+    if let Some(session) = session {
+        tell_events(&session);
+    }
+}
+
+/// The session and what runs it, as one plain object.
+#[wasm_bindgen]
+pub fn state() -> JsValue {
+    PAGE.with_borrow(|page| {
+        let running = page.as_ref().and_then(|page| page.running.as_ref());
+        // While the window draws, its app is borrowed: the count of frames is kept apart.
+        let app = running.and_then(|running| running.app.try_borrow().ok());
+        let view = state::View {
+            backend: running.map(|running| running.backend),
+            adapter: running.map(|running| running.adapter.as_str()),
+            frames_rendered: running.map_or(0, |running| running.frames_rendered.get()),
+            upload_error: app
+                .as_ref()
+                .and_then(|app| app.as_ref()?.upload_error().map(str::to_owned)),
+        };
+        match page {
+            Some(page) => state::state(&page.session.borrow(), &view),
+            None => state::state(&Session::new(false), &view),
+        }
+    })
+}
+
+/// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens; a failure is in the
+/// state's `error`. Returns the state.
+///
+/// # Errors
+/// When an entry is not of that shape.
+#[wasm_bindgen]
+pub fn open(files: &Array) -> Result<JsValue, JsError> {
+    let mut given = Vec::new();
+    for entry in files.iter() {
+        let field = |name: &str| Reflect::get(&entry, &name.into()).unwrap_or(JsValue::UNDEFINED);
+        let name = field("name")
+            .as_string()
+            .ok_or_else(|| JsError::new("a file needs a name"))?;
+        let bytes: Uint8Array = field("bytes")
+            .dyn_into()
+            .map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
+        given.push(File::new(&name, bytes.to_vec()));
+    }
+    apply(Command::AddFiles(given));
+    Ok(state())
+}
+
+/// Goes to a time in seconds, clamped to the clip.
+#[wasm_bindgen]
+pub fn seek(secs: f32) {
+    apply(Command::Seek { time_secs: secs });
+}
+
+/// Plays on.
+#[wasm_bindgen]
+pub fn play() {
+    apply(Command::Play);
+}
+
+/// Stops where it is.
+#[wasm_bindgen]
+pub fn pause() {
+    apply(Command::Pause);
+}
+
+/// Shows the clip with this name. Returns whether there is one.
+#[wasm_bindgen(js_name = selectClip)]
+pub fn select_clip(name: &str) -> bool {
+    let index = PAGE.with_borrow(|page| {
+        let session = page.as_ref()?.session.borrow();
+        session
+            .open_model()?
+            .model
+            .clips
+            .iter()
+            .position(|clip| clip.name == name)
+    });
+    if let Some(index) = index {
+        apply(Command::SelectClip(index));
+    }
+    index.is_some()
+}
+
+/// A picture of the view without the interface: `{width, height, transparent}` to the bytes of a PNG.
+///
+/// # Errors
+/// When the viewer is not running, the size is not possible, or the GPU fails.
+#[wasm_bindgen]
+pub async fn snapshot(options: JsValue) -> Result<Uint8Array, JsError> {
+    let field = |name: &str| Reflect::get(&options, &name.into()).unwrap_or(JsValue::UNDEFINED);
+    let transparent = field("transparent").is_truthy();
+    let (target, gpu) = PAGE.with_borrow(|page| {
+        let running: &Running = page
+            .as_ref()
+            .and_then(|page| page.running.as_ref())
+            .ok_or_else(|| JsError::new("the viewer is not running"))?;
+        let most = running
+            .gpu
+            .device
+            .limits()
+            .max_texture_dimension_2d
+            .min(MAX_PICTURE_SIDE);
+        let side = |name: &str| match field(name).as_f64() {
+            Some(side) if side >= 1.0 && side <= f64::from(most) => Ok(side as u32),
+            _ => Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
+        };
+        let size = [side("width")?, side("height")?];
+        let mut app = running.app.borrow_mut();
+        let app = app.as_mut().ok_or_else(|| JsError::new("the viewer is not running"))?;
+        Ok::<_, JsError>((app.draw_snapshot(size, transparent), running.gpu.clone()))
+    })?;
+    let pixels = read_back(&gpu.device, &gpu.queue, &target, async || super::sleep(1).await).await?;
+    let [width, height] = target.size();
+    let png = crate::image::encode_png(&pixels, width, height).map_err(|error| JsError::new(&error.to_string()))?;
+    Ok(Uint8Array::from(png.as_slice()))
+}

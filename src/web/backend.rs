@@ -1,0 +1,133 @@
+//! WebGPU when it is there and draws right, else WebGL2. The decision falls before the canvas is claimed, since a canvas
+//! that once had a WebGPU context can never have another.
+
+use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, WgpuSetupExisting};
+
+use crate::render::device;
+
+/// What the address or the page asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Preference {
+    /// WebGPU on real hardware, else WebGL2.
+    Auto,
+    /// WebGPU, software adapters included, or an error.
+    WebGpu,
+    /// WebGL2.
+    WebGl2,
+}
+
+impl Preference {
+    /// Unknown names mean `auto`.
+    pub(super) fn from_name(name: &str) -> Self {
+        match name {
+            "webgpu" => Self::WebGpu,
+            "webgl2" => Self::WebGl2,
+            _ => Self::Auto,
+        }
+    }
+}
+
+/// A way to draw.
+pub(super) enum Chosen {
+    /// A device that has drawn a known picture.
+    WebGpu(Box<WgpuSetupExisting>),
+    /// eframe makes the device together with the canvas's context.
+    WebGl2,
+}
+
+impl Chosen {
+    /// As `state().backend` says it.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::WebGpu(_) => "webgpu",
+            Self::WebGl2 => "webgl2",
+        }
+    }
+
+    /// For eframe.
+    pub(super) fn into_configuration(self) -> WgpuConfiguration {
+        let wgpu_setup = match self {
+            Self::WebGpu(existing) => WgpuSetup::Existing(*existing),
+            Self::WebGl2 => {
+                let mut setup = WgpuSetupCreateNew::without_display_handle();
+                setup.instance_descriptor.backends = wgpu::Backends::GL;
+                setup.device_descriptor = std::sync::Arc::new(device::descriptor);
+                WgpuSetup::CreateNew(setup)
+            }
+        };
+        WgpuConfiguration {
+            wgpu_setup,
+            ..Default::default()
+        }
+    }
+}
+
+/// Decides.
+///
+/// # Errors
+/// Only when WebGPU was asked for by name: why it is not to be had. A missing WebGL2 shows when the canvas is claimed.
+pub(super) async fn choose(preference: Preference) -> Result<Chosen, String> {
+    if preference == Preference::WebGl2 {
+        return Ok(Chosen::WebGl2);
+    }
+    match web_gpu(preference == Preference::WebGpu).await {
+        Ok(setup) => Ok(Chosen::WebGpu(Box::new(setup))),
+        Err(reason) if preference == Preference::WebGpu => Err(format!("WebGPU: {reason}")),
+        Err(reason) => {
+            web_sys::console::info_1(&format!("WebGL2 is used, since WebGPU is not to be had: {reason}").into());
+            Ok(Chosen::WebGl2)
+        }
+    }
+}
+
+async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
+    if !web_sys::window().is_some_and(|window| window.is_secure_context()) {
+        return Err("this page is not in a secure context (https or localhost)".to_owned());
+    }
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
+    let instance = wgpu::util::new_instance_with_webgpu_detection(descriptor).await;
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
+    };
+    let adapter = instance
+        .request_adapter(&options)
+        .await
+        .map_err(|error| error.to_string())?;
+    if is_software(&adapter.get_info()) && !software_allowed {
+        return Err(format!("its adapter is software ({})", adapter_name(&adapter)));
+    }
+    let (device, queue) = adapter
+        .request_device(&device::descriptor(&adapter))
+        .await
+        .map_err(|error| error.to_string())?;
+    crate::render::probe(&device, &queue, async || super::sleep(1).await)
+        .await
+        .map_err(|error| error.to_string())?;
+    Ok(WgpuSetupExisting {
+        instance,
+        adapter,
+        device,
+        queue,
+    })
+}
+
+/// Browsers do not always mark their software adapters as fallback.
+fn is_software(info: &wgpu::AdapterInfo) -> bool {
+    let name = info.name.to_lowercase();
+    info.device_type == wgpu::DeviceType::Cpu
+        || ["swiftshader", "llvmpipe", "lavapipe", "software", "basic render"]
+            .iter()
+            .any(|word| name.contains(word))
+}
+
+/// A name for people; browsers often keep it to themselves.
+pub(super) fn adapter_name(adapter: &wgpu::Adapter) -> String {
+    let info = adapter.get_info();
+    if info.name.is_empty() {
+        "unnamed adapter".to_owned()
+    } else {
+        info.name
+    }
+}

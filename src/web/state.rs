@@ -1,0 +1,188 @@
+//! What scripts see of the session: plain objects.
+
+use js_sys::{Array, Object, Reflect};
+use wasm_bindgen::JsValue;
+
+use crate::anim::LoopMode;
+use crate::diagnostic::Diagnostic;
+use crate::format::Dialect;
+use crate::model::{Handedness, UpAxis};
+use crate::scene::{Aabb, Projection};
+use crate::session::{Event, OpenModel, Session};
+
+/// An object built field by field.
+struct Fields(Object);
+
+impl Fields {
+    fn new() -> Self {
+        Self(Object::new())
+    }
+
+    fn with(self, name: &str, value: impl Into<JsValue>) -> Self {
+        // Setting a field of a fresh plain object cannot fail.
+        let _ = Reflect::set(&self.0, &name.into(), &value.into());
+        self
+    }
+
+    fn done(self) -> JsValue {
+        self.0.into()
+    }
+}
+
+/// What the running viewer adds to the session.
+pub(super) struct View<'a> {
+    pub(super) backend: Option<&'a str>,
+    pub(super) adapter: Option<&'a str>,
+    pub(super) frames_rendered: u64,
+    pub(super) upload_error: Option<String>,
+}
+
+/// `bindpose.state()`.
+pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
+    let playback = session.playback();
+    let camera = session.camera();
+    let notices = session
+        .open_model()
+        .map(|open| open.notices.as_slice())
+        .unwrap_or_default();
+    let error = session.error().map_or(JsValue::NULL, |error| {
+        Fields(diagnostic(&error.diagnostic))
+            .with("file", &*error.file_name)
+            .done()
+    });
+    Fields::new()
+        .with("backend", view.backend)
+        .with("adapter", view.adapter)
+        .with(
+            "model",
+            session.open_model().map_or(JsValue::NULL, |open| model(session, open)),
+        )
+        .with("clip", session.clip().map(|clip| clip.name.as_str()))
+        .with("timeSecs", playback.time_secs())
+        .with("playing", playback.is_playing())
+        .with("backward", playback.is_backward())
+        .with("speed", session.playback().speed())
+        .with("loop", loop_name(playback.loop_mode()))
+        .with(
+            "camera",
+            Fields::new()
+                .with("target", vector(camera.target))
+                .with("distance", camera.distance)
+                .with("yawRadians", camera.yaw_radians)
+                .with("pitchRadians", camera.pitch_radians)
+                .with("orthographic", camera.projection == Projection::Orthographic)
+                .done(),
+        )
+        .with("gridVisible", session.grid_visible())
+        .with("framesRendered", view.frames_rendered as f64)
+        .with(
+            "notices",
+            notices
+                .iter()
+                .map(|notice| JsValue::from(diagnostic(notice)))
+                .collect::<Array>(),
+        )
+        .with("error", error)
+        .with("uploadError", view.upload_error.as_deref())
+        .done()
+}
+
+fn model(session: &Session, open: &OpenModel) -> JsValue {
+    let model = &open.model;
+    let clips = model.clips.iter().map(|clip| {
+        Fields::new()
+            .with("name", &*clip.name)
+            .with("startSecs", clip.start_secs)
+            .with("endSecs", clip.end_secs)
+            .with("keysPerSec", clip.keys_per_sec)
+            .with("keys", clip.key_count as f64)
+            .done()
+    });
+    let materials = model.materials.iter().map(|material| JsValue::from(&*material.name));
+    Fields::new()
+        .with("name", open.file.base_name())
+        .with("path", &*open.file.path)
+        .with("dialect", dialect_name(open.dialect))
+        .with(
+            "handedness",
+            if session.handedness() == Handedness::Left {
+                "left"
+            } else {
+                "right"
+            },
+        )
+        .with("upAxis", if session.up_axis() == UpAxis::Y { "y" } else { "z" })
+        .with(
+            "counts",
+            Fields::new()
+                .with("materials", model.materials.len() as f64)
+                .with("vertices", model.mesh.vertex_count() as f64)
+                .with("triangles", model.mesh.triangle_count() as f64)
+                .with("bones", model.skeleton.joint_count() as f64)
+                .with("clips", model.clips.len() as f64)
+                .done(),
+        )
+        .with("materials", materials.collect::<Array>())
+        .with("clips", clips.collect::<Array>())
+        .with("bindBounds", bounds(&open.bind_bounds))
+        .done()
+}
+
+/// The detail of an event: enough to act on without asking for the whole state.
+pub(super) fn event_detail(session: &Session, event: Event) -> JsValue {
+    match event {
+        Event::Load => Fields::new()
+            .with("name", session.open_model().map(|open| open.file.base_name()))
+            .done(),
+        Event::Error => session.error().map_or(JsValue::NULL, |error| {
+            Fields(diagnostic(&error.diagnostic))
+                .with("file", &*error.file_name)
+                .done()
+        }),
+        Event::Play | Event::Pause | Event::TimeUpdate => {
+            Fields::new().with("timeSecs", session.playback().time_secs()).done()
+        }
+    }
+}
+
+fn diagnostic(finding: &Diagnostic) -> Object {
+    Fields::new()
+        .with("severity", finding.severity.as_str())
+        .with("code", finding.code)
+        .with("message", &*finding.message)
+        .with("expected", finding.expected.as_deref())
+        .with("found", finding.found.as_deref())
+        .with("line", finding.position.map(|position| position.line))
+        .with("column", finding.position.map(|position| position.column))
+        .0
+}
+
+fn bounds(bounds: &Aabb) -> JsValue {
+    if bounds.is_empty() {
+        return JsValue::NULL;
+    }
+    Fields::new()
+        .with("min", vector(bounds.min))
+        .with("max", vector(bounds.max))
+        .done()
+}
+
+fn vector(vector: glam::Vec3) -> Array {
+    vector.to_array().into_iter().map(JsValue::from).collect()
+}
+
+fn dialect_name(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::D3d12 => "d3d12",
+        Dialect::D3d11 => "d3d11",
+        Dialect::Imm => "imm",
+    }
+}
+
+fn loop_name(mode: LoopMode) -> &'static str {
+    match mode {
+        LoopMode::Once => "once",
+        LoopMode::Loop => "loop",
+        LoopMode::PingPong => "pingpong",
+    }
+}

@@ -1,0 +1,5 @@
+// Every browser test, one after the other in one browser: they share two cores and a GPU made of software.
+import "./page.js";
+import "./opening.js";
+import "./playing.js";
+import "./lasting.js";

@@ -1,0 +1,257 @@
+// A real Chromium on one backend, and what the tests do with its pages.
+
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, readdirSync, rmSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { after, test as nodeTest } from "node:test";
+import { chromium } from "playwright-core";
+
+/** Given by `cargo xtask test`: where the page is, what draws it and the browser's program. */
+export const PAGE = required("PAGE");
+export const BACKEND = required("BACKEND");
+const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
+
+const path = (relative) => fileURLToPath(new URL(relative, import.meta.url));
+
+/** The sample that the page opens by itself. */
+export const SAMPLE = path("../../web/sample/figure.m3d");
+/** Small files of this project, and among them those that cannot be read, each with its message beside it. */
+export const FIXTURES = path("../fixtures/");
+/** Real files beside the checkout; not every machine has them. */
+export const SHARED = path("../../../shared/");
+const OUT = path("out/");
+
+// Software drawing that gives real pixels, in screenshots too. Other sets start the page but leave it blank.
+const GPU_FLAGS = {
+  webgl2: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+  webgpu: [
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--enable-unsafe-webgpu",
+    "--enable-gpu",
+    "--enable-features=Vulkan",
+    "--use-vulkan=swiftshader",
+  ],
+};
+assert.ok(BACKEND in GPU_FLAGS, `BACKEND is webgpu or webgl2, not ${BACKEND}`);
+
+// A browser that asks nobody anything.
+const QUIET_FLAGS = [
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--disable-quic",
+  "--no-first-run",
+];
+
+/** Small, for the sake of the software GPU, but wide enough for every panel. */
+const VIEWPORT = { width: 960, height: 600 };
+/** For pictures that people look at. */
+export const LARGE = { width: 1280, height: 800 };
+/** A place in the view that no panel covers. */
+export const CENTRE = [520, 260];
+
+/** Long enough for a debug build on a software GPU that shares two cores. */
+const PATIENCE_MS = 120_000;
+
+// The pictures of the last run would be taken for those of this one.
+for (const picture of filesIn(OUT, ".png")) {
+  if (picture.startsWith(`${OUT}${BACKEND}-`)) rmSync(picture);
+}
+mkdirSync(OUT, { recursive: true });
+const browsers = new Map();
+after(() => Promise.all(Array.from(browsers.values(), (browser) => browser.close())));
+
+/** The browser with the screen's own scale: emulating it on a page leaves the size of a canvas in pixels as it was. */
+async function browserAt(scale) {
+  if (!browsers.has(scale)) {
+    const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+    const args = [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, `--force-device-scale-factor=${scale}`];
+    browsers.set(scale, await chromium.launch({ executablePath: CHROMIUM, args }));
+  }
+  return browsers.get(scale);
+}
+
+/** A page on a small screen with two pixels to the point, touched by fingers. */
+async function phonePage(context) {
+  const page = await context.newPage();
+  const devtools = await context.newCDPSession(page);
+  await devtools.send("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 0, mobile: false });
+  return page;
+}
+
+/**
+ * A test with a page of its own. `options` go to the browser's context; `query` is added to the address; `prepare` may
+ * change the page before it loads; `bare` does not wait for the viewer; `phone` gives a small screen. The test fails when
+ * the page logs an error, unless `expectErrors` says that it may.
+ */
+export function test(name, options, body) {
+  const { query = `?backend=${BACKEND}`, prepare, expectErrors = false, skip, bare = false, phone = false, ...context } = options;
+  nodeTest(`${BACKEND}: ${name}`, { skip, timeout: 4 * PATIENCE_MS }, async () => {
+    const screen = phone ? { viewport: null, hasTouch: true } : { viewport: VIEWPORT };
+    const own = await (await browserAt(phone ? 2 : 1)).newContext({ ...screen, colorScheme: "dark", ...context });
+    const problems = [];
+    try {
+      const page = phone ? await phonePage(own) : await own.newPage();
+      page.setDefaultTimeout(PATIENCE_MS);
+      page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
+      page.on("pageerror", (error) => problems.push(error.message));
+      await prepare?.(page);
+      await page.goto(PAGE + query, { timeout: PATIENCE_MS });
+      if (!bare) await running(page);
+      await body(page);
+      if (!expectErrors) assert.deepEqual(problems, [], "the page logged errors");
+    } catch (error) {
+      const [page] = own.pages();
+      await page?.screenshot({ path: `${OUT}${BACKEND}-FAILED-${name.replace(/\W+/g, "-")}.png` }).catch(() => {});
+      if (problems.length) error.message += `\nThe page logged: ${problems.join("\n")}`;
+      throw error;
+    } finally {
+      await own.close();
+    }
+  });
+}
+
+/** Waits until the viewer runs and shows a model, and makes sure that it draws with the backend under test. */
+export async function running(page) {
+  await page.waitForFunction(() => !document.getElementById("fault").hidden || globalThis.bindpose?.state().model);
+  assert.equal(await page.textContent("#fault-title"), "", await page.textContent("#fault-details"));
+  assert.equal((await state(page)).backend, BACKEND, "the backend that is really in use");
+  await page.waitForFunction(() => document.getElementById("shell").hidden);
+}
+
+/** What `bindpose.state()` says, as plain data. */
+export function state(page) {
+  return page.evaluate(() => JSON.parse(JSON.stringify(globalThis.bindpose.state())));
+}
+
+/** Calls a method of `globalThis.bindpose`. */
+export function call(page, name, ...values) {
+  return page.evaluate(([name, values]) => void globalThis.bindpose[name](...values), [name, values]);
+}
+
+/** Waits until `predicate(state)` holds. It runs here: the page forbids code out of strings. Gives that state. */
+export async function until(page, predicate) {
+  const deadline = Date.now() + PATIENCE_MS;
+  for (;;) {
+    // Between two pages, after a reload, there is nothing to ask.
+    const now = await state(page).catch(() => null);
+    if (now && predicate(now)) return now;
+    if (Date.now() > deadline) throw new Error(`waited in vain for ${predicate}: ${JSON.stringify(now)}`);
+    await new Promise((done) => setTimeout(done, 30));
+  }
+}
+
+/** Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. */
+export async function drop(page, paths, { look } = {}) {
+  const devtools = await page.context().newCDPSession(page);
+  const data = { items: [], files: paths, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "dragOver", "drop"]) {
+    if (type === "drop") await look?.();
+    await devtools.send("Input.dispatchDragEvent", { type, x: CENTRE[0], y: CENTRE[1], data });
+  }
+  await devtools.detach();
+}
+
+/** Drops and waits for the `load` or `error` that follows; gives its type and the state after it. */
+export async function dropAndWait(page, paths, options) {
+  await page.evaluate(() => {
+    globalThis.outcome = new Promise((done) => {
+      for (const type of ["load", "error"]) bindpose.addEventListener(type, () => done(type), { once: true });
+    });
+  });
+  await drop(page, paths, options);
+  const outcome = await page.evaluate(() => globalThis.outcome);
+  return { outcome, ...(await state(page)) };
+}
+
+/** A picture of the view without the interface: its PNG as a hex digest, and its pixels' statistics. */
+export function picture(page, { width = 320, height = 200, transparent = false } = {}) {
+  return page.evaluate(
+    async (options) => {
+      const png = await globalThis.bindpose.snapshot(options);
+      const hex = (buffer) => Array.from(new Uint8Array(buffer), (byte) => byte.toString(16).padStart(2, "0")).join("");
+      const digest = hex(await crypto.subtle.digest("SHA-256", await png.arrayBuffer()));
+      const bitmap = await createImageBitmap(png);
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+      const context = canvas.getContext("2d", { willReadFrequently: true });
+      context.drawImage(bitmap, 0, 0);
+      const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+      const colours = new Set();
+      let clear = 0;
+      for (let at = 0; at < data.length; at += 4) {
+        colours.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
+        clear += data[at + 3] === 0;
+      }
+      return {
+        digest,
+        type: png.type,
+        width: bitmap.width,
+        height: bitmap.height,
+        colours: colours.size,
+        clear: clear / (data.length / 4),
+        pixels: Array.from(data),
+      };
+    },
+    { width, height, transparent },
+  );
+}
+
+/** The part of the pixels, from 0 to 1, that differ by more than `tolerance` of 255 in any channel. */
+export function difference(one, other, tolerance = 8) {
+  assert.equal(one.pixels.length, other.pixels.length);
+  let differing = 0;
+  for (let at = 0; at < one.pixels.length; at += 4) {
+    const far = (channel) => Math.abs(one.pixels[at + channel] - other.pixels[at + channel]) > tolerance;
+    differing += far(0) || far(1) || far(2) || far(3);
+  }
+  return differing / (one.pixels.length / 4);
+}
+
+/** A model in front of a backdrop has hundreds of colours; a blank picture has one. */
+export function assertDrawn(drawn) {
+  assert.ok(drawn.colours > 200, `the picture has ${drawn.colours} colours`);
+}
+
+/** The number of distinct colours in a screenshot of the page, for what `picture` cannot see: the canvas itself. */
+export async function coloursOnScreen(page) {
+  const png = (await page.screenshot()).toString("base64");
+  return page.evaluate(async (png) => {
+    const bytes = Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    const colours = new Set();
+    for (let at = 0; at < data.length; at += 4) colours.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
+    return colours.size;
+  }, png);
+}
+
+/** Keeps a screenshot for people to look at. */
+export async function keep(page, name) {
+  await page.screenshot({ path: `${OUT}${BACKEND}-${name}.png` });
+}
+
+/** Waits for the next frames to be on screen. */
+export function settled(page) {
+  return page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 250)));
+}
+
+/** The files directly in a folder whose names end as said; none when there is no such folder. */
+export function filesIn(folder, ending) {
+  if (!existsSync(folder)) return [];
+  return readdirSync(folder).filter((name) => name.endsWith(ending)).sort().map((name) => folder + name);
+}
+
+/** For `skip`: false when the file is there, else the words that say what was not looked at. */
+export function unless(file) {
+  return existsSync(file) ? false : `skipped: ${file} is not on this machine`;
+}
+
+function required(name) {
+  const value = process.env[name];
+  assert.ok(value, `${name} is not set; cargo xtask test --browser sets it`);
+  return value;
+}

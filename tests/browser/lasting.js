@@ -1,0 +1,99 @@
+// What lasts: the session through a lost GPU, and memory through many loads.
+
+import assert from "node:assert/strict";
+import { existsSync, statSync } from "node:fs";
+import {
+  BACKEND, CENTRE, SAMPLE, SHARED, call, coloursOnScreen, difference, dropAndWait, keep, picture, settled, state, test, until,
+} from "./harness.js";
+
+/** Keeps what the page asks the browser for, so that a test can take it away again. */
+function watchGpu(page) {
+  return page.addInitScript(() => {
+    globalThis.devices = [];
+    if (globalThis.GPUAdapter) {
+      const requestDevice = GPUAdapter.prototype.requestDevice;
+      GPUAdapter.prototype.requestDevice = async function (...args) {
+        const device = await requestDevice.apply(this, args);
+        globalThis.devices.push(device);
+        return device;
+      };
+    }
+  });
+}
+
+/** Takes the GPU away from the running viewer. */
+function loseGpu(page) {
+  return page.evaluate((backend) => {
+    globalThis.lostCanvas = document.querySelector("#view canvas");
+    if (backend === "webgpu") {
+      globalThis.devices.at(-1).destroy();
+    } else {
+      globalThis.lostCanvas.getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
+    }
+  }, BACKEND);
+}
+
+test("after the GPU was lost the model, the time and the camera are there again", {
+  prepare: watchGpu,
+  expectErrors: true,
+}, async (page) => {
+  const { model } = await state(page);
+  await call(page, "pause");
+  await call(page, "selectClip", model.clips[1].name);
+  await call(page, "seek", 0.4);
+  await page.mouse.move(...CENTRE);
+  await page.mouse.down();
+  await page.mouse.move(CENTRE[0] - 80, CENTRE[1] + 40, { steps: 5 });
+  await page.mouse.up();
+  await settled(page);
+  const before = await picture(page);
+  for (const round of [1, 2]) {
+    await loseGpu(page);
+    await page.waitForFunction(() => document.querySelector("#view canvas") !== globalThis.lostCanvas);
+    await until(page, ({ backend }) => backend === BACKEND);
+    await settled(page);
+    assert.equal(await page.isHidden("#fault"), true);
+    const after = await state(page);
+    assert.equal(after.model.name, model.name);
+    assert.equal(after.clip, model.clips[1].name);
+    assert.ok(Math.abs(after.timeSecs - 0.4) < 1e-4);
+    assert.ok(difference(before, await picture(page)) < 0.001, `round ${round}: the same picture`);
+    assert.ok((await coloursOnScreen(page)) > 200, "on the new canvas too");
+  }
+  await keep(page, "after-loss");
+});
+
+test("a GPU that goes away again and again ends in words", { prepare: watchGpu, expectErrors: true }, async (page) => {
+  for (let round = 0; round < 6 && (await page.isHidden("#fault")); round += 1) {
+    await loseGpu(page).catch(() => {});
+    await page.waitForFunction(
+      () => !document.getElementById("fault").hidden || document.querySelector("#view canvas") !== globalThis.lostCanvas,
+    );
+    await settled(page);
+  }
+  assert.match(await page.textContent("#fault-title"), /graphics/);
+  assert.equal((await page.$$("#fault-actions a")).length, 2);
+  await keep(page, "fault-lost");
+});
+
+test("thirty loads in a row do not grow the memory", {}, async (page) => {
+  const soldier = `${SHARED}models/d3d12/soldier.m3d`;
+  const path = existsSync(soldier) ? soldier : SAMPLE;
+  await call(page, "pause");
+  const megabytes = () =>
+    page.evaluate(async () => {
+      const { default: init } = await import("/pkg/bindpose.js");
+      return (await init()).memory.buffer.byteLength / 1e6;
+    });
+  const sizes = [];
+  for (let load = 0; load < 30; load += 1) {
+    // Two models by turns: the same one again is a reload, which could be cheaper.
+    const { outcome } = await dropAndWait(page, [load % 2 ? SAMPLE : path]);
+    assert.equal(outcome, "load");
+    sizes.push(await megabytes());
+  }
+  // The first loads find the high-water mark; after that the memory of the old model serves the new one, but for gaps.
+  const [early, end] = [sizes[4], sizes.at(-1)];
+  const files = statSync(path).size / 1e6;
+  assert.ok(end - early < 2 * files, `25 loads of a file of ${files} MB each took: ${sizes.map(Math.round).join(" ")} MB`);
+});

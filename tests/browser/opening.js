@@ -1,0 +1,163 @@
+// Files from the person: dropped for real, chosen in a dialog, good ones and bad ones.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, mkdirSync, copyFileSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, join } from "node:path";
+import {
+  FIXTURES, LARGE, SAMPLE, SHARED, assertDrawn, call, difference, drop, dropAndWait, filesIn, keep, picture, settled, state,
+  test, unless, until,
+} from "./harness.js";
+
+/** A copy of the sample under another name, in a folder of its own. */
+function copyOfSample(...parts) {
+  const folder = mkdtempSync(join(tmpdir(), "bindpose-"));
+  const path = join(folder, ...parts);
+  mkdirSync(join(path, ".."), { recursive: true });
+  copyFileSync(SAMPLE, path);
+  return { folder, path };
+}
+
+test("a dropped file opens, and the page says before release what it will do", {}, async (page) => {
+  const { path } = copyOfSample("hero.m3d");
+  const look = async () => {
+    assert.match(await page.innerText("#drop-overlay"), /^Drop to open\s+1 item · figure\.m3d stays until it is read$/);
+    await keep(page, "drop-overlay");
+  };
+  const { outcome, model, error } = await dropAndWait(page, [path], { look });
+  assert.equal(outcome, "load");
+  assert.equal(model.name, "hero.m3d");
+  assert.equal(error, null);
+  assert.equal(await page.isHidden("#drop-overlay"), true);
+});
+
+test("a dropped folder opens with the paths in it", {}, async (page) => {
+  const { folder } = copyOfSample("pack", "models", "deep", "hero.m3d");
+  writeFileSync(join(folder, "pack", "readme.md"), "not for the viewer");
+  await page.evaluate(() => {
+    const { open } = bindpose;
+    bindpose.open = (files, options) => {
+      globalThis.names = files.map(({ name }) => name);
+      return open(files, options);
+    };
+  });
+  const { outcome, model } = await dropAndWait(page, [join(folder, "pack")]);
+  assert.equal(outcome, "load");
+  assert.match(model.name, /hero\.m3d$/);
+  assert.deepEqual(await page.evaluate(() => globalThis.names), ["pack/models/deep/hero.m3d"]);
+});
+
+test("a folder of more entries than one call gives is read to its end", {}, async (page) => {
+  const { folder } = copyOfSample("pack", "zz.m3d");
+  for (let index = 0; index < 250; index += 1) writeFileSync(join(folder, "pack", `picture${index}.png`), "");
+  await page.evaluate(() => {
+    bindpose.open = async (files) => (globalThis.names = files.map(({ name }) => name));
+  });
+  await drop(page, [join(folder, "pack")]);
+  await page.waitForFunction(() => globalThis.names);
+  assert.equal((await page.evaluate(() => globalThis.names)).length, 251);
+});
+
+test("of several models in one drop the largest opens", {}, async (page) => {
+  const { folder, path } = copyOfSample("small.m3d");
+  const large = join(folder, "large.m3d");
+  writeFileSync(large, `${readFileSync(path, "utf8")}\n\n\n\n`);
+  const { outcome, model } = await dropAndWait(page, [path, large]);
+  assert.equal(outcome, "load");
+  assert.equal(model.name, "large.m3d");
+});
+
+test("a drop before the viewer is there waits for it", {
+  bare: true,
+  prepare: (page) =>
+    page.route("**/*_bg.wasm", async (route) => {
+      await page.waitForFunction(() => globalThis.letWasmThrough);
+      await route.continue();
+    }),
+}, async (page) => {
+  const { path } = copyOfSample("early.m3d");
+  await page.waitForFunction(() => globalThis.bindpose);
+  await drop(page, [path]);
+  await page.waitForFunction(() => /early\.m3d opens/.test(document.getElementById("progress-words").textContent));
+  await keep(page, "shell-waiting");
+  await page.evaluate(() => (globalThis.letWasmThrough = true));
+  await until(page, ({ model }) => model !== null);
+  assert.equal((await state(page)).model.name, "early.m3d", "not the sample");
+});
+
+test("the Open dialog gives its files", {}, async (page) => {
+  const { path } = copyOfSample("chosen.m3d");
+  await page.setInputFiles("#files", path);
+  await until(page, ({ model }) => model?.name === "chosen.m3d");
+});
+
+test("the same file again keeps the clip and the time", {}, async (page) => {
+  const { path } = copyOfSample("again.m3d");
+  const { model } = await dropAndWait(page, [path]);
+  await call(page, "pause");
+  await call(page, "selectClip", model.clips[1].name);
+  await call(page, "seek", 0.3);
+  await settled(page);
+  const before = await picture(page);
+  await dropAndWait(page, [path]);
+  await settled(page);
+  const after = await state(page);
+  assert.equal(after.clip, model.clips[1].name);
+  assert.ok(Math.abs(after.timeSecs - 0.3) < 1e-4, `${after.timeSecs}`);
+  assert.ok(difference(before, await picture(page)) < 0.001);
+});
+
+const bad = [...filesIn(`${FIXTURES}bad/`, ".m3d"), ...filesIn(`${SHARED}reject/`, "d")];
+
+test("a file that cannot be read shows its error and keeps the model", { viewport: LARGE }, async (page) => {
+  assert.ok(bad.length > 0, "there are bad files to try");
+  await call(page, "pause");
+  await call(page, "seek", 0.25);
+  await settled(page);
+  const before = await picture(page);
+  for (const path of bad) {
+    const { outcome, model, error } = await dropAndWait(page, [path]);
+    const name = basename(path);
+    assert.equal(outcome, "error", name);
+    assert.equal(model.name, "figure.m3d", name);
+    assert.match(error.code, /^[a-z0-9-]+$/, name);
+    assert.ok(error.message.length > 10, name);
+    assert.ok(error.line == null || (error.line >= 1 && error.column >= 1), `${name}: ${JSON.stringify(error)}`);
+  }
+  await settled(page);
+  await keep(page, "error-dark");
+  await page.emulateMedia({ colorScheme: "light" });
+  await settled(page);
+  await keep(page, "error-light");
+  await page.emulateMedia({ colorScheme: "dark" });
+  await settled(page);
+  assert.ok(difference(before, await picture(page)) < 0.001, "the old model stays as it was");
+  const { outcome, error } = await dropAndWait(page, [SAMPLE]);
+  assert.equal(outcome, "load");
+  assert.equal(error, null, "the next load clears the error");
+});
+
+test("a drop with nothing useful in it is said so", {}, async (page) => {
+  const folder = mkdtempSync(join(tmpdir(), "bindpose-"));
+  mkdirSync(join(folder, "empty"));
+  await drop(page, [join(folder, "empty")]);
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-words"), /no model/);
+  await keep(page, "notice");
+  await page.click("#notice-close");
+  assert.equal(await page.isHidden("#notice"), true);
+  assert.equal((await state(page)).model.name, "figure.m3d");
+});
+
+for (const model of ["d3d12/soldier", "d3d11/base", "d3d11/tree", "d3d11/rock", "d3d11/stairs", "imm/column"]) {
+  const path = `${SHARED}models/${model}.m3d`;
+  test(`the real file ${model} opens and is drawn`, { skip: unless(path), viewport: LARGE }, async (page) => {
+    const { outcome, model: opened } = await dropAndWait(page, [path]);
+    assert.equal(outcome, "load");
+    assert.equal(opened.name, basename(path));
+    assertDrawn(await picture(page));
+    await call(page, "pause");
+    await settled(page);
+    await keep(page, `real-${basename(path, ".m3d")}`);
+  });
+}

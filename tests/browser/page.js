@@ -1,0 +1,175 @@
+// The page itself: it starts, on the backend that was asked for, in any window, and says so when it cannot.
+
+import assert from "node:assert/strict";
+import { LARGE, PAGE, assertDrawn, call, coloursOnScreen, keep, picture, settled, state, test, until } from "./harness.js";
+
+test("the page opens the sample, draws it and logs no error", { viewport: LARGE }, async (page) => {
+  const { model, playing, error } = await state(page);
+  assert.equal(model.name, "figure.m3d");
+  assert.ok(model.clips.length >= 2, "a walk and a wave at least");
+  assert.equal(playing, true);
+  assert.equal(error, null);
+  assert.match(await page.title(), /^figure\.m3d · Bindpose$/);
+  assertDrawn(await picture(page));
+  await settled(page);
+  await keep(page, "sample-dark");
+  assert.ok((await coloursOnScreen(page)) > 200, "the canvas itself is not blank");
+});
+
+test("the light scheme is followed", { colorScheme: "light", viewport: LARGE }, async (page) => {
+  await settled(page);
+  await keep(page, "sample-light");
+  assert.ok((await coloursOnScreen(page)) > 200);
+});
+
+test("a phone's screen works", { phone: true }, async (page) => {
+  await settled(page);
+  await keep(page, "phone-dark");
+  assert.ok((await coloursOnScreen(page)) > 200);
+  const scrolls = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  assert.equal(scrolls, false, "nothing sticks out of the window");
+  const canvas = await page.evaluate(() => [document.querySelector("canvas").width, innerWidth * devicePixelRatio]);
+  assert.deepEqual(canvas, [780, 780], "the canvas has a pixel for each of the screen's");
+  await page.emulateMedia({ colorScheme: "light" });
+  await settled(page);
+  await keep(page, "phone-light");
+});
+
+test("the canvas follows the window", {}, async (page) => {
+  await page.setViewportSize({ width: 700, height: 500 });
+  await page.waitForFunction(() => document.querySelector("canvas").width === 700);
+  await settled(page);
+  await keep(page, "resized");
+  assert.ok((await coloursOnScreen(page)) > 200);
+});
+
+test("without a wish the page takes a backend by itself", { query: "", bare: true }, async (page) => {
+  await until(page, ({ model }) => model !== null);
+  const { backend } = await state(page);
+  // A software GPU is no reason to take WebGPU, unless it was asked for; the browser under test has no other.
+  assert.ok(["webgpu", "webgl2"].includes(backend), backend);
+  assertDrawn(await picture(page));
+});
+
+test("nothing is drawn while nothing changes", {}, async (page) => {
+  await call(page, "pause");
+  await page.mouse.move(480, 60);
+  await page.waitForTimeout(1500);
+  const before = (await state(page)).framesRendered;
+  await page.waitForTimeout(1000);
+  const after = (await state(page)).framesRendered;
+  assert.ok(before > 0);
+  assert.equal(after - before, 0, "frames drawn in a second of rest");
+});
+
+test("under reduced motion the sample waits on its first frame", { reducedMotion: "reduce" }, async (page) => {
+  const { playing, timeSecs } = await state(page);
+  assert.equal(playing, false);
+  assert.equal(timeSecs, 0);
+});
+
+test("a snapshot is a PNG of the asked size", {}, async (page) => {
+  await call(page, "pause");
+  const ground = await picture(page, { width: 300, height: 170 });
+  assert.deepEqual([ground.type, ground.width, ground.height], ["image/png", 300, 170]);
+  assertDrawn(ground);
+  assert.equal(ground.clear, 0);
+  const clear = await picture(page, { width: 300, height: 170, transparent: true });
+  assert.ok(clear.clear > 0.3 && clear.clear < 0.99, `${clear.clear} of the pixels are transparent`);
+  const odd = await picture(page, { width: 33, height: 1025 });
+  assert.deepEqual([odd.width, odd.height], [33, 1025]);
+});
+
+test("programs may call before the viewer is there", {
+  bare: true,
+  prepare: (page) =>
+    page.addInitScript(() => {
+      addEventListener("DOMContentLoaded", () => {
+        globalThis.early = bindpose.ready.then(() => "ready");
+        bindpose.pause();
+        globalThis.earlyState = bindpose.state();
+      });
+    }),
+}, async (page) => {
+  assert.equal(await page.evaluate(() => globalThis.early), "ready");
+  assert.equal(await page.evaluate(() => globalThis.earlyState.model), null);
+});
+
+test("the shell is painted before the viewer arrives", {
+  viewport: LARGE,
+  bare: true,
+  prepare: (page) =>
+    page.route("**/*_bg.wasm", async (route) => {
+      await page.waitForFunction(() => globalThis.letWasmThrough);
+      await route.continue();
+    }),
+}, async (page) => {
+  await page.waitForSelector("#open-files");
+  assert.equal((await page.evaluate(() => bindpose.state())).model, null);
+  await keep(page, "shell-dark");
+  await page.emulateMedia({ colorScheme: "light" });
+  await keep(page, "shell-light");
+  await page.setViewportSize({ width: 360, height: 640 });
+  await keep(page, "shell-narrow");
+  await page.evaluate(() => (globalThis.letWasmThrough = true));
+  await until(page, ({ model }) => model !== null);
+});
+
+test("a viewer that does not arrive is said so, with a way on", {
+  bare: true,
+  expectErrors: true,
+  prepare: (page) => page.route("**/*_bg.wasm", (route) => route.fulfill({ status: 503, body: "busy" })),
+}, async (page) => {
+  await page.waitForSelector("#fault:not([hidden])");
+  assert.match(await page.textContent("#fault-title"), /could not be loaded/);
+  assert.match(await page.textContent("#fault-details"), /503/);
+  await keep(page, "fault-download");
+  await page.unroute("**/*_bg.wasm");
+  await page.click("#fault-actions button");
+  await until(page, ({ model }) => model !== null);
+});
+
+test("a browser without graphics is told which other way there is", {
+  bare: true,
+  expectErrors: true,
+  prepare: (page) =>
+    page.addInitScript(() => {
+      Object.defineProperty(navigator, "gpu", { value: undefined });
+      const getContext = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return /webgl|webgpu/.test(kind) ? null : getContext.call(this, kind, ...rest);
+      };
+    }),
+}, async (page) => {
+  await page.waitForSelector("#fault:not([hidden])");
+  await keep(page, "fault-gpu");
+  const links = await page.$$eval("#fault-actions a", (links) => links.map(({ href }) => href));
+  assert.deepEqual(links, [`${PAGE}?backend=webgl2`, `${PAGE}?backend=webgpu`]);
+  assert.notEqual(await page.textContent("#fault-details"), "");
+});
+
+test("a panic shows what happened and a way on", {
+  bare: true,
+  expectErrors: true,
+  // The real program on its real path, but for the word that it panicked.
+  prepare: (page) =>
+    page.route("**/pkg/bindpose.js", async (route) => {
+      const script = await (await route.fetch()).text();
+      const body = `${script.replace(/export (async )?function start\(/, "$1function begin(")}
+        export async function start(canvas, options, onEvent) {
+          const gpu = await begin(canvas, options, onEvent);
+          onEvent("panic", { message: "index out of bounds" });
+          return gpu;
+        }`;
+      // Without the file's own tag: with it the browser would keep this script for the real one.
+      await route.fulfill({ contentType: "text/javascript", body });
+    }),
+}, async (page) => {
+  await page.waitForSelector("#fault:not([hidden])");
+  assert.match(await page.textContent("#fault-title"), /stopped/);
+  assert.equal(await page.textContent("#fault-details"), "index out of bounds");
+  await keep(page, "fault-panic");
+  await page.unroute("**/pkg/bindpose.js");
+  await page.click("#fault-actions button");
+  await until(page, ({ model }) => model !== null);
+});

@@ -1,0 +1,161 @@
+//! `bindpose check`.
+
+use serde_json::{Value, json};
+
+use crate::program::{fixture, fixtures, run, shared};
+
+#[test]
+fn a_finding_is_a_line_and_its_excerpt() {
+    let file = fixture("bad/blend_index_out_of_range.m3d");
+    let run = run(["check", &file]);
+    assert_eq!((run.code, run.err.as_str()), (Some(1), ""));
+    let expected = format!(
+        "{file}:34:17: error[not-in-range]: A blend index must be a whole number from 0 to 1, but \"2\" was found.\n\
+         33 | BlendWeights: 0.75 0.25 0 0\n\
+         34 | BlendIndices: 0 2 0 0\n   |                 ^\n"
+    );
+    assert_eq!(run.out, expected);
+}
+
+#[test]
+fn a_file_without_findings_prints_nothing() {
+    let run = run(["check", &fixture("good/d3d12_skinned.m3d")]);
+    assert_eq!((run.code, run.out.as_str(), run.err.as_str()), (Some(0), "", ""));
+}
+
+#[test]
+fn notes_and_warnings_are_no_errors() {
+    let run = run(["check", &fixture("good/subset_typos.m3d")]);
+    assert_eq!(run.code, Some(0));
+    assert!(run.out.contains(":30:26: note[subset-vertex-range]: "), "{}", run.out);
+    assert!(run.out.contains(":30:29: note[subset-label]: "), "{}", run.out);
+}
+
+/// The whole answer, so that no key can come or go unseen.
+#[test]
+fn json_has_an_object_for_each_file() {
+    let (good, bad) = (
+        fixture("good/d3d12_skinned.m3d"),
+        fixture("bad/blend_index_out_of_range.m3d"),
+    );
+    let run = run(["check", "--json", &good, &bad]);
+    assert_eq!(run.code, Some(1));
+    let expected = json!([
+        {"file": good, "findings": []},
+        {"file": bad, "findings": [{
+            "severity": "error",
+            "code": "not-in-range",
+            "message": "A blend index must be a whole number from 0 to 1, but \"2\" was found.",
+            "line": 34,
+            "column": 17,
+            "expected": "a bone index",
+            "found": "2",
+        }]},
+    ]);
+    assert_eq!(run.json(), expected);
+}
+
+/// `severity[code] line:column: message` stands beside each file.
+#[test]
+fn every_bad_fixture_gives_the_error_that_stands_beside_it() {
+    let files = fixtures("bad");
+    let arguments = ["check", "--json"]
+        .map(Into::into)
+        .into_iter()
+        .chain(files.iter().cloned());
+    let run = run(arguments);
+    assert_eq!(run.code, Some(1));
+    let found = run.json();
+    let found = found.as_array().expect("a list");
+    assert_eq!(found.len(), files.len());
+    for (file, found) in files.iter().zip(found) {
+        let expected = std::fs::read_to_string(file.with_extension("txt")).expect("every fixture has its text");
+        let findings = found["findings"].as_array().expect("a list");
+        let texts: Vec<String> = findings.iter().map(one_line).collect();
+        assert_eq!(texts, [expected.trim_end()], "{}", file.display());
+    }
+}
+
+fn one_line(finding: &Value) -> String {
+    let text = |key: &str| finding[key].as_str().expect("a text").to_owned();
+    let (line, column) = (&finding["line"], &finding["column"]);
+    format!(
+        "{}[{}] {line}:{column}: {}",
+        text("severity"),
+        text("code"),
+        text("message")
+    )
+}
+
+#[test]
+fn findings_come_in_the_order_of_the_file() {
+    let files = fixtures("good");
+    let arguments = ["check", "--json"]
+        .map(Into::into)
+        .into_iter()
+        .chain(files.iter().cloned());
+    let found = run(arguments).json();
+    let mut several = 0;
+    for file in found.as_array().expect("a list") {
+        let findings = file["findings"].as_array().expect("a list");
+        let places: Vec<_> = findings
+            .iter()
+            .map(|finding| (finding["line"].as_u64(), finding["column"].as_u64()))
+            .collect();
+        assert!(places.is_sorted(), "{file}");
+        several += usize::from(places.len() > 1);
+    }
+    assert!(several > 3, "files with several findings are among them");
+}
+
+#[test]
+fn the_worst_of_several_files_counts_and_every_file_is_told() {
+    let (good, bad) = (fixture("good/d3d12_skinned.m3d"), fixture("bad/empty.m3d"));
+    let missing = "no/such/model.m3d";
+    for (files, code) in [
+        (vec![&*good], 0),
+        (vec![&*bad, &*good], 1),
+        (vec![missing, &*bad, &*good], 2),
+        (vec![&*good, &*bad, missing], 2),
+        (vec![&*good, missing], 2),
+    ] {
+        for json in [false, true] {
+            let run = run(["check"].iter().chain(json.then_some(&"--json")).chain(&files));
+            assert_eq!(run.code, Some(code), "{files:?}");
+            assert_eq!(run.out.contains("empty-file"), files.contains(&&*bad), "{files:?}");
+            assert_eq!(
+                run.err.contains("no/such/model.m3d cannot be read"),
+                files.contains(&missing)
+            );
+        }
+    }
+}
+
+#[test]
+fn the_real_files_are_fine_and_strangers_are_named() {
+    for path in [
+        "models/d3d11/base.m3d",
+        "models/d3d11/rock.m3d",
+        "models/d3d11/stairs.m3d",
+        "models/d3d11/tree.m3d",
+        "models/d3d12/soldier.m3d",
+        "models/imm/column.m3d",
+    ] {
+        let Some(file) = shared(path) else { continue };
+        assert_eq!(run(["check", &file]).code, Some(0), "{path}");
+    }
+    for (path, kind) in [
+        ("reject/WusonBlitz0.m3d", "binary"),
+        ("reject/cube_with_vertexcolors.a3d", "ASCII"),
+    ] {
+        let Some(file) = shared(path) else { continue };
+        let run = run(["check", &file]);
+        assert_eq!(run.code, Some(1), "{path}");
+        assert!(run.out.contains(":1:1: error[other-format]: "), "{}", run.out);
+        assert!(
+            run.out.contains(kind) && run.out.contains("\"Model 3D\""),
+            "{}",
+            run.out
+        );
+    }
+}

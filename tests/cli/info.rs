@@ -1,0 +1,174 @@
+//! `bindpose info`.
+
+use serde_json::{Value, json};
+
+use crate::program::{FIGURE, fixture, run, scratch, shared};
+
+/// f32 arithmetic of a turn by 90°.
+const ROUNDING: f64 = 1e-6;
+
+/// The whole object, so that no key can come or go unseen.
+#[test]
+fn json_says_all_of_a_skinned_file() {
+    let file = fixture("good/bones_child_first.m3d");
+    let mut found = run(["info", &file, "--json"]).json();
+    // Bone 1 stands at (0, 1, 0) and turns by 90° about z; bone 0 hangs on it, at its place. So the three vertices go from
+    // (0, 1), (1, 1), (0, 2) to (0, 1), (0, 2), (−1, 1).
+    let z = -4.884_964e-7;
+    assert_close(&found["animated_bounds"].take(), [[-1.0, 1.0, z], [1.0, 2.0, 0.0]]);
+    assert_close(&found["bind_bounds"].take(), [[0.0, 0.0, z], [1.0, 2.0, 0.0]]);
+    let expected = json!({
+        "file": file,
+        "dialect": "d3d12",
+        "handedness": "left",
+        "up_axis": "y",
+        "counts": {"materials": 1, "vertices": 3, "triangles": 1, "bones": 2, "clips": 1},
+        "materials": ["skin"],
+        "clips": [{"name": "Wave", "start_secs": 0.0, "end_secs": 0.5, "keys": 3}],
+        "bind_bounds": null,
+        "animated_bounds": null,
+        "notices": [{
+            "severity": "note",
+            "code": "bones-reordered",
+            "message": "1 bone stands before the parent; the joints are sorted and keep the file's numbers for display.",
+            "line": 51,
+            "column": 1,
+        }],
+    });
+    assert_eq!(found, expected);
+}
+
+fn assert_close(bounds: &Value, expected: [[f64; 3]; 2]) {
+    let keys: Vec<&String> = bounds.as_object().expect("an object").keys().collect();
+    assert_eq!(keys, ["max", "min"]);
+    for (end, expected) in ["min", "max"].into_iter().zip(expected) {
+        let corner = bounds[end].as_array().expect("three numbers");
+        assert_eq!(corner.len(), 3);
+        for (number, expected) in corner.iter().zip(expected) {
+            let number = number.as_f64().expect("a number");
+            assert!((number - expected).abs() <= ROUNDING, "{end}: {number}, not {expected}");
+        }
+    }
+}
+
+/// Findings about the whole file come first, then those with a place.
+#[test]
+fn notices_come_from_both_stages_in_the_order_of_the_file() {
+    let found = run(["info", "--json", &fixture("good/subset_typos.m3d")]).json();
+    let expected = json!([
+        {
+            "severity": "note",
+            "code": "handedness-unclear",
+            "message": "1 of 2 triangles wind as in a left-handed file, the rest as in a right-handed one.",
+            "line": null,
+            "column": null,
+        },
+        {
+            "severity": "note",
+            "code": "subset-vertex-range",
+            "message": "2 values of vertex ranges of the subset table are unreadable; they are not used.",
+            "line": 30,
+            "column": 26,
+        },
+        {
+            "severity": "note",
+            "code": "subset-label",
+            "message": "A label of the subset table is spelt \"VetexCount:\"; it was read by its place.",
+            "line": 30,
+            "column": 29,
+        },
+    ]);
+    assert_eq!(found["notices"], expected);
+}
+
+#[test]
+fn a_static_model_is_as_large_in_its_clips_as_it_is() {
+    let found = run(["info", "--json", &fixture("good/d3d11_static.m3d")]).json();
+    assert_eq!((&found["dialect"], &found["clips"]), (&json!("d3d11"), &json!([])));
+    assert!(found["bind_bounds"]["max"].is_array());
+    assert_eq!(found["bind_bounds"], found["animated_bounds"]);
+}
+
+#[test]
+fn the_text_names_and_counts_what_is_there() {
+    let text = run(["info", FIGURE]).fine();
+    let found = run(["info", "--json", FIGURE]).json();
+    for list in [&found["materials"], &found["clips"]] {
+        for entry in list.as_array().expect("a list") {
+            let name = entry.as_str().or_else(|| entry["name"].as_str()).expect("a name");
+            assert!(text.contains(name), "{name} is not in\n{text}");
+        }
+    }
+    let vertices = found["counts"]["vertices"].as_u64().expect("a count");
+    assert!((1_000..1_000_000).contains(&vertices), "the figure has thousands");
+    let grouped = format!("{},{:03}", vertices / 1000, vertices % 1000);
+    assert!(
+        text.contains(&format!("Vertices{grouped:>14}\n")),
+        "{grouped} is not in\n{text}"
+    );
+}
+
+/// A name from a file cannot steer the terminal; in JSON it stays as it is.
+#[test]
+fn control_characters_are_not_printed() {
+    let file = scratch("control.m3d");
+    let text = std::fs::read_to_string(fixture("good/bones_child_first.m3d")).expect("is text");
+    std::fs::write(
+        &file,
+        text.replace("AnimationClip Wave", "AnimationClip Wa\u{1b}[31mve"),
+    )
+    .expect("can be written");
+    let file = file.to_str().expect("UTF-8");
+    let printed = run(["info", file]).fine();
+    assert!(
+        printed.contains("Wa\u{fffd}[31mve") && !printed.contains('\u{1b}'),
+        "{printed}"
+    );
+    let found = run(["info", "--json", file]).json();
+    assert_eq!(found["clips"][0]["name"], "Wa\u{1b}[31mve");
+}
+
+#[test]
+fn a_file_with_an_error_has_no_info() {
+    let file = fixture("bad/blend_index_out_of_range.m3d");
+    for arguments in [vec!["info", &file], vec!["info", &file, "--json"]] {
+        let run = run(arguments);
+        assert_eq!((run.code, run.out.as_str()), (Some(1), ""));
+        let line = format!(
+            "{file}:34:17: error[not-in-range]: A blend index must be a whole number from 0 to 1, but \"2\" was found.\n"
+        );
+        assert!(run.err.starts_with(&line), "{}", run.err);
+    }
+}
+
+#[test]
+fn the_real_soldier_is_counted() {
+    let Some(file) = shared("models/d3d12/soldier.m3d") else {
+        return;
+    };
+    let found = run(["info", "--json", &file]).json();
+    assert_eq!(
+        found["counts"],
+        json!({"materials": 5, "vertices": 13_748, "triangles": 22_507, "bones": 58, "clips": 1})
+    );
+    assert_eq!(
+        (&found["handedness"], &found["up_axis"]),
+        (&json!("right"), &json!("y"))
+    );
+    assert_eq!(found["clips"][0]["name"], "Take1");
+}
+
+#[test]
+fn the_real_dialects_are_told_apart() {
+    for (path, dialect, up_axis) in [
+        ("models/d3d11/tree.m3d", "d3d11", "y"),
+        ("models/imm/column.m3d", "imm", "z"),
+    ] {
+        let Some(file) = shared(path) else { continue };
+        let found = run(["info", "--json", &file]).json();
+        assert_eq!(
+            (&found["dialect"], &found["up_axis"]),
+            (&json!(dialect), &json!(up_axis))
+        );
+    }
+}

@@ -1,0 +1,11 @@
+//! The real `bindpose` binary on real files: what it prints, what it writes, how it exits.
+
+mod check;
+mod info;
+mod pipe;
+mod pose;
+mod program;
+mod render;
+#[path = "../core/textbook.rs"]
+mod textbook;
+mod wrong_use;

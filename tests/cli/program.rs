@@ -1,0 +1,101 @@
+//! Runs the program, and finds files for it.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// The binary under test, without arguments.
+pub(crate) fn bindpose() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_bindpose"))
+}
+
+/// What came of a run.
+#[derive(Debug)]
+pub(crate) struct Run {
+    pub(crate) code: Option<i32>,
+    pub(crate) out: String,
+    pub(crate) err: String,
+}
+
+/// Runs it to its end.
+pub(crate) fn run(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Run {
+    run_command(bindpose().args(arguments))
+}
+
+/// Likewise, with an environment of the caller's.
+pub(crate) fn run_command(command: &mut Command) -> Run {
+    let output = command.output().expect("the binary was built for this test");
+    Run {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).expect("prints UTF-8"),
+        err: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+impl Run {
+    /// Standard output of a run in which all was well.
+    pub(crate) fn fine(self) -> String {
+        assert_eq!(self.code, Some(0), "{self:?}");
+        self.out
+    }
+
+    /// The same as JSON.
+    pub(crate) fn json(self) -> Value {
+        let code = self.code;
+        assert!(matches!(code, Some(0 | 1)), "{self:?}");
+        serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("{error} in {}", self.out))
+    }
+}
+
+/// A file of `tests/fixtures`, as an argument.
+pub(crate) fn fixture(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name);
+    assert!(path.is_file(), "{} is missing", path.display());
+    path.into_os_string()
+        .into_string()
+        .expect("the checkout's path is UTF-8")
+}
+
+/// All models of a folder of `tests/fixtures`, in order.
+pub(crate) fn fixtures(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures")
+        .join(folder);
+    let entries = std::fs::read_dir(&folder).expect("the fixtures are there");
+    let mut models: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("can be listed").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "m3d"))
+        .collect();
+    models.sort();
+    assert!(models.len() > 20, "{} is nearly empty", folder.display());
+    models
+}
+
+/// The sample: skinned, several clips, thousands of vertices.
+pub(crate) const FIGURE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/sample/figure.m3d");
+
+/// A file of the folder of real models, where that is beside the checkout.
+pub(crate) fn shared(path: &str) -> Option<String> {
+    let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/{}"), path);
+    if Path::new(&path).is_file() {
+        return Some(path);
+    }
+    #[allow(clippy::print_stderr, reason = "a test that did not run says so")]
+    {
+        eprintln!("skipped: {path} is not there");
+    }
+    None
+}
+
+/// A path to write to, of this test alone.
+pub(crate) fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli");
+    std::fs::create_dir_all(&folder).expect("the target folder can be written");
+    let path = folder.join(name);
+    if path.exists() {
+        std::fs::remove_file(&path).expect("was written by an earlier run");
+    }
+    path
+}

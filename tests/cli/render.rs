@@ -1,0 +1,191 @@
+//! `bindpose render`, on both backends. Without an adapter these fail and say what to install.
+
+use image::RgbaImage;
+
+use crate::program::{FIGURE, bindpose, fixture, run, run_command, scratch, shared};
+
+/// Draws, and gives the picture with what was printed.
+fn draw(name: &str, file: &str, arguments: &[&str]) -> (RgbaImage, String) {
+    let path = scratch(name);
+    let path = path.to_str().expect("UTF-8");
+    let printed = run(["render", file, "-o", path].iter().chain(arguments)).fine();
+    let picture = image::open(path).expect("is a picture").into_rgba8();
+    (picture, printed)
+}
+
+/// Share of the pixels in which some channel differs by more than `tolerance`.
+fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let differs = a
+        .pixels()
+        .zip(b.pixels())
+        .filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > tolerance));
+    differs.count() as f64 / f64::from(a.width() * a.height())
+}
+
+/// Columns and rows that hold something, of a picture with nothing behind: left, right, top, bottom.
+fn extent(picture: &RgbaImage) -> Option<[u32; 4]> {
+    let covered = picture.enumerate_pixels().filter(|(_, _, pixel)| pixel.0[3] > 127);
+    covered.fold(None, |extent, (x, y, _)| {
+        let [left, right, top, bottom] = extent.unwrap_or([x, x, y, y]);
+        Some([left.min(x), right.max(x), top.min(y), bottom.max(y)])
+    })
+}
+
+fn a_framed_figure(backend: &str) {
+    let name = format!("framed-{backend}.png");
+    let (picture, printed) = draw(
+        &name,
+        FIGURE,
+        &[
+            "--backend",
+            backend,
+            "--size",
+            "301x200",
+            "--clip",
+            "Wave",
+            "--time",
+            "0.4",
+            "--view",
+            "front",
+            "--transparent",
+        ],
+    );
+    assert_eq!(picture.dimensions(), (301, 200));
+    assert!(
+        printed.contains(&name) && printed.contains("301x200, Wave at 0.4 s"),
+        "{printed}"
+    );
+
+    // The whole clip is framed, so that a single pose fills a good part of the height and leaves a margin.
+    let [left, right, top, bottom] = extent(&picture).expect("something is drawn");
+    assert!(bottom - top > 120 && top > 2 && bottom < 198, "{top} to {bottom}");
+    assert!(left > 60 && right < 240, "{left} to {right}");
+    assert_eq!(picture.get_pixel(0, 0).0, [0, 0, 0, 0]);
+}
+
+#[test]
+fn a_figure_is_framed_on_vulkan() {
+    a_framed_figure("vulkan");
+}
+
+#[test]
+fn a_figure_is_framed_on_gl() {
+    a_framed_figure("gl");
+}
+
+fn same_frame_twice(backend: &str) -> RgbaImage {
+    let arguments = [
+        "--backend",
+        backend,
+        "--size",
+        "320x180",
+        "--clip",
+        "Walk",
+        "--time",
+        "0.3",
+    ];
+    let (first, _) = draw(&format!("first-{backend}.png"), FIGURE, &arguments);
+    let (second, _) = draw(&format!("second-{backend}.png"), FIGURE, &arguments);
+    assert_eq!(first, second, "the same time gives the same picture");
+    first
+}
+
+#[test]
+fn both_backends_draw_the_same_picture() {
+    let (vulkan, gl) = (same_frame_twice("vulkan"), same_frame_twice("gl"));
+    // Two rasterisers differ along edges.
+    let differs = share_that_differs(&vulkan, &gl, 24);
+    assert!(differs < 0.01, "{differs}");
+}
+
+/// Each option against the plain picture: by how much of it that must at least differ.
+#[test]
+fn every_option_changes_the_picture() {
+    let plain = ["--size", "320x180", "--clip", "Walk"];
+    let (picture, _) = draw("plain.png", FIGURE, &plain);
+    for (name, more, at_least) in [
+        ("time.png", &["--time", "0.3"][..], 0.005),
+        ("side.png", &["--view", "right"], 0.01),
+        ("top.png", &["--view", "top"], 0.1),
+        ("light.png", &["--theme", "light"], 0.5),
+        ("no-grid.png", &["--no-grid"], 0.002),
+        ("transparent.png", &["--transparent"], 0.5),
+    ] {
+        let (other, _) = draw(name, FIGURE, &[&plain[..], more].concat());
+        let differs = share_that_differs(&picture, &other, 2);
+        assert!(differs >= at_least, "{name}: {differs}");
+    }
+    let (explicit, _) = draw(
+        "explicit.png",
+        FIGURE,
+        &[&plain[..], &["--view", "three-quarter", "--theme", "dark"]].concat(),
+    );
+    assert_eq!(picture, explicit, "the defaults are what they say");
+}
+
+/// Also models without clips, without bones, with their z up.
+#[test]
+fn any_model_is_drawn() {
+    for (name, file) in [
+        ("static.png", "good/d3d11_static.m3d"),
+        ("imm.png", "good/imm_skinned.m3d"),
+    ] {
+        let (picture, _) = draw(
+            name,
+            &fixture(file),
+            &["--size", "64x64", "--transparent", "--view", "isometric"],
+        );
+        assert!(extent(&picture).is_some(), "{file}");
+    }
+    let Some(soldier) = shared("models/d3d12/soldier.m3d") else {
+        return;
+    };
+    let (picture, _) = draw(
+        "soldier.png",
+        &soldier,
+        &["--size", "200x300", "--transparent", "--view", "front"],
+    );
+    let [left, right, top, bottom] = extent(&picture).expect("something is drawn");
+    assert!(bottom - top > 200 && bottom - top > right - left, "he stands upright");
+}
+
+#[test]
+fn a_picture_that_no_gpu_draws_is_refused() {
+    for (size, why) in [("100000x10", "pixels a side"), ("16000x16000", "pixels")] {
+        let path = scratch(&format!("large-{size}.png"));
+        let run = run(["render", FIGURE, "-o", path.to_str().expect("UTF-8"), "--size", size]);
+        assert_eq!((run.code, run.out.as_str()), (Some(2), ""));
+        let told = format!("error: a picture of {size} is too large");
+        assert!(run.err.contains(&told) && run.err.contains(why), "{}", run.err);
+        assert!(!path.exists());
+    }
+}
+
+/// Where the loader finds no driver, the package to install is named; GL stands in unless Vulkan was asked for.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_missing_driver_is_named_with_its_package() {
+    let without_vulkan = |name: &str, more: &[&str]| {
+        let path = scratch(name);
+        let mut command = bindpose();
+        command
+            .args(["render", FIGURE, "--size", "32x32", "-o"])
+            .arg(path)
+            .args(more);
+        run_command(
+            command
+                .env("VK_DRIVER_FILES", "/nowhere")
+                .env("VK_ICD_FILENAMES", "/nowhere"),
+        )
+    };
+    let asked = without_vulkan("asked.png", &["--backend", "vulkan"]);
+    assert_eq!((asked.code, asked.out.as_str()), (Some(2), ""));
+    assert!(
+        asked.err.contains("apt-get install mesa-vulkan-drivers"),
+        "{}",
+        asked.err
+    );
+    let instead = without_vulkan("instead.png", &[]).fine();
+    assert!(instead.contains("(GL)"), "{instead}");
+}

@@ -1,0 +1,151 @@
+//! Exit code 2 and a word that helps; and the help itself.
+
+use serde_json::Value;
+
+use crate::program::{FIGURE, fixture, run, scratch};
+
+#[test]
+fn wrong_use_is_told_apart_from_bad_files() {
+    let file = fixture("good/bones_child_first.m3d");
+    for (arguments, told) in [
+        (vec![], "Usage: bindpose <COMMAND>"),
+        (vec!["animate", &file], "unrecognized subcommand 'animate'"),
+        (vec!["info"], "<FILE>"),
+        (vec!["check"], "<FILE>..."),
+        (vec!["render", &file], "--output <PNG>"),
+        (vec!["info", &file, "--yaml"], "unexpected argument '--yaml'"),
+        (vec!["pose", &file, "--time", "soon"], "a time is a number of seconds"),
+        (vec!["pose", &file, "--time", "inf"], "a time is a number of seconds"),
+        (
+            vec!["render", &file, "-o", "x.png", "--size", "big"],
+            "such as 1280x720",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--size", "0x9"],
+            "such as 1280x720",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--view", "inside"],
+            "three-quarter",
+        ),
+        (vec!["render", &file, "-o", "x.png", "--backend", "glide"], "vulkan, gl"),
+        (
+            vec!["render", &file, "-o", "x.png", "--clip", "Swim"],
+            "it has \"Wave\"",
+        ),
+    ] {
+        let run = run(&arguments);
+        assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(run.err.contains(told), "{arguments:?}: {}", run.err);
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_named() {
+    let folder = env!("CARGO_MANIFEST_DIR");
+    let out = scratch("unread.png");
+    let out_argument = out.to_str().expect("UTF-8");
+    for file in ["no/such/model.m3d", folder] {
+        for arguments in [
+            vec!["info", file],
+            vec!["check", file],
+            vec!["pose", file, "--time", "0", "--json"],
+            vec!["render", file, "-o", out_argument],
+        ] {
+            let run = run(&arguments);
+            assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{arguments:?}");
+            let told = format!("error: {file} cannot be read: ");
+            assert!(run.err.starts_with(&told), "{arguments:?}: {}", run.err);
+        }
+    }
+    assert!(!out.exists());
+}
+
+#[test]
+fn what_cannot_be_written_is_named() {
+    let run = run(["render", FIGURE, "-o", "no/such/folder/x.png", "--size", "16x16"]);
+    assert_eq!((run.code, run.out.as_str()), (Some(2), ""));
+    assert!(
+        run.err.contains("error: no/such/folder/x.png cannot be written: "),
+        "{}",
+        run.err
+    );
+}
+
+/// Also for a file whose name is that of a picture: it is its content that is refused.
+#[test]
+fn a_file_with_errors_is_refused_by_every_command() {
+    let bad = std::fs::read(fixture("bad/png.m3d")).expect("is there");
+    let file = scratch("really.png");
+    std::fs::write(&file, bad).expect("can be written");
+    let file = file.to_str().expect("UTF-8");
+    let out = scratch("refused.png");
+    let out_argument = out.to_str().expect("UTF-8");
+    for arguments in [
+        vec!["info", file],
+        vec!["pose", file, "--time", "0"],
+        vec!["render", file, "-o", out_argument],
+    ] {
+        let run = run(&arguments);
+        assert_eq!((run.code, run.out.as_str()), (Some(1), ""), "{arguments:?}");
+        assert!(
+            run.err.starts_with(&format!("{file}:1:1: error[other-format]: ")),
+            "{}",
+            run.err
+        );
+    }
+    assert!(!out.exists());
+}
+
+#[test]
+fn help_is_a_result() {
+    for arguments in [
+        vec!["--help"],
+        vec!["help", "check"],
+        vec!["pose", "-h"],
+        vec!["--version"],
+    ] {
+        let run = run(&arguments);
+        assert_eq!((run.code, run.err.as_str()), (Some(0), ""), "{arguments:?}");
+        assert!(run.out.len() > 10);
+    }
+    let help = run(["--help"]).fine();
+    for word in ["info", "check", "pose", "render", "Exit codes"] {
+        assert!(help.contains(word), "{word} is not in\n{help}");
+    }
+}
+
+/// Keys of an object and of all that is in it.
+fn keys(value: &Value, found: &mut Vec<String>) {
+    match value {
+        Value::Object(fields) => {
+            for (key, value) in fields {
+                found.push(key.clone());
+                keys(value, found);
+            }
+        }
+        Value::Array(values) => values.iter().for_each(|value| keys(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_is_explained_in_the_help() {
+    let noted = fixture("good/subset_typos.m3d");
+    let skinned = fixture("good/bones_child_first.m3d");
+    for (command, arguments) in [
+        ("info", vec!["info", "--json", &noted]),
+        ("info", vec!["info", "--json", &skinned]),
+        ("check", vec!["check", "--json", &noted]),
+        ("pose", vec!["pose", "--json", "--positions", &skinned]),
+    ] {
+        let mut all = Vec::new();
+        keys(&run(&arguments).json(), &mut all);
+        assert!(all.len() > 3, "{arguments:?}");
+        let help = run([command, "--help"]).fine();
+        let words: Vec<&str> = help.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+        for key in all {
+            assert!(words.contains(&&*key), "{key} is not in\n{help}");
+        }
+    }
+}

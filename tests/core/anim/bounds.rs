@@ -1,0 +1,134 @@
+//! The space that a clip needs.
+
+use std::time::Instant;
+
+use bindpose::anim::{PoseBuffers, animated_bounds, skin_positions};
+use bindpose::model::{Aabb, Clip, Model};
+use glam::Vec3;
+
+use crate::documents::{arm, model_of, quad, real_file};
+use crate::textbook;
+
+#[test]
+fn a_static_model_and_a_resting_clip_keep_the_bind_bounds() {
+    let (model, _) = model_of(&quad());
+    assert_eq!(animated_bounds(&model, &Clip::default()), model.bind_bounds());
+
+    let mut document = arm();
+    document.clips[0]
+        .bones
+        .iter_mut()
+        .for_each(|bone| bone.keyframes.clear());
+    let (model, _) = model_of(&document);
+    let bounds = animated_bounds(&model, &model.clips[0]);
+    assert!(bounds.min.abs_diff_eq(model.bind_bounds().min, 1e-6), "{bounds:?}");
+    assert!(bounds.max.abs_diff_eq(model.bind_bounds().max, 1e-6), "{bounds:?}");
+}
+
+#[test]
+fn the_box_is_that_of_the_vertices_at_the_keys() {
+    let (model, _) = model_of(&arm());
+    let mut buffers = PoseBuffers::default();
+    let mut positions = Vec::new();
+    let mut expected = Aabb::EMPTY;
+    for time_secs in [0.0, 1.0] {
+        buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
+        skin_positions(&model.mesh, &buffers.palette, &mut positions);
+        expected = positions
+            .iter()
+            .fold(expected, |bounds, &position| bounds.include(position));
+    }
+    assert_eq!(animated_bounds(&model, &model.clips[0]), expected);
+}
+
+#[test]
+fn too_much_work_gives_a_box_that_is_rather_too_large() {
+    let (small, _) = model_of(&arm());
+    let mut document = arm();
+    // Nine million vertices and key times together.
+    while document.vertices.len() * 90 < 9_000_000 {
+        document.vertices.extend_from_within(..14);
+    }
+    for bone in &mut document.clips[0].bones {
+        let (first, last) = (bone.keyframes[0], bone.keyframes[1]);
+        bone.keyframes = (0_u8..90)
+            .map(|key| {
+                let part = f32::from(key) / 89.0;
+                crate::documents::turned(
+                    crate::documents::key(part, first.translation),
+                    last.rotation[2].asin() * 2.0 * part,
+                )
+            })
+            .collect();
+    }
+    let (large, _) = model_of(&document);
+    let rough = animated_bounds(&large, &large.clips[0]);
+    let exact = animated_bounds(&small, &large.clips[0]);
+    assert!(
+        rough.min.cmple(exact.min + 1e-5).all() && rough.max.cmpge(exact.max - 1e-5).all(),
+        "{rough:?} {exact:?}"
+    );
+    assert!(
+        rough.size().cmple(exact.size() * 1.5 + 0.01).all(),
+        "{rough:?} {exact:?}"
+    );
+}
+
+/// The arm swings through the middle of its way: no key shows how far it reaches there.
+#[test]
+fn many_key_times_are_looked_at_evenly() {
+    let mut document = arm();
+    for bone in &mut document.clips[0].bones {
+        let first = bone.keyframes[0];
+        bone.keyframes = (0_u16..3_000)
+            .map(|key| {
+                let part = f32::from(key) / 2_999.0;
+                crate::documents::turned(crate::documents::key(part, first.translation), (part * 6.0).sin())
+            })
+            .collect();
+    }
+    let (model, _) = model_of(&document);
+    let bounds = animated_bounds(&model, &model.clips[0]);
+    let mut buffers = PoseBuffers::default();
+    let mut positions = Vec::new();
+    for step in 0_u16..=500 {
+        buffers.evaluate(&model.skeleton, &model.clips[0], f32::from(step) / 500.0);
+        skin_positions(&model.mesh, &buffers.palette, &mut positions);
+        let reach = Aabb::from_points(positions.iter().copied());
+        assert!(bounds.min.cmple(reach.min + 1e-2).all() && bounds.max.cmpge(reach.max - 1e-2).all());
+    }
+}
+
+#[test]
+#[allow(clippy::print_stderr, reason = "the time is worth seeing")]
+fn the_soldier_needs_the_box_of_the_textbook() {
+    let Some(parsed) = real_file("d3d12/soldier") else {
+        return;
+    };
+    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let begun = Instant::now();
+    let bounds = animated_bounds(&model, &model.clips[0]);
+    eprintln!("animated bounds of the soldier in {:?}", begun.elapsed());
+
+    let document = &parsed.document;
+    let (mut least, mut greatest) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for key in &document.clips[0].bones[0].keyframes {
+        let palette = textbook::palette(document, 0, f64::from(key.time_secs));
+        for vertex in &document.vertices {
+            let weights = vertex.blend_weights.map(f64::from);
+            let position = textbook::skinned(vertex.position, weights, vertex.blend_indices, &palette);
+            for axis in 0..3 {
+                least[axis] = least[axis].min(position[axis]);
+                greatest[axis] = greatest[axis].max(position[axis]);
+            }
+        }
+    }
+    let narrow = |numbers: [f64; 3]| Vec3::from_array(numbers.map(|number| number as f32));
+    assert!(bounds.min.abs_diff_eq(narrow(least), 3e-4), "{bounds:?} {least:?}");
+    assert!(
+        bounds.max.abs_diff_eq(narrow(greatest), 3e-4),
+        "{bounds:?} {greatest:?}"
+    );
+    // The run is far deeper than the bind pose, and the arms come down.
+    assert!(bounds.size().z > 44.0 && bounds.size().x < 32.0, "{bounds:?}");
+}

@@ -1,0 +1,176 @@
+//! Every shader program is sound, translates for WebGL2, and sees its structs as the Rust twins lay them out. No GPU.
+
+use std::collections::BTreeMap;
+use std::mem::offset_of;
+
+use bindpose::shaders::{Frame, GeometryVertex, InfluenceVertex, JOINTS_PER_ROW, Material, PROGRAMS, Program};
+use naga::back::glsl;
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+
+fn compile(program: &Program) -> (naga::Module, ModuleInfo) {
+    let source = program.source();
+    let module = naga::front::wgsl::parse_str(&source)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string_with_path(&source, program.name)));
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string_with_path(&source, program.name)));
+    (module, info)
+}
+
+#[test]
+fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
+    let options = glsl::Options {
+        version: glsl::Version::Embedded {
+            version: 300,
+            is_webgl: true,
+        },
+        ..glsl::Options::default()
+    };
+    let mut entry_points = Vec::new();
+    for program in &PROGRAMS {
+        let (module, info) = compile(program);
+        for entry_point in &module.entry_points {
+            let pipeline = glsl::PipelineOptions {
+                shader_stage: entry_point.stage,
+                entry_point: entry_point.name.clone(),
+                multiview: None,
+            };
+            let mut text = String::new();
+            let policies = naga::proc::BoundsCheckPolicies::default();
+            glsl::Writer::new(&mut text, &module, &info, &options, &pipeline, policies)
+                .and_then(|mut writer| writer.write())
+                .unwrap_or_else(|error| panic!("{}/{}: {error}", program.name, entry_point.name));
+            assert!(text.starts_with("#version 300 es"), "{text}");
+            entry_points.push(format!("{}/{}", program.name, entry_point.name));
+        }
+    }
+    assert_eq!(
+        entry_points,
+        [
+            "mesh/vertex_static",
+            "mesh/vertex_skinned",
+            "mesh/fragment",
+            "caster/vertex_static",
+            "caster/vertex_skinned",
+            "backdrop/vertex",
+            "backdrop/fragment",
+            "composite/vertex",
+            "composite/fragment",
+            "probe/vertex",
+            "probe/fragment",
+        ]
+    );
+}
+
+/// A struct as offsets of its members and its size.
+#[derive(Debug, PartialEq)]
+struct Layout {
+    members: Vec<(String, usize)>,
+    size: usize,
+}
+
+macro_rules! twin {
+    ($type:ident { $($member:ident),* $(,)? }) => {
+        (
+            stringify!($type).to_owned(),
+            Layout {
+                members: vec![$((stringify!($member).to_owned(), offset_of!($type, $member))),*],
+                size: size_of::<$type>(),
+            },
+        )
+    };
+}
+
+/// Members in order; a missing one shows as a difference, since the shader's list is complete.
+fn twins() -> BTreeMap<String, Layout> {
+    BTreeMap::from([
+        twin!(Frame {
+            clip_from_world,
+            world_from_model,
+            shadow_clip_from_world,
+            eye,
+            front_sign,
+            forward,
+            is_perspective,
+            eye_per_x,
+            ground_height,
+            eye_per_y,
+            grid_cell,
+            forward_per_x,
+            grid_reach,
+            forward_per_y,
+            shadow_texel,
+            to_key,
+            shadow_strength,
+            to_rim,
+            grid_strength,
+            backdrop_center_srgb,
+            backdrop_edge_srgb,
+            grid_minor,
+            grid_major,
+            grid_center,
+            viewport_pixels,
+        }),
+        twin!(Material {
+            albedo,
+            roughness,
+            fresnel0,
+            unused
+        }),
+    ])
+}
+
+#[test]
+fn uniform_structs_lie_as_their_twins() {
+    let mut found = BTreeMap::new();
+    for program in &PROGRAMS {
+        let (module, _) = compile(program);
+        let uniforms = module.global_variables.iter().map(|(_, variable)| variable);
+        for variable in uniforms.filter(|variable| variable.space == naga::AddressSpace::Uniform) {
+            let ty = &module.types[variable.ty];
+            let naga::TypeInner::Struct { members, span } = &ty.inner else {
+                panic!("{}: a uniform that is no struct", program.name);
+            };
+            let name = |name: &Option<String>| name.clone().expect("structs and members have names in WGSL");
+            let layout = Layout {
+                members: members
+                    .iter()
+                    .map(|member| (name(&member.name), member.offset as usize))
+                    .collect(),
+                size: *span as usize,
+            };
+            assert_eq!(layout.size % 16, 0, "{}: WebGL2 wants whole 16 bytes", program.name);
+            found.insert(name(&ty.name), layout);
+        }
+    }
+    assert_eq!(found, twins());
+}
+
+#[test]
+fn uniforms_fit_the_smallest_block_of_webgl2() {
+    const SMALLEST_BLOCK: usize = 16 * 1024;
+    assert!(size_of::<Frame>() <= SMALLEST_BLOCK);
+}
+
+#[test]
+fn vertices_are_packed_and_within_the_least_stride() {
+    // The least that `max_vertex_buffer_array_stride` may be.
+    const LEAST_STRIDE: usize = 255;
+    assert_eq!(size_of::<GeometryVertex>(), (3 + 3 + 4 + 2) * 4);
+    assert_eq!(size_of::<InfluenceVertex>(), (4 + 4) * 4);
+    assert!(size_of::<GeometryVertex>() <= LEAST_STRIDE);
+}
+
+#[test]
+fn shader_and_upload_agree_on_joints_per_row() {
+    let (module, _) = compile(&bindpose::shaders::MESH);
+    let (_, constant) = module
+        .constants
+        .iter()
+        .find(|(_, constant)| constant.name.as_deref() == Some("JOINTS_PER_ROW"))
+        .expect("skinning.wgsl names it");
+    let naga::Expression::Literal(literal) = module.global_expressions[constant.init] else {
+        panic!("not a literal");
+    };
+    assert_eq!(literal, naga::Literal::U32(JOINTS_PER_ROW));
+}

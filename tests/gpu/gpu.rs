@@ -1,0 +1,128 @@
+//! Opens each backend once and draws scenes with it.
+
+use std::sync::OnceLock;
+
+use bindpose::render::device::{self, Backend};
+use bindpose::render::{Renderer, Target, read_back_blocking};
+
+use crate::scenes::Scene;
+
+/// An open backend.
+pub(crate) struct Gpu {
+    pub(crate) backend: Backend,
+    pub(crate) open: device::Gpu,
+}
+
+pub(crate) fn vulkan() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(|| open(Backend::Vulkan))
+}
+
+pub(crate) fn gl() -> &'static Gpu {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    GPU.get_or_init(|| open(Backend::Gl))
+}
+
+fn open(backend: Backend) -> Gpu {
+    // The error names the package to install: a missing adapter must not pass for a green test.
+    let open = pollster::block_on(device::headless(backend)).unwrap_or_else(|error| panic!("{error}"));
+    Gpu { backend, open }
+}
+
+impl Gpu {
+    pub(crate) fn renderer(&self) -> Renderer {
+        Renderer::with_samples(&self.open.device, &self.open.queue, self.open.samples)
+    }
+
+    pub(crate) fn target(&self, width: u32, height: u32) -> Target {
+        Target::with_samples(&self.open.device, width, height, self.open.samples)
+    }
+
+    /// Draws a scene once.
+    pub(crate) fn draw(&self, scene: &Scene, width: u32, height: u32) -> Picture {
+        let mut renderer = self.renderer();
+        renderer.set_model(&scene.model).expect("test models are small");
+        let mut target = self.target(width, height);
+        renderer.render(&scene.frame(), &mut target);
+        self.read(&target)
+    }
+
+    pub(crate) fn read(&self, target: &Target) -> Picture {
+        let [width, height] = target.size();
+        let rgba = read_back_blocking(&self.open.device, &self.open.queue, target).expect("reads back");
+        assert_eq!(rgba.len(), (width * height * 4) as usize);
+        Picture { width, height, rgba }
+    }
+}
+
+/// Pixels, sRGB, straight alpha.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Picture {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) rgba: Vec<u8>,
+}
+
+impl Picture {
+    pub(crate) fn pixel(&self, x: u32, y: u32) -> [u8; 4] {
+        assert!(x < self.width && y < self.height);
+        let start = ((y * self.width + x) * 4) as usize;
+        self.rgba[start..start + 4].try_into().expect("four channels")
+    }
+
+    pub(crate) fn middle(&self) -> [u8; 4] {
+        self.pixel(self.width / 2, self.height / 2)
+    }
+
+    /// Share of the pixels in which some channel differs by more than `tolerance`.
+    pub(crate) fn share_that_differs(&self, other: &Self, tolerance: u8) -> f64 {
+        assert_eq!((self.width, self.height), (other.width, other.height));
+        let pixels = self.rgba.chunks_exact(4).zip(other.rgba.chunks_exact(4));
+        let differs = |(a, b): &(&[u8], &[u8])| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > tolerance);
+        pixels.filter(differs).count() as f64 / f64::from(self.width * self.height)
+    }
+}
+
+/// Greatest difference of two pixels in any channel.
+pub(crate) fn difference(a: [u8; 4], b: [u8; 4]) -> u8 {
+    a.into_iter()
+        .zip(b)
+        .map(|(a, b)| a.abs_diff(b))
+        .max()
+        .expect("four channels")
+}
+
+/// The bytes of any texture, rows without padding.
+pub(crate) fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Vec<u8> {
+    let device = &gpu.open.device;
+    let row = texture.width() * bytes_per_pixel;
+    let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(padded_row * texture.height()),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(padded_row),
+                rows_per_image: None,
+            },
+        },
+        texture.size(),
+    );
+    gpu.open.queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("maps"));
+    device.poll(wgpu::PollType::wait_indefinitely()).expect("waits");
+    let mapped = buffer.get_mapped_range(..).expect("mapped");
+    mapped
+        .chunks_exact(padded_row as usize)
+        .flat_map(|padded| &padded[..row as usize])
+        .copied()
+        .collect()
+}

@@ -1,0 +1,31 @@
+//! What needs a GPU. Everything runs on Vulkan and on GL; a software adapter is enough, and without any the tests fail and say
+//! what to install.
+
+/// Makes a module for each test, with one test for each backend in it.
+macro_rules! on_both_backends {
+    ($($(#[doc = $doc:literal])* fn $name:ident($gpu:ident) $body:block)*) => {
+        $(
+            mod $name {
+                use super::*;
+
+                fn on($gpu: &crate::gpu::Gpu) $body
+
+                #[test]
+                fn vulkan() {
+                    on(crate::gpu::vulkan());
+                }
+
+                #[test]
+                fn gl() {
+                    on(crate::gpu::gl());
+                }
+            }
+        )*
+    };
+}
+
+mod golden;
+mod gpu;
+mod picture;
+mod scenes;
+mod skinning;

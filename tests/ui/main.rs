@@ -1,0 +1,12 @@
+//! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
+
+mod idle;
+mod keys;
+mod layout;
+#[path = "../core/session/models.rs"]
+mod models;
+mod page;
+mod panels;
+mod picture;
+mod pointer;
+mod timeline;

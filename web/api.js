@@ -1,0 +1,82 @@
+// `globalThis.bindpose`: the page for programs. It is there from the start; what is asked of it waits for the viewer.
+
+/** What `state()` says before there is a viewer to ask. */
+const EMPTY = { backend: null, model: null, clip: null, timeSecs: 0, playing: false, framesRendered: 0, notices: [], error: null };
+
+/**
+ * Makes the object that programs see, and beside it what only the page may do with it:
+ * `attach(viewer)` when the viewer runs, `fail(error)` when it never will again, `emit(type, detail)` for its events.
+ */
+export function createApi() {
+  let viewer = null;
+  let used = false;
+  let resolve, reject;
+  let opening = Promise.resolve();
+  const bindpose = new EventTarget();
+  const ready = new Promise((...settle) => ([resolve, reject] = settle));
+  // Whoever waits for it hears of a failure; nobody has to wait.
+  ready.catch(() => {});
+
+  /** Now, or as soon as the viewer runs. */
+  const command = (name) => (...values) => {
+    if (viewer) viewer[name](...values);
+    else ready.then((running) => running[name](...values), () => {});
+  };
+
+  Object.assign(bindpose, {
+    ready,
+    state: () => viewer?.state() ?? { ...EMPTY },
+    seek: command("seek"),
+    play: command("play"),
+    pause: command("pause"),
+    selectClip: command("selectClip"),
+
+    /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
+    open(files) {
+      used = true;
+      // A FileList empties itself when its input is used again, so it is copied before anything waits.
+      const given = Array.from(files);
+      const opened = opening.then(async () => {
+        const records = await Promise.all(given.map(read));
+        return (await ready).open(records);
+      });
+      opening = opened.catch(() => {});
+      return opened;
+    },
+
+    /** A picture of the current view: a PNG `Blob`, as large as the canvas unless told otherwise. */
+    async snapshot(options = {}) {
+      const canvas = document.querySelector("#view canvas");
+      const size = { width: canvas.width, height: canvas.height, transparent: false };
+      const png = await (await ready).snapshot({ ...size, ...options });
+      return new Blob([png], { type: "image/png" });
+    },
+  });
+
+  return {
+    bindpose,
+    /** Whether anything was asked to open. */
+    wasUsed: () => used,
+    attach(running) {
+      viewer = running;
+      resolve(running);
+    },
+    fail(error) {
+      viewer = null;
+      reject(error);
+    },
+    emit: (type, detail) => bindpose.dispatchEvent(new CustomEvent(type, { detail })),
+  };
+}
+
+/** Bytes with their relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`. */
+async function read(item) {
+  if (item.bytes) return { name: item.name, bytes: item.bytes };
+  const file = item.file ?? item;
+  const name = item.file ? item.name : file.webkitRelativePath || file.name;
+  try {
+    return { name, bytes: new Uint8Array(await file.arrayBuffer()) };
+  } catch (error) {
+    throw new Error(`${name} could not be read: ${error.message}`, { cause: error });
+  }
+}

@@ -1,0 +1,185 @@
+// Starts the viewer: fetches the wasm with its progress shown, starts it on the canvas, gives it what was dropped
+// meanwhile, and starts it again when the GPU went away.
+
+import { createApi } from "./api.js";
+import { takeChoices, takeDrops } from "./drop.js";
+import { clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showPanic, wordsOf } from "./fault.js";
+import { letTabLeave, mirrorTransport } from "./transport.js";
+
+/** A GPU that goes away more often than this within the time below does not come back for good. */
+const MAX_RESTARTS = 3;
+const RESTARTS_FORGOTTEN_MS = 60_000;
+
+const element = (id) => document.getElementById(id);
+const view = element("view");
+/** What the address asks for, before the `#` or after it. */
+const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
+const { bindpose, wasUsed, attach, fail, emit } = createApi();
+globalThis.bindpose = bindpose;
+
+let viewer = null; // The wasm module's exports.
+let gpu = null; // {backend, adapter} of the last start that worked.
+let restarts = [];
+let restarting = false;
+
+const refuse = (words) => showNotice("Some files could not be read", words);
+const receive = async (files) => {
+  clearNotice();
+  if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
+  await bindpose.open(files).catch((error) => refuse(wordsOf(error)));
+};
+const pick = takeChoices({ receive, refuse });
+takeDrops({ receive, refuse, openModel: () => bindpose.state().model?.name });
+const refreshTransport = mirrorTransport(bindpose);
+letTabLeave(view);
+element("open-files").addEventListener("click", () => pick(false));
+element("open-folder").addEventListener("click", () => pick(true));
+element("notice-close").addEventListener("click", clearNotice);
+
+boot();
+
+async function boot() {
+  const opensAtOnce = fetchOpening();
+  try {
+    viewer = await load();
+  } catch (error) {
+    fail(error);
+    showDownloadFailure(error);
+    return;
+  }
+  addEventListener("error", ({ error }) => error instanceof WebAssembly.RuntimeError && onPanic(wordsOf(error)));
+  addEventListener("unhandledrejection", ({ reason }) => reason instanceof WebAssembly.RuntimeError && onPanic(wordsOf(reason)));
+  try {
+    await start(wantedBackend());
+  } catch (error) {
+    fail(error);
+    showGpuFailure(error, wantedBackend());
+    return;
+  }
+  attach(viewer);
+  element("shell").classList.add("leaving");
+  setTimeout(() => (element("shell").hidden = true), 200);
+  const files = await opensAtOnce;
+  if (files && !wasUsed()) await bindpose.open(files).catch((error) => refuse(wordsOf(error)));
+  refreshTransport();
+}
+
+/** Fetches and compiles the program while it arrives. */
+async function load() {
+  const link = element("wasm");
+  const [module, response] = await Promise.all([import("../pkg/bindpose.js"), fetch(link.href)]);
+  if (!response.ok) throw new Error(`The server answered ${response.status} for ${link.href}`);
+  const total = Number(link.dataset.bytes);
+  let arrived = 0;
+  const counted = response.body.pipeThrough(
+    new TransformStream({
+      transform(chunk, controller) {
+        arrived += chunk.byteLength;
+        showProgress(arrived, total);
+        controller.enqueue(chunk);
+      },
+    }),
+  );
+  const headers = { "Content-Type": "application/wasm" };
+  await module.default({ module_or_path: new Response(counted, { headers }) });
+  return module;
+}
+
+function showProgress(arrived, total) {
+  const part = total ? Math.min(arrived / total, 1) : 0;
+  element("bar").setAttribute("aria-valuenow", Math.round(part * 100));
+  element("bar-fill").style.transform = `scaleX(${part})`;
+  if (!wasUsed()) {
+    const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
+    const words = part < 1 ? `Loading the viewer · ${megabytes(arrived)} of ${megabytes(total)} MB` : "Starting";
+    element("progress-words").textContent = words;
+  }
+}
+
+function wantedBackend() {
+  const named = options.get("backend");
+  return ["webgpu", "webgl2"].includes(named) ? named : "auto";
+}
+
+/** Starts on the canvas of the page, which must never have been drawn on. */
+async function start(backend) {
+  const canvas = element("canvas");
+  canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost"), { once: true });
+  const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  gpu = await viewer.start(canvas, { backend, reducedMotion }, onEvent);
+  view.classList.add("drawn");
+}
+
+/** The GPU went away: what is open lives on in the module, so a new canvas and a new start bring all of it back. */
+async function restart(reason) {
+  if (restarting) return;
+  restarting = true;
+  try {
+    for (;;) {
+      const now = performance.now();
+      restarts = restarts.filter((at) => now - at < RESTARTS_FORGOTTEN_MS);
+      if (restarts.length === MAX_RESTARTS) throw new Error(`The GPU went away ${MAX_RESTARTS} times: ${reason}`);
+      restarts.push(now);
+      viewer.stop();
+      // A canvas remembers the kind of its first context for ever.
+      const old = element("canvas");
+      const fresh = old.cloneNode(false);
+      fresh.removeAttribute("style");
+      const hadFocus = view.contains(document.activeElement);
+      old.replaceWith(fresh);
+      try {
+        // The last try takes the plainer way, unless the address asks for one.
+        const plainer = restarts.length === MAX_RESTARTS && wantedBackend() === "auto";
+        await start(plainer ? "webgl2" : wantedBackend());
+        if (hadFocus) fresh.focus();
+        return;
+      } catch (error) {
+        reason = wordsOf(error);
+        await new Promise((done) => setTimeout(done, 250 * restarts.length));
+      }
+    }
+  } catch (error) {
+    fail(error);
+    showGpuLoss(error, gpu);
+  } finally {
+    restarting = false;
+  }
+}
+
+function onEvent(type, detail) {
+  if (type === "devicelost") return void restart(detail?.reason ?? "the device was lost");
+  if (type === "panic") return onPanic(detail?.message ?? "");
+  if (type === "pickfiles") return pick(Boolean(detail?.folder));
+  if (type === "load") {
+    clearNotice();
+    const name = bindpose.state().model?.name;
+    document.title = name ? `${name} · Bindpose` : "Bindpose";
+    element("spoken").textContent = name ? `${name} is open` : "";
+  }
+  if (type === "error") element("spoken").textContent = detail?.message ?? "";
+  emit(type, detail);
+}
+
+function onPanic(message) {
+  fail(new Error(message));
+  showPanic(message);
+}
+
+/** What the page opens by itself: the files that the address names, else the sample. */
+async function fetchOpening() {
+  const named = ["src", "tex"].flatMap((key) => options.getAll(key));
+  const addresses = named.length ? named : [new URL("sample/figure.m3d", import.meta.url).href];
+  try {
+    return await Promise.all(addresses.map(fetchFile));
+  } catch (error) {
+    refuse(wordsOf(error));
+    return null;
+  }
+}
+
+async function fetchFile(address) {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
+  const name = decodeURIComponent(new URL(response.url).pathname.split("/").pop());
+  return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+}

@@ -1,0 +1,115 @@
+// Files and folders from the person: dropped anywhere on the page, or chosen in a dialog.
+
+/** What a model can use out of a folder; the rest of the folder is left where it is. */
+const USEFUL = /\.(m3d|a3d|dds|png|jpe?g|bmp|tga)$/i;
+
+/** A folder with more than this in it was not meant for a viewer. */
+const MAX_ENTRIES = 20_000;
+
+const element = (id) => document.getElementById(id);
+
+/**
+ * Takes every drop on the page. `receive(files)` gets `{name, file}` records, name being the path inside what was
+ * dropped; `refuse(words)` hears what could not be read; `openModel()` names the model that a drop would replace, if any.
+ */
+export function takeDrops({ receive, refuse, openModel }) {
+  const overlay = element("drop-overlay");
+  const hide = () => (overlay.hidden = true);
+
+  const onDrag = (event) => {
+    if (!carriesFiles(event)) return;
+    claim(event);
+    event.dataTransfer.dropEffect = "copy";
+    element("drop-what").textContent = describe(event, openModel());
+    overlay.hidden = false;
+  };
+  // In the capture phase, so that nothing below sees the drop and takes half of it.
+  addEventListener("dragenter", onDrag, true);
+  addEventListener("dragover", onDrag, true);
+  addEventListener("dragleave", (event) => event.relatedTarget ?? hide(), true);
+  addEventListener("dragend", hide, true);
+  addEventListener("drop", async (event) => {
+    if (!carriesFiles(event)) return;
+    claim(event);
+    hide();
+    // The list is emptied when this listener returns, so the entries are taken now.
+    const roots = entriesOf(event.dataTransfer);
+    const { files, problems } = await collect(roots);
+    if (problems.length) refuse(problems.join("\n"));
+    if (files.length) receive(files);
+    else if (!problems.length) refuse("There is no model and no picture in what was dropped.");
+  }, true);
+}
+
+/** Makes the hidden file inputs hand their files to `receive`. Gives `pick(folder)`, which opens a dialog. */
+export function takeChoices({ receive, refuse }) {
+  for (const id of ["files", "folder"]) {
+    const input = element(id);
+    input.addEventListener("change", () => {
+      const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
+      input.value = ""; // So that choosing the same file again is a change.
+      const files = id === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
+      if (files.length) receive(files);
+      else if (chosen.length) refuse("There is no model and no picture in this folder.");
+    });
+  }
+  return (folder) => element(folder ? "folder" : "files").click();
+}
+
+function carriesFiles(event) {
+  return event.dataTransfer?.types.includes("Files") ?? false;
+}
+
+function claim(event) {
+  event.preventDefault();
+  event.stopImmediatePropagation();
+}
+
+/** What would be opened and what it replaces. Before the drop a page learns how many items there are, not their names. */
+function describe(event, openModel) {
+  const count = Array.from(event.dataTransfer.items).filter((item) => item.kind === "file").length;
+  const what = count ? [count === 1 ? "1 item" : `${count} items`] : [];
+  const then = openModel ? [`${openModel} stays until it is read`] : [];
+  return [...what, ...then].join(" · ");
+}
+
+function entriesOf(transfer) {
+  const items = Array.from(transfer.items).filter((item) => item.kind === "file");
+  const entries = items.map((item) => item.webkitGetAsEntry?.() ?? item.getAsFile()).filter(Boolean);
+  return entries.length ? entries : Array.from(transfer.files);
+}
+
+/** Every useful file below the roots, with its path. What was dropped by itself is always taken. */
+async function collect(roots) {
+  const files = [];
+  const problems = [];
+  let seen = 0;
+
+  const visit = async (entry, isRoot) => {
+    const path = (entry.fullPath ?? entry.name).replace(/^\/+/, "");
+    if (++seen > MAX_ENTRIES) return;
+    try {
+      if (entry instanceof File) {
+        files.push({ name: path, file: entry });
+      } else if (entry.isDirectory) {
+        const reader = entry.createReader();
+        // A call gives some hundred entries at most; an empty answer is the end.
+        for (let batch = await next(reader); batch.length && seen <= MAX_ENTRIES; batch = await next(reader)) {
+          for (const child of batch) await visit(child, false);
+        }
+      } else if (isRoot || USEFUL.test(path)) {
+        files.push({ name: path, file: await new Promise((done, fail) => entry.file(done, fail)) });
+      }
+    } catch (error) {
+      problems.push(`${path} could not be read: ${error.message}`);
+    }
+  };
+
+  for (const root of roots) await visit(root, true);
+  if (seen > MAX_ENTRIES) problems.push(`Only the first ${MAX_ENTRIES} entries of the folder were looked at.`);
+  return { files, problems };
+}
+
+function next(reader) {
+  return new Promise((done, fail) => reader.readEntries(done, fail));
+}

@@ -1,0 +1,99 @@
+// Pages and cards for what the viewer itself cannot say, because it does not run or never saw the file.
+
+/** The ways to draw, by their names in the address. */
+const BACKENDS = { webgl2: "WebGL2", webgpu: "WebGPU" };
+
+const element = (id) => document.getElementById(id);
+
+/** A card over the view that stays until it is dismissed. */
+export function showNotice(title, words) {
+  element("notice-title").textContent = title;
+  element("notice-words").textContent = words;
+  element("notice").hidden = false;
+}
+
+/** Takes the card away. */
+export function clearNotice() {
+  element("notice").hidden = true;
+}
+
+/** Replaces the page by what happened. The first fault stays: what follows are its echoes. */
+function showFault(title, words, details, actions) {
+  if (!element("fault").hidden) return;
+  element("shell").hidden = true;
+  element("transport").hidden = true;
+  element("fault-title").textContent = title;
+  element("fault-words").textContent = words;
+  element("fault-details").textContent = details;
+  element("fault-actions").replaceChildren(...actions);
+  element("fault").hidden = false;
+  actions[0].focus();
+}
+
+/** The program ended in a way it did not expect. */
+export function showPanic(message) {
+  showFault(
+    "Bindpose stopped",
+    "It came upon something that it did not expect. That is a mistake in the program, not in your file. Reload the page to go on.",
+    message,
+    [reload("Reload"), ...backendLinks()],
+  );
+}
+
+/** The graphics could not be started. `backend` is the one that was asked for by name, if any. */
+export function showGpuFailure(error, backend) {
+  showFault(
+    "The graphics could not be started",
+    backend in BACKENDS
+      ? `${BACKENDS[backend]} was asked for and did not work. The other way to draw may.`
+      : "Neither WebGPU nor WebGL2 worked. A newer browser or graphics driver, or hardware acceleration turned on in the browser's settings, helps most often.",
+    wordsOf(error),
+    [reload("Try again"), ...backendLinks()],
+  );
+}
+
+/** The GPU went away again and again. `gpu` is the `{backend, adapter}` that it was. */
+export function showGpuLoss(error, gpu) {
+  showFault(
+    "The graphics went away",
+    `${BACKENDS[gpu.backend]} on ${gpu.adapter} was lost more than once and was not started again. The other way to draw may last.`,
+    wordsOf(error),
+    [reload("Try again"), ...backendLinks()],
+  );
+}
+
+/** The program could not be fetched or compiled. */
+export function showDownloadFailure(error) {
+  showFault(
+    "The viewer could not be loaded",
+    "A part of this page did not arrive, or this browser cannot run it. Bindpose needs WebAssembly.",
+    wordsOf(error),
+    [reload("Try again")],
+  );
+}
+
+/** The words of whatever was thrown. */
+export function wordsOf(error) {
+  return error?.message ?? String(error);
+}
+
+function reload(words) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.className = "primary";
+  button.textContent = words;
+  button.addEventListener("click", () => location.reload());
+  return button;
+}
+
+function backendLinks() {
+  return Object.entries(BACKENDS).map(([backend, name]) => {
+    const address = new URL(location.href);
+    address.searchParams.set("backend", backend);
+    address.hash = ""; // It may name the other one.
+    const link = document.createElement("a");
+    link.href = address.href;
+    link.textContent = `Use ${name}`;
+    return link;
+  });
+}

@@ -1,0 +1,194 @@
+//! The command line.
+
+use crate::failure::Failure;
+
+/// What `cargo xtask --help` prints.
+pub(crate) const HELP: &str = "\
+Bindpose's own commands. Each does its set-up itself.
+
+    cargo xtask serve [--port N] [--open] [--release] [--watch]
+        Build the viewer for the browser and serve it on this machine.
+        --port N    the port, 8080 unless given; 0 takes any free one
+        --open      open the page in the default browser
+        --release   optimised, slower to build
+        --watch     build again when a source file changes; reload the page to see it
+
+    cargo xtask test [--browser [webgpu | webgl2]]
+        Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests on WebGPU
+        and WebGL2. Stops at the first failure and prints the command that repeats it.
+        --browser   the browser tests alone, on both or on one
+
+    cargo xtask dist
+        The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
+";
+
+/// The port that `serve` takes unless told another.
+const DEFAULT_PORT: u16 = 8080;
+
+/// One of the commands, with its options.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Task {
+    Help,
+    Serve(ServeOptions),
+    Test(TestOptions),
+    Dist,
+}
+
+/// Options of `serve`.
+#[derive(Debug, PartialEq)]
+pub(crate) struct ServeOptions {
+    /// 0 takes any free port.
+    pub(crate) port: u16,
+    pub(crate) open: bool,
+    pub(crate) release: bool,
+    pub(crate) watch: bool,
+}
+
+/// Options of `test`.
+#[derive(Debug, PartialEq)]
+pub(crate) struct TestOptions {
+    /// Only the browser tests.
+    pub(crate) browser_alone: bool,
+    /// What the browser draws with, in turn.
+    pub(crate) backends: Vec<&'static str>,
+}
+
+/// Every backend that the page can draw with.
+pub(crate) const BACKENDS: [&str; 2] = ["webgpu", "webgl2"];
+
+/// Reads the arguments after the program's name.
+pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Failure> {
+    let mut args = args.into_iter();
+    let Some(name) = args.next() else { return Ok(Task::Help) };
+    let rest: Vec<String> = args.collect();
+    if matches!(name.as_str(), "help" | "--help" | "-h") || rest.iter().any(|arg| arg == "--help" || arg == "-h") {
+        return Ok(Task::Help);
+    }
+    match name.as_str() {
+        "serve" => serve_options(rest).map(Task::Serve),
+        "test" => test_options(&rest).map(Task::Test),
+        "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
+        other => Err(Failure::Usage(format!("there is no command `{other}`"))),
+    }
+}
+
+fn nothing_more(name: &str, rest: &[String]) -> Result<(), Failure> {
+    match rest.first() {
+        None => Ok(()),
+        Some(arg) => Err(Failure::Usage(format!(
+            "`{name}` takes no options, but `{arg}` was given"
+        ))),
+    }
+}
+
+fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
+    let words: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let both = BACKENDS.to_vec();
+    match words[..] {
+        [] => Ok(TestOptions {
+            browser_alone: false,
+            backends: both,
+        }),
+        ["--browser"] => Ok(TestOptions {
+            browser_alone: true,
+            backends: both,
+        }),
+        ["--browser", name] => match BACKENDS.into_iter().find(|backend| *backend == name) {
+            Some(backend) => Ok(TestOptions {
+                browser_alone: true,
+                backends: vec![backend],
+            }),
+            None => Err(Failure::Usage(format!(
+                "`--browser` takes webgpu or webgl2, but `{name}` was given"
+            ))),
+        },
+        _ => Err(Failure::Usage(format!("`test` does not know `{}`", words.join(" ")))),
+    }
+}
+
+fn serve_options(rest: Vec<String>) -> Result<ServeOptions, Failure> {
+    let mut options = ServeOptions {
+        port: DEFAULT_PORT,
+        open: false,
+        release: false,
+        watch: false,
+    };
+    let mut rest = rest.into_iter();
+    while let Some(arg) = rest.next() {
+        match arg.as_str() {
+            "--open" => options.open = true,
+            "--release" => options.release = true,
+            "--watch" => options.watch = true,
+            "--port" => options.port = port(rest.next().as_deref())?,
+            other => match other.strip_prefix("--port=") {
+                Some(value) => options.port = port(Some(value))?,
+                None => return Err(Failure::Usage(format!("`serve` has no option `{other}`"))),
+            },
+        }
+    }
+    Ok(options)
+}
+
+fn port(value: Option<&str>) -> Result<u16, Failure> {
+    let found = value.map_or("nothing".to_owned(), |value| format!("`{value}`"));
+    value.and_then(|value| value.parse().ok()).ok_or_else(|| {
+        Failure::Usage(format!(
+            "`--port` takes a number from 0 to 65535, but {found} was given"
+        ))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(line: &str) -> Result<Task, String> {
+        parse(line.split_whitespace().map(str::to_owned)).map_err(|failure| failure.to_string())
+    }
+
+    #[test]
+    fn options_are_read_in_any_order() {
+        let expected = ServeOptions {
+            port: 9000,
+            open: true,
+            release: true,
+            watch: false,
+        };
+        assert_eq!(parsed("serve --port 9000 --open --release"), Ok(Task::Serve(expected)));
+        let expected = ServeOptions {
+            port: 0,
+            open: false,
+            release: false,
+            watch: true,
+        };
+        assert_eq!(parsed("serve --watch --port=0"), Ok(Task::Serve(expected)));
+        let expected = TestOptions {
+            browser_alone: true,
+            backends: vec!["webgl2"],
+        };
+        assert_eq!(parsed("test --browser webgl2"), Ok(Task::Test(expected)));
+        let expected = TestOptions {
+            browser_alone: false,
+            backends: vec!["webgpu", "webgl2"],
+        };
+        assert_eq!(parsed("test"), Ok(Task::Test(expected)));
+        assert_eq!(parsed("dist --help"), Ok(Task::Help));
+        assert_eq!(parsed(""), Ok(Task::Help));
+    }
+
+    #[test]
+    fn wrong_use_names_what_was_wrong() {
+        for (line, words) in [
+            ("sevre", "there is no command `sevre`"),
+            ("serve --prot 1", "`serve` has no option `--prot`"),
+            ("serve --port", "but nothing was given"),
+            ("serve --port 70000", "but `70000` was given"),
+            ("test --fast", "`test` does not know `--fast`"),
+            ("test --browser metal", "but `metal` was given"),
+            ("dist --fast", "`dist` takes no options, but `--fast` was given"),
+        ] {
+            let failure = parsed(line).expect_err(line);
+            assert!(failure.contains(words), "{line}: {failure}");
+        }
+    }
+}

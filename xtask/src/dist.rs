@@ -1,0 +1,282 @@
+//! `cargo xtask dist`: the site as static files that a host may keep for ever.
+//!
+//! Each file but the page has a part of its content's hash in its name, and every reference to it is rewritten. A file
+//! is named after those it refers to, so a change below changes the names above it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::compress::{Coding, Effort};
+use crate::failure::{Doing as _, Failure};
+use crate::site::Site;
+use crate::wasm::{self, Profile};
+
+/// The page's own address; it keeps its name.
+const PAGE: &str = "index.html";
+
+/// Files that are text and may refer to others.
+const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
+
+/// Builds `dist/`.
+pub(crate) fn run() -> Result<(), Failure> {
+    let site = Site::new(wasm::build(Profile::Dist)?);
+    let mut sources = BTreeMap::new();
+    for address in site.addresses()? {
+        if let Some(path) = site.locate(&address) {
+            let bytes = site.read(&address, &path)?;
+            sources.insert(address, bytes);
+        }
+    }
+    let dist = crate::root().join("dist");
+    if dist.exists() {
+        fs::remove_dir_all(&dist).doing("removing dist/")?;
+    }
+    println!("{:>10} {:>10} {:>10}  dist/", "raw", "gzip", "brotli");
+    let mut totals = [0; 3];
+    for (name, bytes) in hashed(&sources)? {
+        let sizes = write(&dist, &name, &bytes)?;
+        println!(
+            "{:>10} {:>10} {:>10}  {name}",
+            grouped(sizes[0]),
+            grouped(sizes[1]),
+            grouped(sizes[2])
+        );
+        for (total, size) in totals.iter_mut().zip(sizes) {
+            *total += size;
+        }
+    }
+    println!(
+        "{:>10} {:>10} {:>10}  in all",
+        grouped(totals[0]),
+        grouped(totals[1]),
+        grouped(totals[2])
+    );
+    Ok(())
+}
+
+/// Writes a file and its compressed twins; gives the three sizes.
+fn write(dist: &Path, name: &str, bytes: &[u8]) -> Result<[usize; 3], Failure> {
+    let path = dist.join(name);
+    if let Some(dir) = path.parent() {
+        fs::create_dir_all(dir).doing(format!("making {}", dir.display()))?;
+    }
+    let twins = [
+        (".gz", Coding::Gzip.encode(bytes, Effort::Best)),
+        (".br", Coding::Brotli.encode(bytes, Effort::Best)),
+    ];
+    fs::write(&path, bytes).doing(format!("writing {}", path.display()))?;
+    for (suffix, twin) in &twins {
+        let path = PathBuf::from(format!("{}{suffix}", path.display()));
+        fs::write(&path, twin).doing(format!("writing {}", path.display()))?;
+    }
+    Ok([bytes.len(), twins[0].1.len(), twins[1].1.len()])
+}
+
+/// The files under their hashed names, with the references in them rewritten.
+fn hashed(sources: &BTreeMap<String, Vec<u8>>) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+    let mut naming = Naming {
+        sources,
+        names: BTreeMap::new(),
+        open: Vec::new(),
+        files: BTreeMap::new(),
+    };
+    for address in sources.keys() {
+        naming.name(address)?;
+    }
+    Ok(naming.files)
+}
+
+/// The work of [`hashed`]: depth first, so that what a file refers to has its name before the file has.
+struct Naming<'a> {
+    sources: &'a BTreeMap<String, Vec<u8>>,
+    /// Hashed name by address.
+    names: BTreeMap<String, String>,
+    /// The addresses that are being named, outermost first.
+    open: Vec<String>,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Naming<'_> {
+    fn name(&mut self, address: &str) -> Result<String, Failure> {
+        if let Some(name) = self.names.get(address) {
+            return Ok(name.clone());
+        }
+        if self.open.iter().any(|open| open == address) {
+            let circle = self.open.join(" -> ");
+            return Err(Failure::Site(format!(
+                "these files refer to each other in a circle: {circle} -> {address}"
+            )));
+        }
+        self.open.push(address.to_owned());
+        let bytes = self.rewritten(address)?;
+        self.open.pop();
+        let name = match (address, address.rsplit_once('.')) {
+            (PAGE, _) | (_, None) => address.to_owned(),
+            (_, Some((stem, extension))) => format!("{stem}.{:016x}.{extension}", fnv1a(&bytes)),
+        };
+        self.names.insert(address.to_owned(), name.clone());
+        self.files.insert(name.clone(), bytes);
+        Ok(name)
+    }
+
+    /// The file with every quoted relative address of another file replaced.
+    fn rewritten(&mut self, address: &str) -> Result<Vec<u8>, Failure> {
+        let sources = self.sources;
+        let bytes = sources.get(address).map(Vec::as_slice).unwrap_or_default();
+        if !REFERRING.iter().any(|extension| address.ends_with(extension)) {
+            return Ok(bytes.to_vec());
+        }
+        let text =
+            std::str::from_utf8(bytes).map_err(|error| Failure::Site(format!("{address} is not UTF-8: {error}")))?;
+        let folder = address.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let mut out = String::with_capacity(text.len());
+        // Double quotes alone: that is how this project and wasm-bindgen write addresses, or how they are left alone.
+        for (index, part) in text.split('"').enumerate() {
+            if index > 0 {
+                out.push('"');
+            }
+            let target = resolved(folder, part).filter(|target| sources.contains_key(target) && target != PAGE);
+            match target {
+                None => out.push_str(part),
+                Some(target) => {
+                    let name = self.name(&target)?;
+                    let file = name.rsplit_once('/').map_or(name.as_str(), |(_, file)| file);
+                    let above = part
+                        .rsplit_once('/')
+                        .map_or(String::new(), |(above, _)| format!("{above}/"));
+                    out.push_str(&above);
+                    out.push_str(file);
+                }
+            }
+        }
+        Ok(out.into_bytes())
+    }
+}
+
+/// The address that a relative reference in `folder` means, or `None` when it cannot be one.
+fn resolved(folder: &str, reference: &str) -> Option<String> {
+    if reference.is_empty() || reference.len() > 255 || reference.contains([' ', '\n', ':']) {
+        return None;
+    }
+    let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
+    for part in reference.split('/') {
+        match part {
+            "." => {}
+            ".." => {
+                parts.pop()?;
+            }
+            part => parts.push(part),
+        }
+    }
+    Some(parts.join("/"))
+}
+
+/// FNV-1a, 64 bits: enough to tell versions of one file apart. It guards against nothing else.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// The number with its thousands grouped.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut out = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sources(files: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
+        files
+            .iter()
+            .map(|(address, text)| ((*address).to_owned(), text.as_bytes().to_vec()))
+            .collect()
+    }
+
+    fn text_of<'a>(files: &'a BTreeMap<String, Vec<u8>>, start: &str) -> (&'a str, &'a str) {
+        let (name, bytes) = files
+            .iter()
+            .find(|(name, _)| name.starts_with(start))
+            .expect("the file is there");
+        (name, std::str::from_utf8(bytes).expect("text"))
+    }
+
+    #[test]
+    fn references_follow_the_names_and_a_change_below_renames_what_is_above() {
+        let page = r#"<script src="web/boot.js"></script><p title="boot.js">"#;
+        let boot =
+            r#"import init from "../pkg/a.js"; fetch(new URL("sample/f.m3d", import.meta.url)); say("nothing.js");"#;
+        let build = |model: &str| {
+            hashed(&sources(&[
+                ("index.html", page),
+                ("web/boot.js", boot),
+                ("web/sample/f.m3d", model),
+                ("pkg/a.js", "1"),
+            ]))
+            .expect("no circle")
+        };
+        let (one, two) = (build("model"), build("another"));
+        let (boot_name, boot_text) = text_of(&one, "web/boot.");
+        let model_name = text_of(&one, "web/sample/").0.trim_start_matches("web/");
+        let script_name = text_of(&one, "pkg/a.").0;
+        assert!(boot_text.contains(&format!("\"../{script_name}\"")), "{boot_text}");
+        assert!(boot_text.contains(&format!("\"{model_name}\"")), "{boot_text}");
+        assert!(boot_text.contains("\"nothing.js\""), "{boot_text}");
+        assert_eq!(
+            one["index.html"],
+            format!(r#"<script src="{boot_name}"></script><p title="boot.js">"#).into_bytes()
+        );
+        assert_ne!(text_of(&two, "web/boot.").0, boot_name);
+        assert_eq!(text_of(&two, "pkg/a.").0, script_name);
+    }
+
+    #[test]
+    fn no_file_of_the_real_page_refers_to_a_name_that_is_gone() {
+        let mut files = sources(&[("pkg/bindpose.js", "1"), ("pkg/bindpose_bg.wasm", "2")]);
+        // The bound wasm is not built in a test; any folder stands in for it.
+        let site = Site::new(crate::root().join("web"));
+        for address in site.addresses().expect("the site lists") {
+            if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
+                files.insert(address, fs::read(path).expect("a listed file"));
+            }
+        }
+        let built = hashed(&files).expect("no circle");
+        assert_eq!(built.len(), files.len());
+        for (name, bytes) in built
+            .iter()
+            .filter(|(name, _)| REFERRING.iter().any(|end| name.ends_with(end)))
+        {
+            let text = std::str::from_utf8(bytes).expect("text");
+            for gone in files.keys().filter(|address| *address != PAGE) {
+                let file = gone.rsplit_once('/').map_or(gone.as_str(), |(_, file)| file);
+                for quoted in [format!("/{file}\""), format!("\"{file}\"")] {
+                    assert!(!text.contains(&quoted), "{name} still refers to {gone}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_circle_of_references_is_named() {
+        let circle = sources(&[("web/a.js", r#"import "./b.js""#), ("web/b.js", r#"import "./a.js""#)]);
+        let failure = hashed(&circle).expect_err("a circle").to_string();
+        assert!(failure.contains("web/a.js -> web/b.js -> web/a.js"), "{failure}");
+    }
+
+    #[test]
+    fn thousands_are_grouped() {
+        for (number, text) in [(0, "0"), (999, "999"), (1_000, "1 000"), (1_234_567, "1 234 567")] {
+            assert_eq!(grouped(number), text);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! The library built for the browser and bound to JavaScript: `pkg/bindpose.js` and `pkg/bindpose_bg.wasm`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use wasm_bindgen_cli_support::Bindgen;
+
+use crate::failure::{Doing as _, Failure};
+use crate::process::Line;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// Where the built library goes, by how hard the compiler works on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Profile {
+    Dev,
+    Release,
+    Dist,
+}
+
+impl Profile {
+    /// Cargo's name of the profile.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Dev => "dev",
+            Self::Release => "release",
+            Self::Dist => "dist",
+        }
+    }
+
+    /// Cargo's name of the folder it builds into.
+    fn folder(self) -> &'static str {
+        match self {
+            Self::Dev => "debug",
+            Self::Release => "release",
+            Self::Dist => "dist",
+        }
+    }
+}
+
+/// The arguments that build the library for the browser.
+pub(crate) fn build_args(profile: Profile) -> Vec<&'static str> {
+    let mut args = vec![
+        "build",
+        "--lib",
+        "--target",
+        TARGET,
+        "--no-default-features",
+        "--features",
+        "viewer",
+    ];
+    args.extend(["--profile", profile.name()]);
+    args
+}
+
+/// Builds and binds. Gives the folder with `bindpose.js` and `bindpose_bg.wasm`.
+pub(crate) fn build(profile: Profile) -> Result<PathBuf, Failure> {
+    ensure_target()?;
+    Line::cargo().args(build_args(profile)).run()?;
+    let wasm = crate::target_dir()
+        .join(TARGET)
+        .join(profile.folder())
+        .join("bindpose.wasm");
+    let pkg = crate::target_dir().join("site").join(profile.folder()).join("pkg");
+    if !is_newer(&pkg.join("bindpose_bg.wasm"), &wasm) {
+        bind(&wasm, &pkg, profile)?;
+    }
+    Ok(pkg)
+}
+
+/// Adds the wasm target to the toolchain when it is not there.
+pub(crate) fn ensure_target() -> Result<(), Failure> {
+    if Line::new("rustc")
+        .args(["--target", TARGET, "--print", "target-libdir"])
+        .output()
+        .is_some_and(|libdir| {
+            // rustc names the folder whether it is there or not.
+            Path::new(libdir.trim()).is_dir()
+        })
+    {
+        return Ok(());
+    }
+    Line::new("rustup")
+        .args(["target", "add", TARGET])
+        .run()
+        .map_err(|_| Failure::Remedy {
+            what: format!("the Rust target {TARGET} is not installed, and rustup could not add it"),
+            remedy: format!("rustup target add {TARGET}"),
+        })
+}
+
+fn bind(wasm: &Path, pkg: &Path, profile: Profile) -> Result<(), Failure> {
+    let started = Instant::now();
+    // Into a folder beside it first: a page that is being served never sees half of the new and half of the old.
+    let fresh = pkg.with_extension("new");
+    remove_dir(&fresh)?;
+    fs::create_dir_all(&fresh).doing(format!("making {}", fresh.display()))?;
+    let shipped = profile == Profile::Dist;
+    Bindgen::new()
+        .input_path(wasm)
+        .out_name("bindpose")
+        .web(true)
+        .and_then(|bindgen| {
+            bindgen
+                .typescript(false)
+                // The page names the wasm itself (it shows the download's progress), so the script need not.
+                .omit_default_module_path(true)
+                .keep_debug(false)
+                .remove_name_section(shipped)
+                .remove_producers_section(shipped)
+                .generate(&fresh)
+        })
+        .map_err(|error| Failure::Bind(format!("{error:#}")))?;
+    remove_dir(pkg)?;
+    fs::rename(&fresh, pkg).doing(format!("moving {} to {}", fresh.display(), pkg.display()))?;
+    eprintln!("  bound to JavaScript in {:.1} s", started.elapsed().as_secs_f32());
+    Ok(())
+}
+
+fn remove_dir(dir: &Path) -> Result<(), Failure> {
+    if dir.exists() {
+        fs::remove_dir_all(dir).doing(format!("removing {}", dir.display()))
+    } else {
+        Ok(())
+    }
+}
+
+/// Whether `made` is there and was written after `from`.
+fn is_newer(made: &Path, from: &Path) -> bool {
+    let modified = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
+    match (modified(made), modified(from)) {
+        (Some(made), Some(from)) => made > from,
+        _ => false,
+    }
+}
