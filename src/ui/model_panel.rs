@@ -114,6 +114,9 @@ fn subsets(ui: &mut Ui, open: &OpenModel) {
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
             let swatch = egui::Rect::from_center_size(rect.left_center() + vec2(5.0, 0.0), vec2(10.0, 10.0));
             ui.painter().rect_filled(swatch, 2.5, color_srgb(color));
+            // A dark material on a dark panel still has an outline.
+            let outline = egui::Stroke::new(1.0, tokens.field_hovered);
+            ui.painter().rect_stroke(swatch, 2.5, outline, egui::StrokeKind::Inside);
             let count = grouped(submesh.triangle_count as usize);
             let font = FontId::proportional(13.0);
             let name = shortened(&material.name, 22);
