@@ -279,6 +279,17 @@ impl fmt::Display for ParseErrorKind {
                     value.subject()
                 )
             }
+            // A bound that is only what fits would explain nothing.
+            Self::NotInRange {
+                value,
+                smallest,
+                largest,
+                found,
+            } if *largest == i64::from(u32::MAX) => write!(
+                f,
+                "{} must be a whole number, {smallest} or more, but \"{found}\" was found.",
+                value.subject()
+            ),
             Self::NotInRange {
                 value,
                 smallest,

@@ -21,7 +21,7 @@ use crate::scene::{Insets, Theme};
 use crate::session::{Command, Session};
 pub use keys::owns_key;
 
-use panel::Panel;
+use panel::{Panel, scrolled};
 use theme::{MARGIN, NARROW_WIDTH};
 use timeline::KeyTimes;
 
@@ -159,12 +159,9 @@ fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, co
     if session.open_model().is_some() {
         Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {
             ui.set_width(SIDE_WIDTH - 26.0);
-            egui::ScrollArea::vertical()
-                .id_salt("model")
-                .max_height(side_room)
-                .show(ui, |ui| {
-                    model_panel::show(ui, session, state, commands);
-                });
+            scrolled("model", side_room).show(ui, |ui| {
+                model_panel::show(ui, session, state, commands);
+            });
         });
     }
     if state.diagnostics_open {
@@ -223,16 +220,15 @@ fn narrow_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, 
             }
             if state.sheet_open {
                 ui.add_space(10.0);
-                egui::ScrollArea::vertical()
-                    .id_salt("sheet")
-                    .max_height(window.height() * 0.5)
-                    .show(ui, |ui| {
-                        if state.diagnostics_open {
-                            diagnostics_panel::show(ui, session, state, f32::INFINITY);
-                        } else {
-                            model_panel::show(ui, session, state, commands);
-                        }
-                    });
+                let covered = bar_height(ui) + timeline::covered_height(ui, session, true) + 3.0 * MARGIN;
+                let room = (window.height() * 0.5).min(window.height() - covered);
+                scrolled("sheet", room).show(ui, |ui| {
+                    if state.diagnostics_open {
+                        diagnostics_panel::show(ui, session, state, room - 50.0);
+                    } else {
+                        model_panel::show(ui, session, state, commands);
+                    }
+                });
             }
         });
 }

@@ -1,8 +1,17 @@
 //! Panels that float over the view.
 
-use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, Ui};
+use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, ScrollArea, Ui};
 
 use super::theme::{self, Tokens};
+
+/// A list in a panel that scrolls once it is higher than `most`. A panel remembers the size that it had, so without a word
+/// about it a list that grows would scroll in the height of before.
+pub(super) fn scrolled(id: &'static str, most: f32) -> ScrollArea {
+    ScrollArea::vertical()
+        .id_salt(id)
+        .max_height(most)
+        .min_scrolled_height(most)
+}
 
 /// Where a panel is and what it looks like.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@ use egui::{
 };
 
 use super::icons::{self, Icon};
+use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use super::widgets::{control_size, focus_ring, icon_button, is_touch, menu_item, text_button};
 use crate::anim::LoopMode;
@@ -160,7 +161,7 @@ fn clip_menu(ui: &mut Ui, session: &Session, width: Rangef, commands: &mut Vec<C
     let response = response.on_hover_text(format!("{name}\nNext clip: C"));
     Popup::menu(&response).show(|ui| {
         ui.set_width(240.0);
-        egui::ScrollArea::vertical().max_height(360.0).show(ui, |ui| {
+        scrolled("clips", 360.0_f32.min(ui.ctx().content_rect().height() * 0.5)).show(ui, |ui| {
             for (index, clip) in open.model.clips.iter().enumerate() {
                 let text = format!("{}   {:.2} s", shortened(&clip.name, 40), clip.duration_secs());
                 if menu_item(ui, &text, session.clip_index() == Some(index)).clicked() {

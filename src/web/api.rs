@@ -112,26 +112,31 @@ pub fn select_clip(name: &str) -> bool {
 #[wasm_bindgen]
 pub async fn snapshot(options: JsValue) -> Result<Uint8Array, JsError> {
     let field = |name: &str| Reflect::get(&options, &name.into()).unwrap_or(JsValue::UNDEFINED);
+    // Read before anything is borrowed: a getter is a script, and may call back.
     let transparent = field("transparent").is_truthy();
+    let sides = [("width", field("width").as_f64()), ("height", field("height").as_f64())];
     let (target, gpu) = PAGE.with_borrow(|page| {
+        let not_running = || JsError::new("the viewer is not running");
         let running: &Running = page
             .as_ref()
             .and_then(|page| page.running.as_ref())
-            .ok_or_else(|| JsError::new("the viewer is not running"))?;
+            .ok_or_else(not_running)?;
         let most = running
             .gpu
             .device
             .limits()
             .max_texture_dimension_2d
             .min(MAX_PICTURE_SIDE);
-        let side = |name: &str| match field(name).as_f64() {
-            Some(side) if side >= 1.0 && side <= f64::from(most) => Ok(side as u32),
-            _ => Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
-        };
-        let size = [side("width")?, side("height")?];
+        let mut size = [0; 2];
+        for (pixels, (name, side)) in size.iter_mut().zip(sides) {
+            *pixels = match side {
+                Some(side) if (1.0..=f64::from(most)).contains(&side) => side as u32,
+                _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
+            };
+        }
         let mut app = running.app.borrow_mut();
-        let app = app.as_mut().ok_or_else(|| JsError::new("the viewer is not running"))?;
-        Ok::<_, JsError>((app.draw_snapshot(size, transparent), running.gpu.clone()))
+        let app = app.as_mut().ok_or_else(not_running)?;
+        Ok((app.draw_snapshot(size, transparent), running.gpu.clone()))
     })?;
     let pixels = read_back(&gpu.device, &gpu.queue, &target, async || super::sleep(1).await).await?;
     let [width, height] = target.size();

@@ -5,8 +5,6 @@ use wasm_bindgen::JsValue;
 
 use crate::anim::LoopMode;
 use crate::diagnostic::Diagnostic;
-use crate::format::Dialect;
-use crate::model::{Handedness, UpAxis};
 use crate::scene::{Aabb, Projection};
 use crate::session::{Event, OpenModel, Session};
 
@@ -102,16 +100,9 @@ fn model(session: &Session, open: &OpenModel) -> JsValue {
     Fields::new()
         .with("name", open.file.base_name())
         .with("path", &*open.file.path)
-        .with("dialect", dialect_name(open.dialect))
-        .with(
-            "handedness",
-            if session.handedness() == Handedness::Left {
-                "left"
-            } else {
-                "right"
-            },
-        )
-        .with("upAxis", if session.up_axis() == UpAxis::Y { "y" } else { "z" })
+        .with("dialect", open.dialect.as_str())
+        .with("handedness", session.handedness().as_str())
+        .with("upAxis", session.up_axis().as_str())
         .with(
             "counts",
             Fields::new()
@@ -169,14 +160,6 @@ fn bounds(bounds: &Aabb) -> JsValue {
 
 fn vector(vector: glam::Vec3) -> Array {
     vector.to_array().into_iter().map(JsValue::from).collect()
-}
-
-fn dialect_name(dialect: Dialect) -> &'static str {
-    match dialect {
-        Dialect::D3d12 => "d3d12",
-        Dialect::D3d11 => "d3d11",
-        Dialect::Imm => "imm",
-    }
 }
 
 fn loop_name(mode: LoopMode) -> &'static str {

@@ -27,6 +27,24 @@ fn assert_inside(window: &Window, size: Vec2) {
     }
 }
 
+/// As a click on their row does, which in a small window has to be scrolled to.
+fn show_findings(window: &mut Window) {
+    window.harness.state_mut().state.diagnostics_open = true;
+    window.pass_on();
+    assert!(window.shows("Close"));
+}
+
+/// Lists may go on below, where they can be scrolled to, but not beside.
+#[track_caller]
+fn assert_between_sides(window: &Window, size: Vec2) {
+    for (name, rect) in window.widgets() {
+        assert!(
+            rect.min.x >= 0.0 && rect.max.x <= size.x,
+            "{name:?} at {rect} leaves the window of {size}"
+        );
+    }
+}
+
 /// Rectangles of the panels that the layout opened.
 fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
     let names = [
@@ -101,7 +119,11 @@ fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
             assert_apart(&window, &["title", "sheet"]);
             window.click("Model facts");
             assert_apart(&window, &["title", "sheet"]);
-            assert!(window.shows("Dialect D3D12 book"));
+            let dialect = window.rect("Dialect");
+            assert!(dialect.max.y < size.y - 100.0, "what was opened can be seen: {dialect}");
+            assert_between_sides(&window, size);
+            show_findings(&mut window);
+            assert_between_sides(&window, size);
             window.click("Close the sheet");
             assert!(!window.shows("Dialect D3D12 book"));
         }
@@ -109,7 +131,13 @@ fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
     // By touch all is larger.
     for size in [PHONE, vec2(360.0, 640.0), vec2(320.0, 568.0), vec2(844.0, 390.0)] {
         for files in [vec![moving("a.m3d")], vec![moving(LONG)], long_clip()] {
-            assert_inside(&touch_window(size, files), size);
+            let mut window = touch_window(size, files);
+            assert_inside(&window, size);
+            window.click("Model facts");
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+            show_findings(&mut window);
+            assert_between_sides(&window, size);
         }
     }
 }
@@ -146,6 +174,7 @@ fn the_error_card_and_the_keys_fit_the_window() {
         window.click("Dismiss");
         window.harness.event(egui::Event::Text("?".to_owned()));
         window.pass_on();
+        assert_between_sides(&window, size);
         let help = panels(&window)
             .into_iter()
             .find(|(name, _)| *name == "help")
@@ -225,7 +254,6 @@ fn targets_are_large_enough_for_fingers() {
         ("Handedness", "As found"),
     ] {
         window.click(opener);
-        eprintln!("{opener} {:?}", window.rect(opener));
         let rect = window.rect(item);
         assert!(rect.height() >= 44.0, "{item}: {rect}");
         window.press(egui::Modifiers::NONE, egui::Key::Escape);

@@ -4,6 +4,7 @@ mod idle;
 mod keys;
 mod layout;
 #[path = "../core/session/models.rs"]
+#[allow(dead_code, reason = "shared with the tests of the session, which need more of it")]
 mod models;
 mod page;
 mod panels;

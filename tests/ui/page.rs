@@ -126,9 +126,12 @@ impl Window {
         !self.named(|name| name == wanted).is_empty()
     }
 
-    /// Where the only widget is whose name begins so.
+    /// Where the widget of this name is, or else the only one whose name begins so.
     #[track_caller]
     pub(crate) fn rect(&self, start: &str) -> Rect {
+        if let [(_, rect)] = &self.named(|name| name == start)[..] {
+            return *rect;
+        }
         let found = self.named(|name| name.starts_with(start));
         match &found[..] {
             [(_, rect)] => *rect,
@@ -140,7 +143,7 @@ impl Window {
         }
     }
 
-    /// Clicks the only widget whose name begins so, and takes the pointer away.
+    /// Clicks the widget of [`Window::rect`], and takes the pointer away.
     #[track_caller]
     pub(crate) fn click(&mut self, start: &str) {
         let at = self.rect(start).center();
