@@ -3,10 +3,12 @@
 mod command;
 mod files;
 mod load;
+mod textures;
 
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
+pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
 use crate::model::{Clip, Handedness, UpAxis, world_from_model};
@@ -407,7 +409,11 @@ impl Session {
             return;
         }
         self.playback.set_range(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() { clip.end_secs } else { clip.start_secs });
+        self.playback.seek(if self.playback.is_backward() {
+            clip.end_secs
+        } else {
+            clip.start_secs
+        });
         self.clip = Some(index);
         self.time_changed();
     }
@@ -440,9 +446,16 @@ impl Session {
         let world_from_model = world_from_model(self.handedness(), self.up_axis());
         if let Some(open) = &mut self.open {
             let (_, points) = open.extent(self.clip);
-            let world_points: Vec<_> = points.iter().map(|&point| world_from_model.transform_point3(point)).collect();
+            let world_points: Vec<_> = points
+                .iter()
+                .map(|&point| world_from_model.transform_point3(point))
+                .collect();
             // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
-            let centered = Insets { left: 0.0, right: 0.0, ..self.insets };
+            let centered = Insets {
+                left: 0.0,
+                right: 0.0,
+                ..self.insets
+            };
             self.camera.frame(&world_points, self.aspect, centered);
             if self.camera.leftmost_share(&world_points, self.aspect) < self.insets.left {
                 self.camera.frame(&world_points, self.aspect, self.insets);

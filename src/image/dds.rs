@@ -1,0 +1,165 @@
+//! DDS files: what is in them, checked against their length, as an [`Image`].
+
+use super::dds_header::Header;
+use super::dds_layout::{Layout, Texels};
+use super::error::{ImageErrorKind, Layer};
+use super::format::{Channels, ImageFormat};
+use super::picture::{Image, ImageKind, check_size, full_level_count, level_size};
+
+/// Cube, and its six faces.
+const CAPS2_CUBE: u32 = 0x200;
+const CAPS2_FACES: u32 = 0xfc00;
+const CAPS2_VOLUME: u32 = 0x20_0000;
+
+/// `D3D10_RESOURCE_DIMENSION_TEXTURE2D`
+const DIMENSION_2D: u32 = 3;
+const DIMENSION_3D: u32 = 4;
+const MISC_CUBE: u32 = 0x4;
+
+/// Reads a DDS file. Bytes after the last texel are left alone.
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
+    let header = Header::read(bytes)?;
+    let (width, height) = (header.width, header.height);
+    check_size(width, height)?;
+    let (kind, layer_count) = kind(&header)?;
+    if kind == ImageKind::Cube && width != height {
+        return Err(ImageErrorKind::CubeNotSquare { width, height });
+    }
+    let most = full_level_count(width, height);
+    let level_count = header.mip_count.max(1);
+    if level_count > most {
+        return Err(ImageErrorKind::MipCount {
+            found: level_count,
+            most,
+            width,
+            height,
+        });
+    }
+    let layout = Layout::of(&header)?;
+    let face_count = if kind == ImageKind::Cube { 6 } else { 1 };
+    let layer_name = |layer: u64| match kind {
+        ImageKind::Texture2d => Layer::Only,
+        ImageKind::Cube if layer < 6 => Layer::Face(layer as u32),
+        ImageKind::Cube | ImageKind::Array { .. } => Layer::Slice(layer as u32),
+    };
+    let level_len = |level| {
+        let (width, height) = level_size(width, height, level);
+        layout.texels.level_len(width, height)
+    };
+    let texels = bytes.get(header.data_start..).unwrap_or_default();
+    let level_lens: Vec<u64> = (0..level_count).map(level_len).collect();
+    let layer_len: u64 = level_lens.iter().sum();
+    // At most 2⁶⁴: 2³² layers, as many bytes each.
+    let needed = layer_len.saturating_mul(layer_count);
+    let found = texels.len() as u64;
+    if found < needed {
+        let layer = found / layer_len;
+        let mut offset = layer * layer_len;
+        let mut level = 0;
+        for &len in &level_lens {
+            if offset + len > found {
+                break;
+            }
+            (offset, level) = (offset + len, level + 1);
+        }
+        let (width, height) = level_size(width, height, level);
+        return Err(ImageErrorKind::Cut {
+            missing: needed - found,
+            level,
+            width,
+            height,
+            layer: layer_name(layer),
+            offset: header.data_start as u64 + offset,
+        });
+    }
+    // Not more than `found`, the length of a slice.
+    let shown = texels.get(..(layer_len * face_count) as usize).unwrap_or_default();
+    let (format, data) = match layout.texels {
+        Texels::Verbatim(format) => (format, shown.to_vec()),
+        Texels::Masked(masks) => (ImageFormat::Rgba8, masks.to_rgba8(shown)),
+    };
+    let opaque_blocks = format == ImageFormat::Bc1 && !has_holes(&data);
+    let image = Image {
+        width,
+        height,
+        level_count,
+        kind,
+        format,
+        channels: if opaque_blocks { Channels::Rgb } else { layout.channels },
+        source: layout.label,
+        mips_generated: false,
+        data,
+    };
+    let premultiplied = layout.premultiplied && image.has_alpha() && !format.is_float();
+    Ok(if premultiplied {
+        with_straight_alpha(image)
+    } else {
+        image
+    })
+}
+
+/// What the texture is and how many flat pictures its file holds.
+fn kind(header: &Header) -> Result<(ImageKind, u64), ImageErrorKind> {
+    if let Some(dx10) = &header.dx10 {
+        match dx10.dimension {
+            DIMENSION_2D => {}
+            DIMENSION_3D => return Err(ImageErrorKind::Dimension("three dimensions")),
+            2 => return Err(ImageErrorKind::Dimension("one dimension")),
+            found => {
+                return Err(ImageErrorKind::DdsHeaderField {
+                    field: "its dimension",
+                    expected: DIMENSION_2D,
+                    found,
+                });
+            }
+        }
+        return match (dx10.misc_flags & MISC_CUBE != 0, dx10.array_size) {
+            (_, 0) => Err(ImageErrorKind::NoSlices),
+            (true, cubes) => Ok((ImageKind::Cube, 6 * u64::from(cubes))),
+            (false, 1) => Ok((ImageKind::Texture2d, 1)),
+            (false, slices) => Ok((ImageKind::Array { slices }, u64::from(slices))),
+        };
+    }
+    if header.caps2 & CAPS2_VOLUME != 0 {
+        return Err(ImageErrorKind::Dimension("three dimensions"));
+    }
+    if header.caps2 & CAPS2_CUBE == 0 {
+        return Ok((ImageKind::Texture2d, 1));
+    }
+    match (header.caps2 & CAPS2_FACES).count_ones() {
+        6 => Ok((ImageKind::Cube, 6)),
+        faces => Err(ImageErrorKind::PartialCube(faces)),
+    }
+}
+
+/// Whether a block of BC1 has a clear texel: its first colour is not the larger, and an index is 3.
+fn has_holes(data: &[u8]) -> bool {
+    data.as_chunks::<8>().0.iter().any(|&[a, b, c, d, ref indices @ ..]| {
+        let three_colours = u16::from_le_bytes([a, b]) <= u16::from_le_bytes([c, d]);
+        let indices = u32::from_le_bytes(*indices);
+        three_colours && indices & indices >> 1 & 0x5555_5555 != 0
+    })
+}
+
+/// Colour by itself, out of colour times alpha. Decoded, since blocks cannot be divided.
+fn with_straight_alpha(image: Image) -> Image {
+    let faces = 0..image.face_count();
+    let levels = faces.flat_map(|face| (0..image.level_count).map(move |level| (face, level)));
+    let mut data: Vec<u8> = levels
+        .filter_map(|(face, level)| image.to_rgba8(face, level))
+        .flatten()
+        .collect();
+    for [colour @ .., alpha] in data.as_chunks_mut::<4>().0 {
+        let alpha = u32::from(*alpha);
+        for value in colour {
+            // Under alpha 0 there is no colour to find.
+            let straight = (u32::from(*value) * 255 + alpha / 2).checked_div(alpha);
+            *value = straight.unwrap_or(0).min(255) as u8;
+        }
+    }
+    Image {
+        format: ImageFormat::Rgba8,
+        data,
+        ..image
+    }
+}
