@@ -78,18 +78,20 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
         Texels::Verbatim(format) => (format, shown.to_vec()),
         Texels::Masked(masks) => (ImageFormat::Rgba8, masks.to_rgba8(shown)),
     };
-    let opaque_blocks = format == ImageFormat::Bc1 && !has_holes(&data);
-    let image = Image {
+    let mut image = Image {
         width,
         height,
         level_count,
         kind,
         format,
-        channels: if opaque_blocks { Channels::Rgb } else { layout.channels },
+        channels: layout.channels,
         source: layout.label,
         mips_generated: false,
         data,
     };
+    if format == ImageFormat::Bc1 && !has_holes(&image) {
+        image.channels = Channels::Rgb;
+    }
     let premultiplied = layout.premultiplied && image.has_alpha() && !format.is_float();
     Ok(if premultiplied {
         with_straight_alpha(image)
@@ -132,13 +134,23 @@ fn kind(header: &Header) -> Result<(ImageKind, u64), ImageErrorKind> {
     }
 }
 
-/// Whether a block of BC1 has a clear texel: its first colour is not the larger, and an index is 3.
-fn has_holes(data: &[u8]) -> bool {
-    data.as_chunks::<8>().0.iter().any(|&[a, b, c, d, ref indices @ ..]| {
+/// Whether a picture in BC1 has a clear texel: the first colour of its block is not the larger, and its index is 3.
+/// Texels of a block that lie over the edge do not count, and encoders leave them as they come.
+fn has_holes(image: &Image) -> bool {
+    let (width, height) = (image.width, image.height);
+    let blocks_in_row = width.div_ceil(4);
+    let inside = |column: u32, row: u32| {
+        let columns = u32::MAX >> (32 - 2 * (width - 4 * column).min(4)) & 0xff;
+        (0..(height - 4 * row).min(4)).fold(0, |inside, row| inside | columns << (8 * row))
+    };
+    let has_hole = |(index, &[a, b, c, d, ref indices @ ..]): (u32, &[u8; 8])| {
         let three_colours = u16::from_le_bytes([a, b]) <= u16::from_le_bytes([c, d]);
-        let indices = u32::from_le_bytes(*indices);
+        let indices = u32::from_le_bytes(*indices) & inside(index % blocks_in_row, index / blocks_in_row);
         three_colours && indices & indices >> 1 & 0x5555_5555 != 0
-    })
+    };
+    (0..image.face_count())
+        .filter_map(|face| image.level(face, 0))
+        .any(|level| (0..).zip(level.as_chunks::<8>().0).any(has_hole))
 }
 
 /// Colour by itself, out of colour times alpha. Decoded, since blocks cannot be divided.
