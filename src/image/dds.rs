@@ -25,55 +25,18 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
     if kind == ImageKind::Cube && width != height {
         return Err(ImageErrorKind::CubeNotSquare { width, height });
     }
-    let most = full_level_count(width, height);
-    let level_count = header.mip_count.max(1);
-    if level_count > most {
-        return Err(ImageErrorKind::MipCount {
-            found: level_count,
-            most,
-            width,
-            height,
-        });
-    }
+    let level_count = level_count(&header)?;
     let layout = Layout::of(&header)?;
-    let face_count = if kind == ImageKind::Cube { 6 } else { 1 };
-    let layer_name = |layer: u64| match kind {
-        ImageKind::Texture2d => Layer::Only,
-        ImageKind::Cube if layer < 6 => Layer::Face(layer as u32),
-        ImageKind::Cube | ImageKind::Array { .. } => Layer::Slice(layer as u32),
+
+    let extent = Extent {
+        texels: layout.texels,
+        width,
+        height,
+        level_count,
+        kind,
+        layer_count,
     };
-    let level_len = |level| {
-        let (width, height) = level_size(width, height, level);
-        layout.texels.level_len(width, height)
-    };
-    let texels = bytes.get(header.data_start..).unwrap_or_default();
-    let level_lens: Vec<u64> = (0..level_count).map(level_len).collect();
-    let layer_len: u64 = level_lens.iter().sum();
-    // At most 2⁶⁴: 2³² layers, as many bytes each.
-    let needed = layer_len.saturating_mul(layer_count);
-    let found = texels.len() as u64;
-    if found < needed {
-        let layer = found / layer_len;
-        let mut offset = layer * layer_len;
-        let mut level = 0;
-        for &len in &level_lens {
-            if offset + len > found {
-                break;
-            }
-            (offset, level) = (offset + len, level + 1);
-        }
-        let (width, height) = level_size(width, height, level);
-        return Err(ImageErrorKind::Cut {
-            missing: needed - found,
-            level,
-            width,
-            height,
-            layer: layer_name(layer),
-            offset: header.data_start as u64 + offset,
-        });
-    }
-    // Not more than `found`, the length of a slice.
-    let shown = texels.get(..(layer_len * face_count) as usize).unwrap_or_default();
+    let shown = extent.shown_texels(bytes, header.data_start)?;
     let (format, data) = match layout.texels {
         Texels::Verbatim(format) => (format, shown.to_vec()),
         Texels::Masked(masks) => (ImageFormat::Rgba8, masks.to_rgba8(shown)),
@@ -98,6 +61,72 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
     } else {
         image
     })
+}
+
+/// Levels of each face. Writers that make no mips leave it at 0.
+fn level_count(header: &Header) -> Result<u32, ImageErrorKind> {
+    let (width, height) = (header.width, header.height);
+    let most = full_level_count(width, height);
+    let found = header.mip_count.max(1);
+    if found <= most {
+        return Ok(found);
+    }
+    Err(ImageErrorKind::MipCount {
+        found,
+        most,
+        width,
+        height,
+    })
+}
+
+/// All that the header promises about the length of the file. Neither side is 0.
+struct Extent {
+    texels: Texels,
+    width: u32,
+    height: u32,
+    level_count: u32,
+    kind: ImageKind,
+    /// Faces and slices, those that are not shown included.
+    layer_count: u64,
+}
+
+impl Extent {
+    /// The texels of the layers that are shown, once it is sure that the file holds all layers.
+    fn shown_texels<'a>(&self, bytes: &'a [u8], data_start: usize) -> Result<&'a [u8], ImageErrorKind> {
+        let shown_layers = if self.kind == ImageKind::Cube { 6 } else { 1 };
+        let texels = bytes.get(data_start..).unwrap_or_default();
+        let found = texels.len() as u64;
+        let layer_len: u64 = (0..self.level_count).map(|level| self.level_len(level)).sum();
+        let needed = layer_len.saturating_mul(self.layer_count);
+        if found >= needed {
+            return Ok(&texels[..(layer_len * shown_layers) as usize]);
+        }
+        let layer = found / layer_len;
+        let mut offset = layer * layer_len;
+        let mut level = 0;
+        while offset + self.level_len(level) <= found {
+            offset += self.level_len(level);
+            level += 1;
+        }
+        let (width, height) = level_size(self.width, self.height, level);
+        Err(ImageErrorKind::Cut {
+            missing: needed - found,
+            level,
+            width,
+            height,
+            layer: match self.kind {
+                ImageKind::Texture2d => Layer::Only,
+                ImageKind::Cube if layer < 6 => Layer::Face(layer as u32),
+                ImageKind::Cube | ImageKind::Array { .. } => Layer::Slice(layer as u32),
+            },
+            offset: data_start as u64 + offset,
+        })
+    }
+
+    fn level_len(&self, level: u32) -> u64 {
+        let (width, height) = level_size(self.width, self.height, level);
+        self.texels.level_len(width, height)
+    }
 }
 
 /// What the texture is and how many flat pictures its file holds.

@@ -160,15 +160,11 @@ fn halve(width: u32, height: u32, texel: impl Fn(usize) -> Texel) -> Vec<Texel> 
         for column in 0..smaller_width {
             let columns = covered(width, column);
             let mut mean = [0.0; 4];
-            for (y, row_weight) in rows {
-                for (x, column_weight) in columns {
-                    let weight = row_weight * column_weight;
-                    // An empty share's texel may lie outside.
-                    if weight > 0.0 {
-                        let values = texel(y as usize * width as usize + x as usize);
-                        for (sum, value) in mean.iter_mut().zip(values) {
-                            *sum += weight * value;
-                        }
+            for &(y, row_weight) in rows.taps() {
+                for &(x, column_weight) in columns.taps() {
+                    let values = texel(y as usize * width as usize + x as usize);
+                    for (sum, value) in mean.iter_mut().zip(values) {
+                        *sum += row_weight * column_weight * value;
                     }
                 }
             }
@@ -178,15 +174,31 @@ fn halve(width: u32, height: u32, texel: impl Fn(usize) -> Texel) -> Vec<Texel> 
     smaller
 }
 
-/// Which texels of a side one of the half as many covers, and their shares, which sum to 1.
-fn covered(side: u32, index: u32) -> [(u32, f32); 3] {
+/// Texels of a side and the share that each has in one of the next smaller level; the shares sum to 1.
+struct Covered {
+    taps: [(u32, f32); 3],
+    tap_count: usize,
+}
+
+impl Covered {
+    fn taps(&self) -> &[(u32, f32)] {
+        &self.taps[..self.tap_count]
+    }
+}
+
+/// What a texel of the next smaller level covers.
+fn covered(side: u32, index: u32) -> Covered {
     let first = index * 2;
     let half = side / 2;
-    let shares = match side {
-        1 => [1.0, 0.0, 0.0],
+    let (shares, tap_count) = match side {
+        1 => ([1.0, 0.0, 0.0], 1),
         // 2n + 1 texels for n: each covers 2 + 1/n of them.
-        _ if side % 2 == 1 => [half - index, half, index + 1].map(|part| part as f32 / side as f32),
-        _ => [0.5, 0.5, 0.0],
+        _ if side % 2 == 1 => ([half - index, half, index + 1].map(|part| part as f32 / side as f32), 3),
+        _ => ([0.5, 0.5, 0.0], 2),
     };
-    [(first, shares[0]), (first + 1, shares[1]), (first + 2, shares[2])]
+    let [a, b, c] = shares;
+    Covered {
+        taps: [(first, a), (first + 1, b), (first + 2, c)],
+        tap_count,
+    }
 }
