@@ -168,18 +168,22 @@ function onPanic(message) {
 /** What the page opens by itself: the files that the address names, else the sample. */
 async function fetchOpening() {
   const named = ["src", "tex"].flatMap((key) => options.getAll(key));
-  const addresses = named.length ? named : [new URL("sample/figure.m3d", import.meta.url).href];
   try {
-    return await Promise.all(addresses.map(fetchFile));
+    if (named.length) return await Promise.all(named.map((address) => fetchFile(address, lastPart(address))));
+    // Its address may carry a hash, its name never does.
+    return [await fetchFile(new URL("sample/figure.m3d", import.meta.url), "figure.m3d")];
   } catch (error) {
     refuse(wordsOf(error));
     return null;
   }
 }
 
-async function fetchFile(address) {
+async function fetchFile(address, name) {
   const response = await fetch(address);
   if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
-  const name = decodeURIComponent(new URL(response.url).pathname.split("/").pop());
   return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+}
+
+function lastPart(address) {
+  return decodeURIComponent(new URL(address, location.href).pathname.split("/").pop());
 }

@@ -135,9 +135,7 @@ impl<'a> Info<'a> {
 
 fn bounds_of_all_clips(model: &Model) -> Aabb {
     let of_clips = model.clips.iter().map(|clip| animated_bounds(model, clip));
-    of_clips
-        .reduce(|all, bounds| all.union(bounds))
-        .unwrap_or_else(|| model.bind_bounds())
+    of_clips.reduce(Aabb::union).unwrap_or_else(|| model.bind_bounds())
 }
 
 fn bounds(bounds: Aabb) -> Option<Bounds> {

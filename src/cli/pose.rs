@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use glam::Mat4;
+use glam::{Mat4, Vec3};
 use serde::Serialize;
 
 use super::text::Plain;
@@ -94,7 +94,7 @@ fn in_file_order(skeleton: &Skeleton, palette: &Palette) -> Vec<[f32; 16]> {
 fn positions(model: &Model, palette: &Palette) -> Vec<[f32; 3]> {
     let mut positions = Vec::new();
     skin_positions(&model.mesh, palette, &mut positions);
-    positions.iter().map(|position| position.to_array()).collect()
+    positions.iter().map(Vec3::to_array).collect()
 }
 
 fn write_text(out: &mut dyn Write, posed: &Posed<'_>) -> io::Result<()> {

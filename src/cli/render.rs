@@ -11,7 +11,7 @@ use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{Renderer, Target, read_back_blocking};
 use crate::scene::{self, Background, Insets, ViewPreset};
-use crate::session::{Command, OpenModel, Session};
+use crate::session::{Command, Session};
 
 /// Draw a model into a PNG file.
 ///
@@ -142,8 +142,8 @@ fn open(arguments: &Arguments) -> Result<Session, Failure> {
             error: Box::new(error.clone()),
         });
     }
-    if let (Some(OpenModel { model, .. }), Some(asked)) = (session.open_model(), &arguments.clip)
-        && let Some(clip) = clip::choose(model, path, Some(asked))?
+    if let (Some(open), Some(asked)) = (session.open_model(), &arguments.clip)
+        && let Some(clip) = clip::choose(&open.model, path, Some(asked))?
     {
         session.apply(Command::SelectClip(clip));
     }

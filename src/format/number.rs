@@ -11,85 +11,159 @@ pub(super) enum Reading {
     NotFinite,
 }
 
-/// Reads the number at `at`, which must start there and end at a blank, and gives it with the place behind it.
+/// Reads the number that begins at `window[1]` and ends before a blank, and gives it with the place of that blank. What
+/// stands at `window[0]` does not matter; it is the blank before the number.
 ///
 /// The value is the `f32` nearest to the decimal, exactly as `str::parse` gives it. `None` says nothing about the text: it is
 /// only not one of the plain cases, and [`read`] decides.
 #[inline(always)]
-pub(super) fn plain(bytes: &[u8], at: usize) -> Option<(f32, usize)> {
-    let window = bytes.get(at..)?.first_chunk::<WINDOW>()?;
-    let negative = window[0] == b'-';
-    let mut end = usize::from(negative);
-    let start = end;
-    let mut mantissa = 0_u64;
-    let mut digit = window[end].wrapping_sub(b'0');
-    while digit <= 9 {
-        mantissa = mantissa * 10 + u64::from(digit);
-        end += 1;
-        if end > MOST_WHOLE_DIGITS {
-            return None;
-        }
-        digit = window[end].wrapping_sub(b'0');
-    }
-    let mut digits = end - start;
-    let mut exponent = 0;
-    if digit == b'.'.wrapping_sub(b'0') {
-        end += 1;
-        let (part, count) = leading_digits(eight(window, end));
-        mantissa = mantissa * TEN_TO[count & 15] + part;
-        end += count;
-        digits += count;
-        exponent = count;
-        if count == 8 {
-            let (part, more) = leading_digits(eight(window, end));
-            // Now there are at most 24 digits; more than 18 are turned away below.
-            mantissa = mantissa.wrapping_mul(TEN_TO[more & 15]).wrapping_add(part);
-            end += more;
-            digits += more;
-            exponent += more;
-        }
-    }
-    if digits == 0 || digits > 18 {
+pub(super) fn plain(window: &[u8; WINDOW]) -> Option<(f32, usize)> {
+    let end = end_of_token(window)?;
+    let negative = window[1] == b'-';
+    let start = 1 + usize::from(negative);
+    let first = u64::from(window[start].wrapping_sub(b'0'));
+    if first > 9 {
         return None;
     }
-    let mut exponent = -(exponent as i64);
-    let mut behind = window[end & INSIDE];
-    if behind | 0x20 == b'e' {
-        let (written, length) = written_exponent(window.get(end + 1..)?)?;
-        exponent += written;
-        end += 1 + length;
-        behind = *window.get(end)?;
-    }
-    // Whoever comes next looks closer at what stands between tokens.
-    if behind > b' ' {
+    // Only the sign bit, so that -0 keeps it.
+    let signed = |value: f32| (f32::from_bits(value.to_bits() ^ (u32::from(negative) << 31)), end);
+    // One or two digits before the point are the common cases by far.
+    let second = u64::from(window[start + 1].wrapping_sub(b'0'));
+    let (whole, point) = if window[start + 1] == b'.' {
+        (first, start + 1)
+    } else if window[start + 2] == b'.' && second <= 9 {
+        (first * 10 + second, start + 2)
+    } else if start + 1 == end {
+        return Some(signed(first as i64 as f32));
+    } else {
+        let (whole, behind) = whole_part(window, start)?;
+        if behind == end {
+            // Seven digits, which f32 holds exactly.
+            return Some(signed(whole as i64 as f32));
+        }
+        if window[behind & INSIDE] != b'.' {
+            return with_exponent(window, whole, 0, behind, end).map(signed);
+        }
+        (whole, behind)
+    };
+    let (part, count) = leading_digits(eight(window, point + 1));
+    if count == 0 {
         return None;
     }
-    let value = nearest(mantissa, exponent)?;
-    let sign = u32::from(negative) << 31;
-    Some((f32::from_bits(value.to_bits() ^ sign), at + end))
+    let mantissa = whole * TEN_TO[count & 15] + part;
+    if point + 1 + count == end {
+        return scaled(mantissa, PART_OF[count & 15]).map(signed);
+    }
+    more_digits(window, mantissa, count, point + 1 + count, end).map(signed)
 }
 
-/// A whole number of up to seven digits at `at`, with a blank or a line end behind it, and the place behind it.
-#[inline(always)]
-pub(super) fn plain_whole(bytes: &[u8], at: usize) -> Option<(u32, usize)> {
-    let chunk = u64::from_le_bytes(*bytes.get(at..)?.first_chunk::<8>()?);
-    let (value, count) = leading_digits(chunk);
-    if count == 0 || count == 8 {
+/// Goes on behind `count` digits of the fraction: with more of them, when these were eight, and an exponent.
+#[inline(never)]
+fn more_digits(window: &[u8; WINDOW], mantissa: u64, count: usize, behind: usize, end: usize) -> Option<f32> {
+    if count < 8 {
+        return with_exponent(window, mantissa, count, behind, end);
+    }
+    let (part, more) = leading_digits(eight(window, behind));
+    // 18 digits keep the mantissa below 2^63.
+    if mantissa >= 10_000_000_000 {
         return None;
     }
-    // At most seven digits, so the value fits.
-    ((chunk >> (8 * count)) as u8 <= b' ').then_some((value as u32, at + count))
+    let mantissa = if more > 0 {
+        mantissa * TEN_TO[more & 15] + part
+    } else {
+        mantissa
+    };
+    if behind + more == end {
+        return nearest(mantissa, -8 - more as i64);
+    }
+    with_exponent(window, mantissa, 8 + more, behind + more, end)
+}
+
+/// The value of `mantissa` with `fraction` digits behind its point, and of the exponent at `behind`, which must reach to `end`.
+#[inline(never)]
+fn with_exponent(window: &[u8; WINDOW], mantissa: u64, fraction: usize, behind: usize, end: usize) -> Option<f32> {
+    if window.get(behind)? | 0x20 != b'e' {
+        return None;
+    }
+    let (exponent, length) = written_exponent(window.get(behind + 1..)?)?;
+    if behind + 1 + length != end {
+        return None;
+    }
+    nearest(mantissa, exponent - fraction as i64)
+}
+
+/// The digits before the point, at most seven, and the place behind them.
+#[inline(always)]
+fn whole_part(window: &[u8; WINDOW], start: usize) -> Option<(u64, usize)> {
+    let (whole, count) = leading_digits(eight(window, start));
+    (1..8).contains(&count).then_some((whole, start + count))
+}
+
+/// Reads `N` whole numbers of up to seven digits with one blank between them, and gives them with the place behind them,
+/// where a blank or a line end is. They must fit into 32 bytes.
+#[inline(always)]
+pub(super) fn plain_wholes<const N: usize>(window: &[u8; WINDOW]) -> Option<([u32; N], usize)> {
+    // All their ends at once, so that no number waits for the one before it.
+    let mut ends = 0;
+    for lane in 0..4 {
+        ends |= gathered(all_blanks(eight(window, 8 * lane))) << (8 * lane);
+    }
+    let mut numbers = [0; N];
+    let mut start = 0;
+    for number in &mut numbers {
+        let end = ends.trailing_zeros() as usize;
+        let (value, count) = leading_digits(eight(window, start));
+        if count == 0 || count == 8 || start + count != end {
+            return None;
+        }
+        // At most seven digits, so the value fits.
+        *number = value as u32;
+        start = end + 1;
+        ends &= ends - 1;
+    }
+    Some((numbers, start - 1))
+}
+
+/// The top bit of each byte that is a blank or another control character.
+#[inline(always)]
+fn all_blanks(chunk: u64) -> u64 {
+    const TOP_BITS: u64 = 0x8080_8080_8080_8080;
+    // With its top bit set no byte borrows from the next one; the bit is gone where less than 0x21 was below it.
+    !((chunk | TOP_BITS).wrapping_sub(0x2121_2121_2121_2121) | chunk) & TOP_BITS
+}
+
+/// The eight top bits as one byte, the first byte's lowest.
+#[inline(always)]
+fn gathered(top_bits: u64) -> u64 {
+    (top_bits >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
+}
+
+/// The place of the first blank or line end behind `window[1]`, for tokens of up to 15 bytes. It takes no look at the number
+/// itself, so that the processor can begin with the next one while it still works on this one.
+#[inline(always)]
+fn end_of_token(window: &[u8; WINDOW]) -> Option<usize> {
+    let first = blanks(eight(window, 1));
+    let second = blanks(eight(window, 9));
+    let ahead = if first == 0 {
+        64 + second.trailing_zeros()
+    } else {
+        first.trailing_zeros()
+    };
+    (first | second != 0).then_some(1 + (ahead / 8) as usize)
+}
+
+/// The top bit of the first byte that is a blank or another control character, and unreliable bits behind it.
+#[inline(always)]
+fn blanks(chunk: u64) -> u64 {
+    chunk.wrapping_sub(0x2121_2121_2121_2121) & !chunk & 0x8080_8080_8080_8080
 }
 
 /// Bytes that are looked at for one number. Longer ones, and those near the end of the file, are not plain.
-const WINDOW: usize = 40;
+pub(super) const WINDOW: usize = 40;
 
 /// Where digits can begin or end in the window, which leaves eight bytes behind. Taken as a mask, it shows the compiler that
 /// what is looked at is inside.
 const INSIDE: usize = 31;
-
-/// Digits before the point. Sign, these, the point, 16 more digits and an exponent stay inside the window.
-const MOST_WHOLE_DIGITS: usize = 8;
 
 /// Eight bytes of the window.
 #[inline(always)]
@@ -98,7 +172,8 @@ fn eight(window: &[u8; WINDOW], start: usize) -> u64 {
     bytes.map_or(0, |bytes| u64::from_le_bytes(*bytes))
 }
 
-/// The digits that eight bytes begin with, as a number, and how many they are. The first byte is the lowest.
+/// The digits that eight bytes begin with, as a number, and how many they are. The first byte is the lowest. Without digits
+/// the number means nothing.
 #[inline(always)]
 fn leading_digits(chunk: u64) -> (u64, usize) {
     // Digits become 0…9. The addition sets the top bit of 10…0x89, and the rest has it already or overflows: a byte that
@@ -106,8 +181,8 @@ fn leading_digits(chunk: u64) -> (u64, usize) {
     let values = chunk ^ 0x3030_3030_3030_3030;
     let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
     let bits = others.trailing_zeros() & !7;
-    // Zeros in front push out what follows the digits. Two shifts, since one by all 64 bits is not allowed.
-    let digits = values << ((64 - bits) / 2) << ((64 - bits) / 2);
+    // Zeros in front push out what follows the digits.
+    let digits = values.wrapping_shl(64 - bits);
     // Pairs, fours and eights are summed in place.
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00FF_0000_00FF).wrapping_mul(0x000F_4240_0000_0064);
@@ -135,6 +210,11 @@ const TEN_TO: [u64; 16] = [
     0,
 ];
 
+/// What a unit is worth behind as many digits of a fraction.
+const PART_OF: [f64; 16] = [
+    1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+];
+
 /// What stands behind `e`, up to four digits with an optional sign, and its length.
 fn written_exponent(text: &[u8]) -> Option<(i64, usize)> {
     let negative = *text.first()? == b'-';
@@ -154,7 +234,12 @@ fn written_exponent(text: &[u8]) -> Option<(i64, usize)> {
 #[inline(always)]
 fn nearest(mantissa: u64, exponent: i64) -> Option<f32> {
     // With these powers the product is zero or a normal number of f32, so that no other rounding than the usual one is met.
-    let power = *POWERS_OF_TEN.get((exponent - SMALLEST_POWER) as usize)?;
+    scaled(mantissa, *POWERS_OF_TEN.get((exponent - SMALLEST_POWER) as usize)?)
+}
+
+/// The `f32` nearest to `mantissa * power`, where `power` is as near to a power of ten as `f64` can be.
+#[inline(always)]
+fn scaled(mantissa: u64, power: f64) -> Option<f32> {
     // Signed, because that conversion is one instruction where the unsigned one is several.
     let product = mantissa as i64 as f64 * power;
     // Mantissa, power and product are each off by half a unit of f64 at most. Rounding to f32 can only go wrong when that
@@ -255,9 +340,14 @@ fn not_finite(token: &[u8]) -> bool {
 mod tests {
     use super::*;
 
+    /// A number with the blank before it and enough behind it.
+    fn quickly(text: &str) -> Option<(f32, usize)> {
+        plain(format!(" {text}\n{:WINDOW$}", "").as_bytes().first_chunk()?)
+    }
+
     #[test]
     fn plain_reads_what_exporters_write() {
-        for text in [
+        let texts = [
             "0",
             "-0",
             "1",
@@ -268,14 +358,46 @@ mod tests {
             "-1.331581E-06",
             "8.412415e-23",
             "13748",
-        ] {
-            let padded = format!("{text}\n{:WINDOW$}", "");
-            let (value, end) = plain(padded.as_bytes(), 0).unwrap_or_else(|| panic!("{text}"));
+            "100.25",
+            "-123.456789",
+            "5.7701E-08",
+        ];
+        for text in texts {
+            let expected = text.parse::<f32>().map(|value| (value.to_bits(), 1 + text.len())).ok();
             assert_eq!(
-                (value.to_bits(), end),
-                (text.parse::<f32>().map_or(1, f32::to_bits), text.len()),
+                quickly(text).map(|(value, end)| (value.to_bits(), end)),
+                expected,
                 "{text}"
             );
+        }
+    }
+
+    #[test]
+    fn plain_turns_away_what_is_not_plain() {
+        let texts = [
+            "",
+            "-",
+            "+1",
+            ".5",
+            "1x",
+            "1x.5",
+            "1.5x",
+            "1.5.5",
+            "1e",
+            "1e+",
+            "1.5f",
+            "1,5",
+            "nan",
+            "--1",
+            "- 1",
+            "12345678",
+            "1e99",
+            "1e-99",
+            "16777217.0",
+            "1.00000000000001",
+        ];
+        for text in texts {
+            assert_eq!(quickly(text), None, "{text}");
         }
     }
 }

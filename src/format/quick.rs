@@ -32,20 +32,25 @@ pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
     let mut ahead = *cursor;
     ahead.pass_empty_lines();
     let line = ahead.line;
-    let mut vertex = Vertex {
-        position: ahead.row(position)?,
-        tangent: ahead.row(tangent)?,
-        normal: ahead.row(normal)?,
-        tex_coords: ahead.row(tex_coords)?,
-        ..Vertex::default()
-    };
+    let mut vertex = Vertex::default();
+    ahead.label(position)?;
+    vertex.position = ahead.three()?;
+    ahead.line_end()?;
+    ahead.label(tangent)?;
+    vertex.tangent = ahead.four()?;
+    ahead.line_end()?;
+    ahead.label(normal)?;
+    vertex.normal = ahead.three()?;
+    ahead.line_end()?;
+    ahead.label(tex_coords)?;
+    vertex.tex_coords = ahead.two()?;
+    ahead.line_end()?;
     if bones > 0 {
-        vertex.blend_weights = ahead.row(blend_weights)?;
-        ahead.blanks();
-        ahead.literal(blend_indices)?;
-        for index in &mut vertex.blend_indices {
-            *index = ahead.index_below(bones)?;
-        }
+        ahead.label(blend_weights)?;
+        vertex.blend_weights = ahead.four()?;
+        ahead.line_end()?;
+        ahead.label(blend_indices)?;
+        vertex.blend_indices = ahead.indices_below(bones)?;
         ahead.line_end()?;
     }
     *cursor = ahead;
@@ -57,14 +62,22 @@ pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
 pub(super) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
     let mut ahead = *cursor;
     let line = ahead.line;
-    let triangle = [
-        ahead.index_below(vertices)?,
-        ahead.index_below(vertices)?,
-        ahead.index_below(vertices)?,
-    ];
+    let triangle = ahead.indices_below(vertices)?;
     ahead.line_end()?;
     *cursor = ahead;
     Some((triangle, line))
+}
+
+/// Reads the sixteen numbers behind the label of a bone offset, and the end of their line.
+pub(super) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
+    let mut ahead = *cursor;
+    let mut offset = [0.0; 16];
+    for number in &mut offset {
+        *number = ahead.number()?;
+    }
+    ahead.line_end()?;
+    *cursor = ahead;
+    Some(offset)
 }
 
 /// Reads a key on its line.
@@ -72,18 +85,14 @@ pub(super) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 
 pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
     let mut ahead = *cursor;
     ahead.pass_empty_lines();
-    ahead.blanks();
-    ahead.literal(b"Time:")?;
-    let [time_secs] = ahead.numbers()?;
-    ahead.blanks();
-    ahead.literal(b"Pos:")?;
-    let translation = ahead.numbers()?;
-    ahead.blanks();
-    ahead.literal(b"Scale:")?;
-    let scale = ahead.numbers()?;
-    ahead.blanks();
-    ahead.literal(b"Quat:")?;
-    let rotation = ahead.numbers()?;
+    ahead.label(b"Time:")?;
+    let time_secs = ahead.number()?;
+    ahead.label(b"Pos:")?;
+    let translation = ahead.three()?;
+    ahead.label(b"Scale:")?;
+    let scale = ahead.three()?;
+    ahead.label(b"Quat:")?;
+    let rotation = ahead.four()?;
     ahead.line_end()?;
     *cursor = ahead;
     Some(Keyframe {
@@ -95,23 +104,42 @@ pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
 }
 
 impl Cursor<'_> {
+    /// Passes a label at the beginning of a line, or of a part of one.
     #[inline(always)]
-    fn row<const N: usize>(&mut self, label: &[u8]) -> Option<[f32; N]> {
+    fn label(&mut self, label: &[u8]) -> Option<()> {
         self.blanks();
-        self.literal(label)?;
-        let numbers = self.numbers()?;
-        self.line_end()?;
-        Some(numbers)
+        self.literal(label)
+    }
+
+    // Written out instead of loops, whose ends the processor would have to guess.
+
+    #[inline(always)]
+    fn two(&mut self) -> Option<[f32; 2]> {
+        Some([self.number()?, self.number()?])
     }
 
     #[inline(always)]
-    fn numbers<const N: usize>(&mut self) -> Option<[f32; N]> {
-        let mut numbers = [0.0; N];
-        for number in &mut numbers {
+    fn three(&mut self) -> Option<[f32; 3]> {
+        Some([self.number()?, self.number()?, self.number()?])
+    }
+
+    #[inline(always)]
+    fn four(&mut self) -> Option<[f32; 4]> {
+        Some([self.number()?, self.number()?, self.number()?, self.number()?])
+    }
+
+    #[inline(always)]
+    fn number(&mut self) -> Option<f32> {
+        let mut window = self.bytes.get(self.at..)?.first_chunk()?;
+        if window[0] != b' ' || window[1] <= b' ' {
+            // Not the one blank that is usual. There is always a byte before a number.
             self.blanks();
-            (*number, self.at) = number::plain(self.bytes, self.at)?;
+            self.at = self.at.checked_sub(1)?;
+            window = self.bytes.get(self.at..)?.first_chunk()?;
         }
-        Some(numbers)
+        let (number, length) = number::plain(window)?;
+        self.at += length;
+        Some(number)
     }
 
     #[inline(always)]
@@ -130,22 +158,25 @@ impl Cursor<'_> {
         }
     }
 
+    /// Whole numbers of up to seven digits, below `end`, with one blank between them.
     #[inline(always)]
-    fn index_below(&mut self, end: u32) -> Option<u32> {
+    fn indices_below<const N: usize>(&mut self, end: u32) -> Option<[u32; N]> {
         self.blanks();
-        let (index, behind) = number::plain_whole(self.bytes, self.at)?;
-        self.at = behind;
-        (index < end).then_some(index)
+        let (indices, length) = number::plain_wholes(self.bytes.get(self.at..)?.first_chunk()?)?;
+        self.at += length;
+        indices.iter().all(|&index| index < end).then_some(indices)
     }
 
     #[inline(always)]
     fn line_end(&mut self) -> Option<()> {
-        self.blanks();
-        if self.bytes.get(self.at) == Some(&b'\r') {
-            self.at += 1;
-        }
         if self.bytes.get(self.at) != Some(&b'\n') {
-            return None;
+            self.blanks();
+            if self.bytes.get(self.at) == Some(&b'\r') {
+                self.at += 1;
+            }
+            if self.bytes.get(self.at) != Some(&b'\n') {
+                return None;
+            }
         }
         self.at += 1;
         self.line = self.line.saturating_add(1);
@@ -155,7 +186,7 @@ impl Cursor<'_> {
 
     #[inline(always)]
     fn pass_empty_lines(&mut self) {
-        loop {
+        while let Some(b'\n' | b'\r' | b' ' | b'\t') = self.bytes.get(self.at) {
             let before = *self;
             if self.line_end().is_none() {
                 *self = before;

@@ -19,6 +19,10 @@ const FRAMED_SHARE: f32 = 0.9;
 /// Rounds of fitting and centring, which need each other in perspective: the last moves things by less than a thousandth of the picture.
 const FRAMING_ROUNDS: usize = 8;
 
+/// Distances at which sizes in view are still numbers.
+const LEAST_DISTANCE: f32 = f32::MIN_POSITIVE * 1e6;
+const GREATEST_DISTANCE: f32 = f32::MAX * 1e-6;
+
 /// How depth becomes size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
@@ -208,25 +212,38 @@ impl Camera {
         }
     }
 
-    /// Turns about the target. Positive yaw moves the eye to its left, positive pitch lifts it.
+    /// Turns about the target. Positive yaw moves the eye to its left, positive pitch lifts it. Angles that are not finite
+    /// are left out.
     pub fn orbit(&mut self, yaw_radians: f32, pitch_radians: f32) {
+        if !(yaw_radians.is_finite() && pitch_radians.is_finite()) {
+            return;
+        }
         self.yaw_radians = (self.yaw_radians + yaw_radians).rem_euclid(TAU);
         self.pitch_radians = (self.pitch_radians + pitch_radians).clamp(-MAX_PITCH_RADIANS, MAX_PITCH_RADIANS);
     }
 
     /// Moves the target so that what lies at its depth follows a drag. `drag` is in shares of the picture's height, x to
-    /// the right and y down.
+    /// the right and y down. A drag out of all numbers is left out.
     pub fn pan(&mut self, drag: Vec2) {
-        self.target += (self.up() * drag.y - self.right() * drag.x) * self.height_in_view();
+        self.move_target((self.up() * drag.y - self.right() * drag.x) * self.height_in_view());
+    }
+
+    fn move_target(&mut self, way: Vec3) {
+        if (self.target + way).is_finite() {
+            self.target += way;
+        }
     }
 
     /// Scales the distance by `factor` (below 1 comes nearer), holding still the point of the target's plane under the
-    /// pointer. `pointer` is in shares of the picture's height from its centre, x to the right and y down.
+    /// pointer. `pointer` is in shares of the picture's height from its centre, x to the right and y down. NaN is left out.
     pub fn zoom(&mut self, factor: f32, pointer: Vec2) {
+        if factor.is_nan() {
+            return;
+        }
         let height_before = self.height_in_view();
-        self.distance = (self.distance * factor).clamp(f32::MIN_POSITIVE * 1e6, f32::MAX * 1e-6);
+        self.distance = (self.distance * factor).clamp(LEAST_DISTANCE, GREATEST_DISTANCE);
         let shrunk = height_before - self.height_in_view();
-        self.target += (self.right() * pointer.x - self.up() * pointer.y) * shrunk;
+        self.move_target((self.right() * pointer.x - self.up() * pointer.y) * shrunk);
     }
 
     /// Looks from a preset's direction; target and distance stay.
@@ -265,7 +282,11 @@ impl Camera {
                 distance = distance.max(needed + toward_eye);
             }
             // A single point has no size to frame; one unit around it is as good as any.
-            self.distance = if distance > 0.0 { distance } else { 1.0 };
+            self.distance = if distance > 0.0 {
+                distance.clamp(LEAST_DISTANCE, GREATEST_DISTANCE)
+            } else {
+                1.0
+            };
             if round == FRAMING_ROUNDS {
                 break;
             }
@@ -275,21 +296,28 @@ impl Camera {
                 Vec3::new(offset.dot(right), offset.dot(up), 0.0) / depth.max(self.distance * 1e-3)
             }));
             let off_middle = in_picture.center().truncate() - middle_of_free;
-            center += (right * off_middle.x + up * off_middle.y) * self.distance;
+            let way = (right * off_middle.x + up * off_middle.y) * self.distance;
+            if !(center + way).is_finite() {
+                break;
+            }
+            center += way;
         }
         self.target = center;
     }
 }
 
 impl Camera {
-    /// Where the leftmost of some points is in the picture: a share of its width from the left edge.
-    pub fn leftmost_share(&self, world_points: &[Vec3], aspect: f32) -> f32 {
+    /// How far some points reach in the picture: shares of its width, from the left edge to the leftmost and from the
+    /// right edge to the rightmost.
+    pub fn free_at_sides(&self, world_points: &[Vec3], aspect: f32) -> (f32, f32) {
         let bounds = Aabb::from_points(world_points.iter().copied());
         let clip_from_world = self.clip_from_view(aspect, &bounds) * self.view_from_world();
         let x_clip = world_points
             .iter()
             .map(|&point| clip_from_world.project_point3(point).x);
-        x_clip.fold(f32::INFINITY, f32::min) * 0.5 + 0.5
+        x_clip.fold((f32::INFINITY, f32::INFINITY), |(left, right), x| {
+            (left.min(0.5 + 0.5 * x), right.min(0.5 - 0.5 * x))
+        })
     }
 }
 

@@ -72,12 +72,12 @@ pub struct LoadError {
 impl LoadError {
     /// A drop without any file that could be a model.
     pub fn no_model(file_count: usize) -> Self {
-        let files = if file_count == 1 {
-            "file is a picture"
-        } else {
-            "files are all pictures"
-        };
-        let message = format!("No .m3d model was dropped: the {files}. Drop them together with their model.");
+        let message = match file_count {
+            0 => "No file was dropped.",
+            1 => "No .m3d model was dropped: the file is a picture. Drop it together with its model.",
+            _ => "No .m3d model was dropped: the files are all pictures. Drop them together with their model.",
+        }
+        .to_owned();
         Self {
             file_name: String::new(),
             diagnostic: Diagnostic {

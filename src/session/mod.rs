@@ -150,8 +150,11 @@ impl Session {
         if !self.is_animating() {
             return;
         }
-        if self.playback.advance(dt_secs) {
-            self.time_changed();
+        let was_at = self.playback.time_secs();
+        self.playback.advance(dt_secs);
+        if self.playback.time_secs() != was_at {
+            self.picture_revision += 1;
+            self.note(Event::TimeUpdate);
         }
         if !self.playback.is_playing() {
             self.note(Event::Pause);
@@ -197,6 +200,7 @@ impl Session {
     /// Does what was asked. What makes no sense now is left undone.
     pub fn apply(&mut self, command: Command) -> Effect {
         let mut effect = Effect::default();
+        let before = self.shown();
         match command {
             Command::AddFiles(files) => effect.model_replaced = self.add_files(files),
             Command::OpenFile(path) => effect.model_replaced = self.open_file(&path),
@@ -260,10 +264,9 @@ impl Session {
                 self.frame_model();
             }
             Command::SetViewport { aspect, insets } => {
-                if (self.aspect, self.insets) == (aspect, insets) {
-                    return effect;
+                if (self.aspect, self.insets) != (aspect, insets) {
+                    self.set_viewport(aspect, insets);
                 }
-                self.set_viewport(aspect, insets);
             }
 
             Command::SetHandedness(handedness) => {
@@ -276,15 +279,25 @@ impl Session {
             }
             Command::SetGridVisible(visible) => self.grid_visible = visible,
             Command::ToggleGrid => self.grid_visible = !self.grid_visible,
-            Command::SetTheme(theme) => {
-                if self.theme == theme {
-                    return effect;
-                }
-                self.theme = theme;
-            }
+            Command::SetTheme(theme) => self.theme = theme,
         }
-        self.picture_revision += 1;
+        if self.shown() != before {
+            self.picture_revision += 1;
+        }
         effect
+    }
+
+    fn shown(&self) -> Shown {
+        Shown {
+            model: self.model_revision,
+            clip: self.clip,
+            time_secs: self.playback.time_secs(),
+            camera: self.camera,
+            handedness: self.handedness(),
+            up_axis: self.up_axis(),
+            grid_visible: self.grid_visible,
+            theme: self.theme,
+        }
     }
 
     fn add_files(&mut self, files: Vec<File>) -> bool {
@@ -334,6 +347,8 @@ impl Session {
         self.pose = PoseBuffers::for_skeleton(&open.model.skeleton);
         self.posed_at = None;
         self.error = None;
+        // The bar that was held may be gone, and nothing would let go of the time.
+        self.scrubbing = false;
         self.model_revision += 1;
         self.open = Some(open);
         if again {
@@ -347,14 +362,17 @@ impl Session {
                 .and_then(|name| clips.iter().position(|clip| clip.name == name))
                 .unwrap_or(0);
             self.clip = None;
-            self.select_clip(clip);
-            self.playback.seek(time_secs);
+            if self.show_clip(clip) {
+                self.playback.seek(time_secs);
+            } else {
+                self.playback = Playback::default();
+            }
         } else {
             self.handedness_override = None;
             self.up_axis_override = None;
             self.clip = None;
             self.playback = Playback::default();
-            self.select_clip(0);
+            self.show_clip(0);
             self.camera = Camera {
                 projection: self.camera.projection,
                 ..Camera::default()
@@ -375,12 +393,17 @@ impl Session {
         if self.clip().is_none() || playing == self.playback.is_playing() {
             return;
         }
+        let was_at = self.playback.time_secs();
         if playing {
             self.playback.play();
         } else {
             self.playback.pause();
         }
         self.note(if playing { Event::Play } else { Event::Pause });
+        // What stood at its end begins anew.
+        if self.playback.time_secs() != was_at {
+            self.note(Event::TimeUpdate);
+        }
     }
 
     fn seek(&mut self, time_secs: f32) {
@@ -390,7 +413,7 @@ impl Session {
         let was_at = self.playback.time_secs();
         self.playback.seek(time_secs);
         if self.playback.time_secs() != was_at {
-            self.time_changed();
+            self.note(Event::TimeUpdate);
         }
     }
 
@@ -402,12 +425,16 @@ impl Session {
     }
 
     fn select_clip(&mut self, index: usize) {
-        let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else {
-            return;
-        };
-        if self.clip == Some(index) {
-            return;
+        if self.clip != Some(index) && self.show_clip(index) {
+            self.note(Event::TimeUpdate);
         }
+    }
+
+    /// Goes to a clip's first time; false when there is no such clip.
+    fn show_clip(&mut self, index: usize) -> bool {
+        let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else {
+            return false;
+        };
         self.playback.set_range(clip.start_secs, clip.end_secs);
         self.playback.seek(if self.playback.is_backward() {
             clip.end_secs
@@ -415,7 +442,7 @@ impl Session {
             clip.start_secs
         });
         self.clip = Some(index);
-        self.time_changed();
+        true
     }
 
     fn cycle_clip(&mut self, places: i32) {
@@ -434,11 +461,8 @@ impl Session {
     fn zoom(&mut self, factor: f32, pointer: glam::Vec2) {
         let radius = self.world_bounds().radius().max(1e-6);
         // Neither through the model nor so far that it is a dot.
-        let factor = factor.clamp(
-            radius * 1e-2 / self.camera.distance,
-            radius * 100.0 / self.camera.distance,
-        );
-        self.camera.zoom(factor, pointer);
+        let distance = (self.camera.distance * factor).clamp(radius * 1e-2, radius * 100.0);
+        self.camera.zoom(distance / self.camera.distance, pointer);
         self.framed = false;
     }
 
@@ -457,24 +481,29 @@ impl Session {
                 ..self.insets
             };
             self.camera.frame(&world_points, self.aspect, centered);
-            if self.camera.leftmost_share(&world_points, self.aspect) < self.insets.left {
+            let (left, right) = self.camera.free_at_sides(&world_points, self.aspect);
+            if left < self.insets.left || right < self.insets.right {
                 self.camera.frame(&world_points, self.aspect, self.insets);
             }
         }
         self.framed = true;
     }
 
-    /// A model that nobody panned or zoomed stays framed in a picture of another shape.
+    /// A model that nobody panned or zoomed stays framed in a picture of another shape. A shape that is none is left out.
     fn set_viewport(&mut self, aspect: f32, insets: Insets) {
+        let Insets {
+            left,
+            right,
+            top,
+            bottom,
+        } = insets;
+        if !(aspect.is_finite() && aspect > 0.0 && [left, right, top, bottom].into_iter().all(f32::is_finite)) {
+            return;
+        }
         (self.aspect, self.insets) = (aspect, insets);
         if self.framed {
             self.frame_model();
         }
-    }
-
-    fn time_changed(&mut self) {
-        self.picture_revision += 1;
-        self.note(Event::TimeUpdate);
     }
 
     fn note(&mut self, event: Event) {
@@ -482,4 +511,17 @@ impl Session {
             self.events.push(event);
         }
     }
+}
+
+/// All that the picture depends on, but for its size.
+#[derive(PartialEq)]
+struct Shown {
+    model: u64,
+    clip: Option<usize>,
+    time_secs: f32,
+    camera: Camera,
+    handedness: Handedness,
+    up_axis: UpAxis,
+    grid_visible: bool,
+    theme: Theme,
 }

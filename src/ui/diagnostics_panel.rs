@@ -6,8 +6,9 @@ use super::UiState;
 use super::excerpt;
 use super::icons::Icon;
 use super::model_panel::PANEL_MARGIN;
+use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::widgets::{icon_button, rule};
+use super::widgets::{control_size, icon_button, rule};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::session::{OpenModel, Session};
 
@@ -16,7 +17,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_heig
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
     ui.horizontal(|ui| {
-        let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width() - 34.0, 28.0), Sense::hover());
+        let (heading, _) = ui.allocate_exact_size(
+            vec2(ui.available_width() - control_size(ui) - 6.0, 28.0),
+            Sense::hover(),
+        );
         ui.painter().text(
             heading.left_center(),
             Align2::LEFT_CENTER,
@@ -33,8 +37,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_heig
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));
         return;
     }
-    egui::ScrollArea::vertical()
-        .max_height(max_height)
+    scrolled("findings", max_height)
         .auto_shrink([false, true])
         .show(ui, |ui| {
             for (index, notice) in open.notices.iter().enumerate() {

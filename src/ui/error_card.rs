@@ -5,7 +5,7 @@ use egui::{Align, Align2, Layout, RichText, Sense, Ui, vec2};
 use super::excerpt;
 use super::icons::Icon;
 use super::theme::{self, Tokens};
-use super::widgets::{icon_button, rule, text_button};
+use super::widgets::{control_size, icon_button, rule, text_button};
 use crate::session::{Command, LoadError, Session};
 
 const CARD_MARGIN: f32 = 12.0;
@@ -32,7 +32,15 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
                 commands.push(Command::DismissError);
             }
-            if text_button(ui, "Copy", "Copy the error", false, 0.0).clicked() {
+            if text_button(
+                ui,
+                "Copy",
+                "Copy the error",
+                false,
+                egui::Rangef::new(control_size(ui), f32::INFINITY),
+            )
+            .clicked()
+            {
                 ui.ctx().copy_text(error.to_text());
             }
         });

@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<
     }
     let number_width = excerpt.lines.last().map_or(0, |(number, _)| number.to_string().len());
     for (number, line) in &excerpt.lines {
-        job.append(&format!("{number:>number_width$} │ "), 0.0, mono(tokens.faint));
+        job.append(&format!("{number:>number_width$} | "), 0.0, mono(tokens.faint));
         if Some(number) == excerpt.lines.last().map(|(number, _)| number) {
             let (before, marked, after) = excerpt.marked_parts();
             job.append(before, 0.0, mono(tokens.text));
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<
             job.append(after, 0.0, mono(tokens.text));
             let indent = " ".repeat(excerpt.mark_column as usize - 1);
             let mark = "^".repeat(excerpt.mark_length as usize);
-            job.append(&format!("\n{:number_width$} │ ", ""), 0.0, mono(tokens.faint));
+            job.append(&format!("\n{:number_width$} | ", ""), 0.0, mono(tokens.faint));
             job.append(&format!("{indent}{mark} {expected}\n"), 0.0, mono(mark_color));
         } else {
             job.append(&format!("{line}\n"), 0.0, mono(tokens.text));

@@ -4,8 +4,9 @@ use egui::{Align2, FontId, Sense, Ui, vec2};
 
 use super::UiState;
 use super::icons::Icon;
+use super::panel::scrolled;
 use super::theme::{self, ROW_HEIGHT, Tokens};
-use super::widgets::{icon_button, rule};
+use super::widgets::{control_size, icon_button, rule};
 
 /// Keys and what they do, in groups.
 const KEYS: [&[(&str, &str)]; 3] = [
@@ -43,7 +44,10 @@ const KEYS: [&[(&str, &str)]; 3] = [
 pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     let tokens = Tokens::of(ui);
     ui.horizontal(|ui| {
-        let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width() - 34.0, 28.0), Sense::hover());
+        let (heading, _) = ui.allocate_exact_size(
+            vec2(ui.available_width() - control_size(ui) - 6.0, 28.0),
+            Sense::hover(),
+        );
         ui.painter().text(
             heading.left_center(),
             Align2::LEFT_CENTER,
@@ -55,27 +59,24 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
             state.help_open = false;
         }
     });
-    egui::ScrollArea::vertical()
-        .max_height(ui.ctx().content_rect().height() - 160.0)
-        .show(ui, |ui| {
-            for group in KEYS {
-                rule(ui, 12.0);
-                for (keys, does) in group {
-                    let (rect, response) =
-                        ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-                    ui.painter().text(
-                        rect.left_center(),
-                        Align2::LEFT_CENTER,
-                        *keys,
-                        theme::mono(12.0),
-                        tokens.text,
-                    );
-                    let at = rect.left_center() + vec2(112.0, 0.0);
-                    ui.painter()
-                        .text(at, Align2::LEFT_CENTER, *does, FontId::proportional(13.0), tokens.muted);
-                    response
-                        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{keys}: {does}")));
-                }
+    let most = ui.ctx().content_rect().height() - 160.0;
+    scrolled("keys", most).show(ui, |ui| {
+        for group in KEYS {
+            rule(ui, 12.0);
+            for (keys, does) in group {
+                let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+                ui.painter().text(
+                    rect.left_center(),
+                    Align2::LEFT_CENTER,
+                    *keys,
+                    theme::mono(12.0),
+                    tokens.text,
+                );
+                let at = rect.left_center() + vec2(112.0, 0.0);
+                ui.painter()
+                    .text(at, Align2::LEFT_CENTER, *does, FontId::proportional(13.0), tokens.muted);
+                response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{keys}: {does}")));
             }
-        });
+        }
+    });
 }

@@ -21,7 +21,7 @@ use crate::scene::{Insets, Theme};
 use crate::session::{Command, Session};
 pub use keys::owns_key;
 
-use panel::Panel;
+use panel::{Panel, scrolled};
 use theme::{MARGIN, NARROW_WIDTH};
 use timeline::KeyTimes;
 
@@ -58,7 +58,10 @@ pub struct UiState {
 impl UiState {
     /// Everything shut. `coarse_pointer`: the device says that fingers are its pointer.
     pub fn new(coarse_pointer: bool) -> Self {
-        Self { coarse_pointer, ..Self::default() }
+        Self {
+            coarse_pointer,
+            ..Self::default()
+        }
     }
 
     /// What was asked of the page since the last call.
@@ -137,22 +140,26 @@ fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Comma
 
 fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
     let left_top = window.min + Vec2::splat(MARGIN);
-    Panel::new("title", Align2::LEFT_TOP, left_top).margin(Margin::symmetric(12, 6)).show(ui, |ui| {
-        ui.set_height(widgets::control_size(ui) - 6.0);
-        title_bar::show(ui, session, false);
-    });
+    Panel::new("title", Align2::LEFT_TOP, left_top)
+        .margin(Margin::symmetric(12, 6))
+        .show(ui, |ui| {
+            ui.set_height(widgets::control_size(ui) - 6.0);
+            title_bar::show(ui, session, false);
+        });
     let right_top = window.right_top() + vec2(-MARGIN, MARGIN);
-    Panel::new("toolbar", Align2::RIGHT_TOP, right_top).margin(Margin::same(3)).show(ui, |ui| {
-        ui.set_height(widgets::control_size(ui));
-        toolbar::show(ui, session, state, commands);
-    });
+    Panel::new("toolbar", Align2::RIGHT_TOP, right_top)
+        .margin(Margin::same(3))
+        .show(ui, |ui| {
+            ui.set_height(widgets::control_size(ui));
+            toolbar::show(ui, session, state, commands);
+        });
     let covered = timeline::covered_height(ui, session, false);
     let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
     let side_room = window.max.y - covered.max(MARGIN) - side_top.y - 26.0;
     if session.open_model().is_some() {
         Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {
             ui.set_width(SIDE_WIDTH - 26.0);
-            egui::ScrollArea::vertical().id_salt("model").max_height(side_room).show(ui, |ui| {
+            scrolled("model", side_room).show(ui, |ui| {
                 model_panel::show(ui, session, state, commands);
             });
         });
@@ -166,48 +173,62 @@ fn wide_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, co
     }
     if session.clip().is_some() {
         let at = window.left_bottom() + vec2(MARGIN, -MARGIN);
-        Panel::new("timeline", Align2::LEFT_BOTTOM, at).margin(Margin::same(9)).show(ui, |ui| {
-            ui.set_width(window.width() - 2.0 * MARGIN - 20.0);
-            timeline::wide(ui, session, &mut state.key_times, commands);
-        });
+        Panel::new("timeline", Align2::LEFT_BOTTOM, at)
+            .margin(Margin::same(9))
+            .show(ui, |ui| {
+                ui.set_width(window.width() - 2.0 * MARGIN - 20.0);
+                timeline::wide(ui, session, &mut state.key_times, commands);
+            });
     }
 }
 
 /// Phones and slim windows: one bar above, one sheet below.
 fn narrow_layout(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
     let left_top = window.min + Vec2::splat(MARGIN);
-    Panel::new("title", Align2::LEFT_TOP, left_top).margin(Margin::same(4)).show(ui, |ui| {
-        ui.set_width(window.width() - 2.0 * MARGIN - 10.0);
-        ui.horizontal(|ui| {
-            ui.set_height(widgets::control_size(ui));
-            ui.add_space(8.0);
-            title_bar::show(ui, session, true);
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                toolbar::show_narrow(ui, session, state, commands);
+    Panel::new("title", Align2::LEFT_TOP, left_top)
+        .margin(Margin::same(4))
+        .show(ui, |ui| {
+            ui.set_width(window.width() - 2.0 * MARGIN - 10.0);
+            ui.horizontal(|ui| {
+                ui.set_height(widgets::control_size(ui));
+                ui.add_space(8.0);
+                title_bar::show(ui, session, true);
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    toolbar::show_narrow(ui, session, state, commands);
+                });
             });
         });
-    });
     if session.open_model().is_none() {
         return;
     }
-    let sheet_margin = Margin { left: 14, right: 14, top: 0, bottom: 14 };
-    Panel::new("sheet", Align2::LEFT_BOTTOM, window.left_bottom()).sheet().margin(sheet_margin).show(ui, |ui| {
-        ui.set_width(window.width() - 30.0);
-        if widgets::sheet_handle(ui, state.sheet_open).clicked() {
-            state.sheet_open = !state.sheet_open;
-        }
-        if session.clip().is_some() {
-            timeline::narrow(ui, session, &mut state.key_times, commands);
-        }
-        if state.sheet_open {
-            ui.add_space(10.0);
-            egui::ScrollArea::vertical().id_salt("sheet").max_height(window.height() * 0.5).show(ui, |ui| {
-                if state.diagnostics_open {
-                    diagnostics_panel::show(ui, session, state, f32::INFINITY);
-                } else {
-                    model_panel::show(ui, session, state, commands);
-                }
-            });
-        }
-    });
+    let sheet_margin = Margin {
+        left: 14,
+        right: 14,
+        top: 0,
+        bottom: 14,
+    };
+    Panel::new("sheet", Align2::LEFT_BOTTOM, window.left_bottom())
+        .sheet()
+        .margin(sheet_margin)
+        .show(ui, |ui| {
+            ui.set_width(window.width() - 30.0);
+            if widgets::sheet_handle(ui, state.sheet_open).clicked() {
+                state.sheet_open = !state.sheet_open;
+            }
+            if session.clip().is_some() {
+                timeline::narrow(ui, session, &mut state.key_times, commands);
+            }
+            if state.sheet_open {
+                ui.add_space(10.0);
+                let covered = bar_height(ui) + timeline::covered_height(ui, session, true) + 3.0 * MARGIN;
+                let room = (window.height() * 0.5).min(window.height() - covered);
+                scrolled("sheet", room).show(ui, |ui| {
+                    if state.diagnostics_open {
+                        diagnostics_panel::show(ui, session, state, room - 50.0);
+                    } else {
+                        model_panel::show(ui, session, state, commands);
+                    }
+                });
+            }
+        });
 }

@@ -2,6 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
 
+use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 use super::timeline::shortened;
 use super::widgets::{choice_row, grouped, is_touch, measured, menu_item, rule, section_name, value_row};
@@ -103,9 +104,7 @@ fn subsets(ui: &mut Ui, open: &OpenModel) {
     let tokens = Tokens::of(ui);
     section_name(ui, "Subsets");
     let submeshes = &open.model.mesh.submeshes;
-    let list = egui::ScrollArea::vertical()
-        .id_salt("subsets")
-        .max_height(SUBSET_ROWS * ROW_HEIGHT);
+    let list = scrolled("subsets", SUBSET_ROWS * ROW_HEIGHT);
     list.auto_shrink([false, true]).show(ui, |ui| {
         for submesh in submeshes {
             let Some(material) = open.model.materials.get(submesh.material as usize) else {
@@ -115,6 +114,9 @@ fn subsets(ui: &mut Ui, open: &OpenModel) {
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
             let swatch = egui::Rect::from_center_size(rect.left_center() + vec2(5.0, 0.0), vec2(10.0, 10.0));
             ui.painter().rect_filled(swatch, 2.5, color_srgb(color));
+            // A dark material on a dark panel still has an outline.
+            let outline = egui::Stroke::new(1.0, tokens.field_hovered);
+            ui.painter().rect_stroke(swatch, 2.5, outline, egui::StrokeKind::Inside);
             let count = grouped(submesh.triangle_count as usize);
             let font = FontId::proportional(13.0);
             let name = shortened(&material.name, 22);
@@ -144,7 +146,7 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     rule(ui, PANEL_MARGIN);
     section_name(ui, "In this drop");
     let open_path = session.open_model().map(|open| open.file.path.as_str());
-    let list = egui::ScrollArea::vertical().id_salt("drop").max_height(5.0 * 26.0);
+    let list = scrolled("drop", 5.0 * 26.0);
     list.auto_shrink([false, true]).show(ui, |ui| {
         for file in models {
             let response = menu_item(

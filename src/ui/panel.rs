@@ -1,8 +1,17 @@
 //! Panels that float over the view.
 
-use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, Ui};
+use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, ScrollArea, Ui};
 
 use super::theme::{self, Tokens};
+
+/// A list in a panel that scrolls once it is higher than `most`. A panel remembers the size that it had, so without a word
+/// about it a list that grows would scroll in the height of before.
+pub(super) fn scrolled(id: &'static str, most: f32) -> ScrollArea {
+    ScrollArea::vertical()
+        .id_salt(id)
+        .max_height(most)
+        .min_scrolled_height(most)
+}
 
 /// Where a panel is and what it looks like.
 #[derive(Clone, Copy, Debug)]
@@ -19,12 +28,22 @@ impl Panel {
     /// A panel whose `pivot` corner is at a point.
     pub(super) fn new(name: &'static str, pivot: Align2, at: Pos2) -> Self {
         let corner_radius = CornerRadius::same(theme::PANEL_RADIUS);
-        Self { name, pivot, at, order: Order::Middle, margin: Margin::same(12), corner_radius }
+        Self {
+            name,
+            pivot,
+            at,
+            order: Order::Middle,
+            margin: Margin::same(12),
+            corner_radius,
+        }
     }
 
     /// Over the other panels.
     pub(super) fn on_top(self) -> Self {
-        Self { order: Order::Foreground, ..self }
+        Self {
+            order: Order::Foreground,
+            ..self
+        }
     }
 
     /// Room between border and contents; 12 points unless told.
@@ -34,13 +53,22 @@ impl Panel {
 
     /// Round corners at the top alone, as a sheet that comes from below.
     pub(super) fn sheet(self) -> Self {
-        Self { corner_radius: CornerRadius { nw: 14, ne: 14, sw: 0, se: 0 }, ..self }
+        Self {
+            corner_radius: CornerRadius {
+                nw: 14,
+                ne: 14,
+                sw: 0,
+                se: 0,
+            },
+            ..self
+        }
     }
 
     /// Shows it.
     pub(super) fn show(self, ui: &Ui, contents: impl FnOnce(&mut Ui)) {
-        let frame: Frame =
-            theme::panel_frame(&Tokens::of(ui)).inner_margin(self.margin).corner_radius(self.corner_radius);
+        let frame: Frame = theme::panel_frame(&Tokens::of(ui))
+            .inner_margin(self.margin)
+            .corner_radius(self.corner_radius);
         Area::new(Id::unique(("panel", self.name)))
             .order(self.order)
             .pivot(self.pivot)

@@ -1,8 +1,11 @@
 //! The strip at the bottom: transport, clip, bar with keys, read-outs, speed and loop mode.
 
-use egui::{Align2, CursorIcon, FontId, Popup, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, CursorIcon, FontId, Popup, Rangef, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
 
 use super::icons::{self, Icon};
+use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use super::widgets::{control_size, focus_ring, icon_button, is_touch, menu_item, text_button};
 use crate::anim::LoopMode;
@@ -12,6 +15,8 @@ use crate::session::{Command, SPEEDS, Session};
 /// Keys closer than this are drawn as ticks, and closer still not at all.
 const DIAMOND_SPACING: f32 = 7.0;
 const TICK_SPACING: f32 = 2.5;
+/// The least width of the clip's name on a phone.
+const CLIP_WIDTH_NARROW: f32 = 84.0;
 
 /// Time stamps of a clip's keys, found once per clip.
 #[derive(Clone, Debug, Default)]
@@ -73,7 +78,7 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands
                 commands.push(Command::SeekEnd);
             }
             ui.add_space(6.0);
-            clip_menu(ui, session, 104.0, commands);
+            clip_menu(ui, session, Rangef::new(104.0, 200.0), commands);
 
             // The read-outs have fixed widths, so that nothing moves while values change.
             let right_width = 72.0 + 74.0 + 48.0 + control_size(ui) + 4.0 * 6.0;
@@ -103,11 +108,22 @@ pub(super) fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, comman
     });
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        clip_menu(ui, session, 84.0, commands);
-        let right_width = 72.0 + 76.0 + 52.0 + control_size(ui) + 4.0 * 6.0;
+        let spacing = ui.spacing().item_spacing.x;
+        let others_width = 72.0 + 52.0 + control_size(ui) + 3.0 * spacing;
+        // The slimmest phones have room for the time alone.
+        let frame_width = 76.0 + spacing;
+        let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + others_width + frame_width;
+        let right_width = others_width + if shows_frame { frame_width } else { 0.0 };
+        let clip_width = Rangef::new(
+            CLIP_WIDTH_NARROW,
+            (ui.available_width() - right_width).max(CLIP_WIDTH_NARROW),
+        );
+        clip_menu(ui, session, clip_width, commands);
         ui.add_space((ui.available_width() - right_width).max(0.0));
         time_field(ui, session, 72.0);
-        frame_readout(ui, session, 76.0);
+        if shows_frame {
+            frame_readout(ui, session, 76.0);
+        }
         speed_menu(ui, session, 52.0, commands);
         loop_button(ui, session, commands);
     });
@@ -137,15 +153,15 @@ fn play_button(ui: &mut Ui, session: &Session, diameter: f32, commands: &mut Vec
     }
 }
 
-fn clip_menu(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
+fn clip_menu(ui: &mut Ui, session: &Session, width: Rangef, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     let name = session.clip().map_or("", |clip| clip.name.as_str());
     let label = format!("Clip {name}");
-    let response = text_button(ui, &shortened(name, 22), &label, true, width);
+    let response = text_button(ui, name, &label, true, width);
     let response = response.on_hover_text(format!("{name}\nNext clip: C"));
     Popup::menu(&response).show(|ui| {
         ui.set_width(240.0);
-        egui::ScrollArea::vertical().max_height(360.0).show(ui, |ui| {
+        scrolled("clips", 360.0_f32.min(ui.ctx().content_rect().height() * 0.5)).show(ui, |ui| {
             for (index, clip) in open.model.clips.iter().enumerate() {
                 let text = format!("{}   {:.2} s", shortened(&clip.name, 40), clip.duration_secs());
                 if menu_item(ui, &text, session.clip_index() == Some(index)).clicked() {

@@ -1,8 +1,9 @@
 //! The few controls that panels are made of.
 
+use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
-    vec2,
+    Align2, Color32, CornerRadius, FontId, Rangef, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::icons::{self, Icon};
@@ -58,14 +59,16 @@ pub(super) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Res
     response.on_hover_text(label)
 }
 
-/// A button with words on a quiet ground. `opens_list` adds the chevron of a drop-down.
-pub(super) fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, min_width: f32) -> Response {
+/// A button with words on a quiet ground, as wide as they need within `width`; what is longer ends in an ellipsis.
+/// `opens_list` adds the chevron of a drop-down.
+pub(super) fn text_button(ui: &mut Ui, text: &str, label: &str, opens_list: bool, width: Rangef) -> Response {
     let tokens = Tokens::of(ui);
-    let galley = ui
-        .painter()
-        .layout_no_wrap(text.to_owned(), FontId::proportional(13.0), tokens.text);
     let chevron_width = if opens_list { 18.0 } else { 0.0 };
-    let width = (galley.size().x + 16.0 + chevron_width).max(min_width);
+    let around = 16.0 + chevron_width;
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(13.0), tokens.text);
+    job.wrap = TextWrapping::truncate_at_width(width.max - around);
+    let galley = ui.painter().layout_job(job);
+    let width = width.clamp(galley.size().x + around);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
     let fill = if response.hovered() || response.has_focus() {
         tokens.field_hovered
@@ -95,7 +98,7 @@ pub(super) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
         .painter()
         .layout_no_wrap(text.to_owned(), FontId::proportional(13.0), color);
     let width = ui.available_width().max(galley.size().x + 20.0);
-    let height = if is_touch(ui) { 40.0 } else { 26.0 };
+    let height = if is_touch(ui) { TOUCH_CONTROL } else { 26.0 };
     let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::click());
     if on {
         ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
@@ -205,7 +208,11 @@ pub(super) fn rule(ui: &mut Ui, panel_margin: f32) {
 /// The grip of the bottom sheet.
 pub(super) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
+    // A finger may also take hold of it a little above the sheet.
+    let above = (control_size(ui) - rect.height()).max(0.0);
+    let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
+    let response = ui.interact(target, response.id.with("grip"), Sense::click());
     let grip = Rect::from_center_size(rect.center(), vec2(38.0, 4.0));
     ui.painter().rect_filled(
         grip,

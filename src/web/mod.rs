@@ -134,7 +134,12 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
                 watch_device(&gpu.device);
-                *shell.app.borrow_mut() = Some(App::new(&creation.egui_ctx, &gpu, Rc::clone(&shell.session), coarse_pointer()));
+                *shell.app.borrow_mut() = Some(App::new(
+                    &creation.egui_ctx,
+                    &gpu,
+                    Rc::clone(&shell.session),
+                    coarse_pointer(),
+                ));
                 *shared_out.borrow_mut() = Some((creation.egui_ctx.clone(), gpu));
                 Ok(Box::new(shell))
             }),

@@ -6,5 +6,6 @@ mod format;
 mod image;
 mod model;
 mod sample;
+mod session;
 mod shaders;
 mod textbook;

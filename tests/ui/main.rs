@@ -1,1 +1,13 @@
-//! x
+//! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
+
+mod idle;
+mod keys;
+mod layout;
+#[path = "../core/session/models.rs"]
+#[allow(dead_code, reason = "shared with the tests of the session, which need more of it")]
+mod models;
+mod page;
+mod panels;
+mod picture;
+mod pointer;
+mod timeline;

@@ -241,6 +241,32 @@ mod tests {
     }
 
     #[test]
+    fn no_file_of_the_real_page_refers_to_a_name_that_is_gone() {
+        let mut files = sources(&[("pkg/bindpose.js", "1"), ("pkg/bindpose_bg.wasm", "2")]);
+        // The bound wasm is not built in a test; any folder stands in for it.
+        let site = Site::new(crate::root().join("web"));
+        for address in site.addresses().expect("the site lists") {
+            if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
+                files.insert(address, fs::read(path).expect("a listed file"));
+            }
+        }
+        let built = hashed(&files).expect("no circle");
+        assert_eq!(built.len(), files.len());
+        for (name, bytes) in built
+            .iter()
+            .filter(|(name, _)| REFERRING.iter().any(|end| name.ends_with(end)))
+        {
+            let text = std::str::from_utf8(bytes).expect("text");
+            for gone in files.keys().filter(|address| *address != PAGE) {
+                let file = gone.rsplit_once('/').map_or(gone.as_str(), |(_, file)| file);
+                for quoted in [format!("/{file}\""), format!("\"{file}\"")] {
+                    assert!(!text.contains(&quoted), "{name} still refers to {gone}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_circle_of_references_is_named() {
         let circle = sources(&[("web/a.js", r#"import "./b.js""#), ("web/b.js", r#"import "./a.js""#)]);
         let failure = hashed(&circle).expect_err("a circle").to_string();

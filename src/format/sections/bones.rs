@@ -4,6 +4,7 @@ use crate::format::cursor::Token;
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
 use crate::format::label::{Section, is_ruler, same, same_as_any, split_number};
 use crate::format::notice::Notice;
+use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
 /// Reads the bone offsets, with the line of each.
@@ -71,7 +72,9 @@ fn bone_label<'a>(
 
 /// Sixteen numbers, on one line or more. A second word of the label, or the bone's number, may stand before them.
 fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
-    let start = reader.cursor;
+    if let Some(offset) = quick::offset(&mut reader.cursor) {
+        return Ok(offset);
+    }
     reader.cursor.skip_blanks();
     if !reader.cursor.at_line_end()
         && let Some(word) = reader.cursor.peek_token()
@@ -99,7 +102,6 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
         reader.cursor.token();
         reader.note(number, Notice::BoneOffsetLabel);
     }
-    debug_assert!(start.at <= reader.cursor.at);
     Ok(reader.numbers(Value::BoneOffset, 16, [0.0; 16])?.0)
 }
 

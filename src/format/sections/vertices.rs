@@ -32,15 +32,15 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     const SMALLEST: usize = 32;
     reader.begin_rows(Section::Vertices)?;
     let short_labels = reader.peek_label().is_some_and(|(label, _)| same(label.text, "p"));
-    let quick = if short_labels {
-        quick::vertex::<true>
-    } else {
-        quick::vertex::<false>
-    };
     let room = reader.room_for(count, SMALLEST);
     let (mut vertices, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for row in 0..count {
-        let (vertex, line) = match quick(&mut reader.cursor, bones) {
+        let quick = if short_labels {
+            quick::vertex::<true>(&mut reader.cursor, bones)
+        } else {
+            quick::vertex::<false>(&mut reader.cursor, bones)
+        };
+        let (vertex, line) = match quick {
             Some(read) => read,
             None => vertex(reader, row, count, bones)?,
         };

@@ -1,0 +1,18 @@
+//! Tests of `session`: what is open and how it is looked at, without a window.
+
+mod looking;
+mod models;
+mod opening;
+mod playing;
+mod random;
+
+use bindpose::session::{Command, File, Session};
+
+/// A session with one drop in it, its events taken.
+fn opened(file: File) -> Session {
+    let mut session = Session::new(false);
+    session.apply(Command::AddFiles(vec![file]));
+    assert_eq!(session.error(), None);
+    session.take_events();
+    session
+}

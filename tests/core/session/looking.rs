@@ -1,0 +1,424 @@
+//! The camera, the space of the world, and when the picture is another one.
+
+use bindpose::anim::{self, LoopMode, PoseBuffers};
+use bindpose::model::{Handedness, UpAxis, world_from_model};
+use bindpose::scene::{Camera, Insets, Projection, Theme, ViewPreset};
+use bindpose::session::{Command, File, Session};
+use glam::{Vec2, Vec3};
+
+use super::models::{self, moving, still};
+use super::opened;
+
+const FREE: Insets = Insets {
+    left: 0.0,
+    right: 0.0,
+    top: 0.0,
+    bottom: 0.0,
+};
+
+/// All that the clip on show reaches at its frames, in the picture: x right and y up, −1…1, and depth.
+fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
+    let frame = session.frame();
+    let clip_from_world = frame.camera.clip_from_view(aspect, &frame.world_bounds) * frame.camera.view_from_world();
+    let world_from_model = frame.world_from_model;
+    let open = session.open_model().expect("open");
+    let (skeleton, mesh) = (&open.model.skeleton, &open.model.mesh);
+    let mut buffers = PoseBuffers::for_skeleton(skeleton);
+    let mut positions = Vec::new();
+    let mut reached = Vec::new();
+    for frame in 0..session.clip().map_or(1, bindpose::model::Clip::frame_count) {
+        if let Some(clip) = session.clip() {
+            buffers.evaluate(skeleton, clip, clip.time_of_frame(frame));
+        }
+        anim::skin_positions(mesh, &buffers.palette, &mut positions);
+        let in_picture = |&point: &Vec3| clip_from_world.project_point3(world_from_model.transform_point3(point));
+        reached.extend(positions.iter().map(in_picture));
+    }
+    reached
+}
+
+/// The points by which a clip is framed are taken at a dozen times: between them it may reach a little further, into the
+/// margin that framing leaves, but not out of the free part.
+#[test]
+fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
+    let all_insets = [
+        FREE,
+        Insets {
+            top: 0.06,
+            bottom: 0.1,
+            ..FREE
+        },
+        Insets {
+            left: 0.3,
+            top: 0.06,
+            bottom: 0.1,
+            ..FREE
+        },
+        Insets { right: 0.3, ..FREE },
+        Insets {
+            left: 0.2,
+            right: 0.2,
+            top: 0.2,
+            bottom: 0.3,
+        },
+    ];
+    for file in [moving("a.m3d"), still("a.m3d")] {
+        let mut session = opened(file);
+        for projection in [Camera::default().projection, Projection::Orthographic] {
+            if session.camera().projection != projection {
+                session.apply(Command::ToggleProjection);
+            }
+            for (aspect, insets) in [0.46, 1.0, 1.6, 3.5]
+                .into_iter()
+                .flat_map(|aspect| all_insets.map(|i| (aspect, i)))
+            {
+                session.apply(Command::SetViewport { aspect, insets });
+                for preset in ViewPreset::ALL {
+                    session.apply(Command::LookFrom(preset));
+                    let what = format!("{preset:?} {projection:?} {aspect} {insets:?}");
+                    let points = reached_in_picture(&mut session, aspect);
+                    let (mut least, mut greatest) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+                    for point in points {
+                        (least, greatest) = (least.min(point), greatest.max(point));
+                    }
+                    assert!(
+                        least.x >= -1.0 + 2.0 * insets.left && greatest.x <= 1.0 - 2.0 * insets.right,
+                        "{what}"
+                    );
+                    assert!(
+                        least.y >= -1.0 + 2.0 * insets.bottom && greatest.y <= 1.0 - 2.0 * insets.top,
+                        "{what}"
+                    );
+                    assert!(least.z >= 0.0 && greatest.z <= 1.0, "{what}: no plane cuts");
+                    // And it is no dot in the middle: one of the two ways is well used.
+                    let free = Vec2::new(
+                        2.0 - 2.0 * (insets.left + insets.right),
+                        2.0 - 2.0 * (insets.top + insets.bottom),
+                    );
+                    let used = ((greatest - least).truncate() / free).max_element();
+                    assert!(used > 0.6, "{what}: {used}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
+    let narrow = Command::SetViewport {
+        aspect: 0.25,
+        insets: FREE,
+    };
+    let wide = Command::SetViewport {
+        aspect: 2.0,
+        insets: FREE,
+    };
+    let mut session = opened(still("a.m3d"));
+    session.apply(wide.clone());
+    let in_wide = session.camera().distance;
+    session.apply(narrow.clone());
+    assert!(session.camera().distance > in_wide * 1.2);
+    session.apply(wide.clone());
+    assert!((session.camera().distance / in_wide - 1.0).abs() < 1e-3);
+
+    session.apply(Command::Orbit {
+        yaw_radians: 0.4,
+        pitch_radians: 0.1,
+    });
+    session.apply(narrow.clone());
+    assert!(session.camera().distance > in_wide * 1.2, "turning leaves it framed");
+
+    for command in [
+        Command::Pan {
+            drag: Vec2::new(0.1, 0.0),
+        },
+        Command::Zoom {
+            factor: 0.9,
+            pointer: Vec2::ZERO,
+        },
+    ] {
+        session.apply(Command::FrameModel);
+        session.apply(command);
+        let chosen = *session.camera();
+        session.apply(wide.clone());
+        session.apply(narrow.clone());
+        assert_eq!(session.camera(), &chosen);
+    }
+    session.apply(Command::FrameModel);
+    session.apply(wide);
+    assert!(session.camera().distance < in_wide * 1.2, "framed again");
+}
+
+#[test]
+fn a_window_without_a_shape_is_left_out() {
+    let mut session = opened(still("a.m3d"));
+    let before = *session.camera();
+    for (aspect, left) in [
+        (0.0, 0.0),
+        (f32::NAN, 0.0),
+        (f32::INFINITY, 0.0),
+        (-1.0, 0.0),
+        (1.0, f32::NAN),
+    ] {
+        session.apply(Command::SetViewport {
+            aspect,
+            insets: Insets { left, ..FREE },
+        });
+        session.apply(Command::FrameModel);
+        assert_eq!(session.camera(), &before);
+    }
+}
+
+#[test]
+fn zooming_ends_before_the_model_is_passed_or_a_dot() {
+    let mut session = opened(still("a.m3d"));
+    let radius = session.world_bounds().radius();
+    for (factor, distance) in [
+        (0.5, radius * 1e-2),
+        (2.0, radius * 100.0),
+        (0.0, radius * 1e-2),
+        (f32::INFINITY, radius * 100.0),
+    ] {
+        for _ in 0..64 {
+            session.apply(Command::Zoom {
+                factor,
+                pointer: Vec2::new(0.2, -0.3),
+            });
+        }
+        let reached = session.camera().distance;
+        assert!(
+            (reached / distance - 1.0).abs() < 1e-4,
+            "{reached} instead of {distance}"
+        );
+        assert!(session.camera().target.is_finite());
+    }
+}
+
+#[test]
+fn what_is_no_number_leaves_the_camera_alone() {
+    let mut session = opened(moving("a.m3d"));
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let before = *session.camera();
+        session.apply(Command::Orbit {
+            yaw_radians: bad,
+            pitch_radians: 0.1,
+        });
+        session.apply(Command::Orbit {
+            yaw_radians: 0.1,
+            pitch_radians: bad,
+        });
+        session.apply(Command::Pan {
+            drag: Vec2::new(bad, 0.0),
+        });
+        session.apply(Command::Pan {
+            drag: Vec2::new(0.0, bad),
+        });
+        assert_eq!(session.camera(), &before);
+        session.apply(Command::Zoom {
+            factor: 0.9,
+            pointer: Vec2::new(bad, 0.1),
+        });
+        assert!(session.camera().target.is_finite());
+    }
+    let before = *session.camera();
+    session.apply(Command::Zoom {
+        factor: f32::NAN,
+        pointer: Vec2::ZERO,
+    });
+    assert_eq!(session.camera(), &before);
+}
+
+#[test]
+fn a_model_of_absurd_size_leaves_the_camera_finite() {
+    for size in [1e-38, 1e-20, 1e18, 1e38] {
+        let mut document = models::document();
+        for vertex in &mut document.vertices {
+            vertex.position = vertex.position.map(|x| x * size);
+        }
+        let mut session = opened(models::file("a.m3d", &document));
+        for preset in ViewPreset::ALL {
+            session.apply(Command::LookFrom(preset));
+            session.apply(Command::Zoom {
+                factor: 0.8,
+                pointer: Vec2::ONE,
+            });
+            session.apply(Command::Pan { drag: Vec2::ONE });
+            let camera = session.camera();
+            assert!(
+                camera.target.is_finite() && camera.distance.is_finite() && camera.distance > 0.0,
+                "{size}: {camera:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_projection_changes_and_back_and_a_reset_is_the_first_view() {
+    let mut session = opened(still("a.m3d"));
+    let first = *session.camera();
+    session.apply(Command::ToggleProjection);
+    assert_eq!(session.camera().projection, Projection::Orthographic);
+    session.apply(Command::LookFrom(ViewPreset::Back));
+    session.apply(Command::Pan { drag: Vec2::ONE });
+    session.apply(Command::ResetCamera);
+    assert_eq!(session.camera(), &first);
+}
+
+#[test]
+fn handedness_and_up_axis_change_the_world_and_back() {
+    let mut session = opened(moving("a.m3d"));
+    let world = |session: &mut Session| session.frame().world_from_model;
+    assert_eq!((session.handedness(), session.up_axis()), (Handedness::Left, UpAxis::Y));
+    let found = world(&mut session);
+    assert_eq!(found, glam::Affine3A::IDENTITY);
+    let camera = *session.camera();
+
+    session.apply(Command::SetHandedness(Some(Handedness::Right)));
+    assert_eq!(session.handedness_override(), Some(Handedness::Right));
+    assert_eq!(world(&mut session), world_from_model(Handedness::Right, UpAxis::Y));
+    // x is mirrored: the box stands on the other side.
+    assert!(session.world_bounds().center().x < 0.0);
+
+    session.apply(Command::SetUpAxis(Some(UpAxis::Z)));
+    assert_eq!(world(&mut session), world_from_model(Handedness::Right, UpAxis::Z));
+    // The file's z, from −1 to 0, is up now.
+    assert!(session.world_bounds().center().y < 0.0);
+
+    session.apply(Command::SetHandedness(None));
+    session.apply(Command::SetUpAxis(None));
+    assert_eq!(
+        (session.handedness_override(), session.up_axis_override()),
+        (None, None)
+    );
+    assert_eq!(world(&mut session), found);
+    assert_eq!(session.camera(), &camera, "framed as at first");
+}
+
+#[test]
+fn the_box_of_the_world_holds_all_that_the_clip_reaches() {
+    let mut session = opened(moving("a.m3d"));
+    let bent = session.world_bounds();
+    assert!(bent.min.x < models::BOX[0].x - 1.0 && bent.max.y > models::BOX[1].y - 1e-3);
+    session.apply(Command::SelectClip(2));
+    let unbent = session.world_bounds();
+    assert!(
+        unbent.min.abs_diff_eq(models::BOX[0], 1e-4) && unbent.max.abs_diff_eq(models::BOX[1], 1e-4),
+        "{unbent:?}"
+    );
+}
+
+/// Applies a command and tells whether the picture is another one by it.
+fn changes(session: &mut Session, command: Command) -> bool {
+    let before = session.picture_revision();
+    session.apply(command);
+    session.picture_revision() != before
+}
+
+#[test]
+fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::Pause);
+    let revision = session.picture_revision();
+    session.advance(1.0);
+    assert_eq!(session.picture_revision(), revision, "paused");
+
+    let changing = [
+        Command::Seek { time_secs: 0.5 },
+        Command::StepFrames(1),
+        Command::SeekEnd,
+        Command::SelectClip(1),
+        Command::CycleClip(1),
+        Command::Orbit {
+            yaw_radians: 0.1,
+            pitch_radians: 0.0,
+        },
+        Command::Pan { drag: Vec2::X },
+        Command::Zoom {
+            factor: 0.5,
+            pointer: Vec2::ZERO,
+        },
+        Command::FrameModel,
+        Command::LookFrom(ViewPreset::Left),
+        Command::ToggleProjection,
+        Command::ResetCamera,
+        Command::SetHandedness(Some(Handedness::Right)),
+        Command::SetUpAxis(Some(UpAxis::Z)),
+        Command::SetGridVisible(false),
+        Command::ToggleGrid,
+        Command::SetTheme(Theme::Light),
+        Command::SetViewport {
+            aspect: 0.5,
+            insets: FREE,
+        },
+        Command::AddFiles(vec![moving("a.m3d")]),
+        Command::AddFiles(vec![moving("b.m3d")]),
+    ];
+    for command in changing {
+        assert!(changes(&mut session, command.clone()), "{command:?}");
+    }
+    session.apply(Command::Pause);
+    let idle = [
+        Command::Pause,
+        Command::Play,
+        Command::Pause,
+        Command::BeginScrub,
+        Command::EndScrub,
+        Command::Seek { time_secs: 0.0 },
+        Command::SeekStart,
+        Command::StepFrames(-1),
+        Command::SelectClip(0),
+        Command::CycleClip(0),
+        Command::SetSpeed(2.0),
+        Command::Slower,
+        Command::SetLoopMode(LoopMode::Once),
+        Command::CycleLoopMode,
+        Command::Pan { drag: Vec2::ZERO },
+        Command::SetGridVisible(true),
+        Command::SetTheme(Theme::Light),
+        Command::SetViewport {
+            aspect: 0.5,
+            insets: FREE,
+        },
+        Command::SetHandedness(None),
+        Command::SetUpAxis(Some(UpAxis::Y)),
+        Command::OpenFile("nowhere".to_owned()),
+        Command::AddFiles(vec![File::new("c.m3d", *b"")]),
+        Command::DismissError,
+    ];
+    session.apply(Command::FrameModel);
+    for command in idle {
+        assert!(!changes(&mut session, command.clone()), "{command:?}");
+    }
+}
+
+#[test]
+fn the_grid_and_the_theme_are_in_the_frame() {
+    let mut session = opened(still("a.m3d"));
+    assert!(session.frame().options.grid_visible);
+    session.apply(Command::ToggleGrid);
+    session.apply(Command::SetTheme(Theme::Light));
+    let options = session.frame().options;
+    assert!(!options.grid_visible);
+    assert_eq!(options.theme, Theme::Light);
+}
+
+#[test]
+fn with_nothing_open_everything_is_in_order() {
+    let mut session = Session::new(false);
+    for command in [
+        Command::Play,
+        Command::FrameModel,
+        Command::Zoom {
+            factor: 0.5,
+            pointer: Vec2::ZERO,
+        },
+        Command::SelectClip(0),
+        Command::OpenFile("a.m3d".to_owned()),
+    ] {
+        assert!(!session.apply(command).model_replaced);
+    }
+    session.advance(1.0);
+    let frame = session.frame();
+    assert!(frame.world_bounds.is_empty() && frame.palette.0.is_empty());
+    assert!(frame.camera.target.is_finite() && frame.camera.distance > 0.0);
+}

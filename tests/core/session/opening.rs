@@ -1,0 +1,250 @@
+//! Drops, the same file again, failures.
+
+use bindpose::anim::LoopMode;
+use bindpose::model::Handedness;
+use bindpose::scene::ViewPreset;
+use bindpose::session::{Command, Event, File, Session};
+use glam::Vec2;
+
+use super::models::{self, broken, jointed, moving, still};
+use super::opened;
+
+fn picture(path: &str) -> File {
+    File::new(path, *b"not looked at")
+}
+
+fn open_path(session: &Session) -> Option<&str> {
+    Some(session.open_model()?.file.path.as_str())
+}
+
+#[test]
+fn a_new_model_plays_its_first_clip_around_and_around() {
+    let mut session = Session::new(false);
+    let effect = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    assert!(effect.model_replaced);
+    assert_eq!(session.take_events(), [Event::Load, Event::Play, Event::TimeUpdate]);
+    let playback = session.playback();
+    assert_eq!(
+        (playback.time_secs(), playback.speed(), playback.loop_mode()),
+        (0.0, 1.0, LoopMode::Loop)
+    );
+    assert_eq!(session.clip().map(|clip| clip.name.as_str()), Some("Bend"));
+    assert!(session.is_animating());
+}
+
+#[test]
+fn under_reduced_motion_it_waits_on_the_first_frame() {
+    let mut session = Session::new(true);
+    session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    assert_eq!(session.take_events(), [Event::Load, Event::TimeUpdate]);
+    session.advance(0.5);
+    assert!(!session.is_animating());
+    assert_eq!(session.playback().time_secs(), 0.0);
+    session.apply(Command::Play);
+    session.advance(0.5);
+    assert_eq!(session.playback().time_secs(), 0.5);
+}
+
+#[test]
+fn the_same_file_again_keeps_camera_clip_time_and_playing() {
+    for playing in [false, true] {
+        let mut session = opened(moving("drop/a.m3d"));
+        session.apply(Command::SelectClip(1));
+        session.apply(Command::Seek { time_secs: 1.25 });
+        session.apply(Command::SetSpeed(0.5));
+        session.apply(Command::SetLoopMode(LoopMode::PingPong));
+        session.apply(Command::SetHandedness(Some(Handedness::Right)));
+        session.apply(Command::Orbit {
+            yaw_radians: 1.0,
+            pitch_radians: 0.2,
+        });
+        session.apply(Command::Pan {
+            drag: Vec2::new(0.1, 0.2),
+        });
+        session.apply(if playing { Command::Play } else { Command::Pause });
+        session.take_events();
+        let (camera, playback) = (*session.camera(), session.playback().clone());
+        let revision = session.model_revision();
+
+        // Found by its name: the folder may be another one.
+        let effect = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+        assert!(effect.model_replaced && session.model_revision() > revision);
+        assert_eq!(session.camera(), &camera);
+        assert_eq!(session.playback(), &playback);
+        assert_eq!(session.clip_index(), Some(1));
+        assert_eq!(session.handedness_override(), Some(Handedness::Right));
+        assert_eq!(session.take_events(), [Event::Load, Event::TimeUpdate]);
+    }
+}
+
+#[test]
+fn the_same_file_with_its_clips_in_another_order_keeps_the_clip_by_name() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::SelectClip(1));
+    let turned: Vec<_> = models::CLIPS.iter().rev().copied().collect();
+    session.apply(Command::AddFiles(vec![models::file(
+        "a.m3d",
+        &models::skinned(&turned),
+    )]));
+    assert_eq!(session.clip().map(|clip| clip.name.as_str()), Some("Turn"));
+}
+
+#[test]
+fn the_same_file_with_a_shorter_clip_keeps_the_time_inside_it() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::Seek { time_secs: 0.9 });
+    session.apply(Command::AddFiles(vec![models::file(
+        "a.m3d",
+        &models::skinned(&[("Bend", 0.0, 16)]),
+    )]));
+    assert_eq!(session.playback().time_secs(), 0.5);
+}
+
+#[test]
+fn the_same_file_without_its_clips_stops() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::AddFiles(vec![jointed("a.m3d")]));
+    assert_eq!((session.clip_index(), session.playback().is_playing()), (None, false));
+    assert_eq!(session.playback().time_secs(), 0.0);
+    assert_eq!(session.take_events(), [Event::Load, Event::Pause, Event::TimeUpdate]);
+}
+
+#[test]
+fn another_file_starts_anew() {
+    let mut session = opened(moving("a.m3d"));
+    let framed = *session.camera();
+    session.apply(Command::SelectClip(1));
+    session.apply(Command::SetSpeed(4.0));
+    session.apply(Command::SetLoopMode(LoopMode::Once));
+    session.apply(Command::SetHandedness(Some(Handedness::Right)));
+    session.apply(Command::LookFrom(ViewPreset::Top));
+    session.apply(Command::Pause);
+    session.take_events();
+    session.apply(Command::AddFiles(vec![moving("b.m3d")]));
+    assert_eq!(session.camera(), &framed);
+    assert_eq!((session.clip_index(), session.handedness_override()), (Some(0), None));
+    let playback = session.playback();
+    assert_eq!(
+        (playback.speed(), playback.loop_mode(), playback.time_secs()),
+        (1.0, LoopMode::Loop, 0.0)
+    );
+    assert_eq!(session.take_events(), [Event::Load, Event::Play, Event::TimeUpdate]);
+}
+
+#[test]
+fn a_failed_load_keeps_the_model_and_says_why() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::Seek { time_secs: 0.5 });
+    session.take_events();
+    let (revision, picture) = (session.model_revision(), session.picture_revision());
+    let effect = session.apply(Command::AddFiles(vec![broken("in/b.m3d")]));
+    assert!(!effect.model_replaced);
+    assert_eq!(session.take_events(), [Event::Error]);
+    assert_eq!(
+        (session.model_revision(), session.picture_revision()),
+        (revision, picture)
+    );
+    assert_eq!(open_path(&session), Some("a.m3d"));
+    assert_eq!(session.playback().time_secs(), 0.5);
+    assert!(session.is_animating());
+
+    let error = session.error().expect("it is broken");
+    assert_eq!(error.file_name, "b.m3d");
+    let at = error.diagnostic.position.expect("broken somewhere");
+    let place = format!("b.m3d:{}:{}: error[{}]: ", at.line, at.column, error.diagnostic.code);
+    assert!(error.to_text().starts_with(&place), "{}", error.to_text());
+    let excerpt = error.excerpt.as_ref().expect("it has a place");
+    assert_eq!(excerpt.lines.last().map(|(line, _)| *line), Some(at.line));
+
+    session.advance(3.0);
+    assert!(session.error().is_some(), "it waits until somebody has read it");
+    session.apply(Command::DismissError);
+    assert_eq!(session.error(), None);
+}
+
+#[test]
+fn the_next_success_takes_the_error_away_and_the_next_failure_replaces_it() {
+    let mut session = Session::new(false);
+    session.apply(Command::AddFiles(vec![broken("a.m3d")]));
+    session.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
+    assert_eq!(session.error().map(|error| error.diagnostic.code), Some("empty-file"));
+    session.apply(Command::AddFiles(vec![still("c.m3d")]));
+    assert_eq!(session.error(), None);
+}
+
+#[test]
+fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
+    let mut session = Session::new(false);
+    let files = vec![
+        still("x/small.m3d"),
+        moving("x/large.m3d"),
+        picture("x/skin.dds"),
+        jointed("x/middle.m3d"),
+    ];
+    session.apply(Command::AddFiles(files));
+    assert_eq!(open_path(&session), Some("x/large.m3d"));
+    let listed = |session: &Session| {
+        session
+            .files()
+            .models()
+            .iter()
+            .map(|file| file.path.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(listed(&session), ["x/large.m3d", "x/middle.m3d", "x/small.m3d"]);
+
+    assert!(
+        session
+            .apply(Command::OpenFile("x/small.m3d".to_owned()))
+            .model_replaced
+    );
+    assert_eq!(open_path(&session), Some("x/small.m3d"));
+    assert_eq!(listed(&session).len(), 3);
+
+    let revision = session.model_revision();
+    assert!(!session.apply(Command::OpenFile("x/none.m3d".to_owned())).model_replaced);
+    assert_eq!((session.model_revision(), session.error()), (revision, None));
+}
+
+#[test]
+fn the_list_of_a_drop_outlives_a_drop_that_failed() {
+    let mut session = Session::new(false);
+    session.apply(Command::AddFiles(vec![still("small.m3d"), moving("large.m3d")]));
+    session.apply(Command::AddFiles(vec![broken("bad.m3d")]));
+    assert_eq!(session.files().models().len(), 2);
+    session.apply(Command::AddFiles(vec![picture("a.png")]));
+    assert!(session.apply(Command::OpenFile("small.m3d".to_owned())).model_replaced);
+}
+
+#[test]
+fn a_drop_of_pictures_has_no_model() {
+    let mut session = opened(still("a.m3d"));
+    for (files, message) in [
+        (vec![picture("a.dds")], "the file is a picture."),
+        (vec![picture("a.dds"), picture("b.PNG")], "the files are all pictures."),
+    ] {
+        assert!(!session.apply(Command::AddFiles(files)).model_replaced);
+        let error = session.error().expect("nothing to open");
+        assert_eq!((error.diagnostic.code, error.file_name.as_str()), ("no-model", ""));
+        assert!(
+            error.diagnostic.message.contains(message),
+            "{}",
+            error.diagnostic.message
+        );
+        assert!(error.to_text().contains("error[no-model]"));
+        assert_eq!(open_path(&session), Some("a.m3d"));
+    }
+}
+
+#[test]
+fn a_drop_of_nothing_changes_nothing_but_says_so() {
+    let mut session = opened(still("a.m3d"));
+    session.apply(Command::AddFiles(Vec::new()));
+    let error = session.error().expect("nothing came");
+    assert_eq!(error.diagnostic.code, "no-model");
+    assert!(
+        !error.diagnostic.message.contains("picture"),
+        "{}",
+        error.diagnostic.message
+    );
+}

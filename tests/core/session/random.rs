@@ -1,0 +1,159 @@
+//! Whatever a person does, in whatever order, the session stays in order.
+
+use bindpose::anim::LoopMode;
+use bindpose::model::{Handedness, UpAxis};
+use bindpose::scene::{Insets, Theme, ViewPreset};
+use bindpose::session::{Command, Event, File, Session};
+use glam::Vec2;
+use proptest::prelude::*;
+
+use super::models::{broken, jointed, moving, still};
+
+/// Numbers as pointers and programs give them, and those that they should not.
+fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        6 => -3.0f32..3.0,
+        1 => prop::sample::select(vec![0.0, -0.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e-40, 1e12]),
+    ]
+}
+
+fn vector() -> impl Strategy<Value = Vec2> {
+    (number(), number()).prop_map(Vec2::from)
+}
+
+fn files() -> impl Strategy<Value = Vec<File>> {
+    let one = prop::sample::select(vec![
+        moving("a.m3d"),
+        moving("b.m3d"),
+        jointed("a.m3d"),
+        still("c.m3d"),
+        broken("a.m3d"),
+        File::new("skin.dds", *b"not looked at"),
+    ]);
+    prop::collection::vec(one, 0..3)
+}
+
+fn command() -> impl Strategy<Value = Command> {
+    let playing = prop_oneof![
+        Just(Command::Play),
+        Just(Command::Pause),
+        Just(Command::TogglePlay),
+        Just(Command::TogglePlayBackward),
+        number().prop_map(|time_secs| Command::Seek { time_secs }),
+        any::<i32>().prop_map(Command::StepFrames),
+        (-40..40).prop_map(Command::StepFrames),
+        Just(Command::SeekStart),
+        Just(Command::SeekEnd),
+        Just(Command::BeginScrub),
+        Just(Command::EndScrub),
+        (0usize..5).prop_map(Command::SelectClip),
+        any::<i32>().prop_map(Command::CycleClip),
+        number().prop_map(Command::SetSpeed),
+        Just(Command::Slower),
+        Just(Command::Faster),
+        prop::sample::select(vec![LoopMode::Once, LoopMode::Loop, LoopMode::PingPong]).prop_map(Command::SetLoopMode),
+        Just(Command::CycleLoopMode),
+    ];
+    let looking = prop_oneof![
+        (number(), number()).prop_map(|(yaw_radians, pitch_radians)| Command::Orbit {
+            yaw_radians,
+            pitch_radians
+        }),
+        vector().prop_map(|drag| Command::Pan { drag }),
+        (number(), vector()).prop_map(|(factor, pointer)| Command::Zoom { factor, pointer }),
+        Just(Command::FrameModel),
+        prop::sample::select(ViewPreset::ALL.to_vec()).prop_map(Command::LookFrom),
+        Just(Command::ToggleProjection),
+        Just(Command::ResetCamera),
+        (number(), number(), number()).prop_map(|(aspect, left, bottom)| Command::SetViewport {
+            aspect,
+            insets: Insets {
+                left,
+                bottom,
+                ..Insets::default()
+            },
+        }),
+        prop::sample::select(vec![None, Some(Handedness::Left), Some(Handedness::Right)])
+            .prop_map(Command::SetHandedness),
+        prop::sample::select(vec![None, Some(UpAxis::Y), Some(UpAxis::Z)]).prop_map(Command::SetUpAxis),
+        any::<bool>().prop_map(Command::SetGridVisible),
+        Just(Command::ToggleGrid),
+        prop::sample::select(vec![Theme::Dark, Theme::Light]).prop_map(Command::SetTheme),
+    ];
+    prop_oneof![
+        6 => playing,
+        6 => looking,
+        1 => files().prop_map(Command::AddFiles),
+        1 => prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| Command::OpenFile(path.to_owned())),
+        1 => Just(Command::DismissError),
+    ]
+}
+
+fn check(session: &mut Session) -> Result<(), TestCaseError> {
+    let camera = *session.camera();
+    prop_assert!(
+        camera.target.is_finite() && camera.yaw_radians.is_finite(),
+        "{camera:?}"
+    );
+    prop_assert!(camera.pitch_radians.abs() < std::f32::consts::FRAC_PI_2, "{camera:?}");
+    prop_assert!(camera.distance.is_finite() && camera.distance > 0.0, "{camera:?}");
+
+    let playback = session.playback();
+    let span = playback.start_secs()..=playback.end_secs();
+    prop_assert!(span.contains(&playback.time_secs()), "{playback:?}");
+    prop_assert!(playback.speed().is_finite() && playback.speed() > 0.0);
+
+    let clips = session.open_model().map_or(0, |open| open.model.clips.len());
+    prop_assert_eq!(
+        session.clip_index().is_some(),
+        clips > 0,
+        "a model with clips shows one"
+    );
+    prop_assert!(session.clip_index().is_none_or(|clip| clip < clips));
+    if let Some(clip) = session.clip() {
+        prop_assert_eq!(span, clip.start_secs..=clip.end_secs);
+    } else {
+        prop_assert!(!playback.is_playing() && !session.is_animating());
+    }
+
+    let joints = session.open_model().map_or(0, |open| open.model.skeleton.joint_count());
+    let frame = session.frame();
+    prop_assert_eq!(frame.palette.0.len(), joints);
+    prop_assert!(frame.palette.0.iter().all(|matrix| matrix.is_finite()));
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_order_of_commands_brings_it_out_of_order(
+        steps in prop::collection::vec((command(), prop::option::of(number())), 1..60),
+    ) {
+        let mut session = Session::new(false);
+        session.apply(Command::AddFiles(vec![moving("a.m3d"), still("c.m3d")]));
+        session.take_events();
+        let mut playing = session.playback().is_playing();
+        for (command, dt_secs) in steps {
+            let (picture, camera, time_secs) =
+                (session.picture_revision(), *session.camera(), session.playback().time_secs());
+            session.apply(command);
+            if let Some(dt_secs) = dt_secs {
+                session.advance(dt_secs);
+            }
+            check(&mut session)?;
+            let moved = *session.camera() != camera || session.playback().time_secs() != time_secs;
+            prop_assert!(!moved || session.picture_revision() > picture, "a change that nobody draws");
+
+            // Listeners who count from the start know whether it plays.
+            for event in session.take_events() {
+                match event {
+                    Event::Play => playing = true,
+                    Event::Pause => playing = false,
+                    Event::Load | Event::Error | Event::TimeUpdate => {}
+                }
+            }
+            prop_assert_eq!(playing, session.playback().is_playing());
+        }
+    }
+}

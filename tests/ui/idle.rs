@@ -1,0 +1,71 @@
+//! Nothing is drawn while nothing changes.
+
+use bindpose::session::{Command, File};
+
+use crate::models::{moving, still};
+use crate::page::{WIDE, Window, phone, window};
+
+/// Passes until no other is asked for.
+#[track_caller]
+fn assert_settles(window: &mut Window) {
+    window.harness.run();
+    assert!(
+        !window.harness.ctx.has_requested_repaint(),
+        "{:?}",
+        window.harness.ctx.repaint_causes()
+    );
+}
+
+#[test]
+fn a_window_that_nobody_touches_asks_for_no_pass() {
+    let files = || {
+        vec![
+            vec![],
+            vec![moving("a.m3d")],
+            vec![still("a.m3d")],
+            vec![File::new("a.m3d", *b"")],
+        ]
+    };
+    let wide = files().into_iter().map(|files| window(WIDE, files));
+    for mut window in wide.chain(files().into_iter().map(phone)) {
+        assert_settles(&mut window);
+        let picture = window.session().picture_revision();
+        window.wait(0.2);
+        assert_settles(&mut window);
+        assert_eq!(window.session().picture_revision(), picture);
+    }
+}
+
+#[test]
+fn a_playing_window_asks_for_the_next_pass_and_a_paused_one_stops() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.apply(Command::Play);
+    window.wait(0.2);
+    assert!(window.harness.ctx.has_requested_repaint());
+    window.apply(Command::Pause);
+    assert_settles(&mut window);
+}
+
+#[test]
+fn a_clip_of_no_length_asks_for_no_pass() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.apply(Command::SelectClip(2));
+    window.apply(Command::Play);
+    assert_settles(&mut window);
+}
+
+#[test]
+fn what_was_touched_settles() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    for label in [
+        "Diagnostics",
+        "Keys (?)",
+        "Loops",
+        "Ground grid",
+        "Frame the model",
+        "Last frame",
+    ] {
+        window.click(label);
+        assert_settles(&mut window);
+    }
+}

@@ -1,0 +1,211 @@
+//! Each key of the table does what the table says.
+
+use bindpose::anim::LoopMode;
+use bindpose::scene::{Projection, ViewPreset};
+use bindpose::session::{Command, File};
+use egui::{Key, Modifiers};
+
+use crate::models::moving;
+use crate::page::{WIDE, Window, window};
+
+const PLAIN: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+fn open() -> Window {
+    window(WIDE, vec![moving("a.m3d")])
+}
+
+#[track_caller]
+fn assert_frame(window: &Window, frame: f32) {
+    let at = window.time_secs() * 30.0;
+    assert!((at - frame).abs() < 1e-3, "frame {at} instead of {frame}");
+}
+
+#[test]
+fn space_plays_and_pauses_and_shift_space_plays_backward() {
+    let mut window = open();
+    window.press(PLAIN, Key::Space);
+    assert!(window.session().is_animating() && !window.session().playback().is_backward());
+    window.press(PLAIN, Key::Space);
+    assert!(!window.session().is_animating());
+    window.press(SHIFT, Key::Space);
+    assert!(window.session().is_animating() && window.session().playback().is_backward());
+}
+
+#[test]
+fn arrows_step_one_frame_and_ten_with_shift() {
+    let mut window = open();
+    for (modifiers, key, frame) in [
+        (PLAIN, Key::ArrowRight, 1.0),
+        (SHIFT, Key::ArrowRight, 11.0),
+        (PLAIN, Key::ArrowLeft, 10.0),
+        (PLAIN, Key::Period, 11.0),
+        (PLAIN, Key::Comma, 10.0),
+        (SHIFT, Key::ArrowLeft, 0.0),
+        (PLAIN, Key::ArrowLeft, 0.0),
+        (PLAIN, Key::End, 30.0),
+        (PLAIN, Key::ArrowRight, 30.0),
+        (PLAIN, Key::Home, 0.0),
+    ] {
+        window.press(modifiers, key);
+        assert_frame(&window, frame);
+    }
+}
+
+#[test]
+fn brackets_change_the_speed_and_the_backslash_sets_it_back() {
+    let mut window = open();
+    for (key, speed) in [
+        (Key::OpenBracket, 0.75),
+        (Key::OpenBracket, 0.5),
+        (Key::CloseBracket, 0.75),
+        (Key::Backslash, 1.0),
+        (Key::CloseBracket, 1.25),
+    ] {
+        window.press(PLAIN, key);
+        assert_eq!(window.session().playback().speed(), speed);
+    }
+    assert!(window.shows("Speed 1.25×"), "the window shows it without another touch");
+}
+
+#[test]
+fn l_and_c_go_round() {
+    let mut window = open();
+    window.press(PLAIN, Key::L);
+    assert_eq!(window.session().playback().loop_mode(), LoopMode::PingPong);
+    for (modifiers, clip) in [(PLAIN, 1), (PLAIN, 2), (PLAIN, 0), (SHIFT, 2), (SHIFT, 1)] {
+        window.press(modifiers, Key::C);
+        assert_eq!(window.session().clip_index(), Some(clip));
+    }
+}
+
+#[test]
+fn digits_look_from_named_sides() {
+    let mut window = open();
+    for (modifiers, key, preset) in [
+        (PLAIN, Key::Num1, ViewPreset::Front),
+        (PLAIN, Key::Num3, ViewPreset::Right),
+        (PLAIN, Key::Num7, ViewPreset::Top),
+        (CTRL, Key::Num1, ViewPreset::Back),
+        (CTRL, Key::Num3, ViewPreset::Left),
+        (CTRL, Key::Num7, ViewPreset::Bottom),
+        (PLAIN, Key::Num9, ViewPreset::Isometric),
+        (PLAIN, Key::Num0, ViewPreset::ThreeQuarter),
+    ] {
+        window.press(modifiers, key);
+        let camera = window.session().camera();
+        assert_eq!(
+            (camera.yaw_radians, camera.pitch_radians),
+            preset.yaw_pitch_radians(),
+            "{preset:?}"
+        );
+    }
+    window.press(PLAIN, Key::Num5);
+    assert_eq!(window.session().camera().projection, Projection::Orthographic);
+    window.press(PLAIN, Key::Num0);
+    assert_ne!(window.session().camera().projection, Projection::Orthographic);
+}
+
+#[test]
+fn f_frames_and_g_hides_the_grid() {
+    let mut window = open();
+    let framed = *window.session().camera();
+    window.apply(Command::Pan { drag: glam::Vec2::ONE });
+    assert_ne!(window.session().camera(), &framed);
+    window.press(PLAIN, Key::F);
+    assert_eq!(window.session().camera(), &framed);
+    window.press(PLAIN, Key::G);
+    assert!(!window.session().grid_visible());
+    window.press(PLAIN, Key::G);
+    assert!(window.session().grid_visible());
+}
+
+#[test]
+fn the_question_mark_shows_the_table_and_escape_takes_it_away() {
+    let mut window = open();
+    window.harness.event(egui::Event::Text("?".to_owned()));
+    window.pass_on();
+    assert!(window.shows("Space: play or pause"));
+    window.press(PLAIN, Key::Escape);
+    assert!(!window.shows("Space: play or pause"));
+    window.click("Keys (?)");
+    assert!(window.shows("Space: play or pause"));
+    window.harness.event(egui::Event::Text("?".to_owned()));
+    window.pass_on();
+    assert!(!window.shows("Space: play or pause"));
+}
+
+#[test]
+fn escape_takes_away_what_lies_on_top() {
+    let mut window = open();
+    window.click("Diagnostics");
+    window.click("Keys (?)");
+    window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
+    let lying = |window: &Window| {
+        (
+            window.shows("b.m3d could not be read"),
+            window.shows("Space: play or pause"),
+            window.harness.state().state.diagnostics_open,
+        )
+    };
+    assert_eq!(lying(&window), (true, true, true));
+    for rest in [(false, true, true), (false, false, true), (false, false, false)] {
+        window.press(PLAIN, Key::Escape);
+        assert_eq!(lying(&window), rest);
+    }
+}
+
+#[test]
+fn keys_of_the_browser_do_nothing_here() {
+    let mut window = open();
+    let before = (*window.session().camera(), window.session().picture_revision());
+    for key in [
+        Key::F,
+        Key::L,
+        Key::C,
+        Key::G,
+        Key::W,
+        Key::T,
+        Key::N,
+        Key::Num5,
+        Key::Home,
+    ] {
+        window.press(CTRL, key);
+        window.press(Modifiers::ALT, key);
+    }
+    assert_eq!(
+        (*window.session().camera(), window.session().picture_revision()),
+        before
+    );
+    assert_eq!(
+        (window.session().clip_index(), window.session().playback().loop_mode()),
+        (Some(0), LoopMode::Loop)
+    );
+}
+
+#[test]
+fn a_focused_control_keeps_space_for_itself() {
+    let mut window = open();
+    for _ in 0..40 {
+        window.press(PLAIN, Key::Tab);
+        let focused = focused_name(&window);
+        if focused.as_deref() == Some("Ground grid (G)") {
+            window.press(PLAIN, Key::Space);
+            assert!(!window.session().grid_visible(), "the switch was pressed");
+            assert!(!window.session().is_animating(), "and nothing plays");
+            return;
+        }
+    }
+    panic!("Tab never reached the grid switch");
+}
+
+fn focused_name(window: &Window) -> Option<String> {
+    use egui_kittest::kittest::NodeT as _;
+    let focused = window
+        .harness
+        .root()
+        .children_recursive()
+        .find(egui_kittest::Node::is_focused)?;
+    focused.accesskit_node().label()
+}

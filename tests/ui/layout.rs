@@ -1,0 +1,270 @@
+//! Where things are: inside the window, off each other, large enough, and still while values change.
+
+use bindpose::session::Command;
+use egui::{Rect, Vec2, vec2};
+
+use crate::models::{self, broken, moving, still};
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+
+const LONG: &str = "a_name_that_somebody_gave_to_a_model_without_thinking_of_panels_at_all_and_then_some.m3d";
+
+fn long_clip() -> Vec<bindpose::session::File> {
+    vec![models::file(
+        "c.m3d",
+        &models::skinned(&[(LONG, 0.0, 500), ("b", 0.0, 2)]),
+    )]
+}
+
+/// A panel's clips may cut a widget of a scrolled list; these models are short.
+#[track_caller]
+fn assert_inside(window: &Window, size: Vec2) {
+    let page = Rect::from_min_size(egui::Pos2::ZERO, size);
+    for (name, rect) in window.widgets() {
+        assert!(
+            page.contains_rect(rect),
+            "{name:?} at {rect} leaves the window of {size}"
+        );
+    }
+}
+
+/// As a click on their row does, which in a small window has to be scrolled to.
+fn show_findings(window: &mut Window) {
+    window.harness.state_mut().state.diagnostics_open = true;
+    window.pass_on();
+    assert!(window.shows("Close"));
+}
+
+/// Lists may go on below, where they can be scrolled to, but not beside.
+#[track_caller]
+fn assert_between_sides(window: &Window, size: Vec2) {
+    for (name, rect) in window.widgets() {
+        assert!(
+            rect.min.x >= 0.0 && rect.max.x <= size.x,
+            "{name:?} at {rect} leaves the window of {size}"
+        );
+    }
+}
+
+/// Rectangles of the panels that the layout opened.
+fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
+    let names = [
+        "title",
+        "toolbar",
+        "model",
+        "diagnostics",
+        "timeline",
+        "sheet",
+        "help",
+        "error",
+    ];
+    let area = |name: &'static str| {
+        let id = egui::Id::unique(("panel", name));
+        let visible = window
+            .harness
+            .ctx
+            .memory(|memory| memory.areas().visible_layer_ids().iter().any(|layer| layer.id == id));
+        let rect = window.harness.ctx.memory(|memory| memory.area_rect(id))?;
+        visible.then_some((name, rect))
+    };
+    names.into_iter().filter_map(area).collect()
+}
+
+#[track_caller]
+fn assert_apart(window: &Window, expected: &[&str]) {
+    let panels = panels(window);
+    assert_eq!(panels.iter().map(|(name, _)| *name).collect::<Vec<_>>(), expected);
+    for (index, (name, rect)) in panels.iter().enumerate() {
+        for (other, other_rect) in &panels[index + 1..] {
+            assert!(
+                !rect.intersects(*other_rect),
+                "{name} {rect} lies on {other} {other_rect}"
+            );
+        }
+    }
+}
+
+#[test]
+fn in_a_wide_window_nothing_is_cut_and_no_panel_lies_on_another() {
+    for size in [WIDE, vec2(900.0, 600.0), vec2(1920.0, 1080.0), vec2(1200.0, 480.0)] {
+        for files in [
+            vec![moving("a.m3d")],
+            vec![moving(LONG), still("other.m3d")],
+            long_clip(),
+        ] {
+            let mut window = window(size, files);
+            assert_inside(&window, size);
+            assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
+            if size.y >= 600.0 {
+                window.click("Diagnostics");
+                assert_inside(&window, size);
+                assert_apart(&window, &["title", "toolbar", "model", "diagnostics", "timeline"]);
+            }
+        }
+        assert_apart(&window(size, vec![still("a.m3d")]), &["title", "toolbar", "model"]);
+        assert_apart(&window(size, vec![]), &["title", "toolbar"]);
+    }
+}
+
+#[test]
+fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
+    for size in [PHONE, vec2(320.0, 568.0), vec2(899.0, 700.0)] {
+        for files in [
+            vec![moving("a.m3d")],
+            vec![moving(LONG)],
+            vec![still("a.m3d")],
+            long_clip(),
+        ] {
+            let mut window = window(size, files);
+            assert_inside(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+            window.click("Model facts");
+            assert_apart(&window, &["title", "sheet"]);
+            let dialect = window.rect("Dialect");
+            assert!(dialect.max.y < size.y - 100.0, "what was opened can be seen: {dialect}");
+            assert_between_sides(&window, size);
+            show_findings(&mut window);
+            assert_between_sides(&window, size);
+            window.click("Close the sheet");
+            assert!(!window.shows("Dialect D3D12 book"));
+        }
+    }
+    // By touch all is larger.
+    for size in [PHONE, vec2(360.0, 640.0), vec2(320.0, 568.0), vec2(844.0, 390.0)] {
+        for files in [vec![moving("a.m3d")], vec![moving(LONG)], long_clip()] {
+            let mut window = touch_window(size, files);
+            assert_inside(&window, size);
+            window.click("Model facts");
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+            show_findings(&mut window);
+            assert_between_sides(&window, size);
+        }
+    }
+}
+
+#[test]
+fn the_error_card_and_the_keys_fit_the_window() {
+    for (mut window, size) in [
+        (window(WIDE, vec![moving("a.m3d")]), WIDE),
+        (window(vec2(900.0, 600.0), vec![]), vec2(900.0, 600.0)),
+        (phone(vec![moving("a.m3d")]), PHONE),
+    ] {
+        window.apply(Command::AddFiles(vec![broken(LONG)]));
+        let card = panels(&window)
+            .into_iter()
+            .find(|(name, _)| *name == "error")
+            .expect("the card")
+            .1;
+        assert!(
+            Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(card),
+            "{card}"
+        );
+        for button in ["Copy the error", "Dismiss (Esc)"] {
+            assert!(card.contains_rect(window.rect(button)), "{button}");
+        }
+        let [title, copy] = ["a_name_that", "Copy the error"].map(|start| {
+            window
+                .named(|name| name.starts_with(start) && !name.contains(':'))
+                .iter()
+                .find(|(name, rect)| !name.contains(".m3d:") && card.contains(rect.center()))
+                .expect(start)
+                .1
+        });
+        assert!(!title.intersects(copy), "the title lies under the buttons");
+        window.click("Dismiss");
+        window.harness.event(egui::Event::Text("?".to_owned()));
+        window.pass_on();
+        assert_between_sides(&window, size);
+        let help = panels(&window)
+            .into_iter()
+            .find(|(name, _)| *name == "help")
+            .expect("the table")
+            .1;
+        assert!(
+            Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(help),
+            "{help}"
+        );
+    }
+}
+
+#[test]
+fn names_are_shortened_to_their_room_and_kept_for_readers() {
+    let window = window(WIDE, vec![models::file(LONG, &models::skinned(&[(LONG, 0.0, 31)]))]);
+    let name = window.named(|name| name.starts_with("a_name_that") && name.ends_with('…'));
+    assert_eq!(name.len(), 1, "the file's");
+    assert!(window.shows(&format!("Clip {LONG}")), "all of it for a reader");
+    assert!(window.rect("Clip ").width() < 240.0);
+}
+
+#[test]
+fn nothing_moves_while_time_goes_by() {
+    let clips = [("Long", 0.0, 400)];
+    for mut window in [
+        window(WIDE, vec![models::file("a.m3d", &models::skinned(&clips))]),
+        phone(vec![models::file("a.m3d", &models::skinned(&clips))]),
+    ] {
+        let strip = ["Clip ", "Time in seconds", "Time ", "Frame ", "Speed ", "Loops"];
+        let rects = |window: &Window| {
+            strip.map(|start| {
+                let found = window.named(|name| {
+                    name.starts_with(start)
+                        && (start != "Time " || name.ends_with(" s"))
+                        && !name.starts_with("Frame the")
+                });
+                assert_eq!(found.len(), 1, "{start}: {found:?}");
+                found[0].1
+            })
+        };
+        let before = rects(&window);
+        for time_secs in [0.5, 1.111, 9.99, 10.0, 13.3] {
+            window.apply(Command::Seek { time_secs });
+            assert_eq!(rects(&window), before, "{time_secs}");
+        }
+        for command in [Command::SetSpeed(0.25), Command::Play] {
+            window.apply(command);
+            assert_eq!(rects(&window), before);
+        }
+    }
+}
+
+#[test]
+fn targets_are_large_enough_for_fingers() {
+    let mut window = phone(vec![moving("a.m3d"), still("b.m3d")]);
+    window.click("Model facts");
+    let buttons = [
+        "More",
+        "Open files",
+        "Play",
+        "Clip ",
+        "Speed ",
+        "Loops",
+        "Time in seconds",
+        "Handedness",
+        "Up axis",
+        "Diagnostics",
+    ];
+    for start in buttons {
+        let rect = window.rect(start);
+        assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{start}: {rect}");
+    }
+    for (opener, item) in [
+        ("Clip ", "Turn"),
+        ("More", "Front"),
+        ("Speed ", "0.5×"),
+        ("Handedness", "As found"),
+    ] {
+        window.click(opener);
+        let rect = window.rect(item);
+        assert!(rect.height() >= 44.0, "{item}: {rect}");
+        window.press(egui::Modifiers::NONE, egui::Key::Escape);
+        assert!(!window.shows(item));
+    }
+    window.apply(Command::AddFiles(vec![broken("bad.m3d")]));
+    for start in ["Copy the error", "Dismiss (Esc)"] {
+        let rect = window.rect(start);
+        assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{start}: {rect}");
+    }
+    window.click("Dismiss");
+    let rect = window.rect("Close the sheet");
+    assert!(rect.height() >= 44.0, "the grip: {rect}");
+}

@@ -1,0 +1,174 @@
+//! A window with the interface in it, its commands applied to a real session, without a GPU.
+
+use bindpose::session::{Command, File, Session};
+use bindpose::ui::{self, Request, UiState};
+use egui::{Rect, Vec2};
+use egui_kittest::kittest::NodeT as _;
+use egui_kittest::{Harness, Node};
+
+/// Time of one pass.
+pub(crate) const STEP_SECS: f32 = 1.0 / 60.0;
+
+pub(crate) const WIDE: Vec2 = Vec2::new(1440.0, 900.0);
+pub(crate) const PHONE: Vec2 = Vec2::new(390.0, 844.0);
+
+/// What is behind the window.
+pub(crate) struct Page {
+    pub(crate) session: Session,
+    pub(crate) state: UiState,
+    /// All that was asked of the page around.
+    pub(crate) requests: Vec<Request>,
+    was_animating: bool,
+}
+
+impl Page {
+    /// One pass, in the order of the app: time, interface, commands.
+    fn pass(&mut self, ui: &mut egui::Ui) {
+        if self.was_animating {
+            self.session.advance(STEP_SECS);
+        }
+        for command in ui::show(ui, &self.session, &mut self.state) {
+            self.session.apply(command);
+        }
+        self.requests.extend(self.state.take_requests());
+        self.was_animating = self.session.is_animating();
+        if self.was_animating {
+            ui.ctx().request_repaint();
+        }
+    }
+}
+
+/// A window of the interface.
+pub(crate) struct Window {
+    pub(crate) harness: Harness<'static, Page>,
+}
+
+/// A window for a mouse, with these files dropped into it; a clip waits on its first frame.
+pub(crate) fn window(size: Vec2, files: Vec<File>) -> Window {
+    Window::new(size, false, files)
+}
+
+/// A window for fingers.
+pub(crate) fn touch_window(size: Vec2, files: Vec<File>) -> Window {
+    Window::new(size, true, files)
+}
+
+/// A phone, with these files opened.
+pub(crate) fn phone(files: Vec<File>) -> Window {
+    Window::new(PHONE, true, files)
+}
+
+impl Window {
+    fn new(size: Vec2, coarse_pointer: bool, files: Vec<File>) -> Self {
+        let mut session = Session::new(true);
+        if !files.is_empty() {
+            session.apply(Command::AddFiles(files));
+        }
+        let page = Page {
+            session,
+            state: UiState::new(coarse_pointer),
+            requests: Vec::new(),
+            was_animating: false,
+        };
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .with_step_dt(STEP_SECS)
+            .with_max_steps(12)
+            .with_context_setup(ui::theme::install)
+            .build_ui_state(|ui, page: &mut Page| page.pass(&mut whole_window(ui)), page);
+        harness.run();
+        Self { harness }
+    }
+
+    pub(crate) fn session(&self) -> &Session {
+        &self.harness.state().session
+    }
+
+    pub(crate) fn time_secs(&self) -> f32 {
+        self.session().playback().time_secs()
+    }
+
+    /// Applies a command as a program would, and lets the window settle unless something plays.
+    pub(crate) fn apply(&mut self, command: Command) {
+        self.harness.state_mut().session.apply(command);
+        self.pass_on();
+    }
+
+    /// Works off what was queued, and some passes more.
+    pub(crate) fn pass_on(&mut self) {
+        self.harness.run_steps(4);
+    }
+
+    /// Lets some time go by.
+    pub(crate) fn wait(&mut self, secs: f32) {
+        self.harness.run_steps((secs / STEP_SECS).round() as usize);
+    }
+
+    /// Every widget with a name, and where it is; pictures of the view aside.
+    pub(crate) fn widgets(&self) -> Vec<(String, Rect)> {
+        let named = |node: Node<'_>| Some((name(&node)?, node.rect()));
+        self.harness
+            .root()
+            .children_recursive()
+            .filter_map(named)
+            .filter(|(name, _)| name != "Model view")
+            .collect()
+    }
+
+    /// The widgets whose names satisfy something.
+    pub(crate) fn named(&self, wanted: impl Fn(&str) -> bool) -> Vec<(String, Rect)> {
+        let mut widgets = self.widgets();
+        widgets.retain(|(name, _)| wanted(name));
+        widgets
+    }
+
+    pub(crate) fn shows(&self, wanted: &str) -> bool {
+        !self.named(|name| name == wanted).is_empty()
+    }
+
+    /// Where the widget of this name is, or else the only one whose name begins so.
+    #[track_caller]
+    pub(crate) fn rect(&self, start: &str) -> Rect {
+        if let [(_, rect)] = &self.named(|name| name == start)[..] {
+            return *rect;
+        }
+        let found = self.named(|name| name.starts_with(start));
+        match &found[..] {
+            [(_, rect)] => *rect,
+            [] => panic!(
+                "no {start:?} among {:?}",
+                self.widgets().into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+            ),
+            _ => panic!("{start:?} is not one: {found:?}"),
+        }
+    }
+
+    /// Clicks the widget of [`Window::rect`], and takes the pointer away.
+    #[track_caller]
+    pub(crate) fn click(&mut self, start: &str) {
+        let at = self.rect(start).center();
+        self.harness.hover_at(at);
+        self.harness.drag_at(at);
+        self.harness.drop_at(at);
+        self.pass_on();
+    }
+
+    pub(crate) fn press(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.pass_on();
+    }
+}
+
+/// The window without the margin that the harness keeps: the page has none.
+pub(crate) fn whole_window(ui: &mut egui::Ui) -> egui::Ui {
+    let window = ui.ctx().content_rect();
+    let mut whole = ui.new_child(egui::UiBuilder::new().max_rect(window));
+    whole.set_clip_rect(window);
+    whole
+}
+
+/// What a screen reader says.
+fn name(node: &Node<'_>) -> Option<String> {
+    let node = node.accesskit_node();
+    node.label().or_else(|| node.value()).filter(|name| !name.is_empty())
+}

@@ -1,0 +1,237 @@
+//! Model facts, diagnostics, error card, the buttons of the bars.
+
+use bindpose::model::{Handedness, UpAxis};
+use bindpose::scene::{Projection, ViewPreset};
+use bindpose::session::{Command, File};
+use bindpose::ui::Request;
+use egui::{Key, Modifiers, OutputCommand};
+
+use crate::models::{self, broken, moving, still};
+use crate::page::{WIDE, Window, phone, window};
+
+/// A model with findings: a weight of 0.5 in all, and triangles out of winding.
+fn odd() -> File {
+    let mut document = models::skinned(&models::CLIPS);
+    for vertex in &mut document.vertices {
+        vertex.blend_weights = vertex.blend_weights.map(|weight| weight * 0.5);
+    }
+    models::file("odd.m3d", &document)
+}
+
+#[test]
+fn the_model_panel_says_what_is_open() {
+    let window = window(WIDE, vec![moving("in/a.m3d")]);
+    for words in [
+        "Bindpose",
+        "a.m3d",
+        "Dialect D3D12 book",
+        "Vertices 24",
+        "Triangles 12",
+        "Bones 2",
+        "Clips 3",
+        "Size 2.00 × 4.00 × 1.00",
+        "Painted, 12 triangles",
+        "Handedness: Left found",
+        "Up axis: Y found",
+    ] {
+        assert!(window.shows(words), "{words}");
+    }
+}
+
+#[test]
+fn handedness_and_up_axis_can_be_chosen_and_given_back() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("Handedness");
+    window.click("Right-handed");
+    assert_eq!(window.session().handedness_override(), Some(Handedness::Right));
+    assert!(window.shows("Handedness: Right chosen"));
+    window.click("Up axis");
+    window.click("Z up");
+    assert_eq!(window.session().up_axis_override(), Some(UpAxis::Z));
+    assert!(window.shows("Up axis: Z chosen"));
+    for row in ["Handedness", "Up axis"] {
+        window.click(row);
+        window.click("As found");
+    }
+    assert_eq!(
+        (
+            window.session().handedness_override(),
+            window.session().up_axis_override()
+        ),
+        (None, None)
+    );
+    assert!(window.shows("Handedness: Left found") && window.shows("Up axis: Y found"));
+}
+
+#[test]
+fn the_other_models_of_a_drop_are_one_click_away() {
+    let mut window = window(WIDE, vec![moving("large.m3d"), still("small.m3d")]);
+    assert!(window.shows("In this drop"));
+    window.click("small.m3d");
+    assert_eq!(
+        window.session().open_model().map(|open| open.file.path.as_str()),
+        Some("small.m3d")
+    );
+}
+
+fn findings(window: &Window) -> Vec<String> {
+    let named = window.named(|name| name.starts_with("warning ") || name.starts_with("note "));
+    named.into_iter().map(|(name, _)| name).collect()
+}
+
+#[test]
+fn a_click_on_a_finding_shows_its_lines() {
+    for mut window in [window(WIDE, vec![odd()]), phone(vec![odd()])] {
+        if !window.named(|name| name == "Model facts").is_empty() {
+            window.click("Model facts");
+        }
+        let notices = window.session().open_model().expect("open").notices.clone();
+        assert!(!notices.is_empty(), "the fixture is odd");
+        window.click("Diagnostics: ");
+        let shown = findings(&window);
+        assert_eq!(shown.len(), notices.len());
+        let notice = notices
+            .iter()
+            .position(|notice| notice.position.is_some())
+            .expect("one has a place");
+        let line = notices[notice].position.expect("found by it").line.to_string();
+        let lines = |window: &Window| window.named(|name| name.contains(" | ") && name.contains(&line)).len();
+        assert_eq!(lines(&window), 0);
+        window.click(&shown[notice]);
+        assert_eq!(lines(&window), 1, "{shown:?} {line} {:?}", window.widgets());
+        window.click(&shown[notice]);
+        assert_eq!(lines(&window), 0);
+        window.click("Close");
+        assert!(findings(&window).is_empty());
+    }
+}
+
+#[test]
+fn a_sound_model_has_no_findings_and_says_so() {
+    let mut window = window(WIDE, vec![still("a.m3d")]);
+    window.click("Diagnostics: none");
+    assert!(window.shows("Nothing was mended and nothing is odd."));
+    window.click("Diagnostics: none");
+    assert!(!window.shows("Nothing was mended and nothing is odd."));
+}
+
+#[test]
+fn the_error_card_says_what_and_where_and_copies_it() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.apply(Command::AddFiles(vec![broken("in/bad.m3d")]));
+        let error = window.session().error().cloned().expect("broken");
+        let at = error.diagnostic.position.expect("somewhere");
+        let place = format!("bad.m3d:{}:{}", at.line, at.column);
+        let excerpt = window.named(|name| name.starts_with(&place));
+        assert_eq!(excerpt.len(), 1, "{place}");
+        let (text, _) = &excerpt[0];
+        assert!(
+            text.contains(&format!("{} | ", at.line)) && text.contains('^'),
+            "{text}"
+        );
+        for words in [
+            "bad.m3d could not be read",
+            &error.diagnostic.message,
+            error.diagnostic.code,
+        ] {
+            assert!(window.shows(words), "{words}");
+        }
+        assert!(window.shows("The model that was open stays open.") && window.shows("a.m3d"));
+
+        let at = window.rect("Copy the error").center();
+        window.harness.hover_at(at);
+        window.harness.drag_at(at);
+        let button = egui::PointerButton::Primary;
+        window.harness.event(egui::Event::PointerButton {
+            pos: at,
+            button,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        });
+        window.harness.step();
+        let at_once = copied_text(&window);
+        window.pass_on();
+        assert_eq!(at_once.as_deref(), Some(error.to_text().as_str()));
+
+        assert!(window.session().error().is_some(), "it stays");
+        window.click("Dismiss (Esc)");
+        assert!(window.session().error().is_none() && !window.shows("bad.m3d could not be read"));
+    }
+}
+
+fn copied_text(window: &Window) -> Option<String> {
+    window
+        .harness
+        .output()
+        .platform_output
+        .commands
+        .iter()
+        .find_map(|command| match command {
+            OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        })
+}
+
+#[test]
+fn the_error_card_goes_with_escape_and_with_the_next_model() {
+    let mut window = window(WIDE, vec![]);
+    window.apply(Command::AddFiles(vec![broken("bad.m3d")]));
+    assert!(window.shows("Nothing is open yet."));
+    window.press(Modifiers::NONE, Key::Escape);
+    assert!(!window.shows("bad.m3d could not be read"));
+    window.apply(Command::AddFiles(vec![File::new("skin.dds", *b"x")]));
+    assert!(window.shows("Nothing to open"));
+    window.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    assert!(!window.shows("Nothing to open") && window.shows("a.m3d"));
+}
+
+#[test]
+fn opening_and_the_theme_are_asked_of_the_page() {
+    let mut wide = window(WIDE, vec![]);
+    wide.click("Open files");
+    wide.click("Light surroundings");
+    let light = Request::UseTheme(bindpose::scene::Theme::Light);
+    assert_eq!(wide.harness.state().requests, [Request::PickFiles, light]);
+
+    let mut narrow = phone(vec![]);
+    narrow.click("Open files");
+    narrow.click("More");
+    narrow.click("Light surroundings");
+    assert_eq!(narrow.harness.state().requests, [Request::PickFiles, light]);
+}
+
+#[test]
+fn the_bar_looks_frames_and_hides_the_grid() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let framed = *window.session().camera();
+    window.click("View from");
+    window.click("Left");
+    let camera = window.session().camera();
+    assert_eq!(
+        (camera.yaw_radians, camera.pitch_radians),
+        ViewPreset::Left.yaw_pitch_radians()
+    );
+    window.click("View from");
+    window.click("Orthographic");
+    assert_eq!(window.session().camera().projection, Projection::Orthographic);
+    window.apply(Command::ResetCamera);
+    window.apply(Command::Pan { drag: glam::Vec2::ONE });
+    window.click("Frame the model");
+    assert_eq!(window.session().camera(), &framed);
+    window.click("Ground grid");
+    assert!(!window.session().grid_visible());
+}
+
+#[test]
+fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    window.click("More");
+    window.click("Ground grid");
+    assert!(!window.session().grid_visible());
+    window.click("More");
+    window.click("Back");
+    assert_eq!(window.session().camera().yaw_radians, std::f32::consts::PI);
+    window.click("More");
+    window.click("Keys");
+    assert!(window.shows("Space: play or pause"));
+}

@@ -1,0 +1,118 @@
+//! Pictures of the whole window, drawn by the app itself on a software GPU, that somebody looked at.
+//! `BLESS=1 cargo test --test ui picture` draws them anew.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use bindpose::app::App;
+use bindpose::session::{Command, File, Session};
+use bindpose::ui;
+use egui::{Theme, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use image::RgbaImage;
+use image::imageops::{self, FilterType};
+
+use crate::page::{PHONE, WIDE, whole_window};
+
+/// Drivers round and antialias differently: a channel may be off by this much anywhere …
+const TOLERANCE: u8 = 10;
+/// … and by more in this share of the pixels, those on edges. The smallest panel, the toolbar, covers 0.5 % of the window.
+const SHARE: f64 = 0.001;
+
+/// The window as it looks once it has settled, with the sample at a moment of its walk.
+fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> RgbaImage {
+    let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
+    let session = Rc::new(RefCell::new(Session::new(true)));
+    let figure = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/sample/figure.m3d");
+    let bytes = std::fs::read(&figure).unwrap_or_else(|error| panic!("{}: {error}", figure.display()));
+    session
+        .borrow_mut()
+        .apply(Command::AddFiles(vec![File::new("figure.m3d", bytes)]));
+    session.borrow_mut().apply(Command::Seek { time_secs: 0.4 });
+    for command in then {
+        session.borrow_mut().apply(command);
+    }
+    let mut app: Option<App> = None;
+    let of_app = gpu.clone();
+    let mut harness = Harness::builder()
+        .with_size(size)
+        .with_theme(theme)
+        .with_max_steps(12)
+        .with_render_cursor(false)
+        .with_context_setup(ui::theme::install)
+        .renderer(WgpuTestRenderer::from_render_state(gpu))
+        .build_ui(move |ui| {
+            let app = app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), coarse_pointer));
+            app.ui(&mut whole_window(ui));
+        });
+    harness.run();
+    harness.render().unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn compare(name: &str, actual: &RgbaImage) {
+    let beside = |what: &str| PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("window-{name}-{what}.png"));
+    actual.save(beside("actual")).expect("writes a PNG");
+    // Half the size is a sixth of the bytes, and still shows every word.
+    let actual = imageops::resize(actual, actual.width() / 2, actual.height() / 2, FilterType::Triangle);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/ui/golden/{name}.png"));
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::create_dir_all(path.parent().expect("in a folder")).expect("makes the folder");
+        actual.save(&path).expect("writes a PNG");
+        return;
+    }
+    let expected = image::open(&path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+        .into_rgba8();
+    let differs = share_that_differs(&actual, &expected);
+    assert!(
+        differs <= SHARE,
+        "{:.2} % of {name} differ by more than {TOLERANCE}; see {}. \
+         If the new picture is right: BLESS=1 cargo test --test ui picture",
+        differs * 100.0,
+        beside("actual").display()
+    );
+}
+
+fn share_that_differs(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let differs =
+        |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > TOLERANCE);
+    a.pixels().zip(b.pixels()).filter(differs).count() as f64 / (a.width() * a.height()) as f64
+}
+
+#[test]
+fn wide_and_dark() {
+    compare("wide-dark", &draw(WIDE, Theme::Dark, false, vec![]));
+}
+
+#[test]
+fn wide_and_light_with_an_error() {
+    let text = "***************m3d-File-Header***************\n#Materials 1\n#Vertices 3\n#Triangles many\n#Bones 0\n";
+    let bad = File::new("soldier.m3d", text.as_bytes());
+    compare(
+        "wide-light-error",
+        &draw(WIDE, Theme::Light, false, vec![Command::AddFiles(vec![bad])]),
+    );
+}
+
+#[test]
+fn phone_and_light() {
+    compare("phone-light", &draw(PHONE, Theme::Light, true, vec![]));
+}
+
+/// A golden that would let a panel go missing proves nothing.
+#[test]
+fn a_missing_panel_would_be_seen() {
+    let with = draw(WIDE, Theme::Dark, false, vec![]);
+    let mut without = with.clone();
+    // The toolbar's place, filled with the backdrop beside it.
+    for y in 12..48 {
+        for x in 1220..1428 {
+            let backdrop = *with.get_pixel(x - 300, y);
+            without.put_pixel(x, y, backdrop);
+        }
+    }
+    assert!(share_that_differs(&with, &without) > 2.0 * SHARE);
+}

@@ -1,0 +1,244 @@
+//! Mouse and fingers on the view.
+
+use bindpose::scene::Camera;
+use egui::{
+    Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2,
+};
+use glam::Vec3;
+
+use crate::models::moving;
+use crate::page::{WIDE, Window, phone, window};
+
+const START: Pos2 = pos2(800.0, 420.0);
+
+fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, way: Vec2) {
+    let press = |pos, pressed| Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers,
+    };
+    window.harness.event(Event::ModifiersChanged(modifiers));
+    window.harness.event(Event::PointerMoved(START));
+    window.harness.event(press(START, true));
+    for step in 1..=4 {
+        window
+            .harness
+            .event(Event::PointerMoved(START + way * (step as f32 / 4.0)));
+    }
+    window.harness.event(press(START + way, false));
+    window.harness.event(Event::ModifiersChanged(Modifiers::NONE));
+    window.harness.event(Event::PointerGone);
+    window.pass_on();
+}
+
+/// Where a point of the world is in the window.
+fn in_window(camera: &Camera, size: Vec2, point: Vec3) -> Pos2 {
+    let view = camera.view_from_world().transform_point3(point);
+    let height = camera.height_in_view() * view.z / camera.distance;
+    pos2(
+        size.x * 0.5 + view.x / height * size.y,
+        size.y * 0.5 - view.y / height * size.y,
+    )
+}
+
+#[test]
+fn dragging_turns_the_model_with_the_pointer() {
+    for (way, name) in [(vec2(120.0, 0.0), "right"), (vec2(0.0, 60.0), "down")] {
+        let mut window = window(WIDE, vec![moving("a.m3d")]);
+        let before = *window.session().camera();
+        drag(&mut window, PointerButton::Primary, Modifiers::NONE, way);
+        let after = *window.session().camera();
+        assert_eq!((after.target, after.distance), (before.target, before.distance));
+        // A point on the near side of the model goes where the pointer goes.
+        let near = before.target - before.forward();
+        let moved = in_window(&after, WIDE, near) - in_window(&before, WIDE, near);
+        assert!(
+            moved.dot(way) > 0.9 * moved.length() * way.length(),
+            "{name}: {moved:?}"
+        );
+        assert!(moved.length() > 20.0, "{name}: {moved:?}");
+    }
+}
+
+#[test]
+fn other_buttons_and_shift_carry_the_model_along() {
+    for (button, modifiers) in [
+        (PointerButton::Secondary, Modifiers::NONE),
+        (PointerButton::Middle, Modifiers::NONE),
+        (PointerButton::Primary, Modifiers::SHIFT),
+    ] {
+        let mut window = window(WIDE, vec![moving("a.m3d")]);
+        let before = *window.session().camera();
+        let way = vec2(80.0, -40.0);
+        drag(&mut window, button, modifiers, way);
+        let after = *window.session().camera();
+        assert_eq!(
+            (after.yaw_radians, after.distance),
+            (before.yaw_radians, before.distance)
+        );
+        let moved = in_window(&after, WIDE, before.target) - in_window(&before, WIDE, before.target);
+        assert!((moved - way).length() < 1.0, "{button:?}: {moved:?}");
+    }
+}
+
+#[test]
+fn the_wheel_comes_nearer_to_what_is_under_the_pointer() {
+    for (lines, nearer) in [(3.0, true), (-3.0, false)] {
+        let mut window = window(WIDE, vec![moving("a.m3d")]);
+        let before = *window.session().camera();
+        window.harness.hover_at(START);
+        window.harness.event(Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
+            unit: MouseWheelUnit::Line,
+            delta: vec2(0.0, lines),
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        window.wait(1.0);
+        let after = *window.session().camera();
+        let ratio = after.distance / before.distance;
+        assert!(if nearer { ratio < 0.9 } else { ratio > 1.1 }, "{ratio}");
+        // The point of the target's plane under the pointer stays there.
+        let shares = (START - pos2(WIDE.x * 0.5, WIDE.y * 0.5)) / WIDE.y;
+        let under = before.target + (before.right() * shares.x - before.up() * shares.y) * before.height_in_view();
+        assert!(
+            in_window(&after, WIDE, under).distance(START) < 1.0,
+            "{:?}",
+            in_window(&after, WIDE, under)
+        );
+    }
+}
+
+#[test]
+fn a_double_click_frames_the_model() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let framed = *window.session().camera();
+    drag(&mut window, PointerButton::Secondary, Modifiers::NONE, vec2(90.0, 20.0));
+    assert_ne!(window.session().camera(), &framed);
+    for _ in 0..2 {
+        window.harness.hover_at(START);
+        window.harness.drag_at(START);
+        window.harness.drop_at(START);
+    }
+    window.pass_on();
+    assert_eq!(window.session().camera(), &framed);
+}
+
+#[test]
+fn what_happens_on_a_panel_does_not_reach_the_view() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let before = *window.session().camera();
+    let on_panel = window.rect("Dialect").center();
+    for pos in [
+        on_panel,
+        window.rect("Frame 0").center(),
+        window.rect("Bindpose").center(),
+    ] {
+        window.harness.hover_at(pos);
+        window.harness.drag_at(pos);
+        window.harness.hover_at(pos + vec2(200.0, 30.0));
+        window.harness.drop_at(pos + vec2(200.0, 30.0));
+        window.harness.hover_at(pos);
+        window.harness.event(Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
+            unit: MouseWheelUnit::Line,
+            delta: vec2(0.0, 3.0),
+            phase: TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        window.wait(0.5);
+        assert_eq!(window.session().camera(), &before, "{pos:?}");
+    }
+}
+
+/// Fingers as a browser tells of them: each as a touch, and the first as a pointer too.
+fn fingers(window: &mut Window, phase: TouchPhase, at: &[Pos2]) {
+    for (finger, &pos) in at.iter().enumerate() {
+        let id = TouchId(finger as u64 + 1);
+        window.harness.input_mut().events.push(Event::Touch {
+            device_id: TouchDeviceId(0),
+            id,
+            phase,
+            pos,
+            force: None,
+        });
+    }
+    if let Some(&pos) = at.first() {
+        let button = |pressed| Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        window.harness.input_mut().events.extend(match phase {
+            TouchPhase::Start => vec![Event::PointerMoved(pos), button(true)],
+            TouchPhase::Move => vec![Event::PointerMoved(pos)],
+            TouchPhase::End | TouchPhase::Cancel => vec![button(false), Event::PointerGone],
+        });
+    }
+    window.harness.step();
+}
+
+fn gesture(window: &mut Window, path: &[Vec<Pos2>]) {
+    for (step, at) in path.iter().enumerate() {
+        fingers(window, if step == 0 { TouchPhase::Start } else { TouchPhase::Move }, at);
+    }
+    if let Some(last) = path.last() {
+        fingers(window, TouchPhase::End, last);
+    }
+    window.pass_on();
+}
+
+#[test]
+fn one_finger_turns() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    let before = *window.session().camera();
+    gesture(
+        &mut window,
+        &(0..6)
+            .map(|i| vec![pos2(150.0 + 15.0 * i as f32, 400.0)])
+            .collect::<Vec<_>>(),
+    );
+    let after = *window.session().camera();
+    assert_eq!((after.target, after.distance), (before.target, before.distance));
+    assert_ne!(after.yaw_radians, before.yaw_radians);
+}
+
+#[test]
+fn two_fingers_carry() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    let before = *window.session().camera();
+    let path: Vec<_> = (0..8)
+        .map(|i| 8.0 * i as f32)
+        .map(|x| vec![pos2(120.0 + x, 350.0), pos2(220.0 + x, 450.0)])
+        .collect();
+    gesture(&mut window, &path);
+    let after = *window.session().camera();
+    assert_eq!(
+        (after.yaw_radians, after.pitch_radians),
+        (before.yaw_radians, before.pitch_radians),
+        "nothing turned"
+    );
+    assert!((after.distance / before.distance - 1.0).abs() < 1e-3);
+    let size = crate::page::PHONE;
+    let moved = in_window(&after, size, before.target) - in_window(&before, size, before.target);
+    assert!(moved.x > 35.0 && moved.y.abs() < 2.0, "{moved:?}");
+}
+
+#[test]
+fn two_fingers_that_part_come_nearer() {
+    for (sign, nearer) in [(1.0, true), (-1.0, false)] {
+        let mut window = phone(vec![moving("a.m3d")]);
+        let before = *window.session().camera();
+        let path: Vec<_> = (0..8)
+            .map(|i| 60.0 + sign * 5.0 * i as f32)
+            .map(|half| vec![pos2(195.0 - half, 400.0), pos2(195.0 + half, 400.0)])
+            .collect();
+        gesture(&mut window, &path);
+        let after = *window.session().camera();
+        let ratio = after.distance / before.distance;
+        assert!(if nearer { ratio < 0.8 } else { ratio > 1.25 }, "{ratio}");
+        assert_eq!(after.yaw_radians, before.yaw_radians);
+    }
+}
