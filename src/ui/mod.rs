@@ -8,6 +8,7 @@ mod icons;
 mod keys;
 mod model_panel;
 mod panel;
+mod textures;
 pub mod theme;
 mod timeline;
 mod title_bar;
