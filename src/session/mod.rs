@@ -3,10 +3,14 @@
 mod command;
 mod files;
 mod load;
+mod maps;
+mod textures;
 
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
+pub use maps::{Maps, UsedMap};
+pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
 use crate::model::{Clip, Handedness, UpAxis, world_from_model};
@@ -20,6 +24,7 @@ pub const SPEEDS: [f32; 9] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
 pub struct Session {
     open: Option<OpenModel>,
     files: FileSet,
+    maps: Maps,
     error: Option<LoadError>,
 
     clip: Option<usize>,
@@ -39,6 +44,7 @@ pub struct Session {
     theme: Theme,
 
     model_revision: u64,
+    maps_revision: u64,
     picture_revision: u64,
     events: Vec<Event>,
 }
@@ -62,6 +68,17 @@ impl Session {
     /// Files of the last drop that had a model.
     pub fn files(&self) -> &FileSet {
         &self.files
+    }
+
+    /// What was mended or is worth knowing about the model on screen and its maps.
+    pub fn notices(&self) -> impl Iterator<Item = &crate::diagnostic::Diagnostic> {
+        let of_file = self.open.iter().flat_map(|open| &open.notices);
+        of_file.chain(self.maps.notices())
+    }
+
+    /// Maps of the model on screen.
+    pub fn maps(&self) -> &Maps {
+        &self.maps
     }
 
     /// Why the last load failed, until it is dismissed or another load succeeds.
@@ -131,6 +148,11 @@ impl Session {
     /// Counts models opened: another number, another model.
     pub fn model_revision(&self) -> u64 {
         self.model_revision
+    }
+
+    /// Counts changes of the maps: another number, other maps.
+    pub fn maps_revision(&self) -> u64 {
+        self.maps_revision
     }
 
     /// Counts changes of the picture: the same number, the same picture.
@@ -288,6 +310,7 @@ impl Session {
     fn shown(&self) -> Shown {
         Shown {
             model: self.model_revision,
+            maps: self.maps_revision,
             clip: self.clip,
             time_secs: self.playback.time_secs(),
             camera: self.camera,
@@ -301,7 +324,15 @@ impl Session {
     fn add_files(&mut self, files: Vec<File>) -> bool {
         let files = FileSet::new(files);
         let Some(path) = files.models().first().map(|file| file.path.clone()) else {
-            self.fail(LoadError::no_model(files.files().len()));
+            match &self.open {
+                Some(open) if files.images().next().is_some() => {
+                    if self.maps.add(&open.model.materials, files.images().cloned()) {
+                        self.maps_revision += 1;
+                    }
+                    self.error = None;
+                }
+                _ => self.fail(LoadError::no_model(files.files().len())),
+            }
             return false;
         };
         // The old set stays while the new model is not there: its other models can still be opened.
@@ -348,6 +379,15 @@ impl Session {
         // The bar that was held may be gone, and nothing would let go of the time.
         self.scrubbing = false;
         self.model_revision += 1;
+        self.maps_revision += 1;
+        // The model alone, dropped again, keeps the pictures that came before.
+        let kept = if again {
+            std::mem::take(&mut self.maps).pictures().to_vec()
+        } else {
+            Vec::new()
+        };
+        self.maps = Maps::new(&open.model.materials, kept);
+        self.maps.add(&open.model.materials, self.files.images().cloned());
         self.open = Some(open);
         if again {
             let time_secs = self.playback.time_secs();
@@ -515,6 +555,7 @@ impl Session {
 #[derive(PartialEq)]
 struct Shown {
     model: u64,
+    maps: u64,
     clip: Option<usize>,
     time_secs: f32,
     camera: Camera,

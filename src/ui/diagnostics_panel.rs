@@ -33,14 +33,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_heig
         }
     });
     rule(ui, PANEL_MARGIN);
-    if open.notices.is_empty() {
+    if session.notices().next().is_none() {
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));
         return;
     }
     scrolled("findings", max_height)
         .auto_shrink([false, true])
         .show(ui, |ui| {
-            for (index, notice) in open.notices.iter().enumerate() {
+            for (index, notice) in session.notices().enumerate() {
                 finding(ui, open, notice, index, state);
             }
         });

@@ -6,7 +6,7 @@ use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 use super::timeline::shortened;
 use super::widgets::{choice_row, grouped, is_touch, measured, menu_item, rule, section_name, value_row};
-use super::{UiState, title_bar};
+use super::{UiState, textures, title_bar};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::display_color;
@@ -35,9 +35,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     bounds_row(ui, open);
     rule(ui, PANEL_MARGIN);
     subsets(ui, open);
+    if session.maps().checklist().named > 0 {
+        rule(ui, PANEL_MARGIN);
+        textures::show(ui, session, open);
+    }
     other_models(ui, session, commands);
     rule(ui, PANEL_MARGIN);
-    diagnostics_row(ui, open, state);
+    diagnostics_row(ui, session, state);
 }
 
 fn counts(ui: &mut Ui, open: &OpenModel) {
@@ -161,7 +165,7 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
-fn diagnostics_row(ui: &mut Ui, open: &OpenModel, state: &mut UiState) {
+fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
     let height = if is_touch(ui) { 44.0 } else { 24.0 };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
@@ -177,7 +181,7 @@ fn diagnostics_row(ui: &mut Ui, open: &OpenModel, state: &mut UiState) {
         font,
         tokens.text,
     );
-    let (count, color) = summary(open, &tokens);
+    let (count, color) = summary(session, &tokens);
     let galley = ui
         .painter()
         .layout_no_wrap(count.clone(), FontId::proportional(11.5), color);
@@ -197,8 +201,8 @@ fn diagnostics_row(ui: &mut Ui, open: &OpenModel, state: &mut UiState) {
 }
 
 /// `2 warnings`, `1 note`, `none`, with the colour that says how bad it is.
-fn summary(open: &OpenModel, tokens: &Tokens) -> (String, Color32) {
-    let count = |severity| open.notices.iter().filter(|notice| notice.severity == severity).count();
+fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
+    let count = |severity| session.notices().filter(|notice| notice.severity == severity).count();
     let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     match (count(Severity::Warning), count(Severity::Note)) {
         (0, 0) => ("none".to_owned(), tokens.muted),

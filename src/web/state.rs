@@ -39,10 +39,6 @@ pub(super) struct View<'a> {
 pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
     let playback = session.playback();
     let camera = session.camera();
-    let notices = session
-        .open_model()
-        .map(|open| open.notices.as_slice())
-        .unwrap_or_default();
     let error = session.error().map_or(JsValue::NULL, |error| {
         Fields(diagnostic(&error.diagnostic))
             .with("file", &*error.file_name)
@@ -75,8 +71,8 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         .with("framesRendered", view.frames_rendered as f64)
         .with(
             "notices",
-            notices
-                .iter()
+            session
+                .notices()
                 .map(|notice| JsValue::from(diagnostic(notice)))
                 .collect::<Array>(),
         )

@@ -1,6 +1,7 @@
 //! Tests of `session`: what is open and how it is looked at, without a window.
 
 mod looking;
+mod maps;
 mod models;
 mod opening;
 mod playing;
