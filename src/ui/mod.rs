@@ -128,7 +128,11 @@ fn set_theme(ui: &Ui) -> Command {
 fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Command {
     let top = (bar_height(ui) + MARGIN) / window.height();
     let bottom = timeline::covered_height(ui, session, narrow) / window.height();
-    let left = if narrow { 0.0 } else { (MARGIN * 2.0 + SIDE_WIDTH) / window.width() };
+    let left = if narrow {
+        0.0
+    } else {
+        (MARGIN * 2.0 + SIDE_WIDTH) / window.width()
+    };
     let insets = Insets {
         left,
         top: top.clamp(0.0, 0.3),
