@@ -1,27 +1,21 @@
 //! An orbiting camera in the world (left-handed, y up).
 
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::camera::lh::proj::directx;
 use glam::{Mat4, Vec2, Vec3};
 
-use super::Aabb;
+use super::{Aabb, ViewPreset};
 
 /// Field of view of the perspective view: π/4, as in the books' demo.
 pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_4;
 
 /// Straight up and down are left out by a hair, so that "right" stays defined while dragging.
-const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
-
-/// Share of the picture's height and width that framing leaves to the model.
-const FRAMED_SHARE: f32 = 0.9;
-
-/// Rounds of fitting and centring, which need each other in perspective: the last moves things by less than a thousandth of the picture.
-const FRAMING_ROUNDS: usize = 8;
+pub(super) const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 
 /// Distances at which sizes in view are still numbers.
-const LEAST_DISTANCE: f32 = f32::MIN_POSITIVE * 1e6;
-const GREATEST_DISTANCE: f32 = f32::MAX * 1e-6;
+pub(super) const LEAST_DISTANCE: f32 = f32::MIN_POSITIVE * 1e6;
+pub(super) const GREATEST_DISTANCE: f32 = f32::MAX * 1e-6;
 
 /// How depth becomes size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,83 +27,6 @@ pub enum Projection {
     },
     /// Parallel lines stay parallel; the height in view is the one that the perspective view has at the target.
     Orthographic,
-}
-
-/// A named direction to look from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ViewPreset {
-    /// A little to the side and from above: how a model is shown first.
-    ThreeQuarter,
-    /// The model's front.
-    Front,
-    /// The model's back.
-    Back,
-    /// The model's right side.
-    Right,
-    /// The model's left side.
-    Left,
-    /// From above.
-    Top,
-    /// From below.
-    Bottom,
-    /// Equal angles to all three axes.
-    Isometric,
-}
-
-impl ViewPreset {
-    /// All presets, in the order of menus.
-    pub const ALL: [Self; 8] = [
-        Self::ThreeQuarter,
-        Self::Front,
-        Self::Back,
-        Self::Right,
-        Self::Left,
-        Self::Top,
-        Self::Bottom,
-        Self::Isometric,
-    ];
-
-    /// Name for menus.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::ThreeQuarter => "Three-quarter",
-            Self::Front => "Front",
-            Self::Back => "Back",
-            Self::Right => "Right",
-            Self::Left => "Left",
-            Self::Top => "Top",
-            Self::Bottom => "Bottom",
-            Self::Isometric => "Isometric",
-        }
-    }
-
-    /// Yaw and pitch of [`Camera`], radians. The front of a model faces −z.
-    pub fn yaw_pitch_radians(self) -> (f32, f32) {
-        match self {
-            Self::ThreeQuarter => (-0.62, 0.2),
-            Self::Front => (0.0, 0.0),
-            Self::Back => (PI, 0.0),
-            Self::Right => (FRAC_PI_2, 0.0),
-            Self::Left => (-FRAC_PI_2, 0.0),
-            Self::Top => (0.0, MAX_PITCH_RADIANS),
-            Self::Bottom => (0.0, -MAX_PITCH_RADIANS),
-            // atan(1/√2): the lift at which the three axes look equally long.
-            Self::Isometric => (-FRAC_PI_4, 0.615_479_7),
-        }
-    }
-}
-
-/// Margins of a picture that are covered, for example by panels: shares of its width and height, 0…1.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Insets {
-    /// Covered share of the width on the left.
-    pub left: f32,
-    /// Covered share of the width on the right.
-    pub right: f32,
-    /// Covered share of the height at the top.
-    pub top: f32,
-    /// Covered share of the height at the bottom.
-    pub bottom: f32,
 }
 
 /// Looks at `target` from a distance.
@@ -250,75 +167,6 @@ impl Camera {
     pub fn look_from(&mut self, preset: ViewPreset) {
         (self.yaw_radians, self.pitch_radians) = preset.yaw_pitch_radians();
     }
-
-    /// Moves target and distance so that all points fill the uncovered part of the picture; the direction stays. Without
-    /// points nothing changes.
-    pub fn frame(&mut self, world_points: &[Vec3], aspect: f32, insets: Insets) {
-        let bounds = Aabb::from_points(world_points.iter().copied());
-        if bounds.is_empty() {
-            return;
-        }
-        let free_width = (1.0 - insets.left - insets.right).clamp(0.2, 1.0);
-        let free_height = (1.0 - insets.top - insets.bottom).clamp(0.2, 1.0);
-        let tan_half_y = self.height_in_view() * 0.5 / self.distance;
-        let tan_half = Vec2::new(tan_half_y * aspect, tan_half_y);
-        let fitted = tan_half * Vec2::new(free_width, free_height) * FRAMED_SHARE;
-        let middle_of_free = tan_half * Vec2::new(insets.left - insets.right, insets.bottom - insets.top);
-        let (right, up, forward) = (self.right(), self.up(), self.forward());
-        let perspective = matches!(self.projection, Projection::Perspective { .. });
-
-        // Tangents of the view that the points may reach, from the picture's middle: to the right and up, to the left and down.
-        let reach_up = (fitted + middle_of_free).max(Vec2::splat(1e-3));
-        let reach_down = (fitted - middle_of_free).max(Vec2::splat(1e-3));
-
-        let mut center = bounds.center();
-        for round in 0..=FRAMING_ROUNDS {
-            let mut distance = 0.0_f32;
-            for &point in world_points {
-                let offset = point - center;
-                let in_plane = Vec2::new(offset.dot(right), offset.dot(up));
-                let toward_eye = if perspective { -offset.dot(forward) } else { 0.0 };
-                let needed = (in_plane / reach_up).max(-in_plane / reach_down).max_element();
-                distance = distance.max(needed + toward_eye);
-            }
-            // A single point has no size to frame; one unit around it is as good as any.
-            self.distance = if distance > 0.0 {
-                distance.clamp(LEAST_DISTANCE, GREATEST_DISTANCE)
-            } else {
-                1.0
-            };
-            if round == FRAMING_ROUNDS {
-                break;
-            }
-            let in_picture = Aabb::from_points(world_points.iter().map(|&point| {
-                let offset = point - center;
-                let depth = self.distance + if perspective { offset.dot(forward) } else { 0.0 };
-                Vec3::new(offset.dot(right), offset.dot(up), 0.0) / depth.max(self.distance * 1e-3)
-            }));
-            let off_middle = in_picture.center().truncate() - middle_of_free;
-            let way = (right * off_middle.x + up * off_middle.y) * self.distance;
-            if !(center + way).is_finite() {
-                break;
-            }
-            center += way;
-        }
-        self.target = center;
-    }
-}
-
-impl Camera {
-    /// How far some points reach in the picture: shares of its width, from the left edge to the leftmost and from the
-    /// right edge to the rightmost.
-    pub fn free_at_sides(&self, world_points: &[Vec3], aspect: f32) -> (f32, f32) {
-        let bounds = Aabb::from_points(world_points.iter().copied());
-        let clip_from_world = self.clip_from_view(aspect, &bounds) * self.view_from_world();
-        let x_clip = world_points
-            .iter()
-            .map(|&point| clip_from_world.project_point3(point).x);
-        x_clip.fold((f32::INFINITY, f32::INFINITY), |(left, right), x| {
-            (left.min(0.5 + 0.5 * x), right.min(0.5 - 0.5 * x))
-        })
-    }
 }
 
 #[cfg(test)]
@@ -330,15 +178,6 @@ mod tests {
             min: Vec3::splat(-1.0),
             max: Vec3::splat(1.0),
         }
-    }
-
-    /// Corners of a box in clip space, divided by w.
-    fn corners_in_clip(camera: &Camera, bounds: &Aabb, aspect: f32) -> Vec<Vec3> {
-        let clip_from_world = camera.clip_from_view(aspect, bounds) * camera.view_from_world();
-        bounds
-            .corners()
-            .map(|corner| clip_from_world.project_point3(corner))
-            .to_vec()
     }
 
     #[test]
@@ -354,50 +193,6 @@ mod tests {
         );
         let in_view = camera.view_from_world().transform_point3(camera.target);
         assert!((in_view - Vec3::new(0.0, 0.0, camera.distance)).length() < 1e-5);
-    }
-
-    #[test]
-    fn framing_fills_the_picture_and_no_plane_cuts_from_any_side() {
-        let bounds = Aabb {
-            min: Vec3::new(-3.0, 0.0, -0.1),
-            max: Vec3::new(50.0, 7.0, 9.0),
-        };
-        for preset in ViewPreset::ALL {
-            for projection in [Camera::default().projection, Projection::Orthographic] {
-                let mut camera = Camera {
-                    projection,
-                    ..Camera::default()
-                };
-                camera.look_from(preset);
-                camera.frame(&bounds.corners(), 1.6, Insets::default());
-                let corners = corners_in_clip(&camera, &bounds, 1.6);
-                let reach = corners.iter().map(|c| c.x.abs().max(c.y.abs())).fold(0.0, f32::max);
-                assert!(
-                    (reach - FRAMED_SHARE).abs() < 1e-3,
-                    "{preset:?} {projection:?} reaches {reach}"
-                );
-                assert!(
-                    corners.iter().all(|c| (0.0..=1.0).contains(&c.z)),
-                    "{preset:?} {projection:?}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn framing_keeps_clear_of_covered_margins() {
-        let mut camera = Camera::default();
-        let insets = Insets {
-            left: 0.3,
-            bottom: 0.2,
-            ..Insets::default()
-        };
-        camera.frame(&unit_box().corners(), 1.5, insets);
-        for corner in corners_in_clip(&camera, &unit_box(), 1.5) {
-            assert!(corner.x > -1.0 + 2.0 * insets.left - 0.02, "{corner}");
-            assert!(corner.y > -1.0 + 2.0 * insets.bottom - 0.02, "{corner}");
-            assert!(corner.x < 1.0 && corner.y < 1.0, "{corner}");
-        }
     }
 
     #[test]

@@ -2,11 +2,15 @@
 
 mod camera;
 mod frame;
+mod framing;
 mod ground;
 mod tint;
+mod view_preset;
 
 pub use crate::model::Aabb;
-pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Insets, Projection, ViewPreset};
+pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Projection};
 pub use frame::{Background, FrameOptions, RenderFrame, Theme};
+pub use framing::Insets;
 pub use ground::Ground;
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear};
+pub use view_preset::ViewPreset;

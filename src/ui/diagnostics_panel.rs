@@ -1,14 +1,13 @@
 //! Every finding about the open file, with its place and code; a click shows the lines.
 
-use egui::{Align2, FontId, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{FontId, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::UiState;
 use super::excerpt;
-use super::icons::Icon;
 use super::model_panel::PANEL_MARGIN;
 use super::panel::scrolled;
-use super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::widgets::{control_size, icon_button, rule};
+use super::theme::{CONTROL_RADIUS, Tokens};
+use super::widgets::{closable_heading, rule};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::session::{OpenModel, Session};
 
@@ -16,22 +15,9 @@ use crate::session::{OpenModel, Session};
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32) {
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
-    ui.horizontal(|ui| {
-        let (heading, _) = ui.allocate_exact_size(
-            vec2(ui.available_width() - control_size(ui) - 6.0, 28.0),
-            Sense::hover(),
-        );
-        ui.painter().text(
-            heading.left_center(),
-            Align2::LEFT_CENTER,
-            "Diagnostics",
-            theme::semibold(13.0),
-            tokens.text,
-        );
-        if icon_button(ui, Icon::Close, "Close", false).clicked() {
-            state.diagnostics_open = false;
-        }
-    });
+    if closable_heading(ui, "Diagnostics") {
+        state.diagnostics_open = false;
+    }
     rule(ui, PANEL_MARGIN);
     if session.notices().next().is_none() {
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));

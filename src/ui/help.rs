@@ -3,10 +3,9 @@
 use egui::{Align2, FontId, Sense, Ui, vec2};
 
 use super::UiState;
-use super::icons::Icon;
 use super::panel::scrolled;
 use super::theme::{self, ROW_HEIGHT, Tokens};
-use super::widgets::{control_size, icon_button, rule};
+use super::widgets::{closable_heading, rule};
 
 /// Keys and what they do, in groups.
 const KEYS: [&[(&str, &str)]; 3] = [
@@ -43,22 +42,9 @@ const KEYS: [&[(&str, &str)]; 3] = [
 /// The table.
 pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     let tokens = Tokens::of(ui);
-    ui.horizontal(|ui| {
-        let (heading, _) = ui.allocate_exact_size(
-            vec2(ui.available_width() - control_size(ui) - 6.0, 28.0),
-            Sense::hover(),
-        );
-        ui.painter().text(
-            heading.left_center(),
-            Align2::LEFT_CENTER,
-            "Keys",
-            theme::semibold(13.0),
-            tokens.text,
-        );
-        if icon_button(ui, Icon::Close, "Close", false).clicked() {
-            state.help_open = false;
-        }
-    });
+    if closable_heading(ui, "Keys") {
+        state.help_open = false;
+    }
     let most = ui.ctx().content_rect().height() - 160.0;
     scrolled("keys", most).show(ui, |ui| {
         for group in KEYS {

@@ -179,6 +179,19 @@ pub(super) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Re
     response
 }
 
+/// The title of a panel with a button that closes it. Whether it was clicked.
+pub(super) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
+    ui.horizontal(|ui| {
+        let width = ui.available_width() - control_size(ui) - 6.0;
+        let (heading, _) = ui.allocate_exact_size(vec2(width, MOUSE_CONTROL), Sense::hover());
+        let (at, color) = (heading.left_center(), Tokens::of(ui).text);
+        ui.painter()
+            .text(at, Align2::LEFT_CENTER, title, theme::semibold(13.0), color);
+        icon_button(ui, Icon::Close, "Close", false).clicked()
+    })
+    .inner
+}
+
 /// The name of a part of a panel: 11 points, capitals.
 pub(super) fn section_name(ui: &mut Ui, name: &str) {
     let tokens = Tokens::of(ui);

@@ -1,0 +1,113 @@
+//! Taking up what was dropped.
+
+use super::{Event, File, FileSet, LoadError, Maps, OpenModel, Session, load};
+use crate::anim::{Playback, PoseBuffers};
+use crate::scene::Camera;
+
+impl Session {
+    pub(super) fn add_files(&mut self, files: Vec<File>) -> bool {
+        let files = FileSet::new(files);
+        let Some(path) = files.models().first().map(|file| file.path.clone()) else {
+            match &self.open {
+                Some(open) if files.images().next().is_some() => {
+                    if self.maps.add(&open.model.materials, files.images().cloned()) {
+                        self.maps_revision += 1;
+                    }
+                    self.error = None;
+                }
+                _ => self.fail(LoadError::no_model(files.files().len())),
+            }
+            return false;
+        };
+        // The old set stays while the new model is not there: its other models can still be opened.
+        let previous = std::mem::replace(&mut self.files, files);
+        let opened = self.open_file(&path);
+        if !opened {
+            self.files = previous;
+        }
+        opened
+    }
+
+    pub(super) fn open_file(&mut self, path: &str) -> bool {
+        let Some(file) = self.files.get(path) else { return false };
+        match load(file) {
+            Ok(open) => {
+                self.replace_model(open);
+                true
+            }
+            Err(error) => {
+                self.fail(*error);
+                false
+            }
+        }
+    }
+
+    pub(super) fn fail(&mut self, error: LoadError) {
+        self.error = Some(error);
+        self.note(Event::Error);
+    }
+
+    /// Shows another model. The same file again keeps camera, clip, time and choices.
+    pub(super) fn replace_model(&mut self, open: OpenModel) {
+        let again = self
+            .open
+            .as_ref()
+            .filter(|old| old.file.base_name() == open.file.base_name());
+        let kept_clip = again.and_then(|_| Some(self.clip()?.name.clone()));
+        let again = again.is_some();
+        let was_playing = self.playback.is_playing();
+
+        self.pose = PoseBuffers::for_skeleton(&open.model.skeleton);
+        self.posed_at = None;
+        self.error = None;
+        // The bar that was held may be gone, and nothing would let go of the time.
+        self.scrubbing = false;
+        self.model_revision += 1;
+        self.maps_revision += 1;
+        // The model alone, dropped again, keeps the pictures that came before.
+        let kept = if again {
+            std::mem::take(&mut self.maps).pictures().to_vec()
+        } else {
+            Vec::new()
+        };
+        self.maps = Maps::new(&open.model.materials, kept);
+        self.maps.add(&open.model.materials, self.files.images().cloned());
+        self.open = Some(open);
+        if again {
+            let time_secs = self.playback.time_secs();
+            let clips = self
+                .open
+                .as_ref()
+                .map(|open| open.model.clips.as_slice())
+                .unwrap_or_default();
+            let clip = kept_clip
+                .and_then(|name| clips.iter().position(|clip| clip.name == name))
+                .unwrap_or(0);
+            self.clip = None;
+            if self.show_clip(clip) {
+                self.playback.seek(time_secs);
+            } else {
+                self.playback = Playback::default();
+            }
+        } else {
+            self.handedness_override = None;
+            self.up_axis_override = None;
+            self.clip = None;
+            self.playback = Playback::default();
+            self.show_clip(0);
+            self.camera = Camera {
+                projection: self.camera.projection,
+                ..Camera::default()
+            };
+            self.frame_model();
+            if self.clip.is_some() && !self.reduced_motion {
+                self.playback.play();
+            }
+        }
+        self.note(Event::Load);
+        if self.playback.is_playing() != was_playing {
+            self.note(if was_playing { Event::Pause } else { Event::Play });
+        }
+        self.note(Event::TimeUpdate);
+    }
+}
