@@ -1,48 +1,62 @@
-//! Pictures as files.
+//! Pictures: the maps that models name, from a file's bytes to texels, and screenshots, from texels to a file.
+//!
+//! ```text
+//! bytes -> Image -> with_mips -> data (for the GPU)
+//!     decode              \----> to_rgba8, to_rgba32f (where the GPU lacks the format)
+//! ```
+//! DDS files are read here, header and all; their compressed blocks by `bcdec_rs`; PNG, JPEG, TGA and BMP by `image`.
+//! No header's claim decides an allocation: sizes are compared with the bytes that are there first.
 
-use std::io::Cursor;
+mod blocks;
+mod dds;
+mod dds_header;
+mod dds_layout;
+mod encode;
+mod error;
+mod format;
+mod half;
+mod masks;
+mod mips;
+mod picture;
+mod raster;
+mod srgb;
 
-/// A picture could not be written.
-#[derive(Debug, thiserror::Error)]
-#[error("the picture could not be written as PNG: {0}")]
-pub struct EncodeError(#[from] image::ImageError);
+pub use encode::{EncodeError, encode_png};
+pub use error::{FileKind, ImageError, ImageErrorKind, Layer};
+pub use format::{Channels, ImageFormat};
+pub use mips::MapKind;
+pub use picture::{Image, ImageKind};
 
-/// The bytes of a PNG file.
-///
-/// `pixels` are RGBA, 8 bits a channel, sRGB, straight alpha, rows from the top without padding.
+/// Texels a side of the largest picture that is read: what the largest GPUs take.
+pub const MAX_SIDE: u32 = 16_384;
+
+/// Reads a picture. What it is shows in its first bytes, and only for TGA, which has no signature, in its name.
 ///
 /// # Errors
-/// When `pixels` is not `4 × width × height` long.
-pub fn encode_png(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, EncodeError> {
-    let mut bytes = Cursor::new(Vec::new());
-    let encoder = image::codecs::png::PngEncoder::new(&mut bytes);
-    let expected = u64::from(width) * u64::from(height) * 4;
-    if pixels.len() as u64 != expected {
-        let mismatch = image::error::ParameterError::from_kind(image::error::ParameterErrorKind::DimensionMismatch);
-        return Err(EncodeError(image::ImageError::Parameter(mismatch)));
-    }
-    image::ImageEncoder::write_image(encoder, pixels, width, height, image::ExtendedColorType::Rgba8)?;
-    Ok(bytes.into_inner())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_png_reads_back_to_its_pixels() -> Result<(), Box<dyn std::error::Error>> {
-        let pixels = [255, 0, 0, 255, 0, 255, 0, 128];
-        let png = encode_png(&pixels, 2, 1)?;
-        let read = image::load_from_memory_with_format(&png, image::ImageFormat::Png)?.into_rgba8();
-        assert_eq!(
-            (read.dimensions(), read.into_raw().as_slice()),
-            ((2, 1), pixels.as_slice())
-        );
-        Ok(())
-    }
-
-    #[test]
-    fn a_wrong_size_is_an_error() {
-        assert!(encode_png(&[0; 7], 2, 1).is_err());
-    }
+/// When the bytes are no picture that is known here, or are damaged; the error names the file.
+///
+/// # Examples
+/// ```
+/// use bindpose::image;
+///
+/// let png = image::encode_png(&[255, 0, 0, 255], 1, 1)?;
+/// let red = image::decode(&png, "red.png")?;
+/// assert_eq!(red.description(), "PNG 1 × 1, 1 mip");
+/// assert_eq!(red.to_rgba8(0, 0).as_deref(), Some([255, 0, 0, 255].as_slice()));
+///
+/// let error = image::decode(b"hello", "textures/notes.png").unwrap_err();
+/// assert_eq!(error.to_string(), "textures/notes.png: this is none of DDS, PNG, JPEG, TGA and BMP");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
+    let decoded = match FileKind::of(bytes, name) {
+        Some(FileKind::Dds) => dds::decode(bytes),
+        Some(kind) => raster::decode(bytes, kind),
+        None if bytes.is_empty() => Err(ImageErrorKind::Empty),
+        None => Err(ImageErrorKind::Unrecognized),
+    };
+    decoded.map_err(|kind| ImageError {
+        name: name.to_owned(),
+        kind,
+    })
 }

@@ -86,7 +86,7 @@ impl FileSet {
     }
 }
 
-fn is_image(file: &File) -> bool {
+pub(super) fn is_image(file: &File) -> bool {
     IMAGE_EXTENSIONS.contains(&file.extension().as_str())
 }
 

@@ -3,10 +3,12 @@
 mod command;
 mod files;
 mod load;
+mod textures;
 
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
+pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
 use crate::model::{Clip, Handedness, UpAxis, world_from_model};

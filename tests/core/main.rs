@@ -3,6 +3,7 @@
 mod anim;
 mod documents;
 mod format;
+mod image;
 mod model;
 mod sample;
 mod session;

@@ -1,0 +1,204 @@
+//! Smaller levels where a file has none.
+
+use super::format::{Channels, ImageFormat};
+use super::half;
+use super::picture::{Image, full_level_count, level_size};
+use super::srgb::{linear_from_srgb, srgb_from_linear};
+
+/// How the values of a map are meant, and so how they are averaged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MapKind {
+    /// sRGB colours: averaged as linear light, each with the weight of its alpha, since what is clear has no colour.
+    Diffuse,
+    /// Directions of unit length: averaged as such and brought back to unit length. Alpha is a value of its own.
+    Normal,
+}
+
+/// A value that is averaged: colour times weight and weight, or direction or colour and alpha.
+type Texel = [f32; 4];
+
+/// Weight of a clear texel beside that of an opaque one: little, so that it tints no edge, but enough that an area without
+/// any alpha keeps its colour.
+const CLEAR_WEIGHT: f32 = 1.0 / 1024.0;
+
+impl Image {
+    /// The picture with all levels down to 1 × 1. A picture that brings more than one level is kept as it is.
+    ///
+    /// Compressed pictures become [`ImageFormat::Rgba8`], or [`ImageFormat::Rgba16Float`] where they hold floats, which
+    /// are taken as linear colours whatever `map_kind` says. Each texel is the mean of the area that it covers, also
+    /// where a side is odd.
+    #[must_use]
+    pub fn with_mips(self, map_kind: MapKind) -> Self {
+        let level_count = full_level_count(self.width, self.height);
+        if self.level_count > 1 || level_count == 1 {
+            return self;
+        }
+        let coding = Coding::of(&self, map_kind);
+        let mut data = Vec::new();
+        for face in 0..self.face_count() {
+            coding.append_chain(&mut data, &self, face, level_count);
+        }
+        Self {
+            format: coding.format(),
+            level_count,
+            mips_generated: true,
+            data,
+            ..self
+        }
+    }
+}
+
+/// How texels are read from bytes and written back.
+#[derive(Clone, Copy, Debug)]
+enum Coding {
+    /// sRGB with straight alpha.
+    Srgb,
+    /// With two channels z follows from x and y, and is written as 0.
+    Direction { two_channels: bool },
+    /// Linear half floats.
+    Half,
+}
+
+impl Coding {
+    fn of(image: &Image, map_kind: MapKind) -> Self {
+        match map_kind {
+            _ if image.format.is_float() => Self::Half,
+            MapKind::Diffuse => Self::Srgb,
+            MapKind::Normal => Self::Direction {
+                two_channels: image.channels == Channels::RedGreen,
+            },
+        }
+    }
+
+    /// The format in which levels are written.
+    fn format(self) -> ImageFormat {
+        match self {
+            Self::Srgb | Self::Direction { .. } => ImageFormat::Rgba8,
+            Self::Half => ImageFormat::Rgba16Float,
+        }
+    }
+
+    /// Writes a face of at least two levels: the largest as it is, then all smaller ones.
+    fn append_chain(self, data: &mut Vec<u8>, image: &Image, face: u32, level_count: u32) {
+        let (width, height) = (image.width, image.height);
+        let mut halve_bytes = |read: &dyn Fn([u8; 4]) -> Texel| {
+            let values = image.to_rgba8(face, 0).unwrap_or_default();
+            data.extend(&values);
+            let texels = values.as_chunks::<4>().0;
+            halve(width, height, |index| read(texels[index]))
+        };
+        let mut texels = match self {
+            Self::Srgb => halve_bytes(&read_colour),
+            Self::Direction { two_channels } => halve_bytes(&|texel| read_direction(texel, two_channels)),
+            Self::Half => {
+                let values = image.to_rgba32f(face, 0).unwrap_or_default();
+                data.extend(values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes()));
+                let texels = values.as_chunks::<4>().0;
+                halve(width, height, |index| texels[index])
+            }
+        };
+        for level in 1..level_count {
+            self.append(data, &texels);
+            // From the level before rounding, so that errors do not add up.
+            let (width, height) = level_size(width, height, level);
+            texels = halve(width, height, |index| texels[index]);
+        }
+    }
+
+    fn append(self, data: &mut Vec<u8>, texels: &[Texel]) {
+        let unit = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+        match self {
+            Self::Srgb => data.extend(texels.iter().flat_map(|&[r, g, b, weight]| {
+                let [r, g, b] = [r, g, b].map(|value| srgb_from_linear(value / weight));
+                [r, g, b, unit((weight - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT))]
+            })),
+            Self::Direction { two_channels } => data.extend(texels.iter().flat_map(|&[x, y, z, alpha]| {
+                let [x, y, z] = normalized([x, y, z]).map(|value| unit(value * 0.5 + 0.5));
+                [x, y, if two_channels { 0 } else { z }, unit(alpha)]
+            })),
+            Self::Half => {
+                let values = texels.as_flattened().iter();
+                data.extend(values.flat_map(|&value| half::from_f32(value).to_le_bytes()));
+            }
+        }
+    }
+}
+
+fn read_colour([r, g, b, a]: [u8; 4]) -> Texel {
+    let weight = CLEAR_WEIGHT + f32::from(a) / 255.0 * (1.0 - CLEAR_WEIGHT);
+    let [r, g, b] = [r, g, b].map(|value| linear_from_srgb(value) * weight);
+    [r, g, b, weight]
+}
+
+fn read_direction([r, g, b, a]: [u8; 4], two_channels: bool) -> Texel {
+    let [x, y, z] = [r, g, b].map(|value| f32::from(value) / 127.5 - 1.0);
+    let z = if two_channels {
+        (1.0 - x * x - y * y).max(0.0).sqrt()
+    } else {
+        z
+    };
+    [x, y, z, f32::from(a) / 255.0]
+}
+
+/// The direction with unit length; straight out of the surface where opposite ones cancelled out.
+fn normalized(direction: [f32; 3]) -> [f32; 3] {
+    let length = direction.iter().map(|value| value * value).sum::<f32>().sqrt();
+    if length > 1e-3 {
+        direction.map(|value| value / length)
+    } else {
+        [0.0, 0.0, 1.0]
+    }
+}
+
+/// The next smaller level. Each of its texels is the mean of the area it covers: of two rows and columns where a side is
+/// even, of parts of three where it is odd, of one where it is 1.
+fn halve(width: u32, height: u32, texel: impl Fn(usize) -> Texel) -> Vec<Texel> {
+    let (smaller_width, smaller_height) = level_size(width, height, 1);
+    let mut smaller = Vec::with_capacity(smaller_width as usize * smaller_height as usize);
+    for row in 0..smaller_height {
+        let rows = covered(height, row);
+        for column in 0..smaller_width {
+            let columns = covered(width, column);
+            let mut mean = [0.0; 4];
+            for &(y, row_weight) in rows.taps() {
+                for &(x, column_weight) in columns.taps() {
+                    let values = texel(y as usize * width as usize + x as usize);
+                    for (sum, value) in mean.iter_mut().zip(values) {
+                        *sum += row_weight * column_weight * value;
+                    }
+                }
+            }
+            smaller.push(mean);
+        }
+    }
+    smaller
+}
+
+/// Texels of a side and the share that each has in one of the next smaller level; the shares sum to 1.
+struct Covered {
+    taps: [(u32, f32); 3],
+    tap_count: usize,
+}
+
+impl Covered {
+    fn taps(&self) -> &[(u32, f32)] {
+        &self.taps[..self.tap_count]
+    }
+}
+
+/// What a texel of the next smaller level covers.
+fn covered(side: u32, index: u32) -> Covered {
+    let first = index * 2;
+    let half = side / 2;
+    let (shares, tap_count) = match side {
+        1 => ([1.0, 0.0, 0.0], 1),
+        // 2n + 1 texels for n: each covers 2 + 1/n of them.
+        _ if side % 2 == 1 => ([half - index, half, index + 1].map(|part| part as f32 / side as f32), 3),
+        _ => ([0.5, 0.5, 0.0], 2),
+    };
+    let [a, b, c] = shares;
+    Covered {
+        taps: [(first, a), (first + 1, b), (first + 2, c)],
+        tap_count,
+    }
+}

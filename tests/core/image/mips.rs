@@ -1,0 +1,178 @@
+//! Levels that are computed.
+
+use bindpose::image::{Channels, Image, ImageFormat, MapKind, decode};
+
+use super::blocks;
+use super::dds::{CUBE_OF_SIX, Dds, LUMINANCE, RGB};
+use super::level_texels;
+
+fn image(width: u32, height: u32, texels: &[[u8; 4]]) -> Image {
+    Image::from_rgba8(width, height, texels.as_flattened().to_vec(), "made").expect("the size fits")
+}
+
+const BLACK: [u8; 4] = [0, 0, 0, 255];
+const WHITE: [u8; 4] = [255; 4];
+
+#[test]
+fn colours_are_averaged_as_light() {
+    // Half the light of white is sRGB 188; the mean of the numbers would be 128.
+    let checker = image(2, 2, &[BLACK, WHITE, WHITE, BLACK]).with_mips(MapKind::Diffuse);
+    assert_eq!(checker.level_count(), 2);
+    assert_eq!(level_texels(&checker, 0, 1), [[188, 188, 188, 255]]);
+    assert!(checker.mips_generated());
+    assert_eq!(checker.description(), "made 2 × 2, 2 mips made here");
+}
+
+#[test]
+fn a_chain_goes_down_to_one_texel_and_keeps_the_mean() {
+    // Columns black and white, 8 × 4: every level below is the same grey, without errors adding up.
+    let texels: Vec<_> = (0..32)
+        .map(|index| if index % 2 == 0 { BLACK } else { WHITE })
+        .collect();
+    let image = image(8, 4, &texels).with_mips(MapKind::Diffuse);
+    assert_eq!(image.level_count(), 4);
+    assert_eq!(level_texels(&image, 0, 0), texels);
+    for (level, size) in [(1, (4, 2)), (2, (2, 1)), (3, (1, 1))] {
+        assert_eq!(image.level_size(level), size);
+        assert_eq!(
+            level_texels(&image, 0, level),
+            vec![[188, 188, 188, 255]; (size.0 * size.1) as usize]
+        );
+    }
+}
+
+//  5 texels for 2: each covers two and a half, so that none is lost
+//  light  1    0    0    0    1      ->   1 / 2.5 = 0.4 each
+//         5    0    0    0    0      ->   2 / 5 of it left, 0 right
+#[test]
+fn odd_sides_share_their_middle() {
+    let row =
+        |lit: &[usize]| -> Vec<[u8; 4]> { (0..5).map(|x| if lit.contains(&x) { WHITE } else { BLACK }).collect() };
+    // sRGB of light 0.4 is 170, of 0.2 is 124.
+    for (lit, expected) in [
+        (vec![0, 4], [170, 170]),
+        (vec![0], [170, 0]),
+        (vec![2], [124, 124]),
+        (vec![0, 1, 2, 3, 4], [255, 255]),
+    ] {
+        let wide = image(5, 1, &row(&lit)).with_mips(MapKind::Diffuse);
+        let tall = image(1, 5, &row(&lit)).with_mips(MapKind::Diffuse);
+        let values = |image| {
+            level_texels(image, 0, 1)
+                .iter()
+                .map(|texel| texel[0])
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            (values(&wide), values(&tall)),
+            (expected.to_vec(), expected.to_vec()),
+            "{lit:?}"
+        );
+    }
+    // 3 for 1: a third of the light each; sRGB of 1/3 is 156.
+    let three = image(3, 3, &[BLACK, WHITE, BLACK].repeat(3)).with_mips(MapKind::Diffuse);
+    assert_eq!(
+        (three.level_count(), level_texels(&three, 0, 1)),
+        (2, vec![[156, 156, 156, 255]])
+    );
+}
+
+#[test]
+fn clear_texels_lend_no_colour() {
+    // Green leaves over clear magenta: the edge stays green.
+    let leaf = image(2, 1, &[[0, 200, 0, 255], [255, 0, 255, 0]]).with_mips(MapKind::Diffuse);
+    let [r, g, b, a] = level_texels(&leaf, 0, 1)[0];
+    assert!(
+        r <= 8 && g.abs_diff(200) <= 1 && b <= 8 && a.abs_diff(128) <= 1,
+        "{:?}",
+        [r, g, b, a]
+    );
+    // Where all is clear the colour is kept, so that filtering finds it.
+    let clear = image(2, 1, &[[0, 200, 0, 0]; 2]).with_mips(MapKind::Diffuse);
+    assert_eq!(level_texels(&clear, 0, 1), [[0, 200, 0, 0]]);
+}
+
+#[test]
+fn directions_are_brought_back_to_unit_length() {
+    // 45° to the left and to the right: straight ahead, not 0.7 of it. Alpha is gloss: a plain mean.
+    let normals = image(2, 1, &[[218, 128, 218, 100], [37, 128, 218, 200]]).with_mips(MapKind::Normal);
+    assert_eq!(level_texels(&normals, 0, 1), [[128, 128, 255, 150]]);
+    // Opposite ones cancel out: no direction is left, and the surface is flat.
+    let opposed = image(2, 1, &[[255, 128, 128, 255], [0, 127, 127, 255]]).with_mips(MapKind::Normal);
+    assert_eq!(level_texels(&opposed, 0, 1), [[128, 128, 255, 255]]);
+}
+
+#[test]
+fn of_two_channels_z_is_rebuilt_before_averaging() {
+    // x of 0.8 and −0.8 with z of 0.6: straight ahead. x of 0.8 and 0 with z of 0.6 and 1: 0.4, 0.8, of length 0.894.
+    for (x, expected) in [([229, 26], 128), ([229, 128], 185)] {
+        let dds = Dds::masked(RGB, 16, [0xff, 0xff00, 0, 0], 2, 1).file(&[x[0], 128, x[1], 128]);
+        let image = decode(&dds, "norm.dds").expect("the file is sound");
+        assert_eq!(image.channels(), Channels::RedGreen);
+        let image = image.with_mips(MapKind::Normal);
+        let [r, g, b, _] = level_texels(&image, 0, 1)[0];
+        assert!(
+            r.abs_diff(expected) <= 1 && g.abs_diff(128) <= 1 && b == 0,
+            "{r} {g} {b}"
+        );
+    }
+}
+
+#[test]
+fn linear_floats_are_averaged_as_they_are() {
+    let one_zero = [
+        0x00, 0x3c, 0x00, 0x3c, 0x00, 0x3c, 0x00, 0x3c, 0, 0, 0, 0, 0, 0, 0x00, 0x3c,
+    ];
+    let image = decode(&Dds::dxgi(10, 2, 1).file(&one_zero), "sky.dds").expect("the file is sound");
+    let image = image.with_mips(MapKind::Diffuse);
+    assert_eq!(image.format(), ImageFormat::Rgba16Float);
+    assert_eq!(image.to_rgba32f(0, 1), Some(vec![0.5, 0.5, 0.5, 1.0]));
+    // Compressed ones keep their values beyond 1.
+    let image = decode(&Dds::dxgi(95, 4, 4).file(&blocks::bc6h()), "sky.dds").expect("the file is sound");
+    let image = image.with_mips(MapKind::Diffuse);
+    assert_eq!((image.format(), image.level_count()), (ImageFormat::Rgba16Float, 3));
+    assert_eq!(image.to_rgba32f(0, 2), Some(vec![1.0, 0.0, 65_504.0, 1.0]));
+}
+
+#[test]
+fn compressed_pictures_are_decoded_and_every_face_gets_its_chain() {
+    let mut dds = Dds::four_cc(b"DXT1", 4, 4);
+    dds.caps2 = CUBE_OF_SIX;
+    // Face by face red and blue in turn.
+    let faces: Vec<u8> = (0..6)
+        .flat_map(|face| {
+            if face % 2 == 0 {
+                [0, 0xf8, 0, 0, 0, 0, 0, 0]
+            } else {
+                [0x1f, 0, 0, 0, 0, 0, 0, 0]
+            }
+        })
+        .collect();
+    let image = decode(&dds.file(&faces), "cube.dds")
+        .expect("the file is sound")
+        .with_mips(MapKind::Diffuse);
+    assert_eq!(
+        (image.format(), image.level_count(), image.channels()),
+        (ImageFormat::Rgba8, 3, Channels::Rgb)
+    );
+    assert_eq!(image.description(), "BC1 4 × 4 cube, 3 mips made here");
+    for face in 0..6 {
+        let colour = if face % 2 == 0 {
+            [255, 0, 0, 255]
+        } else {
+            [0, 0, 255, 255]
+        };
+        assert_eq!(level_texels(&image, face, 2), [colour]);
+    }
+}
+
+#[test]
+fn levels_of_the_file_are_kept() {
+    let file = Dds::masked(LUMINANCE, 8, [0xff, 0, 0, 0], 4, 4)
+        .mips(2)
+        .file(&[9; 16 + 4]);
+    let image = decode(&file, "map.dds").expect("the file is sound");
+    assert_eq!(image.clone().with_mips(MapKind::Diffuse), image);
+    let single = Image::from_rgba8(1, 1, vec![1, 2, 3, 4], "made").expect("the size fits");
+    assert_eq!(single.clone().with_mips(MapKind::Normal), single);
+}
