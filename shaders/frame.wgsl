@@ -35,6 +35,8 @@ struct Frame {
     grid_major: vec4<f32>,
     grid_center: vec2<f32>,
     viewport_pixels: vec2<f32>,
+    // +1 when the green of normal maps points along the bitangent, -1 when against it.
+    @size(16) normal_green_sign: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

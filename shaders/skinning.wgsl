@@ -30,7 +30,8 @@ fn normalize_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
     return otherwise;
 }
 
-// `to` is given by the rows of a 3x4 matrix. Normals keep to their side of the surface when the matrix mirrors.
+// `to` is given by the rows of a 3x4 matrix. Normals keep to their side of the surface when the matrix mirrors; the bitangent,
+// which follows the surface, is then on the other side of normal and tangent.
 fn transform(row_x: vec4<f32>, row_y: vec4<f32>, row_z: vec4<f32>, vertex: Skinned) -> Skinned {
     let position = vec4<f32>(vertex.position, 1.0);
     let determinant = dot(row_x.xyz, cross(row_y.xyz, row_z.xyz));
@@ -45,7 +46,7 @@ fn transform(row_x: vec4<f32>, row_y: vec4<f32>, row_z: vec4<f32>, vertex: Skinn
     return Skinned(
         vec3<f32>(dot(row_x, position), dot(row_y, position), dot(row_z, position)),
         normalize_or(normal, vertex.normal),
-        vec4<f32>(normalize_or(tangent, vertex.tangent.xyz), vertex.tangent.w),
+        vec4<f32>(normalize_or(tangent, vertex.tangent.xyz), vertex.tangent.w * side),
     );
 }
 

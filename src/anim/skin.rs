@@ -12,7 +12,7 @@ pub struct SkinnedVertices {
     pub positions: Vec<Vec3>,
     /// Unit normals.
     pub normals: Vec<Vec3>,
-    /// Unit tangents; w as in the mesh.
+    /// Unit tangents; bitangent = w · cross(normal, tangent), as in the mesh.
     pub tangents: Vec<Vec4>,
 }
 
@@ -20,7 +20,7 @@ pub struct SkinnedVertices {
 ///
 /// - position = `m · p`;
 /// - normal = `normalize(cofactor(m) · n)`, negated where `m` mirrors: stays square to the surface under any scale;
-/// - tangent = `normalize(m · t)`: lies in the surface; its w is kept.
+/// - tangent = `normalize(m · t)`: lies in the surface; its w is negated where `m` mirrors.
 ///
 /// A vertex without weights, and every vertex of a static mesh, stays in bind space. Matrices that the palette lacks are
 /// identities. A matrix that flattens space leaves the direction as it was. Allocates only when `out` is too small.
@@ -44,10 +44,11 @@ pub fn skin(mesh: &Mesh, palette: &Palette, out: &mut SkinnedVertices) {
         let model_from_bind = blended(palette, influences);
         let linear = model_from_bind.matrix3;
         out.positions.push(model_from_bind.transform_point3(position));
-        out.normals.push(skinned_normal(&linear, normal));
+        let cofactor = Cofactor::of(&linear);
+        out.normals.push(cofactor.normal(normal));
         let direction = Vec3A::from_vec4(tangent);
-        out.tangents
-            .push(Vec3::from(direction_or(linear * direction, direction)).extend(tangent.w));
+        let moved = direction_or(linear * direction, direction);
+        out.tangents.push(Vec3::from(moved).extend(tangent.w * cofactor.side));
     }
 }
 
@@ -83,14 +84,27 @@ fn blended(palette: &Palette, influences: &Influences) -> Affine3A {
 
 /// The cofactor matrix is the inverse transpose times the determinant: it moves normals rightly under any scale and needs
 /// no division. Where the matrix mirrors, the determinant's sign would turn the normal inside out.
-#[inline]
-fn skinned_normal(linear: &Mat3A, normal: Vec3) -> Vec3 {
-    let Mat3A { x_axis, y_axis, z_axis } = *linear;
-    let cofactor = Mat3A::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));
-    let mirrored = x_axis.dot(cofactor.x_axis) < 0.0;
-    let normal = Vec3A::from(normal);
-    let moved = cofactor * normal;
-    direction_or(if mirrored { -moved } else { moved }, normal).into()
+struct Cofactor {
+    matrix: Mat3A,
+    /// −1 where the matrix mirrors, else 1.
+    side: f32,
+}
+
+impl Cofactor {
+    #[inline]
+    fn of(linear: &Mat3A) -> Self {
+        let Mat3A { x_axis, y_axis, z_axis } = *linear;
+        let matrix = Mat3A::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));
+        let mirrored = x_axis.dot(matrix.x_axis) < 0.0;
+        let side = if mirrored { -1.0 } else { 1.0 };
+        Self { matrix, side }
+    }
+
+    #[inline]
+    fn normal(&self, normal: Vec3) -> Vec3 {
+        let normal = Vec3A::from(normal);
+        direction_or(self.matrix * normal * self.side, normal).into()
+    }
 }
 
 /// The vector at unit length, or another where it has no length.

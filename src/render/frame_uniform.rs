@@ -57,5 +57,7 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], 
         grid_major: linear(look.grid_major, look.grid_major_opacity),
         grid_center: [center.x, center.z],
         viewport_pixels: [width as f32, height as f32],
+        normal_green_sign: if frame.options.normal_green_flipped { -1.0 } else { 1.0 },
+        unused: [0.0; 3],
     }
 }

@@ -1,36 +1,11 @@
 //! A model in GPU memory.
 
 use super::bones::BoneTexture;
-use super::material::material_uniform;
+use super::materials::{GpuMaterials, MaterialImages};
 use super::pipelines::{Layouts, PosedPipelines};
+use super::upload::{UploadError, Uploader};
 use crate::model::{Mesh, Model};
 use crate::shaders;
-
-/// Vertices converted at a time: uploads need no second copy of the mesh.
-const CHUNK: usize = 16 * 1024;
-
-/// Why a model cannot be drawn on this device.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum UploadError {
-    /// A stream is larger than the device's largest buffer.
-    #[error("the model's {stream} need {bytes} bytes; this device holds {limit} in one buffer")]
-    TooLarge {
-        /// Which stream.
-        stream: &'static str,
-        /// Its size.
-        bytes: u64,
-        /// The device's limit.
-        limit: u64,
-    },
-    /// More joints than the bone texture can have.
-    #[error("the model has {joints} bones; this device can blend with {limit}")]
-    TooManyJoints {
-        /// In the skeleton.
-        joints: usize,
-        /// The device's limit.
-        limit: usize,
-    },
-}
 
 /// How a model is posed in a draw.
 #[derive(Clone, Copy)]
@@ -44,7 +19,7 @@ pub(super) enum Posing<'a> {
 /// A range of indices with one material.
 struct DrawRange {
     indices: std::ops::Range<u32>,
-    material_offset: u32,
+    material: u32,
 }
 
 pub(super) struct GpuModel {
@@ -52,7 +27,7 @@ pub(super) struct GpuModel {
     influences: Option<wgpu::Buffer>,
     indices: wgpu::Buffer,
     index_count: u32,
-    material_group: wgpu::BindGroup,
+    materials: GpuMaterials,
     ranges: Vec<DrawRange>,
     /// Not there for a static model.
     pub(super) bones: Option<BoneTexture>,
@@ -86,26 +61,7 @@ impl GpuModel {
         });
         let is_skinned = joints > 0 && !mesh.influences.is_empty();
         let vertex = wgpu::BufferUsages::VERTEX;
-        let stride = material_stride(&uploader.limits);
-        let material_bytes = material_bytes(model, stride);
-        let materials = uploader.upload(
-            "materials",
-            wgpu::BufferUsages::UNIFORM,
-            material_bytes.len(),
-            material_bytes.into_iter(),
-        )?;
-        let material_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("materials"),
-            layout: &layouts.material,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &materials,
-                    offset: 0,
-                    size: std::num::NonZeroU64::new(size_of::<shaders::Material>() as u64),
-                }),
-            }],
-        });
+        let materials = GpuMaterials::upload(&uploader, layouts, &model.materials)?;
         Ok(Self {
             geometry: uploader.upload("vertices", vertex, mesh.vertex_count(), geometry)?,
             influences: if is_skinned {
@@ -120,32 +76,76 @@ impl GpuModel {
                 mesh.indices.iter().copied(),
             )?,
             index_count: mesh.indices.len() as u32,
-            material_group,
-            ranges: draw_ranges(mesh, stride),
+            materials,
+            ranges: draw_ranges(mesh),
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
             winding: winding(mesh),
         })
     }
 
+    /// Gives the materials their maps; those before are forgotten.
+    pub(super) fn set_maps(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layouts: &Layouts,
+        maps: &[MaterialImages<'_>],
+    ) {
+        self.materials.set_maps(device, queue, layouts, maps);
+    }
+
     /// Every submesh with its material. Groups 0 and 2 are set.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: &PosedPipelines, posing: Posing<'_>) {
-        self.bind(pass, pipelines, posing);
-        for range in &self.ranges {
-            pass.set_bind_group(3, &self.material_group, &[range.material_offset]);
-            pass.draw_indexed(range.indices.clone(), 0, 0..1);
+    pub(super) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        whole: &PosedPipelines,
+        cut: &PosedPipelines,
+        posing: Posing<'_>,
+    ) {
+        self.draw_materials(pass, whole, posing, false);
+        self.draw_materials(pass, cut, posing, true);
+    }
+
+    /// All triangles that a submesh names, in one draw where they are all the mesh has and alpha cuts none. Groups 0 and 2
+    /// are set.
+    pub(super) fn draw_depth(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        whole: &PosedPipelines,
+        cut: &PosedPipelines,
+        posing: Posing<'_>,
+    ) {
+        let of_whole = self
+            .ranges
+            .iter()
+            .filter(|range| !self.materials.is_cut(range.material));
+        let named: u64 = of_whole.map(|range| range.indices.len() as u64).sum();
+        if named == u64::from(self.index_count) {
+            self.bind(pass, whole, posing);
+            pass.draw_indexed(0..self.index_count, 0, 0..1);
+        } else {
+            self.draw(pass, whole, cut, posing);
         }
     }
 
-    /// All triangles that a submesh names, in one draw where they are all the mesh has. Group 0 is set.
-    pub(super) fn draw_depth(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: &PosedPipelines, posing: Posing<'_>) {
-        self.bind(pass, pipelines, posing);
-        let named: u64 = self.ranges.iter().map(|range| range.indices.len() as u64).sum();
-        if named == u64::from(self.index_count) {
-            pass.draw_indexed(0..self.index_count, 0, 0..1);
-        } else {
-            for range in &self.ranges {
-                pass.draw_indexed(range.indices.clone(), 0, 0..1);
+    /// The submeshes that alpha cuts, or the others.
+    fn draw_materials(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &PosedPipelines,
+        posing: Posing<'_>,
+        is_cut: bool,
+    ) {
+        let ranges = self
+            .ranges
+            .iter()
+            .filter(|range| self.materials.is_cut(range.material) == is_cut);
+        for (index, range) in ranges.enumerate() {
+            if index == 0 {
+                self.bind(pass, pipelines, posing);
             }
+            self.materials.bind(pass, range.material);
+            pass.draw_indexed(range.indices.clone(), 0, 0..1);
         }
     }
 
@@ -173,27 +173,12 @@ fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
     }
 }
 
-/// Distance between materials in their buffer: dynamic offsets want this alignment.
-fn material_stride(limits: &wgpu::Limits) -> u32 {
-    (size_of::<shaders::Material>() as u32).next_multiple_of(limits.min_uniform_buffer_offset_alignment)
-}
-
-fn material_bytes(model: &Model, stride: u32) -> Vec<u8> {
-    let stride = stride as usize;
-    let mut bytes = vec![0; model.materials.len().max(1) * stride];
-    for ((index, material), slot) in model.materials.iter().enumerate().zip(bytes.chunks_exact_mut(stride)) {
-        let uniform = material_uniform(index, material);
-        slot[..size_of_val(&uniform)].copy_from_slice(bytemuck::bytes_of(&uniform));
-    }
-    bytes
-}
-
-fn draw_ranges(mesh: &Mesh, material_stride: u32) -> Vec<DrawRange> {
+fn draw_ranges(mesh: &Mesh) -> Vec<DrawRange> {
     let drawn = mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
     drawn
         .map(|submesh| DrawRange {
             indices: submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3,
-            material_offset: submesh.material * material_stride,
+            material: submesh.material,
         })
         .collect()
 }
@@ -214,51 +199,6 @@ fn winding(mesh: &Mesh) -> f32 {
         .filter(|vote| vote.is_finite())
         .sum();
     if vote < 0.0 { -1.0 } else { 1.0 }
-}
-
-struct Uploader<'a> {
-    device: &'a wgpu::Device,
-    queue: &'a wgpu::Queue,
-    limits: wgpu::Limits,
-}
-
-impl Uploader<'_> {
-    /// A buffer of `count` elements. An empty one gets a few bytes, since no slice of it may be empty.
-    fn upload<T: bytemuck::NoUninit>(
-        &self,
-        stream: &'static str,
-        usage: wgpu::BufferUsages,
-        count: usize,
-        elements: impl Iterator<Item = T>,
-    ) -> Result<wgpu::Buffer, UploadError> {
-        let bytes = (count as u64 * size_of::<T>() as u64)
-            .next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT)
-            .max(16);
-        if bytes > self.limits.max_buffer_size {
-            return Err(UploadError::TooLarge {
-                stream,
-                bytes,
-                limit: self.limits.max_buffer_size,
-            });
-        }
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(stream),
-            size: bytes,
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let mut elements = elements;
-        let mut offset = 0;
-        loop {
-            let chunk: Vec<T> = elements.by_ref().take(CHUNK).collect();
-            if chunk.is_empty() {
-                return Ok(buffer);
-            }
-            let bytes = bytemuck::cast_slice(&chunk);
-            self.queue.write_buffer(&buffer, offset, bytes);
-            offset += bytes.len() as u64;
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! A material as the shader wants it.
 
+use super::materials::MaterialImages;
+use crate::image::Channels;
 use crate::model::{Material, Reflectance};
 use crate::{scene, shaders};
 
@@ -7,7 +9,11 @@ use crate::{scene, shaders};
 /// dielectrics they stand for.
 const PHONG_TO_FRESNEL: f32 = 0.05;
 
-pub(super) fn material_uniform(index: usize, material: &Material) -> shaders::Material {
+/// The share of alpha below which the books cut.
+const ALPHA_CLIP: f32 = 0.1;
+
+/// What is drawn of a material depends on the maps that are there.
+pub(super) fn material_uniform(index: usize, material: &Material, images: MaterialImages<'_>) -> shaders::Material {
     let (fresnel0, roughness) = match material.reflectance {
         Reflectance::Fresnel { fresnel0, roughness } => (fresnel0, roughness),
         Reflectance::Phong {
@@ -18,10 +24,22 @@ pub(super) fn material_uniform(index: usize, material: &Material) -> shaders::Ma
         ),
     };
     shaders::Material {
-        albedo: scene::display_color(index, material),
+        albedo: match images.diffuse {
+            Some(_) => material.diffuse.map(|channel| channel.clamp(0.0, 1.0)),
+            None => scene::display_color(index, material),
+        },
         roughness: roughness.clamp(0.0, 1.0),
         fresnel0: fresnel0.map(|channel| channel.clamp(0.0, 1.0)),
-        unused: 0.0,
+        alpha_clip: match images.diffuse {
+            Some(image) if material.alpha_clip && image.has_alpha() => ALPHA_CLIP,
+            _ => 0.0,
+        },
+        normal_channels: match images.normal {
+            Some(image) if image.channels() == Channels::RedGreen => 2,
+            Some(_) => 3,
+            None => 0,
+        },
+        unused: [0; 3],
     }
 }
 

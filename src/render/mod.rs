@@ -13,19 +13,23 @@ pub mod device;
 mod frame_uniform;
 mod gpu_model;
 mod look;
+mod map;
 mod material;
+mod materials;
 mod pipelines;
 mod probe;
 mod read_back;
 mod shadow;
 mod target;
+mod upload;
 
 pub use bones::BoneTexture;
 pub use composite::Compositor;
-pub use gpu_model::UploadError;
+pub use materials::MaterialImages;
 pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
+pub use upload::UploadError;
 
 use crate::model::Model;
 use crate::scene::{Background, RenderFrame};
@@ -43,6 +47,8 @@ pub struct Renderer {
     shadow: ShadowMap,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
+    /// Bound where a program's layout has an empty group.
+    nothing: wgpu::BindGroup,
     model: Option<GpuModel>,
 }
 
@@ -69,6 +75,11 @@ impl Renderer {
                 resource: frame_buffer.as_entire_binding(),
             }],
         });
+        let nothing = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("nothing"),
+            layout: &pipelines.layouts.nothing,
+            entries: &[],
+        });
         Self {
             shadow: ShadowMap::new(device, &pipelines.layouts.shadow),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
@@ -77,6 +88,7 @@ impl Renderer {
             pipelines,
             frame_buffer,
             frame_group,
+            nothing,
             model: None,
         }
     }
@@ -90,6 +102,15 @@ impl Renderer {
             model,
         )?);
         Ok(())
+    }
+
+    /// Gives each material of the model its maps, in the order of the model's materials; materials beyond the slice have none.
+    /// What was given before is forgotten, and so is all of it with the model. Uploads each picture once, however many
+    /// materials name the same one by reference. Does nothing without a model.
+    pub fn set_maps(&mut self, maps: &[MaterialImages<'_>]) {
+        if let Some(model) = &mut self.model {
+            model.set_maps(&self.device, &self.queue, &self.pipelines.layouts, maps);
+        }
     }
 
     /// Draws no model from now on and gives its memory back.
@@ -120,7 +141,9 @@ impl Renderer {
         let mut pass = self.shadow.begin_pass(encoder);
         let Some(model) = &self.model else { return };
         pass.set_bind_group(0, &self.frame_group, &[]);
-        model.draw_depth(&mut pass, &self.pipelines.caster, self.bones_for(model, frame));
+        let Pipelines { caster, caster_cut, .. } = &self.pipelines;
+        pass.set_bind_group(2, &self.nothing, &[]);
+        model.draw_depth(&mut pass, caster, caster_cut, self.bones_for(model, frame));
     }
 
     fn draw_picture(&self, frame: &RenderFrame<'_>, target: &Target, encoder: &mut wgpu::CommandEncoder) {
@@ -133,7 +156,12 @@ impl Renderer {
             pass.draw(0..3, 0..1);
         }
         if let Some(model) = &self.model {
-            model.draw(&mut pass, &self.pipelines.mesh, self.bones_for(model, frame));
+            // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
+            let cut = match frame.options.background {
+                Background::Backdrop => &self.pipelines.mesh_cut_smooth,
+                Background::Transparent => &self.pipelines.mesh_cut,
+            };
+            model.draw(&mut pass, &self.pipelines.mesh, cut, self.bones_for(model, frame));
         }
     }
 

@@ -9,6 +9,8 @@ pub(super) struct Layouts {
     pub(super) bones: wgpu::BindGroupLayout,
     pub(super) shadow: wgpu::BindGroupLayout,
     pub(super) material: wgpu::BindGroupLayout,
+    /// Holds the place of a group that a program does not read.
+    pub(super) nothing: wgpu::BindGroupLayout,
 }
 
 /// One program for models with and without joints.
@@ -20,7 +22,13 @@ pub(super) struct PosedPipelines {
 pub(super) struct Pipelines {
     pub(super) layouts: Layouts,
     pub(super) mesh: PosedPipelines,
+    /// For materials that alpha cuts: whole pixels.
+    pub(super) mesh_cut: PosedPipelines,
+    /// The same with smooth edges, for pictures that are opaque already: alpha chooses samples and is not stored. Not smooth
+    /// with one sample a pixel.
+    pub(super) mesh_cut_smooth: PosedPipelines,
     pub(super) caster: PosedPipelines,
+    pub(super) caster_cut: PosedPipelines,
     pub(super) backdrop: wgpu::RenderPipeline,
 }
 
@@ -43,9 +51,12 @@ impl Pipelines {
             bones,
             shadow,
             material,
+            nothing,
         } = &layouts;
-        let picture = |depth_write, depth_compare| Pass {
-            color: Some(COLOR_FORMAT),
+        let picture = |fragment, depth_write, depth_compare| Pass {
+            fragment: Some(fragment),
+            color: Some(COLOR_FORMAT.into()),
+            alpha_to_coverage: false,
             depth: wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(depth_write),
@@ -55,8 +66,10 @@ impl Pipelines {
             },
             samples: samples.count(),
         };
-        let shadow_pass = Pass {
+        let shadow_pass = |fragment| Pass {
+            fragment,
             color: None,
+            alpha_to_coverage: false,
             depth: wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(true),
@@ -67,13 +80,34 @@ impl Pipelines {
             samples: 1,
         };
 
+        let model = |fragment| picture(fragment, true, wgpu::CompareFunction::Less);
+        let cut_smooth = match samples {
+            SampleCount::One => model("fragment_cut"),
+            SampleCount::Four => Pass {
+                color: Some(wgpu::ColorTargetState {
+                    write_mask: wgpu::ColorWrites::COLOR,
+                    ..COLOR_FORMAT.into()
+                }),
+                alpha_to_coverage: true,
+                ..model("fragment_cut_smooth")
+            },
+        };
+
         let mesh = Builder::new(device, &shaders::MESH, &[frame, bones, shadow, material]);
         let caster = Builder::new(device, &shaders::CASTER, &[frame, bones]);
+        let caster_cut = Builder::new(device, &shaders::CASTER_CUT, &[frame, bones, nothing, material]);
         let backdrop = Builder::new(device, &shaders::BACKDROP, &[frame, bones, shadow]);
         Self {
-            mesh: mesh.posed(&picture(true, wgpu::CompareFunction::Less)),
-            caster: caster.posed(&shadow_pass),
-            backdrop: backdrop.build("vertex", &[], &picture(false, wgpu::CompareFunction::Always)),
+            mesh: mesh.posed(&model("fragment")),
+            mesh_cut: mesh.posed(&model("fragment_cut")),
+            mesh_cut_smooth: mesh.posed(&cut_smooth),
+            caster: caster.posed(&shadow_pass(None)),
+            caster_cut: caster_cut.posed(&shadow_pass(Some("fragment"))),
+            backdrop: backdrop.build(
+                "vertex",
+                &[],
+                &picture("fragment", false, wgpu::CompareFunction::Always),
+            ),
             layouts,
         }
     }
@@ -93,9 +127,9 @@ impl Layouts {
             ty,
             count: None,
         };
-        let uniform = |has_dynamic_offset, size: usize| wgpu::BindingType::Buffer {
+        let uniform = |size: usize| wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset,
+            has_dynamic_offset: false,
             min_binding_size: std::num::NonZeroU64::new(size as u64),
         };
         let texture = |sample_type| wgpu::BindingType::Texture {
@@ -108,7 +142,7 @@ impl Layouts {
         let frame_size = size_of::<shaders::Frame>();
         let material_size = size_of::<shaders::Material>();
         Self {
-            frame: layout("frame", &[entry(0, vertex | fragment, uniform(false, frame_size))]),
+            frame: layout("frame", &[entry(0, vertex | fragment, uniform(frame_size))]),
             bones: BoneTexture::layout(device),
             shadow: layout(
                 "shadow map",
@@ -117,14 +151,38 @@ impl Layouts {
                     entry(1, fragment, comparison),
                 ],
             ),
-            material: layout("material", &[entry(0, fragment, uniform(true, material_size))]),
+            material: layout(
+                "material",
+                &[
+                    entry(0, fragment, uniform(material_size)),
+                    entry(
+                        1,
+                        fragment,
+                        texture(wgpu::TextureSampleType::Float { filterable: true }),
+                    ),
+                    entry(
+                        2,
+                        fragment,
+                        texture(wgpu::TextureSampleType::Float { filterable: true }),
+                    ),
+                    entry(
+                        3,
+                        fragment,
+                        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                    ),
+                ],
+            ),
+            nothing: layout("nothing", &[]),
         }
     }
 }
 
 /// What a pipeline draws into.
 struct Pass {
-    color: Option<wgpu::TextureFormat>,
+    /// Entry point; none where depth is all there is to draw.
+    fragment: Option<&'static str>,
+    color: Option<wgpu::ColorTargetState>,
+    alpha_to_coverage: bool,
     depth: wgpu::DepthStencilState,
     samples: u32,
 }
@@ -179,7 +237,7 @@ impl<'a> Builder<'a> {
         buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
         pass: &Pass,
     ) -> wgpu::RenderPipeline {
-        let targets = [pass.color.map(wgpu::ColorTargetState::from)];
+        let targets: Vec<_> = pass.color.iter().cloned().map(Some).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.program.name),
             layout: Some(&self.layout),
@@ -197,11 +255,12 @@ impl<'a> Builder<'a> {
             depth_stencil: Some(pass.depth.clone()),
             multisample: wgpu::MultisampleState {
                 count: pass.samples,
+                alpha_to_coverage_enabled: pass.alpha_to_coverage,
                 ..Default::default()
             },
-            fragment: pass.color.map(|_| wgpu::FragmentState {
+            fragment: pass.fragment.map(|entry_point| wgpu::FragmentState {
                 module: &self.module,
-                entry_point: Some("fragment"),
+                entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &targets,
             }),

@@ -33,6 +33,9 @@ pub struct FrameOptions {
     pub background: Background,
     /// Whether the ground grid is drawn.
     pub grid_visible: bool,
+    /// Whether the green of normal maps points against the bitangent (up in the picture, the way of OpenGL) instead of along
+    /// it (down in the picture, the way of DirectX and of the books).
+    pub normal_green_flipped: bool,
 }
 
 /// One frame, plain data.

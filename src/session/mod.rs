@@ -209,6 +209,7 @@ impl Session {
                 theme: self.theme,
                 background: Background::Backdrop,
                 grid_visible: self.grid_visible,
+                normal_green_flipped: false,
             },
         }
     }

@@ -32,20 +32,26 @@ pub struct Frame {
     pub grid_major: [f32; 4],
     pub grid_center: [f32; 2],
     pub viewport_pixels: [f32; 2],
+    pub normal_green_sign: f32,
+    pub unused: [f32; 3],
 }
 
-/// Twin of `Material` in `mesh.wgsl`.
+/// Twin of `Material` in `material.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Material {
-    /// Linear.
+    /// Linear; multiplies the diffuse map.
     pub albedo: [f32; 3],
     /// 0 smooth … 1 rough.
     pub roughness: f32,
     /// Reflectance at normal incidence, linear.
     pub fresnel0: [f32; 3],
-    /// Fills the struct to 16 bytes.
-    pub unused: f32,
+    /// What lies below this alpha is cut away; 0 keeps everything.
+    pub alpha_clip: f32,
+    /// Channels of the normal map: 3, 2, or 0 without one.
+    pub normal_channels: u32,
+    /// Fills the struct to whole 16 bytes.
+    pub unused: [u32; 3],
 }
 
 /// What every vertex has: shader locations 0–3, bind space.

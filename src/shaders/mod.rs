@@ -46,13 +46,16 @@ macro_rules! shader_file {
 }
 
 const CASTER_WGSL: ShaderFile = shader_file!("caster.wgsl");
+const CASTER_CUT_WGSL: ShaderFile = shader_file!("caster_cut.wgsl");
 const BACKDROP_WGSL: ShaderFile = shader_file!("backdrop.wgsl");
 const COLOR_WGSL: ShaderFile = shader_file!("color.wgsl");
 const COMPOSITE_WGSL: ShaderFile = shader_file!("composite.wgsl");
 const FRAME_WGSL: ShaderFile = shader_file!("frame.wgsl");
 const FULLSCREEN_WGSL: ShaderFile = shader_file!("fullscreen.wgsl");
 const LIGHTING_WGSL: ShaderFile = shader_file!("lighting.wgsl");
+const MATERIAL_WGSL: ShaderFile = shader_file!("material.wgsl");
 const MESH_WGSL: ShaderFile = shader_file!("mesh.wgsl");
+const NORMAL_MAP_WGSL: ShaderFile = shader_file!("normal_map.wgsl");
 const PROBE_WGSL: ShaderFile = shader_file!("probe.wgsl");
 const SHADOW_WGSL: ShaderFile = shader_file!("shadow.wgsl");
 
@@ -68,6 +71,8 @@ pub const MESH: Program = Program {
         COLOR_WGSL,
         SHADOW_WGSL,
         LIGHTING_WGSL,
+        MATERIAL_WGSL,
+        NORMAL_MAP_WGSL,
         MESH_WGSL,
     ],
 };
@@ -76,6 +81,12 @@ pub const MESH: Program = Program {
 pub const CASTER: Program = Program {
     name: "caster",
     files: &[FRAME_WGSL, SKINNING_WGSL, CASTER_WGSL],
+};
+
+/// The same for what alpha cuts.
+pub const CASTER_CUT: Program = Program {
+    name: "caster-cut",
+    files: &[FRAME_WGSL, SKINNING_WGSL, MATERIAL_WGSL, CASTER_CUT_WGSL],
 };
 
 /// Backdrop, grid and the shadow on the ground.
@@ -97,4 +108,4 @@ pub const PROBE: Program = Program {
 };
 
 /// Every program there is.
-pub const PROGRAMS: [Program; 5] = [MESH, CASTER, BACKDROP, COMPOSITE, PROBE];
+pub const PROGRAMS: [Program; 6] = [MESH, CASTER, CASTER_CUT, BACKDROP, COMPOSITE, PROBE];

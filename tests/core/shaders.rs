@@ -50,8 +50,13 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
             "mesh/vertex_static",
             "mesh/vertex_skinned",
             "mesh/fragment",
+            "mesh/fragment_cut",
+            "mesh/fragment_cut_smooth",
             "caster/vertex_static",
             "caster/vertex_skinned",
+            "caster-cut/vertex_static",
+            "caster-cut/vertex_skinned",
+            "caster-cut/fragment",
             "backdrop/vertex",
             "backdrop/fragment",
             "composite/vertex",
@@ -110,12 +115,14 @@ fn twins() -> BTreeMap<String, Layout> {
             grid_major,
             grid_center,
             viewport_pixels,
+            normal_green_sign,
         }),
         twin!(Material {
             albedo,
             roughness,
             fresnel0,
-            unused
+            alpha_clip,
+            normal_channels,
         }),
     ])
 }

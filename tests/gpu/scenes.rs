@@ -33,6 +33,7 @@ impl Scene {
                 theme: Theme::Dark,
                 background: Background::Backdrop,
                 grid_visible: false,
+                normal_green_flipped: false,
             },
             world_bounds,
             model,

@@ -37,7 +37,10 @@ fn greatest_errors(model: &Model, palette: &Palette) -> (f64, f64) {
         position_error = position_error.max(position.distance(out.positions[vertex].as_dvec3()));
         direction_error = direction_error.max(normal.distance(out.normals[vertex].as_dvec3()));
         direction_error = direction_error.max(tangent.distance(out.tangents[vertex].truncate().as_dvec3()));
-        assert_eq!(out.tangents[vertex].w, mesh.tangents[vertex].w);
+        assert_eq!(
+            out.tangents[vertex].w,
+            mesh.tangents[vertex].w * linear.determinant().signum() as f32
+        );
     }
     (position_error, direction_error)
 }

@@ -1,0 +1,24 @@
+// The normal that a map gives a point of the surface.
+
+// `texel` as the map has it, `normal` unit, `tangent` in the space of the normal, any length; its w is the side of the
+// bitangent. Where the tangent gives no direction beside the normal, the normal stays.
+fn mapped_normal(texel: vec3<f32>, normal: vec3<f32>, tangent: vec4<f32>) -> vec3<f32> {
+    if material.normal_channels == 0u {
+        return normal;
+    }
+    // Interpolated, so no longer square to the normal.
+    let along_u = tangent.xyz - normal * dot(normal, tangent.xyz);
+    let length_squared = dot(along_u, along_u);
+    // Also false for what is not a number.
+    if !(length_squared > 1e-8) {
+        return normal;
+    }
+    let t = along_u * inverseSqrt(length_squared);
+    let b = cross(normal, t) * select(-1.0, 1.0, tangent.w >= 0.0);
+    let mapped = texel * 2.0 - 1.0;
+    var z = mapped.z;
+    if material.normal_channels == 2u {
+        z = sqrt(max(1.0 - dot(mapped.xy, mapped.xy), 0.0));
+    }
+    return normalize_or(t * mapped.x + b * (mapped.y * frame.normal_green_sign) + normal * z, normal);
+}

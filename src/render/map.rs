@@ -1,0 +1,135 @@
+//! A picture as a texture that shaders sample.
+
+use std::borrow::Cow;
+
+use crate::image::{Image, ImageFormat, MapKind};
+
+/// A map in GPU memory, all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
+/// Levels are made where the picture has none; those larger than the device can hold are left out.
+pub(super) fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
+    let limit = device.limits().max_texture_dimension_2d;
+    let image = fitting(image, kind, limit);
+    let first = first_fitting_level(&image, limit);
+    let (width, height) = image.level_size(first);
+    let whole_blocks = width % 4 == 0 && height % 4 == 0;
+    let takes_blocks = device.features().contains(wgpu::Features::TEXTURE_COMPRESSION_BC);
+    let compressed = compressed_format(image.format(), kind).filter(|_| whole_blocks && takes_blocks);
+    let format = compressed.unwrap_or(match kind {
+        MapKind::Diffuse => wgpu::TextureFormat::Rgba8UnormSrgb,
+        MapKind::Normal => wgpu::TextureFormat::Rgba8Unorm,
+    });
+    let size = |level| {
+        let (width, height) = image.level_size(level);
+        wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        }
+    };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("map"),
+        size: size(first),
+        mip_level_count: image.level_count() - first,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    for level in first..image.level_count() {
+        let bytes = if compressed.is_some() {
+            image.level(0, level).map(Cow::Borrowed)
+        } else {
+            image.to_rgba8(0, level).map(Cow::Owned)
+        };
+        let (block_side, _) = format.block_dimensions();
+        // The smallest levels still are one block.
+        let size = size(level).physical_size(format);
+        queue.write_texture(
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: level - first,
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
+            &bytes.unwrap_or_default(),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: format
+                    .block_copy_size(None)
+                    .map(|block| size.width / block_side * block),
+                rows_per_image: None,
+            },
+            size,
+        );
+    }
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// The texture format that holds these blocks as they are. The others are decoded: one or two values as colours, since no
+/// format decodes those from sRGB, and signed values, so that shaders know one range.
+fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::TextureFormat> {
+    use wgpu::TextureFormat as Gpu;
+    match (format, kind) {
+        (ImageFormat::Bc1, MapKind::Diffuse) => Some(Gpu::Bc1RgbaUnormSrgb),
+        (ImageFormat::Bc2, MapKind::Diffuse) => Some(Gpu::Bc2RgbaUnormSrgb),
+        (ImageFormat::Bc3, MapKind::Diffuse) => Some(Gpu::Bc3RgbaUnormSrgb),
+        (ImageFormat::Bc7, MapKind::Diffuse) => Some(Gpu::Bc7RgbaUnormSrgb),
+        (ImageFormat::Bc1, MapKind::Normal) => Some(Gpu::Bc1RgbaUnorm),
+        (ImageFormat::Bc2, MapKind::Normal) => Some(Gpu::Bc2RgbaUnorm),
+        (ImageFormat::Bc3, MapKind::Normal) => Some(Gpu::Bc3RgbaUnorm),
+        (ImageFormat::Bc7, MapKind::Normal) => Some(Gpu::Bc7RgbaUnorm),
+        (ImageFormat::Bc5, MapKind::Normal) => Some(Gpu::Bc5RgUnorm),
+        _ => None,
+    }
+}
+
+/// The picture with levels, of which at least one has no side above `limit`.
+fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
+    let last = image.level_count() - 1;
+    let (width, height) = image.level_size(last);
+    if last > 0 && width.max(height) <= limit {
+        return Cow::Borrowed(image);
+    }
+    if last == 0 {
+        return Cow::Owned(image.clone().with_mips(kind));
+    }
+    // A file that brings a few levels, all of them too large: the smallest of them is where its others start.
+    let smallest = image
+        .to_rgba8(0, last)
+        .and_then(|texels| Image::from_rgba8(width, height, texels, "").ok());
+    smallest.map_or(Cow::Borrowed(image), |smallest| Cow::Owned(smallest.with_mips(kind)))
+}
+
+fn first_fitting_level(image: &Image, limit: u32) -> u32 {
+    let fits = |&level: &u32| {
+        let (width, height) = image.level_size(level);
+        width.max(height) <= limit
+    };
+    (0..image.level_count()).find(fits).unwrap_or(image.level_count() - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grey(width: u32, height: u32) -> Image {
+        let texels = vec![128; (width * height * 4) as usize];
+        Image::from_rgba8(width, height, texels, "").expect("a small picture")
+    }
+
+    #[test]
+    fn a_picture_larger_than_the_device_starts_at_a_smaller_level() {
+        let image = grey(64, 8);
+        for (limit, first) in [(64, 0), (63, 1), (32, 1), (16, 2), (1, 6)] {
+            let fitting = fitting(&image, MapKind::Diffuse, limit);
+            assert_eq!(first_fitting_level(&fitting, limit), first, "limit {limit}");
+        }
+    }
+
+    #[test]
+    fn a_picture_with_levels_is_not_copied() {
+        let image = grey(64, 8).with_mips(MapKind::Normal);
+        assert!(matches!(fitting(&image, MapKind::Normal, 64), Cow::Borrowed(_)));
+    }
+}

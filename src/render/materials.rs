@@ -1,0 +1,203 @@
+//! The materials of a model in GPU memory: a bind group each, with its maps or what stands for them.
+
+use super::map;
+use super::material::material_uniform;
+use super::pipelines::Layouts;
+use super::upload::{UploadError, Uploader};
+use crate::image::{Image, MapKind};
+use crate::model::Material;
+use crate::shaders;
+
+/// Samples along the longer side of a pixel's footprint, where the device can: floors stay sharp far away.
+const ANISOTROPY: u16 = 8;
+
+/// The pictures of one material's maps, as far as they are there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MaterialImages<'a> {
+    /// Colours, sRGB; alpha cuts where the material says so.
+    pub diffuse: Option<&'a Image>,
+    /// Directions, linear.
+    pub normal: Option<&'a Image>,
+}
+
+/// Materials in the order of the model's, each ready to be bound as group 3.
+pub(super) struct GpuMaterials {
+    materials: Vec<Material>,
+    uniforms: wgpu::Buffer,
+    /// Distance between materials in their buffer.
+    stride: u32,
+    sampler: wgpu::Sampler,
+    bound: Vec<BoundMaterial>,
+}
+
+struct BoundMaterial {
+    group: wgpu::BindGroup,
+    is_cut: bool,
+}
+
+impl GpuMaterials {
+    /// Without maps as yet.
+    pub(super) fn upload(
+        uploader: &Uploader<'_>,
+        layouts: &Layouts,
+        materials: &[Material],
+    ) -> Result<Self, UploadError> {
+        let (device, queue) = (uploader.device, uploader.queue);
+        let alignment = uploader.limits.min_uniform_buffer_offset_alignment;
+        let stride = (size_of::<shaders::Material>() as u32).next_multiple_of(alignment);
+        let bytes = materials.len() * stride as usize;
+        let uniforms = uploader.upload(
+            "materials",
+            wgpu::BufferUsages::UNIFORM,
+            bytes,
+            std::iter::repeat_n(0u8, bytes),
+        )?;
+        let mut gpu_materials = Self {
+            materials: materials.to_vec(),
+            uniforms,
+            stride,
+            sampler: sampler(device),
+            bound: Vec::new(),
+        };
+        gpu_materials.set_maps(device, queue, layouts, &[]);
+        Ok(gpu_materials)
+    }
+
+    /// See [`Renderer::set_maps`](super::Renderer::set_maps).
+    pub(super) fn set_maps(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layouts: &Layouts,
+        maps: &[MaterialImages<'_>],
+    ) {
+        let mut textures = Textures::new(device, queue);
+        let mut bytes = vec![0; self.materials.len() * self.stride as usize];
+        let slots = bytes.chunks_exact_mut(self.stride as usize);
+        let maps = maps.iter().copied().chain(std::iter::repeat(MaterialImages::default()));
+        let mut bound = Vec::with_capacity(self.materials.len());
+        for (((index, material), slot), images) in self.materials.iter().enumerate().zip(slots).zip(maps) {
+            let uniform = material_uniform(index, material, images);
+            slot[..size_of_val(&uniform)].copy_from_slice(bytemuck::bytes_of(&uniform));
+            let diffuse = textures.view(images.diffuse, MapKind::Diffuse);
+            let normal = textures.view(images.normal, MapKind::Normal);
+            bound.push(BoundMaterial {
+                group: self.group(device, layouts, index, &diffuse, &normal),
+                is_cut: uniform.alpha_clip > 0.0,
+            });
+        }
+        queue.write_buffer(&self.uniforms, 0, &bytes);
+        self.bound = bound;
+    }
+
+    /// Whether alpha cuts a material.
+    pub(super) fn is_cut(&self, material: u32) -> bool {
+        self.bound
+            .get(material as usize)
+            .is_some_and(|material| material.is_cut)
+    }
+
+    pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, material: u32) {
+        if let Some(material) = self.bound.get(material as usize) {
+            pass.set_bind_group(3, &material.group, &[]);
+        }
+    }
+
+    fn group(
+        &self,
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        index: usize,
+        diffuse: &wgpu::TextureView,
+        normal: &wgpu::TextureView,
+    ) -> wgpu::BindGroup {
+        let uniform = wgpu::BufferBinding {
+            buffer: &self.uniforms,
+            offset: index as u64 * u64::from(self.stride),
+            size: std::num::NonZeroU64::new(size_of::<shaders::Material>() as u64),
+        };
+        let resources = [
+            wgpu::BindingResource::Buffer(uniform),
+            wgpu::BindingResource::TextureView(diffuse),
+            wgpu::BindingResource::TextureView(normal),
+            wgpu::BindingResource::Sampler(&self.sampler),
+        ];
+        let entries = (0..).zip(resources);
+        let entries: Vec<_> = entries
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("material"),
+            layout: &layouts.material,
+            entries: &entries,
+        })
+    }
+}
+
+/// Maps in GPU memory, each picture once, while materials are given theirs.
+struct Textures<'a> {
+    device: &'a wgpu::Device,
+    queue: &'a wgpu::Queue,
+    /// One white texel: changes no colour, and no normal, as none is read from it.
+    white: wgpu::TextureView,
+    uploaded: Vec<(&'a Image, MapKind, wgpu::TextureView)>,
+}
+
+impl<'a> Textures<'a> {
+    fn new(device: &'a wgpu::Device, queue: &'a wgpu::Queue) -> Self {
+        Self {
+            device,
+            queue,
+            white: white(device, queue),
+            uploaded: Vec::new(),
+        }
+    }
+
+    fn view(&mut self, image: Option<&'a Image>, kind: MapKind) -> wgpu::TextureView {
+        let Some(image) = image else {
+            return self.white.clone();
+        };
+        let mut uploaded = self.uploaded.iter();
+        if let Some((_, _, view)) = uploaded.find(|(other, of_kind, _)| std::ptr::eq(*other, image) && *of_kind == kind)
+        {
+            return view.clone();
+        }
+        let view = map::upload(self.device, self.queue, image, kind);
+        self.uploaded.push((image, kind, view.clone()));
+        view
+    }
+}
+
+fn white(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("no map"),
+        size: wgpu::Extent3d::default(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(4),
+        rows_per_image: None,
+    };
+    queue.write_texture(texture.as_image_copy(), &[255; 4], layout, texture.size());
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// Repeats, trilinear. Devices without anisotropic filtering take the number as 1.
+fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("maps"),
+        address_mode_u: wgpu::AddressMode::Repeat,
+        address_mode_v: wgpu::AddressMode::Repeat,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        anisotropy_clamp: ANISOTROPY,
+        ..Default::default()
+    })
+}

@@ -1,0 +1,72 @@
+//! Plain data into buffers, within what a device can hold.
+
+/// Elements converted at a time: uploads need no second copy of the mesh.
+const CHUNK: usize = 16 * 1024;
+
+/// Why a model cannot be drawn on this device.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum UploadError {
+    /// A stream is larger than the device's largest buffer.
+    #[error("the model's {stream} need {bytes} bytes; this device holds {limit} in one buffer")]
+    TooLarge {
+        /// Which stream.
+        stream: &'static str,
+        /// Its size.
+        bytes: u64,
+        /// The device's limit.
+        limit: u64,
+    },
+    /// More joints than the bone texture can have.
+    #[error("the model has {joints} bones; this device can blend with {limit}")]
+    TooManyJoints {
+        /// In the skeleton.
+        joints: usize,
+        /// The device's limit.
+        limit: usize,
+    },
+}
+
+pub(super) struct Uploader<'a> {
+    pub(super) device: &'a wgpu::Device,
+    pub(super) queue: &'a wgpu::Queue,
+    pub(super) limits: wgpu::Limits,
+}
+
+impl Uploader<'_> {
+    /// A buffer of `count` elements. An empty one gets a few bytes, since no slice of it may be empty.
+    pub(super) fn upload<T: bytemuck::NoUninit>(
+        &self,
+        stream: &'static str,
+        usage: wgpu::BufferUsages,
+        count: usize,
+        elements: impl Iterator<Item = T>,
+    ) -> Result<wgpu::Buffer, UploadError> {
+        let bytes = (count as u64 * size_of::<T>() as u64)
+            .next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT)
+            .max(16);
+        if bytes > self.limits.max_buffer_size {
+            return Err(UploadError::TooLarge {
+                stream,
+                bytes,
+                limit: self.limits.max_buffer_size,
+            });
+        }
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(stream),
+            size: bytes,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut elements = elements;
+        let mut offset = 0;
+        loop {
+            let chunk: Vec<T> = elements.by_ref().take(CHUNK).collect();
+            if chunk.is_empty() {
+                return Ok(buffer);
+            }
+            let bytes = bytemuck::cast_slice(&chunk);
+            self.queue.write_buffer(&buffer, offset, bytes);
+            offset += bytes.len() as u64;
+        }
+    }
+}
