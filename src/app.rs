@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
-use crate::render::{Compositor, Renderer, SampleCount, Target, device};
+use crate::render::{Compositor, MaterialImages, Renderer, SampleCount, Target, device};
 use crate::scene::Theme;
 use crate::session::Session;
 use crate::ui::{self, Request, UiState};
@@ -101,6 +101,7 @@ struct Stage {
     renderer: Renderer,
     target: Target,
     model: Option<u64>,
+    maps: Option<u64>,
     drawn: Option<Drawn>,
     frames_rendered: u64,
     was_animating: bool,
@@ -116,6 +117,7 @@ impl Stage {
             target: Target::with_samples(&gpu.device, 1, 1, samples),
             gpu: gpu.clone(),
             model: None,
+            maps: None,
             drawn: None,
             frames_rendered: 0,
             was_animating: false,
@@ -156,14 +158,24 @@ impl Stage {
     }
 
     fn take_up_model(&mut self, session: &Session) {
-        let revision = session.model_revision();
-        let Some(open) = session.open_model().filter(|_| self.model != Some(revision)) else {
-            return;
-        };
-        let uploaded = self.renderer.set_model(&open.model);
-        self.upload_error = uploaded.err().map(|error| error.to_string());
-        self.model = Some(revision);
-        self.drawn = None;
+        let Some(open) = session.open_model() else { return };
+        let (model, maps) = (session.model_revision(), session.maps_revision());
+        if self.model != Some(model) {
+            let uploaded = self.renderer.set_model(&open.model);
+            self.upload_error = uploaded.err().map(|error| error.to_string());
+            self.model = Some(model);
+            self.maps = None;
+            self.drawn = None;
+        }
+        if self.maps != Some(maps) {
+            let images = session.maps().images();
+            let images: Vec<_> = images
+                .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+                .collect();
+            self.renderer.set_maps(&images);
+            self.maps = Some(maps);
+            self.drawn = None;
+        }
     }
 }
 

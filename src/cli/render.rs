@@ -9,7 +9,7 @@ use super::text::Plain;
 use super::{Failure, clip, input};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
-use crate::render::{Renderer, Target, read_back_blocking};
+use crate::render::{MaterialImages, Renderer, Target, read_back_blocking};
 use crate::scene::{self, Background, Insets, ViewPreset};
 use crate::session::{Command, Session};
 
@@ -42,6 +42,9 @@ pub(super) struct Arguments {
     /// Surroundings.
     #[arg(long, value_enum, default_value = "dark")]
     theme: Theme,
+    /// A folder with the model's textures, folders in it included; may be given several times.
+    #[arg(long, value_name = "DIR")]
+    textures: Vec<PathBuf>,
     /// Leave out everything behind the model.
     #[arg(long)]
     transparent: bool,
@@ -135,7 +138,11 @@ fn open(arguments: &Arguments) -> Result<Session, Failure> {
     let path = &arguments.file;
     // At rest: time stands where it is put.
     let mut session = Session::new(true);
-    session.apply(Command::AddFiles(vec![input::read(path)?]));
+    let mut files = vec![input::read(path)?];
+    for folder in &arguments.textures {
+        input::read_pictures(folder, &mut files)?;
+    }
+    session.apply(Command::AddFiles(files));
     if let Some(error) = session.error() {
         return Err(Failure::Refused {
             path: path.clone(),
@@ -187,6 +194,11 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu, backend: device
     let uploaded = session
         .open_model()
         .map_or(Ok(()), |open| renderer.set_model(&open.model));
+    let images = session.maps().images();
+    let images: Vec<_> = images
+        .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+        .collect();
+    renderer.set_maps(&images);
     let mut target = Target::with_samples(device, width, height, *samples);
     let mut frame = session.frame();
     if arguments.transparent {

@@ -34,6 +34,11 @@ impl File {
             .map(|(_, extension)| extension.to_ascii_lowercase())
             .unwrap_or_default()
     }
+
+    /// Whether it is a picture by its name.
+    pub fn is_image(&self) -> bool {
+        IMAGE_EXTENSIONS.contains(&self.extension().as_str())
+    }
 }
 
 /// What a drop brought.
@@ -69,7 +74,7 @@ impl FileSet {
         let by_name = |wanted: fn(&File) -> bool| self.files.iter().filter(|file| wanted(file)).collect::<Vec<_>>();
         let mut models = by_name(|file| file.extension() == "m3d");
         if models.is_empty() {
-            models = by_name(|file| !is_image(file));
+            models = by_name(|file| !file.is_image());
         }
         models.sort_by_key(|file| std::cmp::Reverse(file.bytes.len()));
         models
@@ -77,17 +82,13 @@ impl FileSet {
 
     /// Files that are pictures by their name.
     pub fn images(&self) -> impl Iterator<Item = &File> {
-        self.files.iter().filter(|file| is_image(file))
+        self.files.iter().filter(|file| file.is_image())
     }
 
     /// The file with this path.
     pub fn get(&self, path: &str) -> Option<&File> {
         self.files.iter().find(|file| file.path == path)
     }
-}
-
-pub(super) fn is_image(file: &File) -> bool {
-    IMAGE_EXTENSIONS.contains(&file.extension().as_str())
 }
 
 #[cfg(test)]

@@ -108,6 +108,11 @@ impl Maps {
         }
     }
 
+    /// The decoded diffuse and normal map of each material, in the order of the materials.
+    pub fn images(&self) -> impl Iterator<Item = [Option<&Image>; 2]> {
+        (0..self.of_materials.len()).map(|material| MapSlot::ALL.map(|slot| self.image(material, slot)))
+    }
+
     /// Pictures that are used, with what they hold and which materials use them.
     pub fn used(&self) -> impl Iterator<Item = UsedMap<'_>> {
         self.pictures

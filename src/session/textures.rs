@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::Material;
 
-use super::files::{File, is_image};
+use super::files::File;
 
 /// What a material uses a map for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -116,7 +116,7 @@ pub fn find_map(name: &str, files: &[File]) -> Option<FoundMap> {
     let mut fitting: Vec<_> = files
         .iter()
         .enumerate()
-        .filter(|(_, file)| is_image(file))
+        .filter(|(_, file)| file.is_image())
         .filter_map(|(index, file)| {
             let path = parts(&file.path);
             let file_name = path.first()?;

@@ -10,7 +10,7 @@ use super::{UiState, textures, title_bar};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::display_color;
-use crate::session::{Command, OpenModel, Session};
+use crate::session::{Command, MapSlot, OpenModel, Session};
 
 /// Margin inside the panel.
 pub(super) const PANEL_MARGIN: f32 = 12.0;
@@ -34,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     space_rows(ui, session, commands);
     bounds_row(ui, open);
     rule(ui, PANEL_MARGIN);
-    subsets(ui, open);
+    subsets(ui, session, open);
     if session.maps().checklist().named > 0 {
         rule(ui, PANEL_MARGIN);
         textures::show(ui, session, open);
@@ -104,7 +104,7 @@ fn bounds_row(ui: &mut Ui, open: &OpenModel) {
     ));
 }
 
-fn subsets(ui: &mut Ui, open: &OpenModel) {
+fn subsets(ui: &mut Ui, session: &Session, open: &OpenModel) {
     let tokens = Tokens::of(ui);
     section_name(ui, "Subsets");
     let submeshes = &open.model.mesh.submeshes;
@@ -114,7 +114,12 @@ fn subsets(ui: &mut Ui, open: &OpenModel) {
             let Some(material) = open.model.materials.get(submesh.material as usize) else {
                 continue;
             };
-            let color = display_color(submesh.material as usize, material);
+            // A map that is there brings its own colours; the tint only stands in for one that is missing.
+            let index = submesh.material as usize;
+            let color = match session.maps().image(index, MapSlot::Diffuse) {
+                Some(_) => material.diffuse,
+                None => display_color(index, material),
+            };
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
             let swatch = egui::Rect::from_center_size(rect.left_center() + vec2(5.0, 0.0), vec2(10.0, 10.0));
             ui.painter().rect_filled(swatch, 2.5, color_srgb(color));
