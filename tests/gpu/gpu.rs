@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use bindpose::render::device::{self, Backend};
-use bindpose::render::{Renderer, Target, read_back_blocking};
+use bindpose::render::{MaterialImages, Renderer, Target, read_back_blocking};
 
 use crate::scenes::Scene;
 
@@ -29,6 +29,32 @@ fn open(backend: Backend) -> Gpu {
     Gpu { backend, open }
 }
 
+/// The same adapter opened without block-compressed textures.
+pub(crate) fn without_blocks(backend: Backend) -> Gpu {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: match backend {
+            Backend::Vulkan => wgpu::Backends::VULKAN,
+            Backend::Gl => wgpu::Backends::GL,
+        },
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    });
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
+    let adapter = adapter.unwrap_or_else(|error| panic!("{error}"));
+    let descriptor = wgpu::DeviceDescriptor {
+        required_features: wgpu::Features::empty(),
+        ..device::descriptor(&adapter)
+    };
+    let opened = pollster::block_on(adapter.request_device(&descriptor));
+    let (device, queue) = opened.unwrap_or_else(|error| panic!("{error}"));
+    let open = device::Gpu {
+        info: adapter.get_info(),
+        samples: device::sample_count(&adapter),
+        device,
+        queue,
+    };
+    Gpu { backend, open }
+}
+
 impl Gpu {
     pub(crate) fn renderer(&self) -> Renderer {
         Renderer::with_samples(&self.open.device, &self.open.queue, self.open.samples)
@@ -40,8 +66,20 @@ impl Gpu {
 
     /// Draws a scene once.
     pub(crate) fn draw(&self, scene: &Scene, width: u32, height: u32) -> Picture {
+        self.draw_with_maps(scene, &[], width, height)
+    }
+
+    /// Draws a scene once, its materials with these maps.
+    pub(crate) fn draw_with_maps(
+        &self,
+        scene: &Scene,
+        maps: &[MaterialImages<'_>],
+        width: u32,
+        height: u32,
+    ) -> Picture {
         let mut renderer = self.renderer();
         renderer.set_model(&scene.model).expect("test models are small");
+        renderer.set_maps(maps);
         let mut target = self.target(width, height);
         renderer.render(&scene.frame(), &mut target);
         self.read(&target)

@@ -24,8 +24,12 @@ macro_rules! on_both_backends {
     };
 }
 
+mod alpha_clip;
 mod golden;
 mod gpu;
+mod maps;
+mod normal_maps;
 mod picture;
 mod scenes;
 mod skinning;
+mod textures;

@@ -1,0 +1,160 @@
+//! What a diffuse map looks like on a surface.
+
+use bindpose::image::Image;
+use glam::Vec2;
+
+use crate::gpu::{Gpu, Picture, difference, without_blocks};
+use crate::scenes::Scene;
+use crate::textures::{HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, linear, pixels_of_card, plain, square};
+
+const ONE: [u8; 3] = [200, 40, 90];
+const OTHER: [u8; 3] = [30, 120, 220];
+
+fn draw(gpu: &Gpu, scene: &Scene) -> Picture {
+    gpu.draw(scene, WIDTH, HEIGHT)
+}
+
+fn draw_with(gpu: &Gpu, scene: &Scene, map: &Image) -> Picture {
+    gpu.draw_with_maps(scene, &diffuse(map), WIDTH, HEIGHT)
+}
+
+/// Every pixel of the card that is `expected` to be known, and that there are many of them.
+fn compare(scene: &Scene, found: &Picture, tolerance: u8, expected: impl Fn(u32, u32, Vec2) -> Option<[u8; 4]>) {
+    let mut compared = 0;
+    for (x, y, place) in pixels_of_card(scene) {
+        let Some(expected) = expected(x, y, place) else {
+            continue;
+        };
+        let found = found.pixel(x, y);
+        assert!(
+            difference(found, expected) <= tolerance,
+            "({x}, {y}): {found:?} for {expected:?}"
+        );
+        compared += 1;
+    }
+    assert!(compared > 500, "only {compared} pixels were compared");
+}
+
+/// A small generator of bytes, the same everywhere.
+fn random_bytes(seed: u64, count: usize) -> Vec<u8> {
+    let mut state = seed;
+    let next = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 56) as u8
+    };
+    std::iter::repeat_with(next).take(count).collect()
+}
+
+on_both_backends! {
+    /// Each texel shows as a material of that colour would: right place, repeated outside 0 … 1, decoded from sRGB.
+    fn a_checker_repeats_in_its_own_colours(gpu) {
+        let tex_coords = [Vec2::new(-1.0, -0.5), Vec2::new(2.0, 1.0)];
+        let scene = card(WHITE, tex_coords);
+        let is_one = |x: u32, y: u32| (x / 4 + y / 4) % 2 == 0;
+        let map = square(8, |x, y| {
+            let [red, green, blue] = if is_one(x, y) { ONE } else { OTHER };
+            [red, green, blue, 255]
+        });
+        let [one, other] = [ONE, OTHER].map(|color| draw(gpu, &card(linear(color), tex_coords)));
+        compare(&scene, &draw_with(gpu, &scene, &map), 1, |x, y, place| {
+            let texel = (tex_coords[0] + place * (tex_coords[1] - tex_coords[0])) * 8.0;
+            let from_border = (texel / 4.0 - (texel / 4.0).round()).abs().min_element() * 4.0;
+            let [column, row] = [texel.x, texel.y].map(|at| at.floor().rem_euclid(8.0) as u32);
+            let expected = if is_one(column, row) { &one } else { &other };
+            // Nearer than that, filtering mixes the two.
+            (from_border > 0.6).then(|| expected.pixel(x, y))
+        });
+    }
+
+    fn the_material_colours_its_map(gpu) {
+        let tint = [0.5, 0.8, 0.25];
+        let texel = linear([180, 90, 140]);
+        let product = [tint[0] * texel[0], tint[1] * texel[1], tint[2] * texel[2]];
+        let once = [Vec2::ZERO, Vec2::ONE];
+        let scene = card(tint, once);
+        let expected = draw(gpu, &card(product, once));
+        let found = draw_with(gpu, &scene, &plain([180, 90, 140, 255]));
+        compare(&scene, &found, 1, |x, y, _| Some(expected.pixel(x, y)));
+    }
+
+    /// A white that waits for its map shows a tint; with the map it is white.
+    fn a_map_that_is_there_needs_no_tint(gpu) {
+        let mut scene = card_once();
+        let white = draw(gpu, &scene);
+        scene.model.materials[0].diffuse_map = Some("card.dds".into());
+        let waiting = draw(gpu, &scene);
+        assert!(difference(waiting.middle(), white.middle()) > 20);
+        let found = draw_with(gpu, &scene, &plain([255; 4]));
+        compare(&scene, &found, 1, |x, y, _| Some(white.pixel(x, y)));
+    }
+
+    /// Black and white texels far smaller than a pixel: the grey of half the light everywhere, no pattern.
+    fn fine_detail_is_grey_from_afar(gpu) {
+        let tex_coords = [Vec2::ZERO, Vec2::splat(16.0)];
+        let scene = card(WHITE, tex_coords);
+        let map = square(64, |x, y| if (x + y) % 2 == 0 { [255; 4] } else { [0, 0, 0, 255] });
+        let grey = draw(gpu, &card([0.5; 3], tex_coords));
+        compare(&scene, &draw_with(gpu, &scene, &map), 2, |x, y, _| Some(grey.pixel(x, y)));
+    }
+
+    fn maps_may_come_after_the_model_and_go_again(gpu) {
+        let scene = card_once();
+        let map = square(8, |x, y| [(x * 32) as u8, (y * 32) as u8, 90, 255]);
+        let mut renderer = gpu.renderer();
+        let mut target = gpu.target(WIDTH, HEIGHT);
+        renderer.set_maps(&diffuse(&map));
+        renderer.set_model(&scene.model).expect("small");
+        let mut draw_now = |renderer: &mut bindpose::render::Renderer| {
+            renderer.render(&scene.frame(), &mut target);
+            gpu.read(&target)
+        };
+        let bare = draw(gpu, &scene);
+        assert_eq!(draw_now(&mut renderer), bare, "maps that came before the model are not its own");
+        renderer.set_maps(&diffuse(&map));
+        let mapped = draw_now(&mut renderer);
+        assert_eq!(mapped, draw_with(gpu, &scene, &map));
+        assert!(mapped.share_that_differs(&bare, 20) > 0.1);
+        renderer.set_maps(&[]);
+        assert_eq!(draw_now(&mut renderer), bare);
+        renderer.set_maps(&diffuse(&map));
+        renderer.set_model(&scene.model).expect("small");
+        assert_eq!(draw_now(&mut renderer), bare, "a new model starts without maps");
+    }
+
+    /// Any bits are blocks. A device that reads them shows what one shows for which they are decoded.
+    fn blocks_look_the_same_decoded(gpu) {
+        assert!(gpu.open.device.features().contains(wgpu::Features::TEXTURE_COMPRESSION_BC));
+        let decodes = without_blocks(gpu.backend);
+        assert!(!decodes.open.device.features().contains(wgpu::Features::TEXTURE_COMPRESSION_BC));
+        let scene = card_once();
+        for (code, dxgi, block_len) in
+            [(b"DXT1", 0, 8), (b"DXT3", 0, 16), (b"DXT5", 0, 16), (b"BC4U", 0, 8), (b"BC5U", 0, 16), (b"DX10", 98, 16)]
+        {
+            // 16, 8, 4, 2 and 1 texels a side.
+            let mut bytes = random_bytes(7, (16 + 4 + 3) * block_len);
+            for block in bytes.chunks_exact_mut(block_len) {
+                // A BC7 block without any mode is none.
+                block[0] |= 0x40;
+            }
+            let map = dds(code, dxgi, 16, &bytes);
+            assert_eq!(map.level_count(), 5);
+            let (read, decoded) = (draw_with(gpu, &scene, &map), draw_with(&decodes, &scene, &map));
+            assert_eq!(read.share_that_differs(&decoded, 2), 0.0, "{}", map.description());
+            assert!(read.share_that_differs(&draw(gpu, &scene), 20) > 0.1, "{}", map.description());
+        }
+    }
+
+    /// Sides that are no multiple of four, and pictures of one texel.
+    fn odd_sizes_are_drawn(gpu) {
+        let scene = card_once();
+        let expected = draw(gpu, &card(linear(ONE), [Vec2::ZERO, Vec2::ONE]));
+        let [red, green, blue] = ONE;
+        for (width, height) in [(1, 1), (3, 5), (1, 9), (100, 1)] {
+            let texels = [red, green, blue, 255].repeat((width * height) as usize);
+            let map = Image::from_rgba8(width, height, texels, "test").expect("small");
+            compare(&scene, &draw_with(gpu, &scene, &map), 1, |x, y, _| Some(expected.pixel(x, y)));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Pictures made by hand, and a card to put them on.
+
+use bindpose::image::{Image, decode};
+use bindpose::model::{Mesh, Model, Submesh};
+use bindpose::render::MaterialImages;
+use bindpose::scene::{Projection, linear_from_srgb8};
+use glam::{Vec2, Vec3};
+
+use crate::scenes::{Scene, material};
+
+pub(crate) const WHITE: [f32; 3] = [1.0; 3];
+
+/// Sides of the pictures of [`square`] and [`card`].
+pub(crate) const WIDTH: u32 = 160;
+pub(crate) const HEIGHT: u32 = 100;
+
+/// A square picture, texel by texel.
+pub(crate) fn square(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
+    let texels = (0..side * side).flat_map(|index| texel(index % side, index / side));
+    Image::from_rgba8(side, side, texels.collect(), "test").expect("a small picture")
+}
+
+/// The same texel everywhere.
+pub(crate) fn plain(texel: [u8; 4]) -> Image {
+    square(4, |_, _| texel)
+}
+
+/// A DDS file with a four-character code or, for `DX10`, a DXGI format, and all its levels.
+pub(crate) fn dds(code: &[u8; 4], dxgi: u32, side: u32, blocks: &[u8]) -> Image {
+    let mut words = [0; 31];
+    words[..7].copy_from_slice(&[124, 0x2_1007, side, side, 0, 0, u32::BITS - side.leading_zeros()]);
+    words[18..21].copy_from_slice(&[32, 4, u32::from_le_bytes(*code)]);
+    words[26] = 0x1000;
+    let dx10 = [dxgi, 3, 0, 1, 0];
+    let dx10: &[u32] = if code == b"DX10" { &dx10 } else { &[] };
+    let mut file = b"DDS ".to_vec();
+    file.extend(words.iter().chain(dx10).flat_map(|word| word.to_le_bytes()));
+    file.extend(blocks);
+    decode(&file, "test.dds").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// An sRGB colour as a material's diffuse colour.
+pub(crate) fn linear(srgb: [u8; 3]) -> [f32; 3] {
+    srgb.map(linear_from_srgb8)
+}
+
+/// An upright square of one colour, 2 wide, on y = 0, that faces -z; u goes right and v goes down over `tex_coords`, from
+/// its top left to its bottom right. Seen straight from its front in parallel projection.
+pub(crate) fn card(diffuse: [f32; 3], tex_coords: [Vec2; 2]) -> Scene {
+    let [first, last] = tex_coords;
+    let mesh = Mesh {
+        positions: [(-1.0, 0.0), (-1.0, 2.0), (1.0, 2.0), (1.0, 0.0)]
+            .map(|(x, y)| Vec3::new(x, y, 0.0))
+            .to_vec(),
+        normals: vec![Vec3::NEG_Z; 4],
+        tangents: vec![Vec3::X.extend(1.0); 4],
+        tex_coords: vec![Vec2::new(first.x, last.y), first, Vec2::new(last.x, first.y), last],
+        indices: vec![0, 1, 2, 0, 2, 3],
+        submeshes: vec![Submesh {
+            triangle_start: 0,
+            triangle_count: 2,
+            material: 0,
+        }],
+        ..Mesh::default()
+    };
+    let model = Model {
+        materials: vec![material("card", diffuse)],
+        mesh,
+        ..Model::default()
+    };
+    let mut scene = Scene::of(model);
+    scene.camera.projection = Projection::Orthographic;
+    scene
+}
+
+/// [`card`] with a map once across it.
+pub(crate) fn card_once() -> Scene {
+    card(WHITE, [Vec2::ZERO, Vec2::ONE])
+}
+
+pub(crate) fn diffuse(image: &Image) -> [MaterialImages<'_>; 1] {
+    [MaterialImages {
+        diffuse: Some(image),
+        normal: None,
+    }]
+}
+
+pub(crate) fn normal(image: &Image) -> [MaterialImages<'_>; 1] {
+    [MaterialImages {
+        diffuse: None,
+        normal: Some(image),
+    }]
+}
+
+/// Where on the card a pixel's middle lies, 0 … 1 from its top left; `None` off the card and at its very edge.
+pub(crate) fn on_card(scene: &Scene, x: u32, y: u32) -> Option<Vec2> {
+    let per_pixel = scene.camera.height_in_view() / HEIGHT as f32;
+    let from_middle = Vec2::new(
+        x as f32 + 0.5 - WIDTH as f32 / 2.0,
+        y as f32 + 0.5 - HEIGHT as f32 / 2.0,
+    ) * per_pixel;
+    let place = (from_middle + 1.0) / 2.0;
+    let inside = 0.03..0.97;
+    (inside.contains(&place.x) && inside.contains(&place.y)).then_some(place)
+}
+
+/// Every pixel of the card, with its place.
+pub(crate) fn pixels_of_card(scene: &Scene) -> impl Iterator<Item = (u32, u32, Vec2)> {
+    (0..WIDTH * HEIGHT).filter_map(move |index| {
+        let (x, y) = (index % WIDTH, index / WIDTH);
+        on_card(scene, x, y).map(|place| (x, y, place))
+    })
+}
