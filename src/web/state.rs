@@ -51,6 +51,7 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
             "model",
             session.open_model().map_or(JsValue::NULL, |open| model(session, open)),
         )
+        .with("textures", textures(session))
         .with("clip", session.clip().map(|clip| clip.name.as_str()))
         .with("timeSecs", playback.time_secs())
         .with("playing", playback.is_playing())
@@ -112,6 +113,16 @@ fn model(session: &Session, open: &OpenModel) -> JsValue {
         .with("materials", materials.collect::<Array>())
         .with("clips", clips.collect::<Array>())
         .with("bindBounds", bounds(&open.bind_bounds))
+        .done()
+}
+
+/// How many maps the materials name, and the names that no file fits.
+fn textures(session: &Session) -> JsValue {
+    let checklist = session.maps().checklist();
+    let missing = checklist.missing.iter().map(|name| JsValue::from(&**name));
+    Fields::new()
+        .with("named", checklist.named as f64)
+        .with("missing", missing.collect::<Array>())
         .done()
 }
 

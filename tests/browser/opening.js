@@ -107,6 +107,40 @@ test("the same file again keeps the clip and the time", {}, async (page) => {
   assert.ok(difference(before, await picture(page)) < 0.001);
 });
 
+test("maps are found beside the model and join it later, and are drawn", {}, async (page) => {
+  const { folder, path } = copyOfSample("mapped.m3d");
+  const named = readFileSync(path, "utf8").replace(/^DiffuseMap:.*$/m, "DiffuseMap: C:\\art\\Coat.dds");
+  writeFileSync(path, named);
+  const png = join(folder, "coat.png");
+  await call(page, "pause");
+  const bytes = await page.evaluate(async () => {
+    const blob = await bindpose.snapshot({ width: 64, height: 64 });
+    return [...new Uint8Array(await blob.arrayBuffer())];
+  });
+  writeFileSync(png, Buffer.from(bytes));
+
+  await dropAndWait(page, [path]);
+  await call(page, "pause");
+  await call(page, "seek", 0.25);
+  await settled(page);
+  assert.deepEqual((await state(page)).textures, { named: 1, missing: ["C:\\art\\Coat.dds"] });
+  const without = await picture(page);
+  await drop(page, [png]);
+  await until(page, ({ textures }) => textures.missing.length === 0);
+  await settled(page);
+  const later = await picture(page);
+  assert.ok(difference(without, later) > 0.02, "the map is drawn");
+  assert.equal((await state(page)).error, null);
+  await keep(page, "mapped");
+
+  await dropAndWait(page, [SAMPLE]);
+  await dropAndWait(page, [path, png]);
+  await call(page, "pause");
+  await call(page, "seek", 0.25);
+  await settled(page);
+  assert.ok(difference(later, await picture(page)) < 0.001, "at once is the same picture as later");
+});
+
 const bad = [...filesIn(`${FIXTURES}bad/`, ".m3d"), ...filesIn(`${SHARED}reject/`, "d")];
 
 test("a file that cannot be read shows its error and keeps the model", { viewport: LARGE }, async (page) => {

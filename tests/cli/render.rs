@@ -189,3 +189,27 @@ fn a_missing_driver_is_named_with_its_package() {
     let instead = without_vulkan("instead.png", &[]).fine();
     assert!(instead.contains("(GL)"), "{instead}");
 }
+
+#[test]
+fn textures_of_a_folder_are_drawn_at_any_depth() {
+    let text = std::fs::read_to_string(FIGURE).expect("the sample is there");
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("DiffuseMap:"))
+        .expect("a material");
+    let model = scratch("mapped.m3d");
+    std::fs::write(&model, text.replacen(line, "DiffuseMap: Coat.dds", 1)).expect("writes");
+    let folder = scratch("art");
+    std::fs::create_dir_all(folder.join("deep")).expect("makes a folder");
+    let red = RgbaImage::from_pixel(4, 4, image::Rgba([200, 10, 10, 255]));
+    red.save(folder.join("deep/coat.png")).expect("writes");
+
+    let model = model.to_str().expect("UTF-8");
+    let folder = folder.to_str().expect("UTF-8");
+    let size = ["--size", "200x150"];
+    let (without, _) = draw("unmapped.png", model, &size);
+    let (with, _) = draw("mapped.png", model, &[&size[..], &["--textures", folder]].concat());
+    assert!(share_that_differs(&without, &with, 16) > 0.02);
+    let missing = run(["render", model, "-o", "nothing.png", "--textures", "/no/such/folder"]);
+    assert_eq!(missing.code, Some(2));
+}
