@@ -7,7 +7,7 @@ use glam::Vec2;
 
 use crate::gpu::{Gpu, Picture, difference};
 use crate::scenes::Scene;
-use crate::textures::{HEIGHT, WHITE, WIDTH, card, card_once, diffuse, pixels_of_card, plain, square};
+use crate::textures::{HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, pixels_of_card, plain, square};
 
 const GREEN: [u8; 3] = [40, 160, 60];
 
@@ -90,6 +90,15 @@ on_both_backends! {
         let map = decode(&file, "bgrx.dds").expect("a file as the books have them");
         let whole = draw(gpu, &card_once(), &plain(green(255)));
         assert_eq!(draw(gpu, &clipped(card_once()), &map), whole);
+
+        // BC3 blocks of alpha 0 and one colour; the header says that alpha is 1.
+        let block = [0, 0, 0, 0, 0, 0, 0, 0, 0xe0, 0x07, 0xe0, 0x07, 0, 0, 0, 0];
+        let [said_opaque, said_nothing] = [3, 0].map(|alpha_mode| dds(b"DX10", [77, alpha_mode], 4, &block.repeat(3)));
+        assert!(!said_opaque.has_alpha() && said_nothing.has_alpha());
+        let whole = draw(gpu, &card_once(), &said_opaque);
+        assert_eq!(draw(gpu, &clipped(card_once()), &said_opaque), whole);
+        let bare = gpu.draw(&without_model(card_once()), WIDTH, HEIGHT);
+        assert_eq!(draw(gpu, &clipped(card_once()), &said_nothing), bare);
     }
 
     fn what_is_cut_away_casts_no_shadow(gpu) {

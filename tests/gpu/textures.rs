@@ -25,13 +25,13 @@ pub(crate) fn plain(texel: [u8; 4]) -> Image {
     square(4, |_, _| texel)
 }
 
-/// A DDS file with a four-character code or, for `DX10`, a DXGI format, and all its levels.
-pub(crate) fn dds(code: &[u8; 4], dxgi: u32, side: u32, blocks: &[u8]) -> Image {
+/// A DDS file with a four-character code or, for `DX10`, a DXGI format and alpha mode, and all its levels.
+pub(crate) fn dds(code: &[u8; 4], [dxgi, alpha_mode]: [u32; 2], side: u32, blocks: &[u8]) -> Image {
     let mut words = [0; 31];
     words[..7].copy_from_slice(&[124, 0x2_1007, side, side, 0, 0, u32::BITS - side.leading_zeros()]);
     words[18..21].copy_from_slice(&[32, 4, u32::from_le_bytes(*code)]);
     words[26] = 0x1000;
-    let dx10 = [dxgi, 3, 0, 1, 0];
+    let dx10 = [dxgi, 3, 0, 1, alpha_mode];
     let dx10: &[u32] = if code == b"DX10" { &dx10 } else { &[] };
     let mut file = b"DDS ".to_vec();
     file.extend(words.iter().chain(dx10).flat_map(|word| word.to_le_bytes()));
