@@ -52,7 +52,7 @@ impl ViewPreset {
         }
     }
 
-    /// Yaw and pitch of [`Camera`], radians. The front of a model faces −z.
+    /// Yaw and pitch of [`Camera`](super::Camera), radians. The front of a model faces −z.
     pub fn yaw_pitch_radians(self) -> (f32, f32) {
         match self {
             Self::ThreeQuarter => (-0.62, 0.2),
