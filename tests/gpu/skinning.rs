@@ -81,27 +81,28 @@ fn random_vertices(random: &mut Random, joints: usize) -> (Vec<GeometryVertex>, 
     (0..VERTICES).map(vertex).unzip()
 }
 
-/// Position, normal, tangent.
-type Skinned = [DVec3; 3];
+/// Position, normal and tangent, and the tangent's w.
+type Skinned = ([DVec3; 3], f64);
 
 /// Straight from the definition, in f64: blend 4×4 matrices, normals by the inverse transpose.
 fn skin_by_definition(palette: &Palette, geometry: &GeometryVertex, influences: &InfluenceVertex) -> Skinned {
     let vector = |array: [f32; 3]| Vec3::from(array).as_dvec3();
-    let [tx, ty, tz, _] = geometry.tangent;
+    let [tx, ty, tz, sign] = geometry.tangent;
     let bind = [vector(geometry.position), vector(geometry.normal), vector([tx, ty, tz])];
     if influences.weights == [0.0; 4] {
-        return bind;
+        return (bind, f64::from(sign));
     }
     let mut blended = DMat4::ZERO;
     for (joint, weight) in influences.joints.into_iter().zip(influences.weights) {
         blended += glam::Mat4::from(palette.0[joint as usize]).as_dmat4() * f64::from(weight);
     }
     let linear = DMat3::from_mat4(blended);
-    [
+    let moved = [
         (blended * bind[0].extend(1.0)).truncate(),
         (linear.inverse().transpose() * bind[1]).normalize(),
         (linear * bind[2]).normalize(),
-    ]
+    ];
+    (moved, f64::from(sign) * linear.determinant().signum())
 }
 
 /// What the twin on the CPU says.
@@ -118,12 +119,12 @@ fn skin_on_cpu(palette: &Palette, geometry: &[GeometryVertex], influences: &[Inf
     };
     let mut out = SkinnedVertices::default();
     skin(&mesh, palette, &mut out);
-    let tangents = out.tangents.iter().map(|tangent| tangent.truncate().as_dvec3());
+    let tangents = out.tangents.iter().map(|tangent| tangent.as_dvec4());
     let directions = out.normals.iter().map(|normal| normal.as_dvec3()).zip(tangents);
     let positions = out.positions.iter().map(|position| position.as_dvec3());
     positions
         .zip(directions)
-        .map(|(position, (normal, tangent))| [position, normal, tangent])
+        .map(|(position, (normal, tangent))| ([position, normal, tangent.truncate()], tangent.w))
         .collect()
 }
 
@@ -254,12 +255,9 @@ fn skin_on_gpu(
     queue.submit([encoder.finish()]);
     let bytes = read_texture(gpu, &texture, 16);
     let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
-    let at = |row: usize, vertex: usize| {
-        let [x, y, z, _] = texels[row * VERTICES + vertex];
-        Vec3::new(x, y, z).as_dvec3()
-    };
+    let at = |row: usize, vertex: usize| glam::Vec4::from(texels[row * VERTICES + vertex]).as_dvec4();
     (0..VERTICES)
-        .map(|vertex| [at(0, vertex), at(1, vertex), at(2, vertex)])
+        .map(|vertex| ([0, 1, 2].map(|row| at(row, vertex).truncate()), at(2, vertex).w))
         .collect()
 }
 
@@ -276,9 +274,11 @@ fn compare(gpu: &Gpu, joints: usize) {
         }
         compared += 1;
         let by_definition = skin_by_definition(&palette, &geometry[vertex], &influences[vertex]);
-        for (of, what) in ["position", "normal", "tangent"].into_iter().enumerate() {
-            let expected = by_definition[of];
-            for (by, found) in [("GPU", on_gpu[vertex][of]), ("CPU", on_cpu[vertex][of])] {
+        let (expected, expected_sign) = by_definition;
+        for (by, (found, sign)) in [("GPU", on_gpu[vertex]), ("CPU", on_cpu[vertex])] {
+            assert_eq!(sign, expected_sign, "{by}: side of the bitangent of vertex {vertex}");
+            for (of, what) in ["position", "normal", "tangent"].into_iter().enumerate() {
+                let (found, expected) = (found[of], expected[of]);
                 let error = found.distance(expected) / expected.length().max(1.0);
                 assert!(
                     error <= TOLERANCE,
