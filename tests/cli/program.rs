@@ -94,7 +94,9 @@ pub(crate) fn scratch(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli");
     std::fs::create_dir_all(&folder).expect("the target folder can be written");
     let path = folder.join(name);
-    if path.exists() {
+    if path.is_dir() {
+        std::fs::remove_dir_all(&path).expect("was made by an earlier run");
+    } else if path.exists() {
         std::fs::remove_file(&path).expect("was written by an earlier run");
     }
     path
