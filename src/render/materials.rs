@@ -188,8 +188,10 @@ fn white(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// Repeats, trilinear. Devices without anisotropic filtering take the number as 1.
+/// Repeats, trilinear. Devices without anisotropic filtering take the number as 1. Software devices do it texel by texel, at
+/// many times the cost of all else in a frame, so there it is off.
 fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    let is_software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("maps"),
         address_mode_u: wgpu::AddressMode::Repeat,
@@ -197,7 +199,7 @@ fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
         mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        anisotropy_clamp: ANISOTROPY,
+        anisotropy_clamp: if is_software { 1 } else { ANISOTROPY },
         ..Default::default()
     })
 }
