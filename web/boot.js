@@ -19,8 +19,10 @@ globalThis.bindpose = bindpose;
 
 let viewer = null; // The wasm module's exports.
 let gpu = null; // {backend, adapter} of the last start that worked.
+let starts = 0; // Losses are told apart by the start that they belong to.
 let restarts = [];
 let restarting = false;
+let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
 
 const refuse = (words) => showNotice("Some files could not be read", words);
 const receive = async (files) => {
@@ -104,15 +106,20 @@ function wantedBackend() {
 /** Starts on the canvas of the page, which must never have been drawn on. */
 async function start(backend) {
   const canvas = element("canvas");
-  canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost"), { once: true });
+  const mine = ++starts;
+  canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost", mine), { once: true });
   const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
   gpu = await viewer.start(canvas, { backend, reducedMotion }, onEvent);
   view.classList.add("drawn");
 }
 
 /** The GPU went away: what is open lives on in the module, so a new canvas and a new start bring all of it back. */
-async function restart(reason) {
-  if (restarting) return;
+async function restart(reason, of = starts) {
+  if (of !== starts) return;
+  if (restarting) {
+    lostMeanwhile = reason;
+    return;
+  }
   restarting = true;
   try {
     for (;;) {
@@ -121,6 +128,7 @@ async function restart(reason) {
       if (restarts.length === MAX_RESTARTS) throw new Error(`The GPU went away ${MAX_RESTARTS} times: ${reason}`);
       restarts.push(now);
       viewer.stop();
+      lostMeanwhile = null;
       // A canvas remembers the kind of its first context for ever.
       const old = element("canvas");
       const fresh = old.cloneNode(false);
@@ -132,7 +140,8 @@ async function restart(reason) {
         const plainer = restarts.length === MAX_RESTARTS && wantedBackend() === "auto";
         await start(plainer ? "webgl2" : wantedBackend());
         if (hadFocus) fresh.focus();
-        return;
+        if (!lostMeanwhile) return;
+        reason = lostMeanwhile;
       } catch (error) {
         reason = wordsOf(error);
         await new Promise((done) => setTimeout(done, 250 * restarts.length));

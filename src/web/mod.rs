@@ -25,6 +25,8 @@ thread_local! {
     static PAGE: RefCell<Option<Page>> = const { RefCell::new(None) };
     /// The page's listener, apart from `PAGE` so that a panic anywhere can still be told.
     static LISTENER: RefCell<Option<Function>> = const { RefCell::new(None) };
+    /// Counts starts, so that a device of an earlier one cannot speak for the present one.
+    static STARTS: Cell<u32> = const { Cell::new(0) };
 }
 
 /// What lives as long as the page.
@@ -75,6 +77,7 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
     let reduced_motion = option("reducedMotion").as_bool().unwrap_or(false);
 
     stop();
+    STARTS.set(STARTS.get() + 1);
     let session = PAGE.with_borrow_mut(|page| {
         let new_page = || Page {
             session: Rc::new(RefCell::new(Session::new(reduced_motion))),
@@ -241,17 +244,22 @@ fn watch_device(device: &egui_wgpu::wgpu::Device) {
     device.on_uncaptured_error(std::sync::Arc::new(|error: egui_wgpu::wgpu::Error| {
         web_sys::console::error_1(&format!("GPU error: {error}").into());
     }));
-    device.set_device_lost_callback(|reason, message| {
-        if reason != egui_wgpu::wgpu::DeviceLostReason::Destroyed || !message.is_empty() {
+    let start = STARTS.get();
+    device.set_device_lost_callback(move |reason, message| {
+        let by_us = reason == egui_wgpu::wgpu::DeviceLostReason::Destroyed && message.is_empty();
+        if start == STARTS.get() && !by_us {
             emit("devicelost", &detail("reason", &message));
         }
     });
 }
 
 fn watch_context(canvas: &HtmlCanvasElement) -> Result<(), JsError> {
-    let lost = Closure::<dyn FnMut(web_sys::Event)>::new(|event: web_sys::Event| {
+    let start = STARTS.get();
+    let lost = Closure::<dyn FnMut(web_sys::Event)>::new(move |event: web_sys::Event| {
         event.prevent_default();
-        emit("devicelost", &detail("reason", "the WebGL context was lost"));
+        if start == STARTS.get() {
+            emit("devicelost", &detail("reason", "the WebGL context was lost"));
+        }
     });
     canvas
         .add_event_listener_with_callback("webglcontextlost", lost.as_ref().unchecked_ref())
