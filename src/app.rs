@@ -151,7 +151,7 @@ impl Stage {
         let mut target = Target::with_samples(&self.gpu.device, width, height, self.samples);
         let mut frame = session.frame();
         if transparent {
-            frame.options.background = crate::scene::Background::Transparent;
+            frame.options.background = crate::scene::Background::None;
         }
         self.renderer.render(&frame, &mut target);
         target

@@ -10,8 +10,8 @@ use super::{Failure, clip, input};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, Target, read_back_blocking};
-use crate::scene::{self, Background, Insets, ViewPreset};
-use crate::session::{Command, Session};
+use crate::scene::{self, Background, Insets, Overlay, ViewPreset};
+use crate::session::{Command, LookCommand, Session};
 
 /// Draw a model into a PNG file.
 ///
@@ -163,7 +163,10 @@ fn open(arguments: &Arguments) -> Result<Session, Failure> {
         insets: Insets::default(),
     });
     session.apply(Command::SetTheme(arguments.theme.into()));
-    session.apply(Command::SetGridVisible(!arguments.no_grid));
+    session.apply(Command::Look(LookCommand::SetOverlay(
+        Overlay::Grid,
+        !arguments.no_grid,
+    )));
     session.apply(Command::LookFrom(arguments.view.into()));
     Ok(session)
 }
@@ -202,7 +205,7 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu, backend: device
     let mut target = Target::with_samples(device, width, height, *samples);
     let mut frame = session.frame();
     if arguments.transparent {
-        frame.options.background = Background::Transparent;
+        frame.options.background = Background::None;
     }
     renderer.render(&frame, &mut target);
     let pixels = read_back_blocking(device, queue, &target);

@@ -4,7 +4,7 @@ use glam::Mat4;
 
 use super::look::{Lights, encoded, linear, look};
 use super::shadow::ShadowFit;
-use crate::scene::{Ground, Projection, RenderFrame};
+use crate::scene::{Ground, Overlay, Projection, RenderFrame};
 use crate::shaders;
 
 /// The grid is gone this many radii of the scene from its middle, or this many camera distances if that is more.
@@ -50,7 +50,11 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], 
         to_key: lights.to_key.to_array(),
         shadow_strength: look.shadow_strength,
         to_rim: lights.to_rim.to_array(),
-        grid_strength: if frame.options.grid_visible { 1.0 } else { 0.0 },
+        grid_strength: if frame.options.overlays.has(Overlay::Grid) {
+            1.0
+        } else {
+            0.0
+        },
         backdrop_center_srgb: encoded(look.backdrop_center),
         backdrop_edge_srgb: encoded(look.backdrop_edge),
         grid_minor: linear(look.grid_minor, look.grid_minor_opacity),

@@ -150,7 +150,7 @@ impl Renderer {
         let mut pass = target.begin_pass(encoder);
         pass.set_bind_group(0, &self.frame_group, &[]);
         pass.set_bind_group(2, self.shadow.group(), &[]);
-        if frame.options.background == Background::Backdrop {
+        if frame.options.background != Background::None {
             pass.set_pipeline(&self.pipelines.backdrop);
             pass.set_bind_group(1, self.no_bones.group(), &[]);
             pass.draw(0..3, 0..1);
@@ -158,8 +158,8 @@ impl Renderer {
         if let Some(model) = &self.model {
             // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
             let cut = match frame.options.background {
-                Background::Backdrop => &self.pipelines.mesh_cut_smooth,
-                Background::Transparent => &self.pipelines.mesh_cut,
+                Background::None => &self.pipelines.mesh_cut,
+                _ => &self.pipelines.mesh_cut_smooth,
             };
             model.draw(&mut pass, &self.pipelines.mesh, cut, self.bones_for(model, frame));
         }

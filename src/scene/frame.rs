@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{Aabb, Camera};
+use super::{Aabb, Background, Camera, Light, Overlays, Passes, ViewMode};
 use crate::anim::Palette;
 
 /// Dark or light surroundings.
@@ -15,24 +15,30 @@ pub enum Theme {
     Light,
 }
 
-/// What is behind the model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Background {
-    /// The quiet gradient of the theme.
-    Backdrop,
-    /// Nothing: alpha 0, for pictures.
-    Transparent,
-}
-
 /// What is drawn beside the model and how.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameOptions {
     /// Colours of backdrop and grid.
     pub theme: Theme,
+    /// How surfaces are lit.
+    pub light: Light,
+    /// Where the picture is divided, as a share of its width: the book's light on the left, the studio's on the right,
+    /// whatever `light` says.
+    pub split: Option<f32>,
+    /// What of a surface is shown.
+    pub view_mode: ViewMode,
     /// What is behind the model.
     pub background: Background,
-    /// Whether the ground grid is drawn.
-    pub grid_visible: bool,
+    /// Lines over and beside the model.
+    pub overlays: Overlays,
+    /// Which costly steps are drawn.
+    pub passes: Passes,
+    /// Turn of the surroundings about y, radians.
+    pub environment_turn_radians: f32,
+    /// Exposure of the studio light: each stop doubles it.
+    pub exposure_stops: f32,
+    /// Turn of the book's lights about y, radians: the demo turns them by 0.1 a second.
+    pub book_lights_turn_radians: f32,
     /// Whether the green of normal maps points against the bitangent (up in the picture, the way of OpenGL) instead of along
     /// it (down in the picture, the way of DirectX and of the books).
     pub normal_green_flipped: bool,
@@ -49,6 +55,10 @@ pub struct RenderFrame<'a> {
     pub world_bounds: Aabb,
     /// Joint matrices; empty for a static model.
     pub palette: &'a Palette,
+    /// For each submesh whether it is left out; those beyond the slice are drawn.
+    pub hidden_submeshes: &'a [bool],
+    /// A submesh that stands out.
+    pub highlighted_submesh: Option<usize>,
     /// What is drawn beside the model and how.
     pub options: FrameOptions,
 }

@@ -4,13 +4,15 @@ mod camera;
 mod frame;
 mod framing;
 mod ground;
+mod look;
 mod tint;
 mod view_preset;
 
 pub use crate::model::Aabb;
 pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Projection};
-pub use frame::{Background, FrameOptions, RenderFrame, Theme};
+pub use frame::{FrameOptions, RenderFrame, Theme};
 pub use framing::Insets;
 pub use ground::Ground;
+pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear};
 pub use view_preset::ViewPreset;

@@ -1,9 +1,9 @@
 //! The one place where things change.
 
-use super::{Command, Effect, Session};
+use super::{Command, Effect, Look, Session};
 use crate::anim::LoopMode;
 use crate::model::{Handedness, UpAxis};
-use crate::scene::{Camera, Projection, Theme};
+use crate::scene::{Camera, Passes, Projection, Theme};
 
 impl Session {
     /// Does what was asked. What makes no sense now is left undone.
@@ -86,8 +86,8 @@ impl Session {
                 self.up_axis_override = up_axis;
                 self.frame_model();
             }
-            Command::SetGridVisible(visible) => self.grid_visible = visible,
-            Command::ToggleGrid => self.grid_visible = !self.grid_visible,
+            Command::Look(command) => self.look.apply(command),
+            Command::SetPass(pass, choice) => self.quality.choose(pass, choice),
             Command::SetTheme(theme) => self.theme = theme,
         }
         if self.shown() != before {
@@ -105,7 +105,8 @@ impl Session {
             camera: self.camera,
             handedness: self.handedness(),
             up_axis: self.up_axis(),
-            grid_visible: self.grid_visible,
+            look: self.look,
+            passes: self.quality.passes(),
             theme: self.theme,
         }
     }
@@ -121,6 +122,7 @@ struct Shown {
     camera: Camera,
     handedness: Handedness,
     up_axis: UpAxis,
-    grid_visible: bool,
+    look: Look,
+    passes: Passes,
     theme: Theme,
 }

@@ -3,9 +3,11 @@
 use glam::Vec2;
 
 use super::files::File;
+use super::look::LookCommand;
+use super::quality::PassChoice;
 use crate::anim::LoopMode;
 use crate::model::{Handedness, UpAxis};
-use crate::scene::{Insets, Theme, ViewPreset};
+use crate::scene::{Insets, Pass, Theme, ViewPreset};
 
 /// A wish. [`super::Session::apply`] is the one place where things change.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,12 +96,18 @@ pub enum Command {
     SetHandedness(Option<Handedness>),
     /// Takes the file's up axis as given; `None` is what was found.
     SetUpAxis(Option<UpAxis>),
-    /// Shows or hides the ground grid.
-    SetGridVisible(bool),
-    /// Shows or hides the ground grid, in turn.
-    ToggleGrid,
+    /// Light, view mode, background, lines.
+    Look(LookCommand),
+    /// Whether a costly pass is drawn.
+    SetPass(Pass, PassChoice),
     /// Dark or light surroundings.
     SetTheme(Theme),
+}
+
+impl From<LookCommand> for Command {
+    fn from(command: LookCommand) -> Self {
+        Self::Look(command)
+    }
 }
 
 /// What an [`super::Session::apply`] did that others must know.

@@ -4,21 +4,25 @@ mod apply;
 mod command;
 mod files;
 mod load;
+mod look;
 mod looking;
 mod maps;
 mod opening;
 mod playing;
+mod quality;
 mod textures;
 
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
+pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
+pub use quality::{PassChoice, PassState, Quality};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
 use crate::model::{Clip, Handedness, UpAxis, world_from_model};
-use crate::scene::{Aabb, Background, Camera, FrameOptions, Insets, RenderFrame, Theme};
+use crate::scene::{Aabb, Camera, Insets, Overlay, RenderFrame, Theme};
 
 /// Speeds of the slower and faster keys.
 pub const SPEEDS: [f32; 9] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
@@ -44,7 +48,8 @@ pub struct Session {
     insets: Insets,
     handedness_override: Option<Handedness>,
     up_axis_override: Option<UpAxis>,
-    grid_visible: bool,
+    look: Look,
+    quality: Quality,
     theme: Theme,
 
     model_revision: u64,
@@ -59,7 +64,6 @@ impl Session {
         Self {
             reduced_motion,
             aspect: 1.0,
-            grid_visible: true,
             ..Self::default()
         }
     }
@@ -146,7 +150,21 @@ impl Session {
 
     /// Whether the ground grid is drawn.
     pub fn grid_visible(&self) -> bool {
-        self.grid_visible
+        self.look.overlays.has(Overlay::Grid)
+    }
+
+    /// Which costly passes are drawn.
+    pub fn quality(&self) -> &Quality {
+        &self.quality
+    }
+
+    /// Learns how long a frame took while the picture moved: a device that cannot keep up is given less to draw.
+    pub fn note_frame(&mut self, frame_secs: f32) {
+        let before = self.quality.passes();
+        self.quality.note_frame(frame_secs);
+        if self.quality.passes() != before {
+            self.picture_revision += 1;
+        }
     }
 
     /// Counts models opened: another number, another model.
@@ -176,6 +194,7 @@ impl Session {
         }
         let was_at = self.playback.time_secs();
         self.playback.advance(dt_secs);
+        self.look.advance(dt_secs);
         if self.playback.time_secs() != was_at {
             self.picture_revision += 1;
             self.note(Event::TimeUpdate);
@@ -200,17 +219,15 @@ impl Session {
                 self.posed_at = Some(wanted);
             }
         }
+        let options = self.frame_options();
         RenderFrame {
             camera: self.camera,
             world_from_model,
             world_bounds,
             palette: &self.pose.palette,
-            options: FrameOptions {
-                theme: self.theme,
-                background: Background::Backdrop,
-                grid_visible: self.grid_visible,
-                normal_green_flipped: false,
-            },
+            hidden_submeshes: &[],
+            highlighted_submesh: None,
+            options,
         }
     }
 

@@ -3,8 +3,8 @@
 use egui::{Event, Key, Modifiers, Ui};
 
 use super::UiState;
-use crate::scene::ViewPreset;
-use crate::session::{Command, Session};
+use crate::scene::{Overlay, ViewPreset};
+use crate::session::{Command, LookCommand, Session};
 
 /// Reads the keys of this frame. Nothing while words are typed.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -74,7 +74,7 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         Key::L => Some(Command::CycleLoopMode),
         Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
         Key::F => Some(Command::FrameModel),
-        Key::G => Some(Command::ToggleGrid),
+        Key::G => Some(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid))),
         Key::Num1 => opposite(ViewPreset::Front, ViewPreset::Back),
         Key::Num3 => opposite(ViewPreset::Right, ViewPreset::Left),
         Key::Num7 => opposite(ViewPreset::Top, ViewPreset::Bottom),

@@ -5,8 +5,8 @@ use egui::{Popup, Ui};
 use super::icons::Icon;
 use super::widgets::{icon_button, menu_item};
 use super::{Request, UiState};
-use crate::scene::{Projection, Theme, ViewPreset};
-use crate::session::{Command, Session};
+use crate::scene::{Overlay, Projection, Theme, ViewPreset};
+use crate::session::{Command, LookCommand, Session};
 
 /// Buttons in one row.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -18,7 +18,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
             commands.push(Command::FrameModel);
         }
         if icon_button(ui, Icon::Grid, "Ground grid (G)", session.grid_visible()).clicked() {
-            commands.push(Command::ToggleGrid);
+            commands.push(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)));
         }
         theme_button(ui, state);
         if icon_button(ui, Icon::Help, "Keys (?)", state.help_open).clicked() {
@@ -80,7 +80,7 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
         ui.close();
     }
     if menu_item(ui, "Ground grid", session.grid_visible()).clicked() {
-        commands.push(Command::ToggleGrid);
+        commands.push(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)));
         ui.close();
     }
     let (label, other) = if ui.visuals().dark_mode {

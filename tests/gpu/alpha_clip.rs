@@ -56,7 +56,7 @@ fn compare_halves(scene: &Scene, found: &Picture, left: &Picture, right: &Pictur
 
 on_both_backends! {
     fn alpha_cuts_where_the_material_says_so(gpu) {
-        for background in [Background::Backdrop, Background::Transparent] {
+        for background in [Background::Backdrop, Background::None] {
             let scene = || {
                 let mut scene = card_once();
                 scene.options.background = background;

@@ -96,7 +96,7 @@ on_both_backends! {
     }
     fn bent_tube_on_nothing(gpu) {
         let mut scene = bent_tube(0.9).three_quarter(Theme::Light);
-        scene.options.background = Background::Transparent;
+        scene.options.background = Background::None;
         compare(gpu, "bent-tube-transparent", &scene);
     }
 }

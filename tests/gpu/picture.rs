@@ -96,7 +96,7 @@ on_both_backends! {
 
     fn nothing_is_behind_a_transparent_picture(gpu) {
         let mut scene = Scene::of(card(FRONT)).three_quarter(Theme::Light);
-        scene.options.background = Background::Transparent;
+        scene.options.background = Background::None;
         let picture = gpu.draw(&scene, 160, 100);
         for (x, y) in [(0, 0), (159, 0), (0, 99), (159, 99)] {
             assert_eq!(picture.pixel(x, y), [0, 0, 0, 0]);

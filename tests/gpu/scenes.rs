@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
-use bindpose::scene::{Aabb, Background, Camera, FrameOptions, Projection, RenderFrame, Theme};
+use bindpose::scene::{Aabb, Camera, FrameOptions, Overlay, Overlays, Projection, RenderFrame, Theme};
 use glam::{Affine3A, Quat, Vec2, Vec3};
 
 /// All that a frame needs.
@@ -31,9 +31,8 @@ impl Scene {
             },
             options: FrameOptions {
                 theme: Theme::Dark,
-                background: Background::Backdrop,
-                grid_visible: false,
-                normal_green_flipped: false,
+                overlays: Overlays::none(),
+                ..FrameOptions::default()
             },
             world_bounds,
             model,
@@ -45,7 +44,7 @@ impl Scene {
         self.camera.yaw_radians = -0.7;
         self.camera.pitch_radians = 0.3;
         self.options.theme = theme;
-        self.options.grid_visible = true;
+        self.options.overlays.set(Overlay::Grid, true);
         self
     }
 
@@ -71,6 +70,8 @@ impl Scene {
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
             palette: &self.palette,
+            hidden_submeshes: &[],
+            highlighted_submesh: None,
             options: self.options,
         }
     }

@@ -2,8 +2,8 @@
 
 use bindpose::anim::{self, LoopMode, PoseBuffers};
 use bindpose::model::{Handedness, UpAxis, world_from_model};
-use bindpose::scene::{Camera, Insets, Projection, Theme, ViewPreset};
-use bindpose::session::{Command, File, Session};
+use bindpose::scene::{Camera, Insets, Overlay, Projection, Theme, ViewPreset};
+use bindpose::session::{Command, File, LookCommand, Session};
 use glam::{Vec2, Vec3};
 
 use super::models::{self, moving, still};
@@ -343,8 +343,8 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         Command::ResetCamera,
         Command::SetHandedness(Some(Handedness::Right)),
         Command::SetUpAxis(Some(UpAxis::Z)),
-        Command::SetGridVisible(false),
-        Command::ToggleGrid,
+        Command::Look(LookCommand::SetOverlay(Overlay::Grid, false)),
+        Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)),
         Command::SetTheme(Theme::Light),
         Command::SetViewport {
             aspect: 0.5,
@@ -373,7 +373,7 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         Command::SetLoopMode(LoopMode::Once),
         Command::CycleLoopMode,
         Command::Pan { drag: Vec2::ZERO },
-        Command::SetGridVisible(true),
+        Command::Look(LookCommand::SetOverlay(Overlay::Grid, true)),
         Command::SetTheme(Theme::Light),
         Command::SetViewport {
             aspect: 0.5,
@@ -394,11 +394,11 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
 #[test]
 fn the_grid_and_the_theme_are_in_the_frame() {
     let mut session = opened(still("a.m3d"));
-    assert!(session.frame().options.grid_visible);
-    session.apply(Command::ToggleGrid);
+    assert!(session.frame().options.overlays.has(Overlay::Grid));
+    session.apply(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)));
     session.apply(Command::SetTheme(Theme::Light));
     let options = session.frame().options;
-    assert!(!options.grid_visible);
+    assert!(!options.overlays.has(Overlay::Grid));
     assert_eq!(options.theme, Theme::Light);
 }
 

@@ -2,8 +2,8 @@
 
 use bindpose::anim::LoopMode;
 use bindpose::model::{Handedness, UpAxis};
-use bindpose::scene::{Insets, Theme, ViewPreset};
-use bindpose::session::{Command, Event, File, Session};
+use bindpose::scene::{Insets, Overlay, Theme, ViewPreset};
+use bindpose::session::{Command, Event, File, LookCommand, Session};
 use glam::Vec2;
 use proptest::prelude::*;
 
@@ -76,8 +76,8 @@ fn command() -> impl Strategy<Value = Command> {
         prop::sample::select(vec![None, Some(Handedness::Left), Some(Handedness::Right)])
             .prop_map(Command::SetHandedness),
         prop::sample::select(vec![None, Some(UpAxis::Y), Some(UpAxis::Z)]).prop_map(Command::SetUpAxis),
-        any::<bool>().prop_map(Command::SetGridVisible),
-        Just(Command::ToggleGrid),
+        any::<bool>().prop_map(|on| Command::Look(LookCommand::SetOverlay(Overlay::Grid, on))),
+        Just(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid))),
         prop::sample::select(vec![Theme::Dark, Theme::Light]).prop_map(Command::SetTheme),
     ];
     prop_oneof![

@@ -1,0 +1,145 @@
+//! Which costly passes are drawn: what the person chose, or else what the device keeps up with.
+
+use crate::scene::{Pass, Passes};
+
+/// A frame that takes longer than this is a slow one: below 24 a second, motion stops looking like motion.
+const SLOW_FRAME_SECS: f32 = 1.0 / 24.0;
+/// Slow frames in a row after which the costliest pass is given up. A few are forgiven: shaders compile, files load.
+const SLOW_FRAMES: u32 = 12;
+
+/// Whether a pass is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PassChoice {
+    /// While the device keeps up.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
+}
+
+/// What became of a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PassState {
+    /// It is drawn.
+    Drawn,
+    /// The person left it out.
+    Off,
+    /// Given up, since frames took too long.
+    TooSlow,
+}
+
+/// The passes of a session.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Quality {
+    choices: [PassChoice; Pass::ALL.len()],
+    given_up: Vec<Pass>,
+    slow_frames: u32,
+}
+
+impl Quality {
+    /// What was chosen for a pass.
+    pub fn choice(&self, pass: Pass) -> PassChoice {
+        self.choices[pass as usize]
+    }
+
+    /// What became of a pass.
+    pub fn state(&self, pass: Pass) -> PassState {
+        match self.choice(pass) {
+            PassChoice::On => PassState::Drawn,
+            PassChoice::Off => PassState::Off,
+            PassChoice::Auto if self.given_up.contains(&pass) => PassState::TooSlow,
+            PassChoice::Auto => PassState::Drawn,
+        }
+    }
+
+    /// Those that are drawn.
+    pub fn passes(&self) -> Passes {
+        Pass::ALL.into_iter().fold(Passes::none(), |passes, pass| {
+            passes.with(pass, self.state(pass) == PassState::Drawn)
+        })
+    }
+
+    /// Chooses. A new choice of [`PassChoice::Auto`] gives the device another try.
+    pub(super) fn choose(&mut self, pass: Pass, choice: PassChoice) {
+        self.choices[pass as usize] = choice;
+        self.given_up.retain(|&given_up| given_up != pass);
+        self.slow_frames = 0;
+    }
+
+    /// Learns how long a frame took while the picture moved. Gives up one pass at a time, and waits to see what that brought.
+    pub(super) fn note_frame(&mut self, frame_secs: f32) {
+        if frame_secs <= SLOW_FRAME_SECS || frame_secs.is_nan() {
+            self.slow_frames = 0;
+            return;
+        }
+        self.slow_frames += 1;
+        if self.slow_frames < SLOW_FRAMES {
+            return;
+        }
+        self.slow_frames = 0;
+        let costliest = Pass::ALL
+            .into_iter()
+            .rev()
+            .find(|&pass| self.choice(pass) == PassChoice::Auto && !self.given_up.contains(&pass));
+        self.given_up.extend(costliest);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn slow_frames(quality: &mut Quality, count: u32) {
+        for _ in 0..count {
+            quality.note_frame(0.1);
+        }
+    }
+
+    #[test]
+    fn passes_are_given_up_one_by_one_and_the_shadow_last() {
+        let mut quality = Quality::default();
+        let mut given_up = Vec::new();
+        for _ in 0..Pass::ALL.len() {
+            slow_frames(&mut quality, SLOW_FRAMES - 1);
+            assert_eq!(quality.given_up, given_up, "a few slow frames are forgiven");
+            slow_frames(&mut quality, 1);
+            given_up.clone_from(&quality.given_up);
+        }
+        assert_eq!(
+            given_up,
+            [
+                Pass::AmbientOcclusion,
+                Pass::ContactShadow,
+                Pass::Environment,
+                Pass::Shadow
+            ]
+        );
+        slow_frames(&mut quality, 3 * SLOW_FRAMES);
+        assert_eq!(quality.passes(), Passes::none());
+    }
+
+    #[test]
+    fn frames_that_are_quick_in_between_keep_everything() {
+        let mut quality = Quality::default();
+        for _ in 0..100 {
+            slow_frames(&mut quality, SLOW_FRAMES - 1);
+            quality.note_frame(0.01);
+        }
+        assert_eq!(quality.passes(), Passes::all());
+    }
+
+    #[test]
+    fn a_choice_stands_above_what_the_device_keeps_up_with() {
+        let mut quality = Quality::default();
+        quality.choose(Pass::AmbientOcclusion, PassChoice::On);
+        quality.choose(Pass::Shadow, PassChoice::Off);
+        slow_frames(&mut quality, 5 * SLOW_FRAMES);
+        assert_eq!(quality.state(Pass::AmbientOcclusion), PassState::Drawn);
+        assert_eq!(quality.state(Pass::Shadow), PassState::Off);
+        assert_eq!(quality.state(Pass::ContactShadow), PassState::TooSlow);
+        quality.choose(Pass::ContactShadow, PassChoice::Auto);
+        assert_eq!(quality.state(Pass::ContactShadow), PassState::Drawn, "another try");
+    }
+}
