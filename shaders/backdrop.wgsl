@@ -23,11 +23,19 @@ fn line_coverage(coordinate: vec2<f32>, per_pixel: vec2<f32>, width_pixels: f32)
     return max(lines.x, lines.y);
 }
 
+// The sky in a direction. Under the studio light it is exposed as the model is.
+fn sky_color(direction: vec3<f32>) -> vec3<f32> {
+    return textureSampleLevel(sky_map, surroundings_sampler, in_environment(direction), 0.0).rgb * frame.exposure;
+}
+
 @fragment
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    var color = linear_from_srgb(backdrop_srgb(view.ndc));
+    var color = linear_from_srgb(select(frame.background_srgb, backdrop_srgb(view.ndc), frame.background == 0u));
     let eye = frame.eye + view.ndc.x * frame.eye_per_x + view.ndc.y * frame.eye_per_y;
     let ray = frame.forward + view.ndc.x * frame.forward_per_x + view.ndc.y * frame.forward_per_y;
+    if frame.background == 1u {
+        color = sky_color(normalize(ray));
+    }
     let along = (frame.ground_height - eye.y) / ray.y;
     if ray.y != 0.0 && along > 0.0 {
         let point = eye + ray * along;
@@ -37,6 +45,9 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             if ray.y < 0.0 && frame.shadow_strength > 0.0 {
                 let lit = key_visibility(point, 6.0);
                 color *= 1.0 - frame.shadow_strength * (1.0 - lit);
+                let in_contact_map = (point.xz - frame.contact_center) / frame.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
+                let contact = textureSampleLevel(contact_map, surroundings_sampler, in_contact_map, 0.0).r;
+                color *= 1.0 - frame.contact_strength * contact;
             }
             // How the point moves from one pixel to the next, exact: screen derivatives would tear at the horizon.
             let along_x = -(frame.eye_per_x.y + along * frame.forward_per_x.y) / ray.y;

@@ -36,7 +36,34 @@ struct Frame {
     grid_center: vec2<f32>,
     viewport_pixels: vec2<f32>,
     // +1 when the green of normal maps points along the bitangent, -1 when against it.
-    @size(16) normal_green_sign: f32,
+    normal_green_sign: f32,
+    // `scene::ViewMode` by its place in the menu.
+    view_mode: u32,
+    // 1 when the shadow map holds the model, 0 when nothing is in shadow.
+    key_shadow: u32,
+    // 1, or 0 where mirrored surroundings are left out.
+    reflections: f32,
+    // Cosine and sine of the turn that brings world directions into the surroundings' axes.
+    environment_turn: vec2<f32>,
+    // Distances of the nearest and farthest point of the scene along the view.
+    depth_near: f32,
+    depth_far: f32,
+    // Unit vectors towards the second and third of the book's lights.
+    to_book_light_1: vec4<f32>,
+    to_book_light_2: vec4<f32>,
+    // What is behind the model: 0 the gradient, 1 the sky, 2 one colour. And that colour, sRGB.
+    background_srgb: vec3<f32>,
+    background: u32,
+    // Middle of the contact map on the ground, world x and z; half its width; how dark its shadow is.
+    contact_center: vec2<f32>,
+    contact_half_width: f32,
+    contact_strength: f32,
+    // How far occluders reach, world units.
+    occlusion_radius: f32,
+    // One unit of the books' demo in units of this world: the figure there is 3.6 of them tall.
+    book_unit: f32,
+    // Factor of the studio's light.
+    @size(8) exposure: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

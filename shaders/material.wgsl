@@ -1,14 +1,24 @@
 // What a surface is made of. Twin: `shaders::Material`.
 
 struct Material {
-    // Multiplies the diffuse map.
+    // Linear, multiplies the diffuse map.
     albedo: vec3<f32>,
     roughness: f32,
     fresnel0: vec3<f32>,
     // What lies below this alpha is cut away; 0 keeps everything.
     alpha_clip: f32,
+    // The diffuse colour as the books multiply it with encoded texels.
+    book_albedo: vec3<f32>,
+    // 1 for materials of the DirectX 11 book: the four below are then the file's.
+    is_phong: u32,
+    ambient: vec3<f32>,
+    spec_power: f32,
+    specular: vec3<f32>,
     // Channels of the normal map: 3, 2 (z follows from x and y), or 0 without one.
-    @size(16) normal_channels: u32,
+    normal_channels: u32,
+    reflectivity: vec3<f32>,
+    // A colour of its own, to tell it from others. sRGB.
+    identity_srgb: vec4<f32>,
 }
 
 @group(3) @binding(0) var<uniform> material: Material;

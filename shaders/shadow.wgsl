@@ -1,8 +1,5 @@
 // How much of the key light reaches a point.
 
-@group(2) @binding(0) var shadow_map: texture_depth_2d;
-@group(2) @binding(1) var shadow_sampler: sampler_comparison;
-
 // Sunflower disc: each tap turns on by the golden angle, so that the density is even.
 const SHADOW_TAPS: u32 = 16u;
 const GOLDEN_COS: f32 = -0.73736888;
@@ -10,6 +7,9 @@ const GOLDEN_SIN: f32 = 0.67549029;
 
 // 1 lit, 0 in shadow; blurred over `radius_texels` of the map. Points outside the map are lit.
 fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
+    if frame.key_shadow == 0u {
+        return 1.0;
+    }
     let clip = frame.shadow_clip_from_world * vec4<f32>(world_position, 1.0);
     let center = clip.xy * vec2<f32>(0.5, -0.5) + 0.5;
     if any(center < vec2<f32>(0.0)) || any(center > vec2<f32>(1.0)) || clip.z < 0.0 {

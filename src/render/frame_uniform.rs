@@ -1,25 +1,54 @@
 //! A [`RenderFrame`] as the shaders want it.
 
-use glam::Mat4;
+use glam::{Mat4, Vec2, Vec3};
 
-use super::look::{Lights, encoded, linear, look};
+use super::contact::ContactFit;
+use super::look::{StudioLights, encoded, linear, look, to_book_lights};
 use super::shadow::ShadowFit;
-use crate::scene::{Ground, Overlay, Projection, RenderFrame};
+use crate::scene::{Background, Ground, Light, Overlay, Pass, Projection, RenderFrame, ViewMode};
 use crate::shaders;
 
 /// The grid is gone this many radii of the scene from its middle, or this many camera distances if that is more.
 const GRID_REACH: f32 = 9.0;
 const GRID_REACH_OF_DISTANCE: f32 = 2.0;
 
-/// `winding` is +1 when the model's triangles are clockwise from their front in a left-handed space, else −1.
-pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], winding: f32) -> shaders::Frame {
+/// Height of the figure in the books' demo, whose lengths are given for it.
+const BOOK_HEIGHT: f32 = 3.6;
+/// A flat model is as large as a figure of this share of its diagonal.
+const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
+/// How far occluders reach under the studio light, in units of the books' demo.
+const STUDIO_OCCLUSION_RADIUS: f32 = 0.42;
+
+/// What a frame uniform depends on beside the frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    /// Light of this part of the picture.
+    pub(super) light: Light,
+    /// Size of the whole picture, pixels.
+    pub(super) size: [u32; 2],
+    /// +1 when the model's triangles are clockwise from their front in a left-handed space, else −1.
+    pub(super) winding: f32,
+    /// Whether the surroundings keep their place beside the viewer, as a studio round a turntable does.
+    pub(super) surroundings_follow_viewer: bool,
+}
+
+pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Frame {
     let camera = &frame.camera;
-    let aspect = width as f32 / height as f32;
-    let look = look(frame.options.theme);
-    let ground = Ground::under(&frame.world_bounds);
-    let lights = Lights::beside(camera);
-    let shadow = ShadowFit::new(&frame.world_bounds, lights.to_key);
-    let clip_from_world = camera.clip_from_view(aspect, &frame.world_bounds) * camera.view_from_world();
+    let options = &frame.options;
+    let [width, height] = part.size.map(|side| side as f32);
+    let aspect = width / height;
+    let look = look(options.theme);
+    let bounds = &frame.world_bounds;
+    let ground = Ground::under(bounds);
+    let contact = ContactFit::new(bounds);
+    let book_lights = to_book_lights(options.book_lights_turn_radians);
+    let studio_lights = StudioLights::beside(camera, options.environment_turn_radians);
+    let to_key = match part.light {
+        Light::Studio => studio_lights.to_key,
+        Light::Book => book_lights[0],
+    };
+    let shadow = ShadowFit::new(bounds, to_key);
+    let clip_from_world = camera.clip_from_view(aspect, bounds) * camera.view_from_world();
     let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
 
     let half_height = camera.height_in_view() * 0.5;
@@ -28,15 +57,30 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], 
         Projection::Perspective { .. } => (1.0, 0.0, 1.0 / camera.distance),
         Projection::Orthographic => (0.0, 1.0, 0.0),
     };
-    let reach = (frame.world_bounds.radius() * GRID_REACH).max(camera.distance * GRID_REACH_OF_DISTANCE);
-    let center = frame.world_bounds.center();
+    let reach = (bounds.radius() * GRID_REACH).max(camera.distance * GRID_REACH_OF_DISTANCE);
+    let center = bounds.center();
+    let (depth_near, depth_far) = seen_depths(frame);
+    let book_unit = book_unit(frame);
+    let passes = options.passes;
+    let (background, background_srgb) = match options.background {
+        Background::Backdrop | Background::None => (0, [0; 3]),
+        Background::Sky => (1, [0; 3]),
+        Background::Color(color) => (2, color),
+    };
+    let view_yaw = if part.surroundings_follow_viewer {
+        camera.yaw_radians
+    } else {
+        0.0
+    };
+    let to_light = |direction: Vec3| direction.extend(0.0).to_array();
+    let share = |pass| if passes.has(pass) { 1.0 } else { 0.0 };
 
     shaders::Frame {
         clip_from_world: clip_from_world.to_cols_array_2d(),
         world_from_model: Mat4::from(frame.world_from_model).to_cols_array_2d(),
         shadow_clip_from_world: shadow.shadow_clip_from_world.to_cols_array_2d(),
         eye: camera.eye().to_array(),
-        front_sign: if mirrors { -winding } else { winding },
+        front_sign: if mirrors { -part.winding } else { part.winding },
         forward: camera.forward().to_array(),
         is_perspective,
         eye_per_x: (per_x * eye_scale).to_array(),
@@ -47,21 +91,71 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, [width, height]: [u32; 2], 
         grid_reach: reach,
         forward_per_y: (per_y * forward_scale).to_array(),
         shadow_texel: shadow.texel,
-        to_key: lights.to_key.to_array(),
-        shadow_strength: look.shadow_strength,
-        to_rim: lights.to_rim.to_array(),
-        grid_strength: if frame.options.overlays.has(Overlay::Grid) {
-            1.0
+        to_key: to_key.to_array(),
+        shadow_strength: if options.view_mode == ViewMode::Lit {
+            look.shadow_strength * share(Pass::Shadow)
         } else {
             0.0
         },
+        to_rim: studio_lights.to_rim.to_array(),
+        grid_strength: if options.overlays.has(Overlay::Grid) { 1.0 } else { 0.0 },
         backdrop_center_srgb: encoded(look.backdrop_center),
         backdrop_edge_srgb: encoded(look.backdrop_edge),
         grid_minor: linear(look.grid_minor, look.grid_minor_opacity),
         grid_major: linear(look.grid_major, look.grid_major_opacity),
         grid_center: [center.x, center.z],
-        viewport_pixels: [width as f32, height as f32],
-        normal_green_sign: if frame.options.normal_green_flipped { -1.0 } else { 1.0 },
-        unused: [0.0; 3],
+        viewport_pixels: [width, height],
+        normal_green_sign: if options.normal_green_flipped { -1.0 } else { 1.0 },
+        view_mode: options.view_mode as u32,
+        key_shadow: u32::from(passes.has(Pass::Shadow)),
+        reflections: share(Pass::Environment),
+        environment_turn: Vec2::from_angle(view_yaw - options.environment_turn_radians).to_array(),
+        depth_near,
+        depth_far,
+        to_book_light_1: to_light(book_lights[1]),
+        to_book_light_2: to_light(book_lights[2]),
+        background_srgb: background_srgb.map(|channel| f32::from(channel) / 255.0),
+        background,
+        contact_center: contact.center.to_array(),
+        contact_half_width: contact.half_width,
+        contact_strength: if has_contact_shadow(frame, part.light) {
+            look.contact_strength
+        } else {
+            0.0
+        },
+        occlusion_radius: STUDIO_OCCLUSION_RADIUS * book_unit,
+        book_unit,
+        exposure: options.exposure_stops.exp2(),
+        unused: 0.0,
+    }
+}
+
+/// Whether the nearness of the model darkens the ground.
+pub(super) fn has_contact_shadow(frame: &RenderFrame<'_>, light: Light) -> bool {
+    let options = &frame.options;
+    light == Light::Studio
+        && options.passes.has(Pass::ContactShadow)
+        && options.view_mode == ViewMode::Lit
+        && options.background != Background::None
+}
+
+/// One unit of the books' demo in units of this world.
+fn book_unit(frame: &RenderFrame<'_>) -> f32 {
+    let bounds = &frame.world_bounds;
+    let height = bounds.size().y.max(2.0 * bounds.radius() * LEAST_HEIGHT_OF_DIAGONAL);
+    (height / BOOK_HEIGHT).max(f32::MIN_POSITIVE)
+}
+
+/// Distances along the view between which all of the scene lies, no wider than needed: depth in 16 bits lives on it.
+fn seen_depths(frame: &RenderFrame<'_>) -> (f32, f32) {
+    let (camera, bounds) = (&frame.camera, &frame.world_bounds);
+    let (near, far) = camera.depth_range(bounds);
+    let reach = camera.forward().abs().dot(bounds.size() * 0.5) * 1.01;
+    let to_center = (bounds.center() - camera.eye()).dot(camera.forward());
+    let (nearest, farthest) = ((to_center - reach).max(near), (to_center + reach).min(far));
+    if nearest < farthest {
+        (nearest, farthest)
+    } else {
+        (near, far)
     }
 }

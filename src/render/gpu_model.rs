@@ -1,24 +1,35 @@
 //! A model in GPU memory.
 
+use std::cell::OnceCell;
+use std::ops::Range;
+
 use super::bones::BoneTexture;
+use super::edges::Edges;
+use super::layouts::Layouts;
 use super::materials::{GpuMaterials, MaterialImages};
-use super::pipelines::{Layouts, PosedPipelines};
+use super::pipelines::{Cut, Draw, ModelDraw, Pipelines};
 use super::upload::{UploadError, Uploader};
-use crate::model::{Mesh, Model};
+use crate::model::{Material, Mesh, Model};
 use crate::shaders;
 
-/// How a model is posed in a draw.
+/// How a model is drawn in a pass.
 #[derive(Clone, Copy)]
-pub(super) enum Posing<'a> {
-    /// By these bones.
-    Skinned(&'a BoneTexture),
-    /// As bind space has it; the bones are bound, not read.
-    Static(&'a BoneTexture),
+pub(super) struct Posed<'a> {
+    pub(super) pipelines: &'a Pipelines,
+    /// Bound as group 1; read only when `skinned`.
+    pub(super) bones: &'a BoneTexture,
+    /// By the bones, or as bind space has it.
+    pub(super) skinned: bool,
+    /// Submeshes that are left out.
+    pub(super) hidden: &'a [bool],
 }
 
-/// A range of indices with one material.
+/// A submesh: a range of indices with one material.
 struct DrawRange {
-    indices: std::ops::Range<u32>,
+    submesh: usize,
+    indices: Range<u32>,
+    /// From the first to the last vertex that it uses.
+    vertices: Range<u32>,
     material: u32,
 }
 
@@ -29,6 +40,9 @@ pub(super) struct GpuModel {
     index_count: u32,
     materials: GpuMaterials,
     ranges: Vec<DrawRange>,
+    /// The indices again, for edges.
+    triangles: Vec<u32>,
+    edges: OnceCell<Edges>,
     /// Not there for a static model.
     pub(super) bones: Option<BoneTexture>,
     /// +1 when triangles are clockwise from the side their normals point to (left-handed view), else −1.
@@ -78,6 +92,8 @@ impl GpuModel {
             index_count: mesh.indices.len() as u32,
             materials,
             ranges: draw_ranges(mesh),
+            triangles: mesh.indices.clone(),
+            edges: OnceCell::new(),
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
             winding: winding(mesh),
         })
@@ -94,74 +110,122 @@ impl GpuModel {
         self.materials.set_maps(device, queue, layouts, maps);
     }
 
-    /// Every submesh with its material. Groups 0 and 2 are set.
+    /// Takes other values for the materials; their maps stay.
+    pub(super) fn set_materials(&mut self, queue: &wgpu::Queue, materials: &[Material]) {
+        self.materials.set_values(queue, materials);
+    }
+
+    /// Every submesh in view with its material; `draw` says what to draw where alpha cuts in a way. Group 0 is set, and group 2
+    /// where it is read.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        whole: &PosedPipelines,
-        cut: &PosedPipelines,
-        posing: Posing<'_>,
+        posed: Posed<'_>,
+        cut: Cut,
+        draw: impl Fn(Cut) -> ModelDraw,
     ) {
-        self.draw_materials(pass, whole, posing, false);
-        self.draw_materials(pass, cut, posing, true);
-    }
-
-    /// All triangles that a submesh names, in one draw where they are all the mesh has and alpha cuts none. Groups 0 and 2
-    /// are set.
-    pub(super) fn draw_depth(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        whole: &PosedPipelines,
-        cut: &PosedPipelines,
-        posing: Posing<'_>,
-    ) {
-        let of_whole = self
-            .ranges
-            .iter()
-            .filter(|range| !self.materials.is_cut(range.material));
-        let named: u64 = of_whole.map(|range| range.indices.len() as u64).sum();
-        if named == u64::from(self.index_count) {
-            self.bind(pass, whole, posing);
-            pass.draw_indexed(0..self.index_count, 0, 0..1);
-        } else {
-            self.draw(pass, whole, cut, posing);
+        for (is_cut, cut) in [(false, Cut::Whole), (true, cut)] {
+            let ranges = self
+                .in_view(posed.hidden)
+                .filter(|range| self.materials.is_cut(range.material) == is_cut);
+            for (index, range) in ranges.enumerate() {
+                if index == 0 {
+                    self.bind(pass, posed, draw(cut));
+                }
+                self.materials.bind(pass, range.material);
+                pass.draw_indexed(range.indices.clone(), 0, 0..1);
+            }
         }
     }
 
-    /// The submeshes that alpha cuts, or the others.
-    fn draw_materials(
+    /// All triangles in view without their materials, in one draw where they are all that the mesh has. Group 0 is set.
+    pub(super) fn draw_shape(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
+        self.bind(pass, posed, draw);
+        if self.shows_all(posed.hidden) {
+            pass.draw_indexed(0..self.index_count, 0, 0..1);
+        } else {
+            for range in self.in_view(posed.hidden) {
+                pass.draw_indexed(range.indices.clone(), 0, 0..1);
+            }
+        }
+    }
+
+    /// Depth from the first light. Group 0 is set.
+    pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
+        if self.ranges.iter().any(|range| self.materials.is_cut(range.material)) {
+            self.draw(pass, posed, Cut::Hard, ModelDraw::Caster);
+        } else {
+            self.draw_shape(pass, posed, ModelDraw::Caster(Cut::Whole));
+        }
+    }
+
+    /// One submesh alone. Groups 0 and 3 are set.
+    pub(super) fn draw_submesh(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        pipelines: &PosedPipelines,
-        posing: Posing<'_>,
-        is_cut: bool,
+        posed: Posed<'_>,
+        draw: ModelDraw,
+        submesh: usize,
     ) {
-        let ranges = self
-            .ranges
-            .iter()
-            .filter(|range| self.materials.is_cut(range.material) == is_cut);
-        for (index, range) in ranges.enumerate() {
-            if index == 0 {
-                self.bind(pass, pipelines, posing);
-            }
-            self.materials.bind(pass, range.material);
+        let mut ranges = self.in_view(posed.hidden);
+        if let Some(range) = ranges.find(|range| range.submesh == submesh) {
+            self.bind(pass, posed, draw);
             pass.draw_indexed(range.indices.clone(), 0, 0..1);
         }
     }
 
-    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: &PosedPipelines, posing: Posing<'_>) {
-        let (pipeline, bones) = match posing {
-            Posing::Skinned(bones) => (&pipelines.skinned, bones),
-            Posing::Static(bones) => (&pipelines.unskinned, bones),
-        };
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(1, bones.group(), &[]);
+    /// The edges of all triangles in view, each once. Groups 0 and 3 are set.
+    pub(super) fn draw_edges(&self, device: &wgpu::Device, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
+        let edges = self.edges.get_or_init(|| {
+            let ranges = self.ranges.iter().map(|range| range.indices.clone());
+            Edges::new(device, &self.triangles, ranges)
+        });
+        self.bind(pass, posed, ModelDraw::Edges);
+        pass.set_index_buffer(edges.buffer.slice(..), wgpu::IndexFormat::Uint32);
+        for (range, edges) in self.ranges.iter().zip(&edges.ranges) {
+            if !is_hidden(posed.hidden, range.submesh) {
+                pass.draw_indexed(edges.clone(), 0, 0..1);
+            }
+        }
+    }
+
+    /// A line at each vertex in view. Groups 0 and 3 are set.
+    pub(super) fn draw_vertex_lines(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
+        self.bind(pass, posed, draw);
+        for range in self.in_view(posed.hidden) {
+            // WebGL2 has no first instance: the buffers start there instead.
+            let start = |stride: usize| u64::from(range.vertices.start) * stride as u64;
+            pass.set_vertex_buffer(0, self.geometry.slice(start(size_of::<shaders::GeometryVertex>())..));
+            if let (true, Some(influences)) = (posed.skinned, &self.influences) {
+                pass.set_vertex_buffer(1, influences.slice(start(size_of::<shaders::InfluenceVertex>())..));
+            }
+            pass.draw(0..2, 0..range.vertices.len() as u32);
+        }
+    }
+
+    fn in_view<'a>(&'a self, hidden: &'a [bool]) -> impl Iterator<Item = &'a DrawRange> {
+        self.ranges.iter().filter(move |range| !is_hidden(hidden, range.submesh))
+    }
+
+    fn shows_all(&self, hidden: &[bool]) -> bool {
+        let shown: u64 = self.in_view(hidden).map(|range| range.indices.len() as u64).sum();
+        shown == u64::from(self.index_count)
+    }
+
+    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
+        let Posed { skinned, .. } = posed;
+        pass.set_pipeline(&posed.pipelines.get(Draw::Model { draw, skinned }));
+        pass.set_bind_group(1, posed.bones.group(), &[]);
         pass.set_vertex_buffer(0, self.geometry.slice(..));
-        if let (Posing::Skinned(_), Some(influences)) = (posing, &self.influences) {
+        if let (true, Some(influences)) = (skinned, &self.influences) {
             pass.set_vertex_buffer(1, influences.slice(..));
         }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
+}
+
+fn is_hidden(hidden: &[bool], submesh: usize) -> bool {
+    hidden.get(submesh).copied().unwrap_or(false)
 }
 
 fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
@@ -174,11 +238,19 @@ fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
 }
 
 fn draw_ranges(mesh: &Mesh) -> Vec<DrawRange> {
-    let drawn = mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
-    drawn
-        .map(|submesh| DrawRange {
-            indices: submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3,
-            material: submesh.material,
+    let submeshes = mesh.submeshes.iter().enumerate();
+    submeshes
+        .filter(|(_, submesh)| submesh.triangle_count > 0)
+        .map(|(index, submesh)| {
+            let indices = submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3;
+            let used = &mesh.indices[indices.start as usize..indices.end as usize];
+            let (first, last) = (used.iter().min(), used.iter().max());
+            DrawRange {
+                submesh: index,
+                indices,
+                vertices: first.copied().unwrap_or(0)..last.map_or(0, |last| last + 1),
+                material: submesh.material,
+            }
         })
         .collect()
 }

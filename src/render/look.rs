@@ -1,6 +1,6 @@
 //! Colours of the surroundings and the places of the lights.
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
 use crate::scene::{Camera, Theme, linear_from_srgb8};
 
@@ -16,6 +16,13 @@ pub(super) struct Look {
     pub(super) grid_major_opacity: f32,
     /// Share of the ground's light that the shadow takes.
     pub(super) shadow_strength: f32,
+    /// Share of the ground's light that the nearness of the model takes.
+    pub(super) contact_strength: f32,
+    /// Edges of triangles, with opacity.
+    pub(super) wire: [u8; 3],
+    pub(super) wire_opacity: f32,
+    /// A part that stands out.
+    pub(super) accent: [u8; 3],
 }
 
 const DARK: Look = Look {
@@ -25,7 +32,11 @@ const DARK: Look = Look {
     grid_minor_opacity: 0.24,
     grid_major: [0x7E, 0x8B, 0xA2],
     grid_major_opacity: 0.36,
-    shadow_strength: 0.66,
+    shadow_strength: 0.60,
+    contact_strength: 0.55,
+    wire: [0xE7, 0xEA, 0xF0],
+    wire_opacity: 0.42,
+    accent: [0x5A, 0xA9, 0xFF],
 };
 
 const LIGHT: Look = Look {
@@ -35,7 +46,11 @@ const LIGHT: Look = Look {
     grid_minor_opacity: 0.5,
     grid_major: [0x5B, 0x63, 0x70],
     grid_major_opacity: 0.7,
-    shadow_strength: 0.6,
+    shadow_strength: 0.5,
+    contact_strength: 0.45,
+    wire: [0x1B, 0x20, 0x29],
+    wire_opacity: 0.55,
+    accent: [0x17, 0x69, 0xD2],
 };
 
 /// The look of a theme.
@@ -46,26 +61,41 @@ pub(super) fn look(theme: Theme) -> &'static Look {
     }
 }
 
-/// Where the lights stand. They keep their place beside the viewer, as if the model stood on a turntable: whichever side is
-/// looked at is lit well.
+/// Where the studio's lights stand. They keep their place beside the viewer, as if the model stood on a turntable: whichever
+/// side is looked at is lit well.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Lights {
+pub(super) struct StudioLights {
     /// Unit vector towards the key: high over the viewer's right shoulder.
     pub(super) to_key: Vec3,
     /// Unit vector towards the rim: behind the model, from the left.
     pub(super) to_rim: Vec3,
 }
 
-impl Lights {
-    pub(super) fn beside(camera: &Camera) -> Self {
+impl StudioLights {
+    /// The studio as a whole may be turned about y, with all that stands in it.
+    pub(super) fn beside(camera: &Camera, turn_radians: f32) -> Self {
+        let turn = Quat::from_rotation_y(turn_radians);
         let right = camera.right();
         let ahead = right.cross(Vec3::Y);
-        let towards = |x: f32, y: f32, z: f32| (right * x + Vec3::Y * y + ahead * z).normalize();
+        let towards = |x: f32, y: f32, z: f32| turn * (right * x + Vec3::Y * y + ahead * z).normalize();
         Self {
             to_key: towards(0.64, 0.74, -0.34),
             to_rim: towards(-0.72, 0.36, 0.58),
         }
     }
+}
+
+/// The directions in which the three lights of the books' demo shine, before they turn.
+const BOOK_DIRECTIONS: [Vec3; 3] = [
+    Vec3::new(0.57735, -0.57735, 0.57735),
+    Vec3::new(-0.57735, -0.57735, 0.57735),
+    Vec3::new(0.0, -0.707, -0.707),
+];
+
+/// Unit vectors towards the three lights of the books' demo, turned about y.
+pub(super) fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
+    let turn = Quat::from_rotation_y(turn_radians);
+    BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
 }
 
 /// An encoded opaque colour, 0…1 a channel.
@@ -94,7 +124,7 @@ mod tests {
                 pitch_radians: 0.3,
                 projection: Projection::Orthographic,
             };
-            let Lights { to_key, to_rim } = Lights::beside(&camera);
+            let StudioLights { to_key, to_rim } = StudioLights::beside(&camera, 0.0);
             assert!(to_key.y > 0.5 && to_key.dot(camera.right()) > 0.4 && to_key.dot(camera.forward()) < -0.3);
             assert!(to_rim.dot(camera.right()) < -0.4 && to_rim.dot(camera.forward()) > 0.3);
         }

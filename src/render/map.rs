@@ -4,6 +4,27 @@ use std::borrow::Cow;
 
 use crate::image::{Image, ImageFormat, MapKind};
 
+/// A texture of one texel, which stands where there is nothing else to bind.
+pub(super) fn one_texel(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, texel: [u8; 4]) -> wgpu::TextureView {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d::default(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(4),
+        rows_per_image: None,
+    };
+    queue.write_texture(texture.as_image_copy(), &texel, layout, texture.size());
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
 /// A map in GPU memory, all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
 /// Levels are made where the picture has none; those larger than the device can hold are left out.
 pub(super) fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {

@@ -1,8 +1,8 @@
 //! The materials of a model in GPU memory: a bind group each, with its maps or what stands for them.
 
-use super::map;
-use super::material::material_uniform;
-use super::pipelines::Layouts;
+use super::map::{self, one_texel};
+use super::material::{MapFacts, material_uniform};
+use super::layouts::Layouts;
 use super::upload::{UploadError, Uploader};
 use crate::image::{Image, MapKind};
 use crate::model::Material;
@@ -32,6 +32,7 @@ pub(super) struct GpuMaterials {
 
 struct BoundMaterial {
     group: wgpu::BindGroup,
+    maps: MapFacts,
     is_cut: bool,
 }
 
@@ -72,22 +73,38 @@ impl GpuMaterials {
         maps: &[MaterialImages<'_>],
     ) {
         let mut textures = Textures::new(device, queue);
-        let mut bytes = vec![0; self.materials.len() * self.stride as usize];
-        let slots = bytes.chunks_exact_mut(self.stride as usize);
         let maps = maps.iter().copied().chain(std::iter::repeat(MaterialImages::default()));
         let mut bound = Vec::with_capacity(self.materials.len());
-        for (((index, material), slot), images) in self.materials.iter().enumerate().zip(slots).zip(maps) {
-            let uniform = material_uniform(index, material, images);
-            slot[..size_of_val(&uniform)].copy_from_slice(bytemuck::bytes_of(&uniform));
+        for (index, images) in (0..self.materials.len()).zip(maps) {
             let diffuse = textures.view(images.diffuse, MapKind::Diffuse);
             let normal = textures.view(images.normal, MapKind::Normal);
             bound.push(BoundMaterial {
                 group: self.group(device, layouts, index, &diffuse, &normal),
-                is_cut: uniform.alpha_clip > 0.0,
+                maps: MapFacts::of(images),
+                is_cut: false,
             });
         }
-        queue.write_buffer(&self.uniforms, 0, &bytes);
         self.bound = bound;
+        self.write(queue);
+    }
+
+    /// Takes other values for the materials, in their order; their maps stay.
+    pub(super) fn set_values(&mut self, queue: &wgpu::Queue, materials: &[Material]) {
+        for (material, values) in self.materials.iter_mut().zip(materials) {
+            material.clone_from(values);
+        }
+        self.write(queue);
+    }
+
+    fn write(&mut self, queue: &wgpu::Queue) {
+        let mut bytes = vec![0; self.materials.len() * self.stride as usize];
+        let slots = bytes.chunks_exact_mut(self.stride as usize);
+        for (((index, material), bound), slot) in self.materials.iter().enumerate().zip(&mut self.bound).zip(slots) {
+            let uniform = material_uniform(index, material, bound.maps);
+            slot[..size_of_val(&uniform)].copy_from_slice(bytemuck::bytes_of(&uniform));
+            bound.is_cut = uniform.alpha_clip > 0.0;
+        }
+        queue.write_buffer(&self.uniforms, 0, &bytes);
     }
 
     /// Whether alpha cuts a material.
@@ -148,7 +165,7 @@ impl<'a> Textures<'a> {
         Self {
             device,
             queue,
-            white: white(device, queue),
+            white: one_texel(device, queue, "no map", [255; 4]),
             uploaded: Vec::new(),
         }
     }
@@ -166,26 +183,6 @@ impl<'a> Textures<'a> {
         self.uploaded.push((image, kind, view.clone()));
         view
     }
-}
-
-fn white(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("no map"),
-        size: wgpu::Extent3d::default(),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(4),
-        rows_per_image: None,
-    };
-    queue.write_texture(texture.as_image_copy(), &[255; 4], layout, texture.size());
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// Repeats, trilinear. Devices without anisotropic filtering take the number as 1. Software devices do it texel by texel, at

@@ -1,40 +1,75 @@
-//! Pipelines and the bind group layouts they share. Groups: 0 frame, 1 bones, 2 shadow map, 3 material.
+//! Pipelines, each built when it is first drawn with: a page that shows the studio light never waits for the others.
 
-use super::bones::BoneTexture;
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use super::layouts::Layouts;
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount};
-use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
+use crate::scene::Light;
+use crate::shaders::{self, GeometryVertex, InfluenceVertex, LineVertex, Program};
 
-pub(super) struct Layouts {
-    pub(super) frame: wgpu::BindGroupLayout,
-    pub(super) bones: wgpu::BindGroupLayout,
-    pub(super) shadow: wgpu::BindGroupLayout,
-    pub(super) material: wgpu::BindGroupLayout,
-    /// Holds the place of a group that a program does not read.
-    pub(super) nothing: wgpu::BindGroupLayout,
+/// Normals and depth in view; see `geometry.wgsl`.
+pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// One share, 0…1.
+pub(super) const SHARE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// What colours the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Shading {
+    Lit(Light),
+    Inspect,
 }
 
-/// One program for models with and without joints.
-pub(super) struct PosedPipelines {
-    pub(super) skinned: wgpu::RenderPipeline,
-    pub(super) unskinned: wgpu::RenderPipeline,
+/// How the alpha of a diffuse map cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Cut {
+    /// Not at all.
+    Whole,
+    /// Whole pixels.
+    Hard,
+    /// With smooth edges, for pictures that are opaque already: alpha chooses samples and is not stored. As
+    /// [`Cut::Hard`] with one sample a pixel.
+    Smooth,
+}
+
+/// What is drawn of the model's triangles or vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum ModelDraw {
+    Mesh(Shading, Cut),
+    Caster(Cut),
+    Geometry(Cut),
+    Contact,
+    Edges,
+    Normals,
+    Tangents,
+    Highlight,
+}
+
+/// What is drawn without the model's buffers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Draw {
+    Model { draw: ModelDraw, skinned: bool },
+    Backdrop,
+    WorldLines,
+    Occlusion(Light),
+    OcclusionBlurRows,
+    OcclusionBlurColumns,
+    ContactBlurRows,
+    ContactBlurColumns,
 }
 
 pub(super) struct Pipelines {
+    device: wgpu::Device,
+    samples: SampleCount,
     pub(super) layouts: Layouts,
-    pub(super) mesh: PosedPipelines,
-    /// For materials that alpha cuts: whole pixels.
-    pub(super) mesh_cut: PosedPipelines,
-    /// The same with smooth edges, for pictures that are opaque already: alpha chooses samples and is not stored. Not smooth
-    /// with one sample a pixel.
-    pub(super) mesh_cut_smooth: PosedPipelines,
-    pub(super) caster: PosedPipelines,
-    pub(super) caster_cut: PosedPipelines,
-    pub(super) backdrop: wgpu::RenderPipeline,
+    modules: RefCell<HashMap<&'static str, wgpu::ShaderModule>>,
+    built: RefCell<HashMap<Draw, wgpu::RenderPipeline>>,
 }
 
 const GEOMETRY: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
+const LINE_ENDS: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x4];
 
 /// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal.
 const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
@@ -43,223 +78,113 @@ const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
     clamp: 0.0,
 };
 
-impl Pipelines {
-    pub(super) fn new(device: &wgpu::Device, samples: SampleCount) -> Self {
-        let layouts = Layouts::new(device);
-        let Layouts {
-            frame,
-            bones,
-            shadow,
-            material,
-            nothing,
-        } = &layouts;
-        let picture = |fragment, depth_write, depth_compare| Pass {
-            fragment: Some(fragment),
-            color: Some(COLOR_FORMAT.into()),
-            alpha_to_coverage: false,
-            depth: wgpu::DepthStencilState {
-                format: DEPTH_FORMAT,
-                depth_write_enabled: Some(depth_write),
-                depth_compare: Some(depth_compare),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            },
-            samples: samples.count(),
-        };
-        let shadow_pass = |fragment| Pass {
-            fragment,
-            color: None,
-            alpha_to_coverage: false,
-            depth: wgpu::DepthStencilState {
-                format: DEPTH_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
-                stencil: wgpu::StencilState::default(),
-                bias: CASTER_BIAS,
-            },
-            samples: 1,
-        };
+/// Keeps the greatest value.
+const MAX_BLEND: wgpu::BlendState = {
+    let max = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Max,
+    };
+    wgpu::BlendState { color: max, alpha: max }
+};
 
-        let model = |fragment| picture(fragment, true, wgpu::CompareFunction::Less);
-        let cut_smooth = match samples {
-            SampleCount::One => model("fragment_cut"),
-            SampleCount::Four => Pass {
-                color: Some(wgpu::ColorTargetState {
-                    write_mask: wgpu::ColorWrites::COLOR,
-                    ..COLOR_FORMAT.into()
-                }),
-                alpha_to_coverage: true,
-                ..model("fragment_cut_smooth")
-            },
-        };
-
-        let mesh = Builder::new(device, &shaders::MESH, &[frame, bones, shadow, material]);
-        let caster = Builder::new(device, &shaders::CASTER, &[frame, bones]);
-        let caster_cut = Builder::new(device, &shaders::CASTER_CUT, &[frame, bones, nothing, material]);
-        let backdrop = Builder::new(device, &shaders::BACKDROP, &[frame, bones, shadow]);
-        Self {
-            mesh: mesh.posed(&model("fragment")),
-            mesh_cut: mesh.posed(&model("fragment_cut")),
-            mesh_cut_smooth: mesh.posed(&cut_smooth),
-            caster: caster.posed(&shadow_pass(None)),
-            caster_cut: caster_cut.posed(&shadow_pass(Some("fragment"))),
-            backdrop: backdrop.build(
-                "vertex",
-                &[],
-                &picture("fragment", false, wgpu::CompareFunction::Always),
-            ),
-            layouts,
-        }
-    }
-}
-
-impl Layouts {
-    fn new(device: &wgpu::Device) -> Self {
-        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries,
-            })
-        };
-        let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty,
-            count: None,
-        };
-        let uniform = |size: usize| wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: std::num::NonZeroU64::new(size as u64),
-        };
-        let texture = |sample_type| wgpu::BindingType::Texture {
-            sample_type,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
-        let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
-        let comparison = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-        let frame_size = size_of::<shaders::Frame>();
-        let material_size = size_of::<shaders::Material>();
-        Self {
-            frame: layout("frame", &[entry(0, vertex | fragment, uniform(frame_size))]),
-            bones: BoneTexture::layout(device),
-            shadow: layout(
-                "shadow map",
-                &[
-                    entry(0, fragment, texture(wgpu::TextureSampleType::Depth)),
-                    entry(1, fragment, comparison),
-                ],
-            ),
-            material: layout(
-                "material",
-                &[
-                    entry(0, fragment, uniform(material_size)),
-                    entry(
-                        1,
-                        fragment,
-                        texture(wgpu::TextureSampleType::Float { filterable: true }),
-                    ),
-                    entry(
-                        2,
-                        fragment,
-                        texture(wgpu::TextureSampleType::Float { filterable: true }),
-                    ),
-                    entry(
-                        3,
-                        fragment,
-                        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-                    ),
-                ],
-            ),
-            nothing: layout("nothing", &[]),
-        }
-    }
-}
-
-/// What a pipeline draws into.
-struct Pass {
-    /// Entry point; none where depth is all there is to draw.
+/// All that a pipeline is made from.
+struct Recipe {
+    program: Program,
+    vertex: String,
+    /// None where depth is all there is to draw.
     fragment: Option<&'static str>,
+    topology: wgpu::PrimitiveTopology,
+    /// Of the vertex buffers, if the model's are read.
+    step_mode: wgpu::VertexStepMode,
     color: Option<wgpu::ColorTargetState>,
     alpha_to_coverage: bool,
-    depth: wgpu::DepthStencilState,
+    depth: Option<wgpu::DepthStencilState>,
     samples: u32,
 }
 
-/// A compiled program with its layout.
-struct Builder<'a> {
-    device: &'a wgpu::Device,
-    program: &'a Program,
-    module: wgpu::ShaderModule,
-    layout: wgpu::PipelineLayout,
-}
-
-impl<'a> Builder<'a> {
-    fn new(device: &'a wgpu::Device, program: &'a Program, groups: &[&wgpu::BindGroupLayout]) -> Self {
-        let groups: Vec<_> = groups.iter().copied().map(Some).collect();
+impl Pipelines {
+    pub(super) fn new(device: &wgpu::Device, samples: SampleCount) -> Self {
         Self {
-            device,
-            program,
-            module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(program.name),
-                source: wgpu::ShaderSource::Wgsl(program.source().into()),
-            }),
-            layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(program.name),
-                bind_group_layouts: &groups,
-                immediate_size: 0,
-            }),
+            device: device.clone(),
+            samples,
+            layouts: Layouts::new(device),
+            modules: RefCell::default(),
+            built: RefCell::default(),
         }
     }
 
-    fn posed(&self, pass: &Pass) -> PosedPipelines {
-        let layout = |stride, attributes| {
-            Some(wgpu::VertexBufferLayout {
-                array_stride: stride as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes,
+    /// Builds it at the first call.
+    pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
+        let known = self.built.borrow().get(&draw).cloned();
+        known.unwrap_or_else(|| {
+            let pipeline = self.build(draw);
+            self.built.borrow_mut().insert(draw, pipeline.clone());
+            pipeline
+        })
+    }
+
+    fn module(&self, program: &Program) -> wgpu::ShaderModule {
+        let mut modules = self.modules.borrow_mut();
+        let module = modules.entry(program.name).or_insert_with(|| {
+            self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(program.name),
+                source: wgpu::ShaderSource::Wgsl(program.source().into()),
             })
-        };
-        let geometry = layout(size_of::<GeometryVertex>(), &GEOMETRY);
-        let influences = layout(size_of::<InfluenceVertex>(), &INFLUENCES);
-        PosedPipelines {
-            skinned: self.build("vertex_skinned", &[geometry.clone(), influences], pass),
-            unskinned: self.build("vertex_static", &[geometry], pass),
-        }
+        });
+        module.clone()
     }
 
     /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
     /// from `front_facing`, which here says "clockwise on the screen".
-    fn build(
-        &self,
-        vertex: &str,
-        buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-        pass: &Pass,
-    ) -> wgpu::RenderPipeline {
-        let targets: Vec<_> = pass.color.iter().cloned().map(Some).collect();
+    fn build(&self, draw: Draw) -> wgpu::RenderPipeline {
+        let recipe = self.recipe(draw);
+        let module = self.module(&recipe.program);
+        let groups: Vec<_> = self.groups(draw).into_iter().map(Some).collect();
+        let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(recipe.program.name),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        let buffer = |stride, attributes| {
+            Some(wgpu::VertexBufferLayout {
+                array_stride: stride as u64,
+                step_mode: recipe.step_mode,
+                attributes,
+            })
+        };
+        let geometry = buffer(size_of::<GeometryVertex>(), &GEOMETRY);
+        let influences = buffer(size_of::<InfluenceVertex>(), &INFLUENCES);
+        let buffers = match draw {
+            Draw::Model { skinned: true, .. } => vec![geometry, influences],
+            Draw::Model { skinned: false, .. } => vec![geometry],
+            Draw::WorldLines => vec![buffer(size_of::<LineVertex>(), &LINE_ENDS)],
+            _ => Vec::new(),
+        };
+        let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(self.program.name),
-            layout: Some(&self.layout),
+            label: Some(recipe.program.name),
+            layout: Some(&layout),
             vertex: wgpu::VertexState {
-                module: &self.module,
-                entry_point: Some(vertex),
+                module: &module,
+                entry_point: Some(&recipe.vertex),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers,
+                buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState {
+                topology: recipe.topology,
                 front_face: wgpu::FrontFace::Cw,
                 cull_mode: None,
                 ..Default::default()
             },
-            depth_stencil: Some(pass.depth.clone()),
+            depth_stencil: recipe.depth,
             multisample: wgpu::MultisampleState {
-                count: pass.samples,
-                alpha_to_coverage_enabled: pass.alpha_to_coverage,
+                count: recipe.samples,
+                alpha_to_coverage_enabled: recipe.alpha_to_coverage,
                 ..Default::default()
             },
-            fragment: pass.fragment.map(|entry_point| wgpu::FragmentState {
-                module: &self.module,
+            fragment: recipe.fragment.map(|entry_point| wgpu::FragmentState {
+                module: &module,
                 entry_point: Some(entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &targets,
@@ -267,5 +192,178 @@ impl<'a> Builder<'a> {
             multiview_mask: None,
             cache: None,
         })
+    }
+
+    fn groups(&self, draw: Draw) -> Vec<&wgpu::BindGroupLayout> {
+        let Layouts {
+            frame,
+            bones,
+            surroundings,
+            material,
+            line,
+            around,
+            texels,
+            nothing,
+        } = &self.layouts;
+        match draw {
+            Draw::Model { draw, .. } => match draw {
+                ModelDraw::Mesh(..) => vec![frame, bones, surroundings, material],
+                ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact => vec![frame, bones],
+                ModelDraw::Caster(_) | ModelDraw::Geometry(_) => vec![frame, bones, nothing, material],
+                ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents | ModelDraw::Highlight => {
+                    vec![frame, bones, nothing, line]
+                }
+            },
+            Draw::Backdrop => vec![frame, nothing, surroundings],
+            Draw::WorldLines => vec![frame, nothing, nothing, line],
+            Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, around],
+            Draw::ContactBlurRows | Draw::ContactBlurColumns => vec![texels],
+        }
+    }
+
+    fn recipe(&self, draw: Draw) -> Recipe {
+        let fullscreen = |program, fragment| Recipe {
+            program,
+            vertex: "vertex".into(),
+            fragment: Some(fragment),
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            color: Some(SHARE_FORMAT.into()),
+            alpha_to_coverage: false,
+            depth: None,
+            samples: 1,
+        };
+        match draw {
+            Draw::Model { draw, skinned } => self.model_recipe(draw, skinned),
+            Draw::Backdrop => Recipe {
+                color: Some(COLOR_FORMAT.into()),
+                depth: Some(depth(false, wgpu::CompareFunction::Always)),
+                samples: self.samples.count(),
+                ..fullscreen(shaders::BACKDROP, "fragment")
+            },
+            Draw::WorldLines => Recipe {
+                vertex: "world_line".into(),
+                ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)
+            },
+            Draw::Occlusion(Light::Book) => fullscreen(shaders::OCCLUSION_BOOK, "fragment"),
+            Draw::Occlusion(Light::Studio) => fullscreen(shaders::OCCLUSION_STUDIO, "fragment"),
+            Draw::OcclusionBlurRows => fullscreen(shaders::OCCLUSION_BLUR, "fragment_rows"),
+            Draw::OcclusionBlurColumns => fullscreen(shaders::OCCLUSION_BLUR, "fragment_columns"),
+            Draw::ContactBlurRows => fullscreen(shaders::CONTACT_BLUR, "fragment_rows"),
+            Draw::ContactBlurColumns => fullscreen(shaders::CONTACT_BLUR, "fragment_columns"),
+        }
+    }
+
+    fn model_recipe(&self, draw: ModelDraw, skinned: bool) -> Recipe {
+        let entry = |name: &str| format!("{name}_{}", if skinned { "skinned" } else { "static" });
+        let solid = |program, fragment, color, samples| Recipe {
+            program,
+            vertex: entry("vertex"),
+            fragment,
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            color,
+            alpha_to_coverage: false,
+            depth: Some(depth(true, wgpu::CompareFunction::Less)),
+            samples,
+        };
+        match draw {
+            ModelDraw::Mesh(shading, cut) => {
+                let program = match shading {
+                    Shading::Lit(Light::Studio) => shaders::MESH_STUDIO,
+                    Shading::Lit(Light::Book) => shaders::MESH_BOOK,
+                    Shading::Inspect => shaders::MESH_INSPECT,
+                };
+                let smooth = cut == Cut::Smooth && self.samples != SampleCount::One;
+                let fragment = match cut {
+                    Cut::Whole => "fragment",
+                    Cut::Smooth if smooth => "fragment_cut_smooth",
+                    Cut::Hard | Cut::Smooth => "fragment_cut",
+                };
+                let color = wgpu::ColorTargetState {
+                    write_mask: if smooth {
+                        wgpu::ColorWrites::COLOR
+                    } else {
+                        wgpu::ColorWrites::ALL
+                    },
+                    ..COLOR_FORMAT.into()
+                };
+                Recipe {
+                    alpha_to_coverage: smooth,
+                    ..solid(program, Some(fragment), Some(color), self.samples.count())
+                }
+            }
+            ModelDraw::Caster(cut) => {
+                let (program, fragment) = match cut {
+                    Cut::Whole => (shaders::CASTER, None),
+                    Cut::Hard | Cut::Smooth => (shaders::CASTER_CUT, Some("fragment")),
+                };
+                let mut recipe = solid(program, fragment, None, 1);
+                recipe.depth = Some(wgpu::DepthStencilState {
+                    bias: CASTER_BIAS,
+                    ..depth(true, wgpu::CompareFunction::Less)
+                });
+                recipe
+            }
+            ModelDraw::Geometry(cut) => {
+                let fragment = match cut {
+                    Cut::Whole => "fragment",
+                    Cut::Hard | Cut::Smooth => "fragment_cut",
+                };
+                solid(shaders::MESH_GEOMETRY, Some(fragment), Some(GEOMETRY_FORMAT.into()), 1)
+            }
+            ModelDraw::Contact => {
+                let color = wgpu::ColorTargetState {
+                    blend: Some(MAX_BLEND),
+                    ..SHARE_FORMAT.into()
+                };
+                Recipe {
+                    depth: None,
+                    ..solid(shaders::CONTACT, Some("fragment"), Some(color), 1)
+                }
+            }
+            ModelDraw::Edges => Recipe {
+                vertex: entry("edge"),
+                ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)
+            },
+            ModelDraw::Normals | ModelDraw::Tangents => Recipe {
+                vertex: entry(if draw == ModelDraw::Normals { "normal" } else { "tangent" }),
+                // A line a vertex: the mesh's vertices are instances of one line.
+                step_mode: wgpu::VertexStepMode::Instance,
+                ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)
+            },
+            ModelDraw::Highlight => Recipe {
+                vertex: entry("vertex"),
+                ..self.over_model(shaders::HIGHLIGHT, wgpu::PrimitiveTopology::TriangleList)
+            },
+        }
+    }
+
+    /// Blended over the finished model, hidden by what is nearer.
+    fn over_model(&self, program: Program, topology: wgpu::PrimitiveTopology) -> Recipe {
+        Recipe {
+            program,
+            vertex: String::new(),
+            fragment: Some("fragment"),
+            topology,
+            step_mode: wgpu::VertexStepMode::Vertex,
+            color: Some(wgpu::ColorTargetState {
+                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                ..COLOR_FORMAT.into()
+            }),
+            alpha_to_coverage: false,
+            depth: Some(depth(false, wgpu::CompareFunction::LessEqual)),
+            samples: self.samples.count(),
+        }
+    }
+}
+
+fn depth(write: bool, compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(write),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Vec3};
 
-use super::target::DEPTH_FORMAT;
+use super::target::{DEPTH_FORMAT, flat_texture};
 use crate::scene::Aabb;
 
 /// Texels along each edge.
@@ -10,55 +10,21 @@ const SIZE: u32 = 2048;
 /// Texels around the box that stay empty, so that a blurred edge never leaves the map.
 const MARGIN_TEXELS: f32 = 8.0;
 
-/// The depth map and its bind group.
+/// The depth map.
 pub(super) struct ShadowMap {
     view: wgpu::TextureView,
-    group: wgpu::BindGroup,
 }
 
 impl ShadowMap {
-    pub(super) fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> Self {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("shadow map"),
-            size: wgpu::Extent3d {
-                width: SIZE,
-                height: SIZE,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: DEPTH_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("shadow map"),
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            compare: Some(wgpu::CompareFunction::LessEqual),
-            ..Default::default()
-        });
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("shadow map"),
-            layout,
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(&view),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::Sampler(&sampler),
-                },
-            ],
-        });
-        Self { view, group }
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        Self {
+            view: flat_texture(device, "shadow map", [SIZE; 2], DEPTH_FORMAT, usage),
+        }
     }
 
-    pub(super) fn group(&self) -> &wgpu::BindGroup {
-        &self.group
+    pub(super) fn view(&self) -> &wgpu::TextureView {
+        &self.view
     }
 
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {

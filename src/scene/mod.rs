@@ -14,5 +14,5 @@ pub use frame::{FrameOptions, RenderFrame, Theme};
 pub use framing::Insets;
 pub use ground::Ground;
 pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
-pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear};
+pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear, stand_in_color};
 pub use view_preset::ViewPreset;

@@ -22,14 +22,16 @@ const WHITE_SPREAD: f32 = 0.1;
 /// The colour in which a material is shown, linear: its diffuse colour, or a quiet tint of its own when that is a plain white
 /// meant to be multiplied with a map. A material without a map keeps even white.
 pub fn display_color(material_index: usize, material: &Material) -> [f32; 3] {
+    stand_in_color(material_index, material).unwrap_or(material.diffuse.map(|channel| channel.clamp(0.0, 1.0)))
+}
+
+/// The quiet tint, linear, of a material whose diffuse colour only waits for a map.
+pub fn stand_in_color(material_index: usize, material: &Material) -> Option<[f32; 3]> {
     let [red, green, blue] = material.diffuse;
     let least = red.min(green).min(blue);
     let greatest = red.max(green).max(blue);
     let is_placeholder = material.diffuse_map.is_some() && least >= WHITE_FROM && greatest - least <= WHITE_SPREAD;
-    if !is_placeholder {
-        return material.diffuse.map(|channel| channel.clamp(0.0, 1.0));
-    }
-    TINTS_SRGB[material_index % TINTS_SRGB.len()].map(linear_from_srgb8)
+    is_placeholder.then(|| TINTS_SRGB[material_index % TINTS_SRGB.len()].map(linear_from_srgb8))
 }
 
 /// Decodes an sRGB channel: 0…255 -> linear 0…1.

@@ -33,25 +33,75 @@ pub struct Frame {
     pub grid_center: [f32; 2],
     pub viewport_pixels: [f32; 2],
     pub normal_green_sign: f32,
+    pub view_mode: u32,
+    pub key_shadow: u32,
+    pub reflections: f32,
+    pub environment_turn: [f32; 2],
+    pub depth_near: f32,
+    pub depth_far: f32,
+    pub to_book_light_1: [f32; 4],
+    pub to_book_light_2: [f32; 4],
+    pub background_srgb: [f32; 3],
+    pub background: u32,
+    pub contact_center: [f32; 2],
+    pub contact_half_width: f32,
+    pub contact_strength: f32,
+    pub occlusion_radius: f32,
+    pub book_unit: f32,
+    pub exposure: f32,
+    pub unused: f32,
+}
+
+/// Twin of `Material` in `material.wgsl`, which says what each member means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in material.wgsl, where each is used")]
+pub struct Material {
+    pub albedo: [f32; 3],
+    pub roughness: f32,
+    pub fresnel0: [f32; 3],
+    pub alpha_clip: f32,
+    pub book_albedo: [f32; 3],
+    pub is_phong: u32,
+    pub ambient: [f32; 3],
+    pub spec_power: f32,
+    pub specular: [f32; 3],
+    pub normal_channels: u32,
+    pub reflectivity: [f32; 3],
+    pub unused: u32,
+    pub identity_srgb: [f32; 4],
+}
+
+/// Twin of `Line` in `lines.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Line {
+    /// sRGB, straight alpha.
+    pub color_srgb: [f32; 4],
+    /// World units.
+    pub length: f32,
+    /// Fills the struct to whole 16 bytes.
     pub unused: [f32; 3],
 }
 
-/// Twin of `Material` in `material.wgsl`.
+/// Twin of `Veil` in `highlight.wgsl`. As large as [`Line`], so that both bind alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct Material {
-    /// Linear; multiplies the diffuse map.
-    pub albedo: [f32; 3],
-    /// 0 smooth … 1 rough.
-    pub roughness: f32,
-    /// Reflectance at normal incidence, linear.
-    pub fresnel0: [f32; 3],
-    /// What lies below this alpha is cut away; 0 keeps everything.
-    pub alpha_clip: f32,
-    /// Channels of the normal map: 3, 2, or 0 without one.
-    pub normal_channels: u32,
-    /// Fills the struct to whole 16 bytes.
-    pub unused: [u32; 3],
+pub struct Veil {
+    /// sRGB, straight alpha.
+    pub color_srgb: [f32; 4],
+    /// Fills the struct.
+    pub unused: [f32; 4],
+}
+
+/// The end of a line that stands in the world: shader locations 0 and 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct LineVertex {
+    /// Location 0, world space.
+    pub position: [f32; 3],
+    /// Location 1, sRGB, straight alpha.
+    pub color_srgb: [f32; 4],
 }
 
 /// What every vertex has: shader locations 0–3, bind space.

@@ -5,7 +5,7 @@
 
 mod layout;
 
-pub use layout::{Frame, GeometryVertex, InfluenceVertex, Material};
+pub use layout::{Frame, GeometryVertex, InfluenceVertex, Line, LineVertex, Material, Veil};
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
 /// Twin of `JOINTS_PER_ROW` in `skinning.wgsl`.
@@ -45,39 +45,97 @@ macro_rules! shader_file {
     };
 }
 
+const AROUND_WGSL: ShaderFile = shader_file!("around.wgsl");
+const BACKDROP_WGSL: ShaderFile = shader_file!("backdrop.wgsl");
+const BOOK_WGSL: ShaderFile = shader_file!("book.wgsl");
 const CASTER_WGSL: ShaderFile = shader_file!("caster.wgsl");
 const CASTER_CUT_WGSL: ShaderFile = shader_file!("caster_cut.wgsl");
-const BACKDROP_WGSL: ShaderFile = shader_file!("backdrop.wgsl");
 const COLOR_WGSL: ShaderFile = shader_file!("color.wgsl");
 const COMPOSITE_WGSL: ShaderFile = shader_file!("composite.wgsl");
+const CONTACT_WGSL: ShaderFile = shader_file!("contact.wgsl");
+const CONTACT_BLUR_WGSL: ShaderFile = shader_file!("contact_blur.wgsl");
 const FRAME_WGSL: ShaderFile = shader_file!("frame.wgsl");
 const FULLSCREEN_WGSL: ShaderFile = shader_file!("fullscreen.wgsl");
+const GEOMETRY_WGSL: ShaderFile = shader_file!("geometry.wgsl");
+const HIGHLIGHT_WGSL: ShaderFile = shader_file!("highlight.wgsl");
 const LIGHTING_WGSL: ShaderFile = shader_file!("lighting.wgsl");
+const LINES_WGSL: ShaderFile = shader_file!("lines.wgsl");
 const MATERIAL_WGSL: ShaderFile = shader_file!("material.wgsl");
 const MESH_WGSL: ShaderFile = shader_file!("mesh.wgsl");
+const MESH_BOOK_WGSL: ShaderFile = shader_file!("mesh_book.wgsl");
+const MESH_GEOMETRY_WGSL: ShaderFile = shader_file!("mesh_geometry.wgsl");
+const MESH_INSPECT_WGSL: ShaderFile = shader_file!("mesh_inspect.wgsl");
+const MESH_STUDIO_WGSL: ShaderFile = shader_file!("mesh_studio.wgsl");
+const MESH_VERTEX_WGSL: ShaderFile = shader_file!("mesh_vertex.wgsl");
 const NORMAL_MAP_WGSL: ShaderFile = shader_file!("normal_map.wgsl");
+const OCCLUSION_BLUR_WGSL: ShaderFile = shader_file!("occlusion_blur.wgsl");
+const OCCLUSION_BOOK_WGSL: ShaderFile = shader_file!("occlusion_book.wgsl");
+const OCCLUSION_STUDIO_WGSL: ShaderFile = shader_file!("occlusion_studio.wgsl");
 const PROBE_WGSL: ShaderFile = shader_file!("probe.wgsl");
 const SHADOW_WGSL: ShaderFile = shader_file!("shadow.wgsl");
+const SURFACE_WGSL: ShaderFile = shader_file!("surface.wgsl");
+const SURROUNDINGS_WGSL: ShaderFile = shader_file!("surroundings.wgsl");
 
 /// Vertex blending alone: in every program that draws the model, and in the test that compares it with its CPU twin.
 pub const SKINNING_WGSL: ShaderFile = shader_file!("skinning.wgsl");
 
 /// The model under the studio light.
-pub const MESH: Program = Program {
-    name: "mesh",
+pub const MESH_STUDIO: Program = Program {
+    name: "mesh-studio",
     files: &[
         FRAME_WGSL,
         SKINNING_WGSL,
         COLOR_WGSL,
+        SURROUNDINGS_WGSL,
         SHADOW_WGSL,
-        LIGHTING_WGSL,
         MATERIAL_WGSL,
         NORMAL_MAP_WGSL,
+        MESH_VERTEX_WGSL,
+        SURFACE_WGSL,
+        LIGHTING_WGSL,
+        MESH_STUDIO_WGSL,
         MESH_WGSL,
     ],
 };
 
-/// The model's depth from the key light.
+/// The model under the light of the books' demos.
+pub const MESH_BOOK: Program = Program {
+    name: "mesh-book",
+    files: &[
+        FRAME_WGSL,
+        SKINNING_WGSL,
+        COLOR_WGSL,
+        SURROUNDINGS_WGSL,
+        SHADOW_WGSL,
+        MATERIAL_WGSL,
+        NORMAL_MAP_WGSL,
+        MESH_VERTEX_WGSL,
+        SURFACE_WGSL,
+        BOOK_WGSL,
+        MESH_BOOK_WGSL,
+        MESH_WGSL,
+    ],
+};
+
+/// One property of the model's surface, without light.
+pub const MESH_INSPECT: Program = Program {
+    name: "mesh-inspect",
+    files: &[
+        FRAME_WGSL,
+        SKINNING_WGSL,
+        COLOR_WGSL,
+        SURROUNDINGS_WGSL,
+        SHADOW_WGSL,
+        MATERIAL_WGSL,
+        NORMAL_MAP_WGSL,
+        MESH_VERTEX_WGSL,
+        SURFACE_WGSL,
+        MESH_INSPECT_WGSL,
+        MESH_WGSL,
+    ],
+};
+
+/// The model's depth from the first light.
 pub const CASTER: Program = Program {
     name: "caster",
     files: &[FRAME_WGSL, SKINNING_WGSL, CASTER_WGSL],
@@ -89,10 +147,64 @@ pub const CASTER_CUT: Program = Program {
     files: &[FRAME_WGSL, SKINNING_WGSL, MATERIAL_WGSL, CASTER_CUT_WGSL],
 };
 
-/// Backdrop, grid and the shadow on the ground.
+/// Normals and depth of what is in view.
+pub const MESH_GEOMETRY: Program = Program {
+    name: "mesh-geometry",
+    files: &[
+        FRAME_WGSL,
+        SKINNING_WGSL,
+        MATERIAL_WGSL,
+        GEOMETRY_WGSL,
+        MESH_GEOMETRY_WGSL,
+    ],
+};
+
+/// Ambient occlusion of the DirectX 12 book.
+pub const OCCLUSION_BOOK: Program = Program {
+    name: "occlusion-book",
+    files: &[FRAME_WGSL, GEOMETRY_WGSL, AROUND_WGSL, FULLSCREEN_WGSL, OCCLUSION_BOOK_WGSL],
+};
+
+/// Ambient occlusion by horizons.
+pub const OCCLUSION_STUDIO: Program = Program {
+    name: "occlusion-studio",
+    files: &[FRAME_WGSL, GEOMETRY_WGSL, AROUND_WGSL, FULLSCREEN_WGSL, OCCLUSION_STUDIO_WGSL],
+};
+
+/// Smooths ambient occlusion between edges.
+pub const OCCLUSION_BLUR: Program = Program {
+    name: "occlusion-blur",
+    files: &[FRAME_WGSL, GEOMETRY_WGSL, AROUND_WGSL, FULLSCREEN_WGSL, OCCLUSION_BLUR_WGSL],
+};
+
+/// How near the model is above the ground.
+pub const CONTACT: Program = Program {
+    name: "contact",
+    files: &[FRAME_WGSL, SKINNING_WGSL, CONTACT_WGSL],
+};
+
+/// Smooths that.
+pub const CONTACT_BLUR: Program = Program {
+    name: "contact-blur",
+    files: &[FULLSCREEN_WGSL, CONTACT_BLUR_WGSL],
+};
+
+/// Backdrop or sky, grid and the shadows on the ground.
 pub const BACKDROP: Program = Program {
     name: "backdrop",
-    files: &[FRAME_WGSL, COLOR_WGSL, SHADOW_WGSL, FULLSCREEN_WGSL, BACKDROP_WGSL],
+    files: &[FRAME_WGSL, COLOR_WGSL, SURROUNDINGS_WGSL, SHADOW_WGSL, FULLSCREEN_WGSL, BACKDROP_WGSL],
+};
+
+/// Edges, normals, tangents, boxes, axes.
+pub const LINES: Program = Program {
+    name: "lines",
+    files: &[FRAME_WGSL, SKINNING_WGSL, COLOR_WGSL, LINES_WGSL],
+};
+
+/// A part of the model that stands out.
+pub const HIGHLIGHT: Program = Program {
+    name: "highlight",
+    files: &[FRAME_WGSL, SKINNING_WGSL, COLOR_WGSL, HIGHLIGHT_WGSL],
 };
 
 /// The finished picture onto a surface.
@@ -108,4 +220,21 @@ pub const PROBE: Program = Program {
 };
 
 /// Every program there is.
-pub const PROGRAMS: [Program; 6] = [MESH, CASTER, CASTER_CUT, BACKDROP, COMPOSITE, PROBE];
+pub const PROGRAMS: [Program; 16] = [
+    MESH_STUDIO,
+    MESH_BOOK,
+    MESH_INSPECT,
+    CASTER,
+    CASTER_CUT,
+    MESH_GEOMETRY,
+    OCCLUSION_BOOK,
+    OCCLUSION_STUDIO,
+    OCCLUSION_BLUR,
+    CONTACT,
+    CONTACT_BLUR,
+    BACKDROP,
+    LINES,
+    HIGHLIGHT,
+    COMPOSITE,
+    PROBE,
+];

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::mem::offset_of;
 
-use bindpose::shaders::{Frame, GeometryVertex, InfluenceVertex, JOINTS_PER_ROW, Material, PROGRAMS, Program};
+use bindpose::shaders::{
+    Frame, GeometryVertex, InfluenceVertex, JOINTS_PER_ROW, Line, Material, PROGRAMS, Program, Veil,
+};
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
@@ -116,14 +118,39 @@ fn twins() -> BTreeMap<String, Layout> {
             grid_center,
             viewport_pixels,
             normal_green_sign,
+            view_mode,
+            key_shadow,
+            reflections,
+            environment_turn,
+            depth_near,
+            depth_far,
+            to_book_light_1,
+            to_book_light_2,
+            background_srgb,
+            background,
+            contact_center,
+            contact_half_width,
+            contact_strength,
+            occlusion_radius,
+            book_unit,
+            exposure,
         }),
         twin!(Material {
             albedo,
             roughness,
             fresnel0,
             alpha_clip,
+            book_albedo,
+            is_phong,
+            ambient,
+            spec_power,
+            specular,
             normal_channels,
+            reflectivity,
+            identity_srgb,
         }),
+        twin!(Line { color_srgb, length }),
+        twin!(Veil { color_srgb }),
     ])
 }
 

@@ -1,0 +1,33 @@
+// Reads what lies around a pixel from normals and depth in view.
+
+@group(1) @binding(0) var geometry_map: texture_2d<f32>;
+
+fn geometry_at(pixel: vec2<i32>) -> vec4<f32> {
+    let last = vec2<i32>(textureDimensions(geometry_map)) - 1;
+    return textureLoad(geometry_map, clamp(pixel, vec2<i32>(0), last), 0);
+}
+
+// Distance along the view, world units.
+fn distance_of(packed: vec4<f32>) -> f32 {
+    return mix(frame.depth_near, frame.depth_far, depth_of(packed));
+}
+
+// The point of the world at a place of the view.
+fn world_at(ndc: vec2<f32>, along: f32) -> vec3<f32> {
+    return frame.eye + ndc.x * frame.eye_per_x + ndc.y * frame.eye_per_y
+        + along * (frame.forward + ndc.x * frame.forward_per_x + ndc.y * frame.forward_per_y);
+}
+
+fn ndc_of_pixel(pixel: vec2<f32>) -> vec2<f32> {
+    let uv = pixel / vec2<f32>(textureDimensions(geometry_map));
+    return uv * vec2<f32>(2.0, -2.0) + vec2<f32>(-1.0, 1.0);
+}
+
+fn pixel_of_ndc(ndc: vec2<f32>) -> vec2<f32> {
+    return (ndc * vec2<f32>(0.5, -0.5) + 0.5) * vec2<f32>(textureDimensions(geometry_map));
+}
+
+// Even over any small neighbourhood, 0..1.
+fn pixel_noise(pixel: vec2<f32>) -> f32 {
+    return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715))));
+}

@@ -1,0 +1,34 @@
+// How near the model is above the ground, seen from straight below: 1 on it, fading with height.
+
+struct ContactVertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) height: f32,
+}
+
+fn contact_vertex(vertex: Skinned) -> ContactVertex {
+    let world = frame.world_from_model * vec4<f32>(vertex.position, 1.0);
+    let in_map = (world.xz - frame.contact_center) / frame.contact_half_width;
+    return ContactVertex(vec4<f32>(in_map, 0.5, 1.0), world.y - frame.ground_height);
+}
+
+@vertex
+fn vertex_static(@location(0) position: vec3<f32>) -> ContactVertex {
+    return contact_vertex(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)));
+}
+
+@vertex
+fn vertex_skinned(
+    @location(0) position: vec3<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+) -> ContactVertex {
+    return contact_vertex(skin(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights));
+}
+
+// Half of it is gone at this height, in units of the books' demo.
+const HALF_HEIGHT: f32 = 0.16;
+
+@fragment
+fn fragment(vertex: ContactVertex) -> @location(0) vec4<f32> {
+    return vec4<f32>(exp2(-max(vertex.height, 0.0) / (HALF_HEIGHT * frame.book_unit)));
+}

@@ -1,0 +1,46 @@
+// A part of the model that stands out: a veil of one colour, thicker where the surface turns away.
+
+struct Veil {
+    // sRGB, straight alpha.
+    @size(32) color_srgb: vec4<f32>,
+}
+
+@group(3) @binding(0) var<uniform> veil: Veil;
+
+struct VeilVertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world_position: vec3<f32>,
+    @location(1) world_normal: vec3<f32>,
+}
+
+fn veil_vertex(vertex: Skinned) -> VeilVertex {
+    let rows = transpose(frame.world_from_model);
+    let world = transform(rows[0], rows[1], rows[2], vertex);
+    return VeilVertex(frame.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal);
+}
+
+@vertex
+fn vertex_static(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> VeilVertex {
+    return veil_vertex(Skinned(position, normal, vec4<f32>(0.0)));
+}
+
+@vertex
+fn vertex_skinned(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+) -> VeilVertex {
+    return veil_vertex(skin(Skinned(position, normal, vec4<f32>(0.0)), joints, weights));
+}
+
+@fragment
+fn fragment(vertex: VeilVertex) -> @location(0) vec4<f32> {
+    var to_eye = -frame.forward;
+    if frame.is_perspective > 0.5 {
+        to_eye = normalize(frame.eye - vertex.world_position);
+    }
+    let facing = abs(dot(normalize_or(vertex.world_normal, to_eye), to_eye));
+    let alpha = veil.color_srgb.a * (0.35 + 0.65 * pow(1.0 - facing, 1.5));
+    return vec4<f32>(linear_from_srgb(veil.color_srgb.rgb) * alpha, alpha);
+}

@@ -1,0 +1,102 @@
+// Lines over the model and beside it: edges of triangles, vertex normals and tangents, boxes and axes.
+
+struct Line {
+    // sRGB, straight alpha.
+    color_srgb: vec4<f32>,
+    // World units.
+    @size(16) length: f32,
+}
+
+@group(3) @binding(0) var<uniform> line: Line;
+
+struct LineVertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) color_srgb: vec4<f32>,
+}
+
+// Nearer by a share of the distance, so that lines on a surface are not lost in it.
+fn line_vertex(world_position: vec3<f32>, color_srgb: vec4<f32>) -> LineVertex {
+    var nearer = world_position;
+    if frame.is_perspective > 0.5 {
+        nearer += (frame.eye - world_position) * 1e-3;
+    } else {
+        nearer -= frame.forward * (frame.depth_far - frame.depth_near) * 1e-3;
+    }
+    return LineVertex(frame.clip_from_world * vec4<f32>(nearer, 1.0), color_srgb);
+}
+
+fn in_world(vertex: Skinned) -> Skinned {
+    let rows = transpose(frame.world_from_model);
+    return transform(rows[0], rows[1], rows[2], vertex);
+}
+
+@vertex
+fn edge_static(@location(0) position: vec3<f32>) -> LineVertex {
+    return line_vertex(in_world(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0))).position, line.color_srgb);
+}
+
+@vertex
+fn edge_skinned(
+    @location(0) position: vec3<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+) -> LineVertex {
+    let posed = skin(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights);
+    return line_vertex(in_world(posed).position, line.color_srgb);
+}
+
+// Two ends a line, a line a vertex of the mesh.
+@vertex
+fn normal_static(
+    @builtin(vertex_index) end: u32,
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+) -> LineVertex {
+    let world = in_world(Skinned(position, normal, vec4<f32>(0.0)));
+    return line_vertex(world.position + world.normal * line.length * f32(end), line.color_srgb);
+}
+
+@vertex
+fn normal_skinned(
+    @builtin(vertex_index) end: u32,
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+) -> LineVertex {
+    let world = in_world(skin(Skinned(position, normal, vec4<f32>(0.0)), joints, weights));
+    return line_vertex(world.position + world.normal * line.length * f32(end), line.color_srgb);
+}
+
+@vertex
+fn tangent_static(
+    @builtin(vertex_index) end: u32,
+    @location(0) position: vec3<f32>,
+    @location(2) tangent: vec4<f32>,
+) -> LineVertex {
+    let world = in_world(Skinned(position, vec3<f32>(0.0), tangent));
+    return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
+}
+
+@vertex
+fn tangent_skinned(
+    @builtin(vertex_index) end: u32,
+    @location(0) position: vec3<f32>,
+    @location(2) tangent: vec4<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+) -> LineVertex {
+    let world = in_world(skin(Skinned(position, vec3<f32>(0.0), tangent), joints, weights));
+    return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
+}
+
+// Lines that stand in the world already.
+@vertex
+fn world_line(@location(0) position: vec3<f32>, @location(1) color_srgb: vec4<f32>) -> LineVertex {
+    return line_vertex(position, color_srgb);
+}
+
+@fragment
+fn fragment(vertex: LineVertex) -> @location(0) vec4<f32> {
+    return vec4<f32>(linear_from_srgb(vertex.color_srgb.rgb) * vertex.color_srgb.a, vertex.color_srgb.a);
+}

@@ -1,0 +1,41 @@
+// The model under the light of the books' demos.
+
+fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
+    let texel = textureSampleLevel(sky_map, surroundings_sampler, in_environment(direction), 0.0).rgb;
+    return srgb_from_linear(clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0)));
+}
+
+fn surface_color(point: SurfacePoint) -> vec3<f32> {
+    let texel = srgb_from_linear(point.diffuse_texel.rgb);
+    let to_lights = array<vec3<f32>, 3>(frame.to_key, frame.to_book_light_1.xyz, frame.to_book_light_2.xyz);
+    var key_visible = 1.0;
+    if dot(point.normal, frame.to_key) > 0.0 {
+        key_visible = key_arrival(point);
+    }
+    let mirrored = reflect(-point.to_eye, point.normal);
+    var color: vec3<f32>;
+    if material.is_phong == 0u {
+        let surface = BookSurface(
+            material.book_albedo * texel,
+            material.fresnel0,
+            (1.0 - material.roughness) * point.normal_texel.a,
+            point.normal,
+            point.to_eye,
+        );
+        color = book_light(surface, to_lights, key_visible, point.occlusion)
+            + book_reflectance(surface, mirrored) * sky_srgb(mirrored) * frame.reflections;
+    } else {
+        let surface = PhongSurface(
+            texel,
+            material.ambient,
+            material.book_albedo,
+            material.specular,
+            material.spec_power,
+            point.normal,
+            point.to_eye,
+        );
+        color = phong_light(surface, to_lights, key_visible, point.occlusion)
+            + material.reflectivity * sky_srgb(mirrored) * frame.reflections;
+    }
+    return clamp(color, vec3<f32>(0.0), vec3<f32>(1.0));
+}

@@ -1,0 +1,37 @@
+// Smooths occlusion along rows, then columns, but not across edges (DirectX 12 book, chapter 21).
+
+@group(1) @binding(1) var rough_map: texture_2d<f32>;
+
+const BLUR_RADIUS: i32 = 5;
+const BLUR_SIGMA: f32 = 2.5;
+
+fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
+    let packed = geometry_at(pixel);
+    let normal = normal_of(packed);
+    let along = distance_of(packed);
+    let last = vec2<i32>(textureDimensions(rough_map)) - 1;
+    var sum = textureLoad(rough_map, pixel, 0).r;
+    var weights = 1.0;
+    for (var i = -BLUR_RADIUS; i <= BLUR_RADIUS; i++) {
+        let at = pixel + step * i;
+        let beside = geometry_at(at);
+        let is_same_surface = dot(normal_of(beside), normal) >= 0.8
+            && abs(distance_of(beside) - along) <= 0.2 * frame.book_unit;
+        if i != 0 && is_same_surface {
+            let weight = exp(-f32(i * i) / (2.0 * BLUR_SIGMA * BLUR_SIGMA));
+            sum += weight * textureLoad(rough_map, clamp(at, vec2<i32>(0), last), 0).r;
+            weights += weight;
+        }
+    }
+    return vec4<f32>(sum / weights);
+}
+
+@fragment
+fn fragment_rows(view: FullscreenVertex) -> @location(0) vec4<f32> {
+    return smoothed(vec2<i32>(view.clip.xy), vec2<i32>(1, 0));
+}
+
+@fragment
+fn fragment_columns(view: FullscreenVertex) -> @location(0) vec4<f32> {
+    return smoothed(vec2<i32>(view.clip.xy), vec2<i32>(0, 1));
+}

@@ -1,0 +1,79 @@
+// Ambient occlusion by horizons: in a few planes through the view ray the highest occluders on both sides are found, and what is
+// open between them is integrated in closed form (Jimenez, Wu, Pesce and Jarabo 2016, "Practical Realtime Strategies for Accurate
+// Indirect Occlusion", section 4).
+
+const SLICES: i32 = 3;
+const STEPS: i32 = 5;
+const HALF_PI: f32 = 1.5707963;
+// Farther pixels cost more than they show.
+const MAX_REACH_PIXELS: f32 = 128.0;
+
+// Share of a slice that is open between the normal and a horizon; angles from the view ray.
+fn open_arc(horizon: f32, normal_angle: f32) -> f32 {
+    return 0.25 * (cos(normal_angle) - cos(2.0 * horizon - normal_angle) + 2.0 * horizon * sin(normal_angle));
+}
+
+// Cosine of the highest occluder from the view ray, on one side of a slice.
+fn horizon_cosine(pixel: vec2<f32>, step: vec2<f32>, start: f32, point: vec3<f32>, to_eye: vec3<f32>, lowest: f32) -> f32 {
+    var highest = lowest;
+    for (var i = 0; i < STEPS; i++) {
+        let share = (f32(i) + start) / f32(STEPS);
+        // Denser near the point, and never the point itself.
+        let at = pixel + step * share * share + normalize(step);
+        let packed = geometry_at(vec2<i32>(floor(at)));
+        let away = world_at(ndc_of_pixel(floor(at) + 0.5), distance_of(packed)) - point;
+        let distance = length(away);
+        let cosine = dot(away, to_eye) / max(distance, 1e-20);
+        let near = clamp(1.0 - distance * distance / (frame.occlusion_radius * frame.occlusion_radius), 0.0, 1.0);
+        if depth_of(packed) < 1.0 {
+            highest = max(highest, mix(lowest, cosine, near));
+        }
+    }
+    return highest;
+}
+
+@fragment
+fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
+    let packed = geometry_at(vec2<i32>(view.clip.xy));
+    if depth_of(packed) >= 1.0 {
+        return vec4<f32>(1.0);
+    }
+    let normal = normal_of(packed);
+    let along = distance_of(packed);
+    // A little towards the viewer: depth has steps.
+    let point = world_at(view.ndc, along - (frame.depth_far - frame.depth_near) * 3e-5);
+    var to_eye = -frame.forward;
+    if frame.is_perspective > 0.5 {
+        to_eye = normalize(frame.eye - point);
+    }
+    let size = vec2<f32>(textureDimensions(geometry_map));
+    let world_per_pixel = length(frame.eye_per_y + along * frame.forward_per_y) * 2.0 / size.y;
+    let reach = min(frame.occlusion_radius / world_per_pixel, MAX_REACH_PIXELS);
+    let right = normalize(frame.eye_per_x + frame.forward_per_x);
+    let up = normalize(frame.eye_per_y + frame.forward_per_y);
+    let noise = pixel_noise(view.clip.xy);
+    let start = 0.25 + 0.75 * fract(noise * 7.0 + 0.37);
+
+    var open = 0.0;
+    for (var i = 0; i < SLICES; i++) {
+        let angle = (f32(i) + noise) * (3.14159265 / f32(SLICES));
+        let heading = vec2<f32>(cos(angle), sin(angle));
+        let across = right * heading.x + up * heading.y;
+        let in_slice = across - to_eye * dot(across, to_eye);
+        let axis = normalize(cross(in_slice, to_eye));
+        let projected = normal - axis * dot(normal, axis);
+        let projected_length = max(length(projected), 1e-4);
+        let cosine = clamp(dot(projected, to_eye) / projected_length, -1.0, 1.0);
+        let normal_angle = sign(dot(projected, in_slice)) * acos(cosine);
+        // Pixel rows go down.
+        let step = vec2<f32>(heading.x, -heading.y) * reach;
+        let lowest_ahead = cos(min(normal_angle + HALF_PI, 3.14159265));
+        let lowest_behind = cos(max(normal_angle - HALF_PI, -3.14159265));
+        let ahead = acos(clamp(horizon_cosine(view.clip.xy, step, start, point, to_eye, lowest_ahead), -1.0, 1.0));
+        let behind = -acos(clamp(horizon_cosine(view.clip.xy, -step, start, point, to_eye, lowest_behind), -1.0, 1.0));
+        let ahead_angle = normal_angle + min(ahead - normal_angle, HALF_PI);
+        let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
+        open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
+    }
+    return vec4<f32>(clamp(open / f32(SLICES), 0.0, 1.0));
+}

@@ -1,0 +1,54 @@
+// What a pixel of the model is, before any light: maps read, the viewer's side found.
+
+struct SurfacePoint {
+    world_position: vec3<f32>,
+    // Unit, towards the viewer.
+    to_eye: vec3<f32>,
+    // Unit, on the side that is seen: of the triangle itself, of the vertices, and bent by the normal map.
+    flat_normal: vec3<f32>,
+    smooth_normal: vec3<f32>,
+    normal: vec3<f32>,
+    // As it comes from the vertices.
+    tangent: vec4<f32>,
+    tex_coord: vec2<f32>,
+    diffuse_texel: vec4<f32>,
+    normal_texel: vec4<f32>,
+    // Share of the surroundings that reaches here.
+    occlusion: f32,
+}
+
+// Samples maps and takes derivatives, so every pixel of a triangle must come here.
+fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
+    let diffuse_texel = textureSample(diffuse_map, map_sampler, mesh.tex_coord);
+    let normal_texel = textureSample(normal_map, map_sampler, mesh.tex_coord);
+    let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), frame.forward);
+    let side = select(-1.0, 1.0, clockwise) * frame.front_sign;
+    var to_eye = -frame.forward;
+    if frame.is_perspective > 0.5 {
+        to_eye = normalize(frame.eye - mesh.world_position);
+    }
+    let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
+    // From behind, a bump is a dent: the relief has one shape, seen from its other side.
+    let normal = mapped_normal(normal_texel.rgb, vertex_normal, mesh.world_tangent) * side;
+    let in_view = mesh.clip.xy / frame.viewport_pixels;
+    return SurfacePoint(
+        mesh.world_position,
+        to_eye,
+        derived_normal * select(-1.0, 1.0, dot(derived_normal, to_eye) > 0.0),
+        vertex_normal * side,
+        normal,
+        mesh.world_tangent,
+        mesh.tex_coord,
+        diffuse_texel,
+        normal_texel,
+        textureSampleLevel(occlusion_map, surroundings_sampler, in_view, 0.0).r,
+    );
+}
+
+// How much of the key light arrives at a point, whichever way it is turned.
+fn key_arrival(point: SurfacePoint) -> f32 {
+    // Grazing light walks further over the surface inside one texel, so the start moves further off it.
+    let facing_key = max(dot(point.smooth_normal, frame.to_key), 0.0);
+    let off_surface = point.smooth_normal * frame.shadow_texel * (3.0 - 2.0 * facing_key);
+    return key_visibility(point.world_position + off_surface, 2.5);
+}
