@@ -4,8 +4,10 @@
 //! a test without a GPU validates it, translates it to GLSL ES 3.00 and compares the twins with what the shader sees.
 
 mod layout;
+mod light_layout;
 
 pub use layout::{Frame, GeometryVertex, InfluenceVertex, Material};
+pub use light_layout::Environment;
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
 /// Twin of `JOINTS_PER_ROW` in `skinning.wgsl`.
@@ -50,17 +52,26 @@ const CASTER_CUT_WGSL: ShaderFile = shader_file!("caster_cut.wgsl");
 const BACKDROP_WGSL: ShaderFile = shader_file!("backdrop.wgsl");
 const COLOR_WGSL: ShaderFile = shader_file!("color.wgsl");
 const COMPOSITE_WGSL: ShaderFile = shader_file!("composite.wgsl");
+const ENVIRONMENT_WGSL: ShaderFile = shader_file!("environment.wgsl");
 const FRAME_WGSL: ShaderFile = shader_file!("frame.wgsl");
 const FULLSCREEN_WGSL: ShaderFile = shader_file!("fullscreen.wgsl");
 const LIGHTING_WGSL: ShaderFile = shader_file!("lighting.wgsl");
 const MATERIAL_WGSL: ShaderFile = shader_file!("material.wgsl");
 const MESH_WGSL: ShaderFile = shader_file!("mesh.wgsl");
 const NORMAL_MAP_WGSL: ShaderFile = shader_file!("normal_map.wgsl");
+const PBR_WGSL: ShaderFile = shader_file!("pbr.wgsl");
 const PROBE_WGSL: ShaderFile = shader_file!("probe.wgsl");
 const SHADOW_WGSL: ShaderFile = shader_file!("shadow.wgsl");
+const STUDIO_WGSL: ShaderFile = shader_file!("studio.wgsl");
 
 /// Vertex blending alone: in every program that draws the model, and in the test that compares it with its CPU twin.
 pub const SKINNING_WGSL: ShaderFile = shader_file!("skinning.wgsl");
+
+/// The studio light, after its parts: `studio_light` is what a surface's shader calls.
+pub const STUDIO_LIGHT: [ShaderFile; 3] = [PBR_WGSL, ENVIRONMENT_WGSL, STUDIO_WGSL];
+
+/// From light to colours of a screen.
+pub const TONE_MAP_WGSL: ShaderFile = shader_file!("tone_map.wgsl");
 
 /// The model under the studio light.
 pub const MESH: Program = Program {
