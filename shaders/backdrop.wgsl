@@ -23,9 +23,13 @@ fn line_coverage(coordinate: vec2<f32>, per_pixel: vec2<f32>, width_pixels: f32)
     return max(lines.x, lines.y);
 }
 
-// The sky in a direction. Under the studio light it is exposed as the model is.
+// The sky in a direction. Under the studio light it is exposed and toned as the model is; the books show texels as they are.
 fn sky_color(direction: vec3<f32>) -> vec3<f32> {
-    return textureSampleLevel(sky_map, surroundings_sampler, in_environment(direction), 0.0).rgb * frame.exposure;
+    let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
+    if frame.is_book == 1u {
+        return clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0));
+    }
+    return tone_mapped(exposed(texel, frame.exposure_stops));
 }
 
 @fragment
@@ -46,7 +50,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
                 let lit = key_visibility(point, 6.0);
                 color *= 1.0 - frame.shadow_strength * (1.0 - lit);
                 let in_contact_map = (point.xz - frame.contact_center) / frame.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
-                let contact = textureSampleLevel(contact_map, surroundings_sampler, in_contact_map, 0.0).r;
+                let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).r;
                 color *= 1.0 - frame.contact_strength * contact;
             }
             // How the point moves from one pixel to the next, exact: screen derivatives would tear at the horizon.

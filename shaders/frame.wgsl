@@ -43,11 +43,13 @@ struct Frame {
     key_shadow: u32,
     // 1, or 0 where mirrored surroundings are left out.
     reflections: f32,
-    // Cosine and sine of the turn that brings world directions into the surroundings' axes.
-    environment_turn: vec2<f32>,
     // Distances of the nearest and farthest point of the scene along the view.
     depth_near: f32,
     depth_far: f32,
+    // Exposure of the studio's light; each doubles it.
+    exposure_stops: f32,
+    // 1 under the light of the books' demos.
+    is_book: u32,
     // Unit vectors towards the second and third of the book's lights.
     to_book_light_1: vec4<f32>,
     to_book_light_2: vec4<f32>,
@@ -61,9 +63,7 @@ struct Frame {
     // How far occluders reach, world units.
     occlusion_radius: f32,
     // One unit of the books' demo in units of this world: the figure there is 3.6 of them tall.
-    book_unit: f32,
-    // Factor of the studio's light.
-    @size(8) exposure: f32,
+    @size(12) book_unit: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -1,7 +1,7 @@
 // The model under the light of the books' demos.
 
 fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
-    let texel = textureSampleLevel(sky_map, surroundings_sampler, in_environment(direction), 0.0).rgb;
+    let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
     return srgb_from_linear(clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0)));
 }
 

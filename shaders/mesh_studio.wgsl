@@ -1,5 +1,12 @@
 // The model under the studio light.
 
+// What a white surface that faces the light shows: a warm key, a cool rim. Twins: `light::studio::{KEY_COLOR, RIM_COLOR}`.
+const KEY_COLOR: vec3<f32> = vec3<f32>(0.86, 0.835, 0.795);
+const RIM_COLOR: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
+
+// Smoother than this and a pixel's share of the normal map begins to sparkle.
+const LEAST_ROUGHNESS: f32 = 0.08;
+
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
     // What faces away from the key lies in its own shadow. Towards there the light fades before the map says so: on coarse
     // triangles with smooth normals the map would draw each triangle's edge, and draw it jagged.
@@ -9,8 +16,15 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
     if own_light > 0.0 {
         key_visible = own_light * key_arrival(point);
     }
-    let albedo = material.albedo * point.diffuse_texel.rgb;
-    let surface = Surface(albedo, material.fresnel0, max(material.roughness, 0.08), point.normal, point.to_eye);
-    let color = soft_shoulder(shade(surface, frame.to_key, frame.to_rim, key_visible));
-    return srgb_from_linear(color);
+    let surface = StudioSurface(
+        material.albedo * point.diffuse_texel.rgb,
+        material.fresnel0,
+        max(material.roughness, LEAST_ROUGHNESS),
+        point.normal,
+        point.smooth_normal,
+        point.to_eye,
+        point.occlusion,
+    );
+    let lights = StudioLights(frame.to_key, KEY_COLOR, key_visible, frame.to_rim, RIM_COLOR);
+    return srgb_from_linear(tone_mapped(exposed(studio_light(surface, lights), frame.exposure_stops)));
 }

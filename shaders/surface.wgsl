@@ -41,7 +41,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         mesh.tex_coord,
         diffuse_texel,
         normal_texel,
-        textureSampleLevel(occlusion_map, surroundings_sampler, in_view, 0.0).r,
+        textureSampleLevel(occlusion_map, environment_sampler, in_view, 0.0).r,
     );
 }
 

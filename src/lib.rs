@@ -40,6 +40,7 @@ pub mod cli;
 pub mod diagnostic;
 pub mod format;
 pub mod image;
+pub mod light;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;

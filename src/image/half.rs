@@ -7,7 +7,7 @@ const MAX: f32 = 65_504.0;
 const MIN_NORMAL: f32 = 1.0 / 16_384.0;
 
 /// The value of a half float's bits.
-pub(super) fn to_f32(bits: u16) -> f32 {
+pub(crate) fn to_f32(bits: u16) -> f32 {
     let sign = if bits & 0x8000 == 0 { 1.0 } else { -1.0 };
     let exponent = u32::from(bits >> 10) & 31;
     let fraction = u32::from(bits & 0x3ff);
@@ -22,7 +22,7 @@ pub(super) fn to_f32(bits: u16) -> f32 {
 }
 
 /// Bits of the nearest half float, of two equally near the even one. What is too large becomes the largest finite.
-pub(super) fn from_f32(value: f32) -> u16 {
+pub(crate) fn from_f32(value: f32) -> u16 {
     if value.is_nan() {
         return 0x7e00;
     }

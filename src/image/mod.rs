@@ -14,12 +14,12 @@ mod dds_layout;
 mod encode;
 mod error;
 mod format;
-mod half;
+pub(crate) mod half;
 mod masks;
 mod mips;
 mod picture;
 mod raster;
-mod srgb;
+pub(crate) mod srgb;
 
 pub use encode::{EncodeError, encode_png};
 pub use error::{FileKind, ImageError, ImageErrorKind, Layer};

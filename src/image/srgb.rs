@@ -3,13 +3,13 @@
 use std::sync::LazyLock;
 
 /// Linear light of an 8-bit sRGB value: 0 … 1.
-pub(super) fn linear_from_srgb(value: u8) -> f32 {
+pub(crate) fn linear_from_srgb(value: u8) -> f32 {
     static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|value| curve(value as f32 / 255.0)));
     LINEAR[usize::from(value)]
 }
 
 /// The nearest 8-bit sRGB value of linear light; outside 0 … 1 the nearest end, of NaN 0.
-pub(super) fn srgb_from_linear(linear: f32) -> u8 {
+pub(crate) fn srgb_from_linear(linear: f32) -> u8 {
     /// Light half-way between each sRGB value and the next.
     static BOUNDS: LazyLock<[f32; 255]> =
         LazyLock::new(|| std::array::from_fn(|value| curve((value as f32 + 0.5) / 255.0)));

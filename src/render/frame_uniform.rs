@@ -1,6 +1,6 @@
 //! A [`RenderFrame`] as the shaders want it.
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec3};
 
 use super::contact::ContactFit;
 use super::look::{StudioLights, encoded, linear, look, to_book_lights};
@@ -28,8 +28,6 @@ pub(super) struct Part {
     pub(super) size: [u32; 2],
     /// +1 when the model's triangles are clockwise from their front in a left-handed space, else −1.
     pub(super) winding: f32,
-    /// Whether the surroundings keep their place beside the viewer, as a studio round a turntable does.
-    pub(super) surroundings_follow_viewer: bool,
 }
 
 pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Frame {
@@ -66,11 +64,6 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
         Background::Backdrop | Background::None => (0, [0; 3]),
         Background::Sky => (1, [0; 3]),
         Background::Color(color) => (2, color),
-    };
-    let view_yaw = if part.surroundings_follow_viewer {
-        camera.yaw_radians
-    } else {
-        0.0
     };
     let to_light = |direction: Vec3| direction.extend(0.0).to_array();
     let share = |pass| if passes.has(pass) { 1.0 } else { 0.0 };
@@ -109,9 +102,10 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
         view_mode: options.view_mode as u32,
         key_shadow: u32::from(passes.has(Pass::Shadow)),
         reflections: share(Pass::Environment),
-        environment_turn: Vec2::from_angle(view_yaw - options.environment_turn_radians).to_array(),
         depth_near,
         depth_far,
+        exposure_stops: options.exposure_stops,
+        is_book: u32::from(part.light == Light::Book),
         to_book_light_1: to_light(book_lights[1]),
         to_book_light_2: to_light(book_lights[2]),
         background_srgb: background_srgb.map(|channel| f32::from(channel) / 255.0),
@@ -125,8 +119,7 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
         },
         occlusion_radius: STUDIO_OCCLUSION_RADIUS * book_unit,
         book_unit,
-        exposure: options.exposure_stops.exp2(),
-        unused: 0.0,
+        unused: [0.0; 2],
     }
 }
 

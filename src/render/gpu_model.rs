@@ -204,7 +204,9 @@ impl GpuModel {
     }
 
     fn in_view<'a>(&'a self, hidden: &'a [bool]) -> impl Iterator<Item = &'a DrawRange> {
-        self.ranges.iter().filter(move |range| !is_hidden(hidden, range.submesh))
+        self.ranges
+            .iter()
+            .filter(move |range| !is_hidden(hidden, range.submesh))
     }
 
     fn shows_all(&self, hidden: &[bool]) -> bool {

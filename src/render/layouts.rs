@@ -51,8 +51,11 @@ impl Layouts {
                     sampler(wgpu::SamplerBindingType::Comparison),
                     flat(filtered),
                     flat(filtered),
+                    (fragment, uniform::<shaders::Environment>()),
                     cube,
+                    flat(filtered),
                     filtering,
+                    cube,
                 ],
             ),
             material: layout(

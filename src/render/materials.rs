@@ -1,8 +1,8 @@
 //! The materials of a model in GPU memory: a bind group each, with its maps or what stands for them.
 
+use super::layouts::Layouts;
 use super::map::{self, one_texel};
 use super::material::{MapFacts, material_uniform};
-use super::layouts::Layouts;
 use super::upload::{UploadError, Uploader};
 use crate::image::{Image, MapKind};
 use crate::model::Material;

@@ -1,25 +1,35 @@
 //! Draws a [`RenderFrame`] with wgpu, on Vulkan, Metal, DirectX 12, GL, WebGPU and WebGL2 alike.
 //!
-//! A model is uploaded once; a frame writes one uniform and the bone texture, then records two passes: the model's depth from the
-//! key light, and the picture (backdrop with grid and ground shadow, then the model) into a multisampled [`Target`]. The resolved
+//! A model is uploaded once; a frame writes small uniforms and the bone texture, then records, for each light that the picture
+//! shows, the model's depth from that light, how open each pixel is, and how near the model is above the ground; and then the
+//! picture itself (what is behind, the model, lines) into a multisampled [`Target`]. The resolved
 //! target is what a [`Compositor`] brings onto a surface and what [`read_back`] turns into bytes, so a browser, a snapshot,
 //! the command line and the tests all see the same pixels.
 //!
-//! Only what WebGL2 has is used: no storage buffers, no compute; joint matrices come from a texture.
+//! Only what WebGL2 has is used: no storage buffers, no compute; joint matrices come from a texture, and textures that are drawn
+//! into have eight bits a channel.
 
 mod bones;
 mod composite;
+mod contact;
 pub mod device;
+mod edges;
+mod environment;
 mod frame_uniform;
 mod gpu_model;
+mod layouts;
 mod look;
 mod map;
 mod material;
 mod materials;
+mod occlusion;
+mod overlay;
 mod pipelines;
 mod probe;
 mod read_back;
 mod shadow;
+mod stage;
+mod surroundings;
 mod target;
 mod upload;
 
@@ -31,26 +41,30 @@ pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 pub use upload::UploadError;
 
-use crate::model::Model;
-use crate::scene::{Background, RenderFrame};
-use gpu_model::GpuModel;
-use pipelines::Pipelines;
-use shadow::ShadowMap;
+use crate::image::Image;
+use crate::model::{Material, Model};
+use crate::scene::{Background, Light, RenderFrame, ViewMode};
+use environment::Environments;
+use gpu_model::{GpuModel, Posed};
+use map::one_texel;
+use overlay::Overlays;
+use pipelines::{Cut, Draw, ModelDraw, Pipelines, Shading};
+use stage::{Common, Stage};
+use surroundings::Samplers;
 
-/// Draws one model at a time. Pipelines are built here once; nothing is made per frame.
+/// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
 pub struct Renderer {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    pipelines: Pipelines,
-    frame_buffer: wgpu::Buffer,
-    frame_group: wgpu::BindGroup,
-    shadow: ShadowMap,
+    common: Common,
+    /// The lights that were shown so far.
+    stages: Vec<Stage>,
+    overlays: Overlays,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
-    /// Bound where a program's layout has an empty group.
-    nothing: wgpu::BindGroup,
     model: Option<GpuModel>,
 }
+
+/// A range of columns of the picture, pixels, under one light.
+type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {
     /// For targets with four samples a pixel, which WebGPU and WebGL2 promise.
@@ -61,46 +75,38 @@ impl Renderer {
     /// For targets with this many samples; see [`device::sample_count`].
     pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
         let pipelines = Pipelines::new(device, samples);
-        let frame_buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("frame"),
-            size: size_of::<crate::shaders::Frame>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let frame_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame"),
-            layout: &pipelines.layouts.frame,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: frame_buffer.as_entire_binding(),
-            }],
-        });
         let nothing = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("nothing"),
             layout: &pipelines.layouts.nothing,
             entries: &[],
         });
         Self {
-            shadow: ShadowMap::new(device, &pipelines.layouts.shadow),
+            stages: Vec::new(),
+            overlays: Overlays::new(device, &pipelines.layouts),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
-            device: device.clone(),
-            queue: queue.clone(),
-            pipelines,
-            frame_buffer,
-            frame_group,
-            nothing,
+            common: Common {
+                device: device.clone(),
+                queue: queue.clone(),
+                pipelines,
+                samplers: Samplers::new(device),
+                environments: Environments::new(device, queue),
+                nothing,
+                white: one_texel(device, queue, "open", [255; 4]),
+                black: one_texel(device, queue, "far", [0; 4]),
+            },
             model: None,
         }
     }
 
     /// Uploads a model, which replaces the one before. On an error that one stays.
     pub fn set_model(&mut self, model: &Model) -> Result<(), UploadError> {
-        self.model = Some(GpuModel::upload(
-            &self.device,
-            &self.queue,
-            &self.pipelines.layouts,
-            model,
-        )?);
+        let Common {
+            device,
+            queue,
+            pipelines,
+            ..
+        } = &self.common;
+        self.model = Some(GpuModel::upload(device, queue, &pipelines.layouts, model)?);
         Ok(())
     }
 
@@ -108,9 +114,34 @@ impl Renderer {
     /// What was given before is forgotten, and so is all of it with the model. Uploads each picture once, however many
     /// materials name the same one by reference. Does nothing without a model.
     pub fn set_maps(&mut self, maps: &[MaterialImages<'_>]) {
+        let Common {
+            device,
+            queue,
+            pipelines,
+            ..
+        } = &self.common;
         if let Some(model) = &mut self.model {
-            model.set_maps(&self.device, &self.queue, &self.pipelines.layouts, maps);
+            model.set_maps(device, queue, &pipelines.layouts, maps);
         }
+    }
+
+    /// Gives the model's materials other values, in their order; their maps stay. Does nothing without a model.
+    pub fn set_materials(&mut self, materials: &[Material]) {
+        if let Some(model) = &mut self.model {
+            model.set_materials(&self.common.queue, materials);
+        }
+    }
+
+    /// Takes a cube map as the surroundings, or goes back to the project's own. False, and nothing changes, when the picture is
+    /// no cube.
+    pub fn set_sky(&mut self, image: Option<&Image>) -> bool {
+        let Common {
+            device,
+            queue,
+            environments,
+            ..
+        } = &mut self.common;
+        environments.set_sky(device, queue, image)
     }
 
     /// Draws no model from now on and gives its memory back.
@@ -120,56 +151,109 @@ impl Renderer {
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn as bind space has it.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) {
-        let model = self.model.as_mut();
-        let winding = model.as_ref().map_or(1.0, |model| model.winding);
-        let uniform = frame_uniform::frame_uniform(frame, target.size(), winding);
-        self.queue
-            .write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&uniform));
-        if let Some(bones) = model.and_then(|model| model.bones.as_mut()) {
-            bones.write(&self.queue, frame.palette);
+        if let Some(bones) = self.model.as_mut().and_then(|model| model.bones.as_mut()) {
+            bones.write(&self.common.queue, frame.palette);
+        }
+        self.common.environments.write(&self.common.queue, frame);
+        self.overlays.write(&self.common.queue, frame);
+        let parts = parts(frame, target.size());
+        for (light, _) in &parts {
+            if self.stages.iter().all(|stage| stage.light() != *light) {
+                self.stages.push(Stage::new(&self.common, *light));
+            }
         }
 
         let mut encoder = self
+            .common
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        self.draw_shadow(frame, &mut encoder);
-        self.draw_picture(frame, target, &mut encoder);
-        self.queue.submit([encoder.finish()]);
+        let model = posed_model(self.model.as_ref(), &self.no_bones, &self.common.pipelines, frame);
+        for stage in &mut self.stages {
+            if parts.iter().any(|(light, _)| *light == stage.light()) {
+                stage.draw_around(&self.common, &mut encoder, frame, target.size(), model);
+            }
+        }
+        self.draw_picture(frame, target, &parts, model, &mut encoder);
+        self.common.queue.submit([encoder.finish()]);
     }
 
-    fn draw_shadow(&self, frame: &RenderFrame<'_>, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = self.shadow.begin_pass(encoder);
-        let Some(model) = &self.model else { return };
-        pass.set_bind_group(0, &self.frame_group, &[]);
-        let Pipelines { caster, caster_cut, .. } = &self.pipelines;
-        pass.set_bind_group(2, &self.nothing, &[]);
-        model.draw_depth(&mut pass, caster, caster_cut, self.bones_for(model, frame));
-    }
-
-    fn draw_picture(&self, frame: &RenderFrame<'_>, target: &Target, encoder: &mut wgpu::CommandEncoder) {
+    fn draw_picture(
+        &self,
+        frame: &RenderFrame<'_>,
+        target: &Target,
+        parts: &[Columns],
+        model: Option<(&GpuModel, Posed<'_>)>,
+        encoder: &mut wgpu::CommandEncoder,
+    ) {
+        let height = target.size()[1];
+        let options = &frame.options;
+        let Common {
+            device,
+            pipelines,
+            nothing,
+            ..
+        } = &self.common;
         let mut pass = target.begin_pass(encoder);
-        pass.set_bind_group(0, &self.frame_group, &[]);
-        pass.set_bind_group(2, self.shadow.group(), &[]);
-        if frame.options.background != Background::None {
-            pass.set_pipeline(&self.pipelines.backdrop);
-            pass.set_bind_group(1, self.no_bones.group(), &[]);
-            pass.draw(0..3, 0..1);
-        }
-        if let Some(model) = &self.model {
-            // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
-            let cut = match frame.options.background {
-                Background::None => &self.pipelines.mesh_cut,
-                _ => &self.pipelines.mesh_cut_smooth,
+        for (light, columns) in parts {
+            let stage = self.stages.iter().find(|stage| stage.light() == *light);
+            let Some((stage, surroundings)) = stage.and_then(|stage| Some((stage, stage.surroundings()?))) else {
+                continue;
             };
-            model.draw(&mut pass, &self.pipelines.mesh, cut, self.bones_for(model, frame));
+            if columns.is_empty() {
+                continue;
+            }
+            pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
+            pass.set_bind_group(0, stage.frame_group(), &[]);
+            pass.set_bind_group(2, surroundings, &[]);
+            if options.background != Background::None {
+                pass.set_pipeline(&pipelines.get(Draw::Backdrop));
+                pass.set_bind_group(1, nothing, &[]);
+                pass.draw(0..3, 0..1);
+            }
+            if let Some((model, posed)) = model {
+                let shading = match options.view_mode {
+                    ViewMode::Lit => Shading::Lit(*light),
+                    _ => Shading::Inspect,
+                };
+                // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
+                let cut = match options.background {
+                    Background::None => Cut::Hard,
+                    _ => Cut::Smooth,
+                };
+                model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                pass.set_bind_group(2, nothing, &[]);
+                self.overlays.draw_model(device, &mut pass, frame, model, posed);
+            }
+            self.overlays.draw_world(&mut pass, pipelines, nothing);
         }
     }
+}
 
-    /// The bones to draw a model with, and whether they are read.
-    fn bones_for<'a>(&'a self, model: &'a GpuModel, frame: &RenderFrame<'_>) -> gpu_model::Posing<'a> {
-        match &model.bones {
-            Some(bones) if !frame.palette.0.is_empty() => gpu_model::Posing::Skinned(bones),
-            _ => gpu_model::Posing::Static(&self.no_bones),
+/// The model, and how it is posed: by its bones, or as bind space has it where there are none.
+fn posed_model<'a>(
+    model: Option<&'a GpuModel>,
+    no_bones: &'a BoneTexture,
+    pipelines: &'a Pipelines,
+    frame: &RenderFrame<'a>,
+) -> Option<(&'a GpuModel, Posed<'a>)> {
+    let model = model?;
+    let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
+    let posed = Posed {
+        pipelines,
+        bones: bones.unwrap_or(no_bones),
+        skinned: bones.is_some(),
+        hidden: frame.hidden_submeshes,
+    };
+    Some((model, posed))
+}
+
+/// Which light shows in which columns of the picture.
+fn parts(frame: &RenderFrame<'_>, [width, _]: [u32; 2]) -> Vec<Columns> {
+    match frame.options.split {
+        None => vec![(frame.options.light, 0..width)],
+        Some(share) => {
+            let at = (share.clamp(0.0, 1.0) * width as f32).round() as u32;
+            vec![(Light::Book, 0..at.min(width)), (Light::Studio, at.min(width)..width)]
         }
     }
 }

@@ -31,7 +31,10 @@ impl Occlusion {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let texture = |label, format| flat_texture(device, label, half, format, usage);
         let geometry = texture("geometry", GEOMETRY_FORMAT);
-        let (openness, between) = (texture("openness", SHARE_FORMAT), texture("openness, between", SHARE_FORMAT));
+        let (openness, between) = (
+            texture("openness", SHARE_FORMAT),
+            texture("openness, between", SHARE_FORMAT),
+        );
         let group = |rough| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("around"),
@@ -52,7 +55,13 @@ impl Occlusion {
             size,
             openness_group: group(&openness),
             between_group: group(&between),
-            depth: flat_texture(device, "geometry depth", half, DEPTH_FORMAT, wgpu::TextureUsages::RENDER_ATTACHMENT),
+            depth: flat_texture(
+                device,
+                "geometry depth",
+                half,
+                DEPTH_FORMAT,
+                wgpu::TextureUsages::RENDER_ATTACHMENT,
+            ),
             geometry,
             openness,
             between,
@@ -84,15 +93,33 @@ impl Occlusion {
             pass.set_bind_group(2, nothing, &[]);
             model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
         }
-        self.fill(encoder, frame_group, posed.pipelines, Draw::Occlusion(light), &self.openness);
+        self.fill(
+            encoder,
+            frame_group,
+            posed.pipelines,
+            Draw::Occlusion(light),
+            &self.openness,
+        );
         // The demo blurs twice.
         let blurs = match light {
             Light::Book => 2,
             Light::Studio => 1,
         };
         for _ in 0..blurs {
-            self.fill(encoder, frame_group, posed.pipelines, Draw::OcclusionBlurRows, &self.between);
-            self.fill(encoder, frame_group, posed.pipelines, Draw::OcclusionBlurColumns, &self.openness);
+            self.fill(
+                encoder,
+                frame_group,
+                posed.pipelines,
+                Draw::OcclusionBlurRows,
+                &self.between,
+            );
+            self.fill(
+                encoder,
+                frame_group,
+                posed.pipelines,
+                Draw::OcclusionBlurColumns,
+                &self.openness,
+            );
         }
     }
 

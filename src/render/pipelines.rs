@@ -327,7 +327,11 @@ impl Pipelines {
                 ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)
             },
             ModelDraw::Normals | ModelDraw::Tangents => Recipe {
-                vertex: entry(if draw == ModelDraw::Normals { "normal" } else { "tangent" }),
+                vertex: entry(if draw == ModelDraw::Normals {
+                    "normal"
+                } else {
+                    "tangent"
+                }),
                 // A line a vertex: the mesh's vertices are instances of one line.
                 step_mode: wgpu::VertexStepMode::Instance,
                 ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)

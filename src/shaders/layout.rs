@@ -36,9 +36,10 @@ pub struct Frame {
     pub view_mode: u32,
     pub key_shadow: u32,
     pub reflections: f32,
-    pub environment_turn: [f32; 2],
     pub depth_near: f32,
     pub depth_far: f32,
+    pub exposure_stops: f32,
+    pub is_book: u32,
     pub to_book_light_1: [f32; 4],
     pub to_book_light_2: [f32; 4],
     pub background_srgb: [f32; 3],
@@ -48,8 +49,7 @@ pub struct Frame {
     pub contact_strength: f32,
     pub occlusion_radius: f32,
     pub book_unit: f32,
-    pub exposure: f32,
-    pub unused: f32,
+    pub unused: [f32; 2],
 }
 
 /// Twin of `Material` in `material.wgsl`, which says what each member means.

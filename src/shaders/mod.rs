@@ -4,8 +4,10 @@
 //! a test without a GPU validates it, translates it to GLSL ES 3.00 and compares the twins with what the shader sees.
 
 mod layout;
+mod light_layout;
 
 pub use layout::{Frame, GeometryVertex, InfluenceVertex, Line, LineVertex, Material, Veil};
+pub use light_layout::Environment;
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
 /// Twin of `JOINTS_PER_ROW` in `skinning.wgsl`.
@@ -47,18 +49,17 @@ macro_rules! shader_file {
 
 const AROUND_WGSL: ShaderFile = shader_file!("around.wgsl");
 const BACKDROP_WGSL: ShaderFile = shader_file!("backdrop.wgsl");
-const BOOK_WGSL: ShaderFile = shader_file!("book.wgsl");
 const CASTER_WGSL: ShaderFile = shader_file!("caster.wgsl");
 const CASTER_CUT_WGSL: ShaderFile = shader_file!("caster_cut.wgsl");
 const COLOR_WGSL: ShaderFile = shader_file!("color.wgsl");
 const COMPOSITE_WGSL: ShaderFile = shader_file!("composite.wgsl");
 const CONTACT_WGSL: ShaderFile = shader_file!("contact.wgsl");
 const CONTACT_BLUR_WGSL: ShaderFile = shader_file!("contact_blur.wgsl");
+const ENVIRONMENT_WGSL: ShaderFile = shader_file!("environment.wgsl");
 const FRAME_WGSL: ShaderFile = shader_file!("frame.wgsl");
 const FULLSCREEN_WGSL: ShaderFile = shader_file!("fullscreen.wgsl");
 const GEOMETRY_WGSL: ShaderFile = shader_file!("geometry.wgsl");
 const HIGHLIGHT_WGSL: ShaderFile = shader_file!("highlight.wgsl");
-const LIGHTING_WGSL: ShaderFile = shader_file!("lighting.wgsl");
 const LINES_WGSL: ShaderFile = shader_file!("lines.wgsl");
 const MATERIAL_WGSL: ShaderFile = shader_file!("material.wgsl");
 const MESH_WGSL: ShaderFile = shader_file!("mesh.wgsl");
@@ -71,6 +72,8 @@ const NORMAL_MAP_WGSL: ShaderFile = shader_file!("normal_map.wgsl");
 const OCCLUSION_BLUR_WGSL: ShaderFile = shader_file!("occlusion_blur.wgsl");
 const OCCLUSION_BOOK_WGSL: ShaderFile = shader_file!("occlusion_book.wgsl");
 const OCCLUSION_STUDIO_WGSL: ShaderFile = shader_file!("occlusion_studio.wgsl");
+const PBR_WGSL: ShaderFile = shader_file!("pbr.wgsl");
+const STUDIO_WGSL: ShaderFile = shader_file!("studio.wgsl");
 const PROBE_WGSL: ShaderFile = shader_file!("probe.wgsl");
 const SHADOW_WGSL: ShaderFile = shader_file!("shadow.wgsl");
 const SURFACE_WGSL: ShaderFile = shader_file!("surface.wgsl");
@@ -78,6 +81,15 @@ const SURROUNDINGS_WGSL: ShaderFile = shader_file!("surroundings.wgsl");
 
 /// Vertex blending alone: in every program that draws the model, and in the test that compares it with its CPU twin.
 pub const SKINNING_WGSL: ShaderFile = shader_file!("skinning.wgsl");
+
+/// The studio light, after its parts: `studio_light` is what a surface's shader calls.
+pub const STUDIO_LIGHT: [ShaderFile; 3] = [PBR_WGSL, ENVIRONMENT_WGSL, STUDIO_WGSL];
+
+/// From light to colours of a screen.
+pub const TONE_MAP_WGSL: ShaderFile = shader_file!("tone_map.wgsl");
+
+/// The light of the books' demos.
+pub const BOOK_WGSL: ShaderFile = shader_file!("book.wgsl");
 
 /// The model under the studio light.
 pub const MESH_STUDIO: Program = Program {
@@ -92,7 +104,10 @@ pub const MESH_STUDIO: Program = Program {
         NORMAL_MAP_WGSL,
         MESH_VERTEX_WGSL,
         SURFACE_WGSL,
-        LIGHTING_WGSL,
+        ENVIRONMENT_WGSL,
+        PBR_WGSL,
+        STUDIO_WGSL,
+        TONE_MAP_WGSL,
         MESH_STUDIO_WGSL,
         MESH_WGSL,
     ],
@@ -111,6 +126,7 @@ pub const MESH_BOOK: Program = Program {
         NORMAL_MAP_WGSL,
         MESH_VERTEX_WGSL,
         SURFACE_WGSL,
+        ENVIRONMENT_WGSL,
         BOOK_WGSL,
         MESH_BOOK_WGSL,
         MESH_WGSL,
@@ -129,6 +145,7 @@ pub const MESH_INSPECT: Program = Program {
         MATERIAL_WGSL,
         NORMAL_MAP_WGSL,
         MESH_VERTEX_WGSL,
+        ENVIRONMENT_WGSL,
         SURFACE_WGSL,
         MESH_INSPECT_WGSL,
         MESH_WGSL,
@@ -162,19 +179,37 @@ pub const MESH_GEOMETRY: Program = Program {
 /// Ambient occlusion of the DirectX 12 book.
 pub const OCCLUSION_BOOK: Program = Program {
     name: "occlusion-book",
-    files: &[FRAME_WGSL, GEOMETRY_WGSL, AROUND_WGSL, FULLSCREEN_WGSL, OCCLUSION_BOOK_WGSL],
+    files: &[
+        FRAME_WGSL,
+        GEOMETRY_WGSL,
+        AROUND_WGSL,
+        FULLSCREEN_WGSL,
+        OCCLUSION_BOOK_WGSL,
+    ],
 };
 
 /// Ambient occlusion by horizons.
 pub const OCCLUSION_STUDIO: Program = Program {
     name: "occlusion-studio",
-    files: &[FRAME_WGSL, GEOMETRY_WGSL, AROUND_WGSL, FULLSCREEN_WGSL, OCCLUSION_STUDIO_WGSL],
+    files: &[
+        FRAME_WGSL,
+        GEOMETRY_WGSL,
+        AROUND_WGSL,
+        FULLSCREEN_WGSL,
+        OCCLUSION_STUDIO_WGSL,
+    ],
 };
 
 /// Smooths ambient occlusion between edges.
 pub const OCCLUSION_BLUR: Program = Program {
     name: "occlusion-blur",
-    files: &[FRAME_WGSL, GEOMETRY_WGSL, AROUND_WGSL, FULLSCREEN_WGSL, OCCLUSION_BLUR_WGSL],
+    files: &[
+        FRAME_WGSL,
+        GEOMETRY_WGSL,
+        AROUND_WGSL,
+        FULLSCREEN_WGSL,
+        OCCLUSION_BLUR_WGSL,
+    ],
 };
 
 /// How near the model is above the ground.
@@ -192,7 +227,16 @@ pub const CONTACT_BLUR: Program = Program {
 /// Backdrop or sky, grid and the shadows on the ground.
 pub const BACKDROP: Program = Program {
     name: "backdrop",
-    files: &[FRAME_WGSL, COLOR_WGSL, SURROUNDINGS_WGSL, SHADOW_WGSL, FULLSCREEN_WGSL, BACKDROP_WGSL],
+    files: &[
+        FRAME_WGSL,
+        COLOR_WGSL,
+        SURROUNDINGS_WGSL,
+        ENVIRONMENT_WGSL,
+        SHADOW_WGSL,
+        TONE_MAP_WGSL,
+        FULLSCREEN_WGSL,
+        BACKDROP_WGSL,
+    ],
 };
 
 /// Edges, normals, tangents, boxes, axes.

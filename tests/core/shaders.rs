@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Frame, GeometryVertex, InfluenceVertex, JOINTS_PER_ROW, Line, Material, PROGRAMS, Program, Veil,
+    Environment, Frame, GeometryVertex, InfluenceVertex, JOINTS_PER_ROW, Line, Material, PROGRAMS, Program, Veil,
 };
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -49,18 +49,56 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
     assert_eq!(
         entry_points,
         [
-            "mesh/vertex_static",
-            "mesh/vertex_skinned",
-            "mesh/fragment",
-            "mesh/fragment_cut",
-            "mesh/fragment_cut_smooth",
+            "mesh-studio/vertex_static",
+            "mesh-studio/vertex_skinned",
+            "mesh-studio/fragment",
+            "mesh-studio/fragment_cut",
+            "mesh-studio/fragment_cut_smooth",
+            "mesh-book/vertex_static",
+            "mesh-book/vertex_skinned",
+            "mesh-book/fragment",
+            "mesh-book/fragment_cut",
+            "mesh-book/fragment_cut_smooth",
+            "mesh-inspect/vertex_static",
+            "mesh-inspect/vertex_skinned",
+            "mesh-inspect/fragment",
+            "mesh-inspect/fragment_cut",
+            "mesh-inspect/fragment_cut_smooth",
             "caster/vertex_static",
             "caster/vertex_skinned",
             "caster-cut/vertex_static",
             "caster-cut/vertex_skinned",
             "caster-cut/fragment",
+            "mesh-geometry/vertex_static",
+            "mesh-geometry/vertex_skinned",
+            "mesh-geometry/fragment",
+            "mesh-geometry/fragment_cut",
+            "occlusion-book/vertex",
+            "occlusion-book/fragment",
+            "occlusion-studio/vertex",
+            "occlusion-studio/fragment",
+            "occlusion-blur/vertex",
+            "occlusion-blur/fragment_rows",
+            "occlusion-blur/fragment_columns",
+            "contact/vertex_static",
+            "contact/vertex_skinned",
+            "contact/fragment",
+            "contact-blur/vertex",
+            "contact-blur/fragment_rows",
+            "contact-blur/fragment_columns",
             "backdrop/vertex",
             "backdrop/fragment",
+            "lines/edge_static",
+            "lines/edge_skinned",
+            "lines/normal_static",
+            "lines/normal_skinned",
+            "lines/tangent_static",
+            "lines/tangent_skinned",
+            "lines/world_line",
+            "lines/fragment",
+            "highlight/vertex_static",
+            "highlight/vertex_skinned",
+            "highlight/fragment",
             "composite/vertex",
             "composite/fragment",
             "probe/vertex",
@@ -121,9 +159,10 @@ fn twins() -> BTreeMap<String, Layout> {
             view_mode,
             key_shadow,
             reflections,
-            environment_turn,
             depth_near,
             depth_far,
+            exposure_stops,
+            is_book,
             to_book_light_1,
             to_book_light_2,
             background_srgb,
@@ -133,7 +172,6 @@ fn twins() -> BTreeMap<String, Layout> {
             contact_strength,
             occlusion_radius,
             book_unit,
-            exposure,
         }),
         twin!(Material {
             albedo,
@@ -148,6 +186,13 @@ fn twins() -> BTreeMap<String, Layout> {
             normal_channels,
             reflectivity,
             identity_srgb,
+        }),
+        twin!(Environment {
+            sh,
+            turn_cos,
+            turn_sin,
+            intensity,
+            specular_level_count,
         }),
         twin!(Line { color_srgb, length }),
         twin!(Veil { color_srgb }),
@@ -197,7 +242,7 @@ fn vertices_are_packed_and_within_the_least_stride() {
 
 #[test]
 fn shader_and_upload_agree_on_joints_per_row() {
-    let (module, _) = compile(&bindpose::shaders::MESH);
+    let (module, _) = compile(&bindpose::shaders::MESH_STUDIO);
     let (_, constant) = module
         .constants
         .iter()

@@ -1,0 +1,30 @@
+// From light to colours of a screen, linear 0 … 1. Twin: `light::tone_map`.
+//
+// The Khronos PBR neutral tone mapper: base colours stay what they are, and what is brighter bends towards white without
+// turning its hue.
+
+// Where the shoulder begins, after the veil is taken off.
+const SHOULDER: f32 = 0.76;
+// The light that a surface which mirrors 4 % adds to its base colour in white surroundings.
+const VEIL: f32 = 0.04;
+// How fast what lies above the shoulder turns white.
+const DESATURATION: f32 = 0.15;
+
+fn exposed(radiance: vec3<f32>, stops: f32) -> vec3<f32> {
+    return radiance * exp2(stops);
+}
+
+fn tone_mapped(radiance: vec3<f32>) -> vec3<f32> {
+    let least = min(radiance.r, min(radiance.g, radiance.b));
+    // A parabola brings dark colours to 0 as the light does.
+    let veil = select(VEIL, least - least * least / (4.0 * VEIL), least < 2.0 * VEIL);
+    let color = radiance - veil;
+    let peak = max(color.r, max(color.g, color.b));
+    if peak < SHOULDER {
+        return color;
+    }
+    let room = 1.0 - SHOULDER;
+    let new_peak = 1.0 - room * room / (peak + room - SHOULDER);
+    let whiteness = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    return mix(color * (new_peak / peak), vec3<f32>(new_peak), whiteness);
+}

@@ -1,0 +1,129 @@
+//! What a model stands in: light from all around.
+
+use glam::{Vec3, Vec3A};
+
+use super::cube::{Cube, FACES, resized, solid_angles};
+use super::{daylight, studio_set};
+use crate::image::srgb::{linear_from_srgb, srgb_from_linear};
+use crate::image::{Image, ImageKind};
+
+/// Texels a side of the smallest environment: below, there would be no levels to blur into.
+const MIN_SIDE: usize = 16;
+
+/// Texels a side of the largest environment.
+const MAX_SIDE: usize = 128;
+
+/// Of a larger cube with mips the largest level up to this side is read. Smaller levels may hold blurred light, as cubes that
+/// were made for reflections do.
+const MAX_READ_SIDE: u32 = 512;
+
+/// Texels a side of the generated studio: its lights have soft edges.
+const STUDIO_SIDE: usize = 64;
+
+/// Texels a side of the generated sky.
+const DAYLIGHT_SIDE: usize = 64;
+
+/// The largest radiance of a texel of a file: a sun brighter than this would show as single sparks.
+const MAX_RADIANCE: f32 = 256.0;
+
+/// Light from all around: a cube of linear radiance, a power of two from 16 to 128 texels a side.
+///
+/// Faces are +x, −x, +y, −y, +z, −z, laid out and looked up as in D3D and WebGPU.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    pub(super) cube: Cube,
+}
+
+impl Environment {
+    /// A neutral photo studio, for a viewer who stands at −z and looks along +z, with x to the right and y up.
+    ///
+    /// A large soft box overhead in front, a fill on the left, cool strips behind, a darker warm floor. The direct lights
+    /// that cast shadows are not in it.
+    pub fn studio() -> Self {
+        Self::from_fn(STUDIO_SIDE, studio_set::radiance)
+    }
+
+    /// An outdoor sky without sun: blue above, pale at the horizon, neutral ground. No channel exceeds 1.
+    pub fn daylight() -> Self {
+        Self::from_fn(DAYLIGHT_SIDE, daylight::radiance)
+    }
+
+    /// The environment with `radiance(direction)` in each direction of unit length. `side` becomes the next power of two
+    /// from 16 to 128.
+    pub fn from_fn(side: usize, radiance: impl Fn(Vec3) -> Vec3) -> Self {
+        let side = side.clamp(MIN_SIDE, MAX_SIDE).next_power_of_two();
+        let radiance = |direction: Vec3A| Vec3A::from(radiance(direction.into()));
+        Self {
+            cube: Cube::from_directions(side, radiance),
+        }
+    }
+
+    /// The environment that a cube map shows; `None` where the picture is no cube.
+    ///
+    /// Float formats are taken as linear radiance, the others as sRGB. Larger cubes are averaged in linear light.
+    pub fn from_image(image: &Image) -> Option<Self> {
+        if image.kind() != ImageKind::Cube || image.width() != image.height() {
+            return None;
+        }
+        let level = (0..image.level_count()).find(|&level| image.level_size(level).0 <= MAX_READ_SIDE);
+        let level = level.unwrap_or(0);
+        let read_side = image.level_size(level).0 as usize;
+        let side = read_side.clamp(MIN_SIDE, MAX_SIDE);
+        let side = if side.is_power_of_two() {
+            side
+        } else {
+            side.next_power_of_two() / 2
+        };
+        let face = |face| Some(resized(&linear_texels(image, face, level)?, read_side, side));
+        let faces: Vec<Vec<Vec3>> = (0..FACES as u32).map(face).collect::<Option<_>>()?;
+        Some(Self {
+            cube: Cube::from_texels(side, |face, x, y| faces[face][y * side + x].into()),
+        })
+    }
+
+    /// Texels a side of each face.
+    pub fn side(&self) -> usize {
+        self.cube.side()
+    }
+
+    /// Radiance from a direction of any length but 0, bilinear and without seams.
+    pub fn sample(&self, direction: Vec3) -> Vec3 {
+        self.cube.sample(direction.into()).into()
+    }
+
+    /// Mean radiance over all directions.
+    pub fn average(&self) -> Vec3 {
+        let angles = solid_angles(self.side());
+        let weighted = self.cube.texels().zip(angles.iter().cycle());
+        let sum: Vec3A = weighted.map(|(texel, &steradians)| texel * steradians).sum();
+        Vec3::from(sum) / (4.0 * std::f32::consts::PI)
+    }
+
+    /// All texels as RGBA half floats, linear, alpha 1: faces one after another, rows from the top.
+    pub fn to_rgba16f(&self) -> Vec<u16> {
+        self.cube.to_rgba16f()
+    }
+
+    /// All texels as RGBA with 8 bits a channel, sRGB, cut at 1, alpha 255: faces one after another, rows from the top.
+    pub fn to_rgba8_srgb(&self) -> Vec<u8> {
+        let rgba = |texel: Vec3A| {
+            let [red, green, blue] = texel.to_array().map(srgb_from_linear);
+            [red, green, blue, 255]
+        };
+        self.cube.texels().flat_map(rgba).collect()
+    }
+}
+
+/// One face of a picture as linear light that can be averaged: neither negative nor infinite.
+fn linear_texels(image: &Image, face: u32, level: u32) -> Option<Vec<Vec3>> {
+    if image.format().is_float() {
+        let texels = image.to_rgba32f(face, level)?;
+        // NaN, which is neither more nor less than 0, becomes 0 as well.
+        let sound = |value: f32| if value > 0.0 { value.min(MAX_RADIANCE) } else { 0.0 };
+        let rgb = |&[red, green, blue, _]: &[f32; 4]| Vec3::new(sound(red), sound(green), sound(blue));
+        return Some(texels.as_chunks().0.iter().map(rgb).collect());
+    }
+    let texels = image.to_rgba8(face, level)?;
+    let rgb = |&[red, green, blue, _]: &[u8; 4]| Vec3::from([red, green, blue].map(linear_from_srgb));
+    Some(texels.as_chunks().0.iter().map(rgb).collect())
+}

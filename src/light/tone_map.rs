@@ -1,0 +1,31 @@
+//! From light to colours of a screen, linear 0 … 1: the twin of `tone_map.wgsl`, which says what the numbers are.
+
+use glam::Vec3;
+
+const SHOULDER: f32 = 0.76;
+const VEIL: f32 = 0.04;
+const DESATURATION: f32 = 0.15;
+
+/// Light after an exposure of so many stops more.
+pub fn exposed(radiance: Vec3, stops: f32) -> Vec3 {
+    radiance * stops.exp2()
+}
+
+/// The Khronos PBR neutral tone mapper. `radiance` is not negative.
+pub fn tone_mapped(radiance: Vec3) -> Vec3 {
+    let least = radiance.min_element();
+    let veil = if least < 2.0 * VEIL {
+        least - least * least / (4.0 * VEIL)
+    } else {
+        VEIL
+    };
+    let color = radiance - veil;
+    let peak = color.max_element();
+    if peak < SHOULDER {
+        return color;
+    }
+    let room = 1.0 - SHOULDER;
+    let new_peak = 1.0 - room * room / (peak + room - SHOULDER);
+    let whiteness = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    (color * (new_peak / peak)).lerp(Vec3::splat(new_peak), whiteness)
+}

@@ -1,0 +1,249 @@
+//! What surrounds the model, in GPU memory: the studio or a sky that was dropped, blurred for every roughness, and the cube that
+//! is seen and mirrored.
+
+use std::sync::LazyLock;
+
+use crate::image::{Image, ImageKind};
+use crate::light::{BrdfTable, Environment, Prefiltered};
+use crate::scene::{Light, RenderFrame};
+use crate::shaders;
+
+/// Entries along each edge of the table of reflectances.
+const TABLE_SIDE: usize = 64;
+/// Skies are seen behind the model and in it, never closer than this many texels a side allow.
+const MAX_SKY_SIDE: u32 = 1024;
+
+static STUDIO: LazyLock<Prefiltered> = LazyLock::new(|| Prefiltered::of(&Environment::studio()));
+
+/// A surrounding that lights.
+struct Lighting {
+    specular: wgpu::TextureView,
+    level_count: u32,
+    sh: [[f32; 4]; 9],
+}
+
+/// Everything of all around.
+pub(super) struct Environments {
+    uniforms: wgpu::Buffer,
+    table: wgpu::TextureView,
+    studio: Lighting,
+    daylight: wgpu::TextureView,
+    dropped: Option<(Lighting, wgpu::TextureView)>,
+}
+
+impl Environments {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let daylight = Environment::daylight();
+        Self {
+            uniforms: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("environment"),
+                size: size_of::<shaders::Environment>() as u64,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+            table: table(device, queue),
+            studio: Lighting::upload(device, queue, &STUDIO),
+            daylight: Cube {
+                side: daylight.side() as u32,
+                format: wgpu::TextureFormat::Rgba8UnormSrgb,
+                levels: vec![daylight.to_rgba8_srgb()],
+            }
+            .upload(device, queue, "daylight"),
+            dropped: None,
+        }
+    }
+
+    /// Takes a cube map as the sky, or goes back to the studio and its daylight. False, and nothing changes, when the picture
+    /// is no cube.
+    pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, image: Option<&Image>) -> bool {
+        let Some(image) = image else {
+            self.dropped = None;
+            return true;
+        };
+        let (Some(environment), Some(cube)) = (Environment::from_image(image), Cube::of(device, image)) else {
+            return false;
+        };
+        let lighting = Lighting::upload(device, queue, &Prefiltered::of(&environment));
+        self.dropped = Some((lighting, cube.upload(device, queue, "sky")));
+        true
+    }
+
+    /// Says how the surroundings of a frame are turned. The studio keeps its place beside the viewer, as if the model stood on a
+    /// turntable; a sky stands in the world.
+    pub(super) fn write(&self, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
+        let lighting = self.lighting();
+        let studio_yaw = match self.dropped {
+            Some(_) => 0.0,
+            None => frame.camera.yaw_radians,
+        };
+        let turn = frame.options.environment_turn_radians - studio_yaw;
+        let uniform = shaders::Environment {
+            sh: lighting.sh,
+            turn_cos: turn.cos(),
+            turn_sin: turn.sin(),
+            intensity: 1.0,
+            specular_level_count: lighting.level_count as f32,
+        };
+        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniform));
+    }
+
+    pub(super) fn uniforms(&self) -> &wgpu::Buffer {
+        &self.uniforms
+    }
+
+    pub(super) fn table(&self) -> &wgpu::TextureView {
+        &self.table
+    }
+
+    /// Blurred for every roughness.
+    pub(super) fn specular(&self) -> &wgpu::TextureView {
+        &self.lighting().specular
+    }
+
+    /// What is seen behind the model, and what the book's light mirrors.
+    pub(super) fn sky(&self, light: Light) -> &wgpu::TextureView {
+        match (&self.dropped, light) {
+            (Some((_, sky)), _) => sky,
+            (None, Light::Book) => &self.daylight,
+            (None, Light::Studio) => &self.studio.specular,
+        }
+    }
+
+    fn lighting(&self) -> &Lighting {
+        self.dropped.as_ref().map_or(&self.studio, |(lighting, _)| lighting)
+    }
+}
+
+impl Lighting {
+    fn upload(device: &wgpu::Device, queue: &wgpu::Queue, prefiltered: &Prefiltered) -> Self {
+        let levels = (0..prefiltered.level_count()).filter_map(|level| prefiltered.level_rgba16f(level));
+        let cube = Cube {
+            side: prefiltered.side(),
+            format: wgpu::TextureFormat::Rgba16Float,
+            levels: levels.map(|texels| bytemuck::cast_slice(&texels).to_vec()).collect(),
+        };
+        Self {
+            specular: cube.upload(device, queue, "environment"),
+            level_count: prefiltered.level_count(),
+            sh: prefiltered.irradiance().to_uniform(),
+        }
+    }
+}
+
+/// Six faces with levels, as they are uploaded.
+struct Cube {
+    side: u32,
+    format: wgpu::TextureFormat,
+    /// From the largest, each half the side of the one before; faces one after another.
+    levels: Vec<Vec<u8>>,
+}
+
+impl Cube {
+    /// The picture's largest level that fits, decoded.
+    fn of(device: &wgpu::Device, image: &Image) -> Option<Self> {
+        if image.kind() != ImageKind::Cube {
+            return None;
+        }
+        let limit = device.limits().max_texture_dimension_2d.min(MAX_SKY_SIDE);
+        let level = (0..image.level_count()).find(|&level| image.level_size(level).0 <= limit)?;
+        let (side, height) = image.level_size(level);
+        if side != height {
+            return None;
+        }
+        let faces = 0..6;
+        let (format, texels) = if image.format().is_float() {
+            let halves = |face| image.to_rgba32f(face, level).map(|texels| half_floats(&texels));
+            (
+                wgpu::TextureFormat::Rgba16Float,
+                faces.map(halves).collect::<Option<Vec<_>>>()?,
+            )
+        } else {
+            let bytes = |face| image.to_rgba8(face, level);
+            (
+                wgpu::TextureFormat::Rgba8UnormSrgb,
+                faces.map(bytes).collect::<Option<Vec<_>>>()?,
+            )
+        };
+        Some(Self {
+            side,
+            format,
+            levels: vec![texels.concat()],
+        })
+    }
+
+    fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue, label: &str) -> wgpu::TextureView {
+        let size = |side| wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: 6,
+        };
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: size(self.side),
+            mip_level_count: self.levels.len() as u32,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: self.format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        let texel_bytes = self.format.block_copy_size(None).unwrap_or_default();
+        for (mip_level, texels) in (0..).zip(&self.levels) {
+            let side = (self.side >> mip_level).max(1);
+            queue.write_texture(
+                wgpu::TexelCopyTextureInfo {
+                    mip_level,
+                    ..texture.as_image_copy()
+                },
+                texels,
+                wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(side * texel_bytes),
+                    rows_per_image: Some(side),
+                },
+                size(side),
+            );
+        }
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..Default::default()
+        })
+    }
+}
+
+fn half_floats(texels: &[f32]) -> Vec<u8> {
+    let halves = texels.iter().map(|&value| crate::image::half::from_f32(value));
+    halves.flat_map(u16::to_ne_bytes).collect()
+}
+
+fn table(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
+    static TABLE: LazyLock<BrdfTable> = LazyLock::new(|| BrdfTable::new(TABLE_SIDE));
+    let side = TABLE.side() as u32;
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("reflectances"),
+        size: wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rg16Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(side * 4),
+        rows_per_image: None,
+    };
+    let entries = TABLE.to_rg16f();
+    queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&entries),
+        layout,
+        texture.size(),
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
