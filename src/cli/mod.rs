@@ -9,6 +9,7 @@ mod failure;
 mod finding;
 mod info;
 mod input;
+mod look;
 mod output;
 mod pose;
 mod render;

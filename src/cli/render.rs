@@ -5,13 +5,14 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::look::LookArguments;
 use super::text::Plain;
 use super::{Failure, clip, input};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, Target, read_back_blocking};
-use crate::scene::{self, Background, Insets, Overlay, ViewPreset};
-use crate::session::{Command, LookCommand, Session};
+use crate::scene::{self, Insets, ViewPreset};
+use crate::session::{Command, Session};
 
 /// Draw a model into a PNG file.
 ///
@@ -45,12 +46,8 @@ pub(super) struct Arguments {
     /// A folder with the model's textures, folders in it included; may be given several times.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
-    /// Leave out everything behind the model.
-    #[arg(long)]
-    transparent: bool,
-    /// Leave out the ground grid.
-    #[arg(long)]
-    no_grid: bool,
+    #[command(flatten)]
+    look: LookArguments,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -163,10 +160,7 @@ fn open(arguments: &Arguments) -> Result<Session, Failure> {
         insets: Insets::default(),
     });
     session.apply(Command::SetTheme(arguments.theme.into()));
-    session.apply(Command::Look(LookCommand::SetOverlay(
-        Overlay::Grid,
-        !arguments.no_grid,
-    )));
+    arguments.look.apply(&mut session);
     session.apply(Command::LookFrom(arguments.view.into()));
     Ok(session)
 }
@@ -203,11 +197,7 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu, backend: device
         .collect();
     renderer.set_maps(&images);
     let mut target = Target::with_samples(device, width, height, *samples);
-    let mut frame = session.frame();
-    if arguments.transparent {
-        frame.options.background = Background::None;
-    }
-    renderer.render(&frame, &mut target);
+    renderer.render(&session.frame(), &mut target);
     let pixels = read_back_blocking(device, queue, &target);
 
     for scope in [internal, validation, memory] {

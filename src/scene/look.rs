@@ -259,6 +259,16 @@ impl Pass {
             Self::Environment => "Reflections",
         }
     }
+
+    /// Name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shadow => "shadow",
+            Self::AmbientOcclusion => "ao",
+            Self::ContactShadow => "contact",
+            Self::Environment => "reflections",
+        }
+    }
 }
 
 /// Which passes are drawn.
