@@ -15,8 +15,8 @@ struct Environment {
 @group(2) @binding(4) var<uniform> environment: Environment;
 // Level l of n is blurred for roughness l / (n - 1).
 @group(2) @binding(5) var environment_specular: texture_cube<f32>;
-// Scale and bias of fresnel0, n·v to the right, roughness down; entries lie in the middles of texels, the first at 0, the last
-// at 1.
+// Scale and bias of fresnel0: the root of n·v to the right, roughness down; entries lie in the middles of texels, the first at
+// 0, the last at 1.
 @group(2) @binding(6) var brdf_table: texture_2d<f32>;
 // Linear in all ways, clamped: for both.
 @group(2) @binding(7) var environment_sampler: sampler;
@@ -46,6 +46,6 @@ fn environment_specular_light(direction: vec3<f32>, roughness: f32) -> vec3<f32>
 
 fn brdf_lookup(n_dot_v: f32, roughness: f32) -> vec2<f32> {
     let side = vec2<f32>(textureDimensions(brdf_table));
-    let place = (vec2<f32>(n_dot_v, roughness) * (side - 1.0) + 0.5) / side;
+    let place = (vec2<f32>(sqrt(max(n_dot_v, 0.0)), roughness) * (side - 1.0) + 0.5) / side;
     return textureSampleLevel(brdf_table, environment_sampler, place, 0.0).rg;
 }

@@ -8,7 +8,7 @@ use super::low_discrepancy::hammersley;
 use crate::image::half;
 
 /// Half vectors that are averaged for each entry.
-const HALF_VECTORS: u32 = 128;
+const HALF_VECTORS: u32 = 256;
 
 /// The table with its lookup.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +49,7 @@ impl BrdfTable {
             let first = (place as usize).min(last - 1);
             (first, place - first as f32)
         };
-        let ((column, right), (row, below)) = (place(n_dot_v), place(roughness));
+        let ((column, right), (row, below)) = (place(n_dot_v.max(0.0).sqrt()), place(roughness));
         let entry = |row: usize, column: usize| Vec2::from(self.entries[row * self.side + column]);
         let upper = entry(row, column).lerp(entry(row, column + 1), right);
         let lower = entry(row + 1, column).lerp(entry(row + 1, column + 1), right);
@@ -60,11 +60,12 @@ impl BrdfTable {
 /// Scale and bias by which `fresnel0` and `fresnel90` become the share of light from all around that the GGX lobe with
 /// height-correlated Smith shadowing gives back in one bounce.
 ///
-/// Entry `column + side * row` is for n·v = `column / (side − 1)` and perceptual roughness `row / (side − 1)`.
+/// Entry `column + side * row` is for n·v = `(column / (side − 1))²`, since most happens where the view grazes, and for
+/// perceptual roughness `row / (side − 1)`.
 pub fn brdf_table(side: usize) -> Vec<[f32; 2]> {
     let value = |index: usize| index as f32 / side.saturating_sub(1).max(1) as f32;
     (0..side * side)
-        .map(|index| entry(value(index % side), value(index / side)))
+        .map(|index| entry(value(index % side).powi(2), value(index / side)))
         .collect()
 }
 

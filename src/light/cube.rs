@@ -87,13 +87,23 @@ impl Cube {
         upper.lerp(lower, below)
     }
 
-    /// Half the side, each texel the mean of four. The side is even.
+    /// Half the side, each texel the mean light of four: those near the corners of a face are smaller as seen from the
+    /// middle, and count less. The side is even.
     pub(super) fn halved(&self) -> Self {
+        let angles = solid_angles(self.side);
         Self::from_texels(self.side / 2, |face, x, y| {
-            let (x, y) = (2 * x, 2 * y);
-            let upper = self.texel(face, x, y) + self.texel(face, x + 1, y);
-            let lower = self.texel(face, x, y + 1) + self.texel(face, x + 1, y + 1);
-            (upper + lower) * 0.25
+            let (mut light, mut sum) = (Vec3A::ZERO, 0.0);
+            for (x, y) in [
+                (2 * x, 2 * y),
+                (2 * x + 1, 2 * y),
+                (2 * x, 2 * y + 1),
+                (2 * x + 1, 2 * y + 1),
+            ] {
+                let steradians = angles[y * self.side + x];
+                light += self.texel(face, x, y) * steradians;
+                sum += steradians;
+            }
+            light / sum
         })
     }
 

@@ -11,7 +11,8 @@ use super::{Environment, Irradiance};
 /// Texels a side of the smallest level, the one for roughness 1.
 const LAST_SIDE: usize = 4;
 
-/// Directions that are averaged for each texel. Each stands for a patch of the environment, not for a point of it.
+/// Directions that are averaged for each texel of the second level; each level after it, which has a quarter of the texels,
+/// takes twice as many. Each stands for a patch of the environment, not for a point of it.
 const DIRECTIONS: u32 = 64;
 
 /// An environment ready to light surfaces: blurred copies for mirror light, and irradiance for diffuse light.
@@ -35,7 +36,8 @@ impl Prefiltered {
         let level_count = level_count(sharp.side());
         let blurred = (1..level_count).map(|level| {
             let roughness = level as f32 / (level_count - 1) as f32;
-            let lobe = lobe(roughness * roughness, sharp.side(), mips.len() - 1);
+            let directions = DIRECTIONS << (level - 1);
+            let lobe = lobe(roughness * roughness, directions, sharp.side(), mips.len() - 1);
             let side = sharp.side() >> level;
             Cube::from_texels(side, |face, x, y| {
                 gather(&mips, &lobe, texel_direction(side, face, x, y).normalize())
@@ -101,11 +103,11 @@ struct Tap {
 
 /// GGX importance sampling of mirrored directions about the normal, with normal, view and mirrored direction the same.
 /// `alpha` is above 0, `side` that of the sharpest mip.
-fn lobe(alpha: f32, side: usize, last_mip: usize) -> Vec<Tap> {
+fn lobe(alpha: f32, directions: u32, side: usize, last_mip: usize) -> Vec<Tap> {
     let alpha_squared = alpha * alpha;
     let texel_steradians = 4.0 * PI / (6 * side * side) as f32;
     let tap = |index| {
-        let (u, v) = hammersley(index, DIRECTIONS);
+        let (u, v) = hammersley(index, directions);
         let cos_squared = (1.0 - u) / (1.0 + (alpha_squared - 1.0) * u);
         // The half vector's angle to the normal, doubled.
         let cos = 2.0 * cos_squared - 1.0;
@@ -113,7 +115,7 @@ fn lobe(alpha: f32, side: usize, last_mip: usize) -> Vec<Tap> {
         let spread = cos_squared * (alpha_squared - 1.0) + 1.0;
         // D (n·h) / (4 v·h), where v is n.
         let density = alpha_squared / (PI * spread * spread) / 4.0;
-        let patch_steradians = 1.0 / (DIRECTIONS as f32 * density);
+        let patch_steradians = 1.0 / (directions as f32 * density);
         // Half a level coarser, so that neighbouring patches overlap (Colbert and Křivánek 2007).
         let mip = 0.5 * (patch_steradians / texel_steradians).log2() + 0.5;
         Tap {
@@ -122,7 +124,7 @@ fn lobe(alpha: f32, side: usize, last_mip: usize) -> Vec<Tap> {
             mip: (mip.round().max(0.0) as usize).min(last_mip),
         }
     };
-    let mut taps: Vec<Tap> = (0..DIRECTIONS).map(tap).filter(|tap| tap.weight > 0.0).collect();
+    let mut taps: Vec<Tap> = (0..directions).map(tap).filter(|tap| tap.weight > 0.0).collect();
     let sum: f32 = taps.iter().map(|tap| tap.weight).sum();
     taps.iter_mut().for_each(|tap| tap.weight /= sum);
     taps

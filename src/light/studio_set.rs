@@ -10,9 +10,9 @@ use super::cube::smoothstep;
 /// Above: a pale ceiling.
 const CEILING: Vec3 = Vec3::new(0.30, 0.31, 0.33);
 /// Around: dim walls.
-const WALL: Vec3 = Vec3::new(0.19, 0.195, 0.205);
+const WALL: Vec3 = Vec3::new(0.205, 0.21, 0.22);
 /// Below: darker and a little warm, as light that comes back from a floor.
-const FLOOR: Vec3 = Vec3::new(0.125, 0.118, 0.11);
+const FLOOR: Vec3 = Vec3::new(0.165, 0.156, 0.146);
 
 /// A rectangle of light, bright in its middle and soft at its edges.
 struct Panel {
@@ -27,20 +27,13 @@ struct Panel {
 }
 
 /// Every panel of the set.
-const PANELS: [Panel; 5] = [
+const PANELS: [Panel; 4] = [
     // The large soft box overhead in front, a little towards the key.
     Panel {
-        towards: Vec3::new(0.22, 0.82, -0.55),
-        half_size: (0.62, 0.46),
-        softness: 0.16,
-        radiance: Vec3::new(1.90, 1.86, 1.80),
-    },
-    // A smaller one beside it stands for the face of the key, so that glossy surfaces show where their light comes from.
-    Panel {
-        towards: Vec3::new(0.86, 0.40, -0.46),
-        half_size: (0.26, 0.42),
-        softness: 0.14,
-        radiance: Vec3::new(1.15, 1.12, 1.08),
+        towards: Vec3::new(0.34, 0.80, -0.52),
+        half_size: (0.72, 0.48),
+        softness: 0.17,
+        radiance: Vec3::new(1.80, 1.765, 1.71),
     },
     // The fill: a wall of cloth opposite to the key.
     Panel {

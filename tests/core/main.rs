@@ -4,6 +4,7 @@ mod anim;
 mod documents;
 mod format;
 mod image;
+mod light;
 mod model;
 mod sample;
 mod session;

@@ -1,0 +1,177 @@
+//! White surfaces in a white room vanish: none gives back more or less light than it gets.
+
+use std::f32::consts::{PI, TAU};
+
+use bindpose::light::pbr::{ggx_distribution, reflectance, specular_lobe};
+use bindpose::light::studio::{StudioLights, StudioSurface, Surroundings};
+use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use glam::{Vec2, Vec3};
+
+/// The size that the renderer uploads.
+const TABLE_SIDE: usize = 32;
+
+const ANGLES: [f32; 9] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0];
+const ROUGHNESSES: [f32; 7] = [0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
+
+fn to_eye(n_dot_v: f32) -> Vec3 {
+    Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), 0.0, n_dot_v)
+}
+
+/// Without direct lights, or with what is given.
+fn dark() -> StudioLights {
+    StudioLights {
+        to_key: Vec3::Z,
+        key_color: Vec3::ZERO,
+        key_visible: 1.0,
+        to_rim: Vec3::Z,
+        rim_color: Vec3::ZERO,
+    }
+}
+
+#[test]
+fn a_white_surface_vanishes_in_a_white_room() {
+    let prefiltered = Prefiltered::of(&Environment::from_fn(16, |_| Vec3::ONE));
+    let brdf_table = BrdfTable::new(TABLE_SIDE);
+    let room = Surroundings {
+        prefiltered: &prefiltered,
+        brdf_table: &brdf_table,
+        turn: (0.6, 0.8),
+        intensity: 1.0,
+    };
+    for n_dot_v in ANGLES {
+        for roughness in ROUGHNESSES {
+            for fresnel0 in [0.0, 0.04, 0.3, 0.9, 1.0] {
+                let surface = StudioSurface {
+                    albedo: Vec3::ONE,
+                    fresnel0: Vec3::splat(fresnel0),
+                    roughness,
+                    normal: Vec3::Z,
+                    smooth_normal: Vec3::Z,
+                    to_eye: to_eye(n_dot_v),
+                    ambient_occlusion: 1.0,
+                };
+                let found = room.studio_light(&surface, &dark());
+                let error = (found - Vec3::ONE).abs().max_element();
+                assert!(
+                    error < 0.02,
+                    "n·v {n_dot_v}, roughness {roughness}, F0 {fresnel0}: {found}"
+                );
+            }
+        }
+    }
+}
+
+/// Sum over all light directions of the lobe times n·l, by half vectors, which are as dense as the lobe is narrow.
+fn directional_albedo(n_dot_v: f32, fresnel0: f32, alpha: f32) -> f32 {
+    const RINGS: usize = 400;
+    const SPOKES: usize = 200;
+    let (normal, to_eye) = (Vec3::Z, to_eye(n_dot_v));
+    let mut sum = 0.0;
+    for ring in 0..RINGS {
+        // Shares of the micro-facets' distribution, finest where it ends: from the side the steepest facets count most.
+        let rest = 1.0 - (ring as f32 + 0.5) / RINGS as f32;
+        let (share, share_per_ring) = (1.0 - rest * rest * rest, 3.0 * rest * rest);
+        let cos = ((1.0 - share) / (1.0 + (alpha * alpha - 1.0) * share)).sqrt();
+        let sin = (1.0 - cos * cos).max(0.0).sqrt();
+        for spoke in 0..SPOKES {
+            let turn = TAU * (spoke as f32 + 0.5) / SPOKES as f32;
+            let halfway = Vec3::new(sin * turn.cos(), sin * turn.sin(), cos);
+            let v_dot_h = to_eye.dot(halfway);
+            let to_light = halfway * (2.0 * v_dot_h) - to_eye;
+            if v_dot_h > 0.0 && to_light.z > 0.0 {
+                let density = ggx_distribution(normal, halfway, alpha) * cos / (4.0 * v_dot_h);
+                let f0 = Vec3::splat(fresnel0);
+                let lobe = specular_lobe(normal, to_eye, to_light, to_light.z, n_dot_v, f0, alpha).x;
+                sum += lobe * to_light.z / density * share_per_ring;
+            }
+        }
+    }
+    sum / (RINGS * SPOKES) as f32
+}
+
+#[test]
+fn the_table_is_what_the_lobe_gives_back() {
+    let table = BrdfTable::new(TABLE_SIDE);
+    // Where entries lie, so that what lies between them is not in question.
+    for column in [5, 10, 15, 22, 31] {
+        for row in [8, 12, 20, 31] {
+            let (n_dot_v, roughness) = ((column as f32 / 31.0).powi(2), row as f32 / 31.0);
+            let Vec2 { x: scale, y: bias } = table.lookup(n_dot_v, roughness);
+            for fresnel0 in [1.0, 0.04] {
+                let lobe = directional_albedo(n_dot_v, fresnel0, roughness * roughness);
+                // F90 is 1 from a reflectance of 2 % on.
+                let split = fresnel0 * scale + bias;
+                assert!(
+                    (lobe - split).abs() < 0.005,
+                    "{n_dot_v} {roughness} {fresnel0}: {lobe} beside {split}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_direct_light_gives_no_more_than_it_has() {
+    let table = BrdfTable::new(TABLE_SIDE);
+    for n_dot_v in ANGLES {
+        for roughness in ROUGHNESSES {
+            for fresnel0 in [0.04, 0.3, 0.7, 1.0] {
+                let shares = reflectance(Vec3::ONE, Vec3::splat(fresnel0), table.lookup(n_dot_v, roughness));
+                let mirrored = directional_albedo(n_dot_v, fresnel0, roughness * roughness) * shares.boost.x;
+                // A Lambert share gives all of itself back.
+                let all = mirrored + shares.diffuse.x;
+                assert!(
+                    (0.97..=1.02).contains(&all),
+                    "n·v {n_dot_v}, roughness {roughness}, F0 {fresnel0}: {mirrored} and {} diffuse",
+                    shares.diffuse.x
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_mirrored_is_not_also_scattered() {
+    let table = BrdfTable::new(TABLE_SIDE);
+    let shares = |fresnel0: f32| reflectance(Vec3::splat(0.5), Vec3::splat(fresnel0), table.lookup(0.8, 0.5));
+    assert!(shares(0.04).diffuse.x > 0.45);
+    assert!(shares(0.5).diffuse.x < 0.27);
+    assert!(shares(1.0).diffuse.x.abs() < 1e-4);
+}
+
+/// The integral of D (n·h) over the hemisphere is 1 by definition of D.
+#[test]
+fn the_distribution_is_normalised() {
+    const STEPS: usize = 4_000;
+    for alpha in [0.01f32, 0.1, 0.5, 1.0] {
+        let sum: f32 = (0..STEPS)
+            .map(|step| {
+                // Angles crowd where the lobe is narrow.
+                let t = (step as f32 + 0.5) / STEPS as f32;
+                let angle = t * t * PI / 2.0;
+                let halfway = Vec3::new(angle.sin(), 0.0, angle.cos());
+                let per_step = t * PI / STEPS as f32;
+                ggx_distribution(Vec3::Z, halfway, alpha) * angle.cos() * TAU * angle.sin() * per_step
+            })
+            .sum();
+        assert!((sum - 1.0).abs() < 2e-3, "alpha {alpha}: {sum}");
+    }
+}
+
+#[test]
+fn occlusion_and_horizon_leave_open_surfaces_alone() {
+    use bindpose::light::pbr::{horizon_fade, specular_occlusion};
+    for n_dot_v in ANGLES {
+        for alpha in [0.0, 0.2, 1.0] {
+            assert!(specular_occlusion(n_dot_v, 1.0, alpha) > 0.999);
+            assert!(specular_occlusion(n_dot_v, 0.0, alpha) < n_dot_v.max(0.001));
+            let closing: Vec<f32> = (0..=10)
+                .map(|step| specular_occlusion(n_dot_v, step as f32 / 10.0, alpha))
+                .collect();
+            assert!(closing.is_sorted(), "{closing:?}");
+        }
+        let mirrored = (-to_eye(n_dot_v)).reflect(Vec3::Z);
+        assert_eq!(horizon_fade(mirrored, Vec3::Z), 1.0);
+    }
+    assert_eq!(horizon_fade(Vec3::NEG_Z, Vec3::Z), 0.0);
+}
