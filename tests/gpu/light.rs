@@ -4,6 +4,7 @@ use bindpose::light::pbr::{dominant_direction, horizon_fade, reflectance, specul
 use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
 use bindpose::light::tone_map::{exposed, tone_mapped};
 use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::render::device::Backend;
 use bindpose::shaders::{self, STUDIO_LIGHT, TONE_MAP_WGSL};
 use glam::{Vec2, Vec3};
 use wgpu::util::DeviceExt as _;
@@ -63,7 +64,7 @@ impl Room<'_> {
             }
             3 => tone_mapped(exposed(Vec3::new(n_dot_v, roughness, 0.3) * 2.0, roughness * 4.0 - 2.0)),
             4 => surroundings.environment_diffuse(to_eye),
-            5 => surroundings.environment_specular_light(to_eye + Vec3::Z * (roughness - 0.5), roughness),
+            5 => surroundings.environment_specular_light(mirrored(to_eye, roughness), roughness),
             6 => self.brdf_table.lookup(n_dot_v, roughness).extend(0.0),
             _ => {
                 let lights = StudioLights {
@@ -98,6 +99,19 @@ impl Room<'_> {
                 surroundings.studio_light(&surface, &lights)
             }
         }
+    }
+
+    /// Whether the lookup of quantity 5 takes texels of two faces. OpenGL ES 3, WebGL2 and all others blend them, but
+    /// natively wgpu opens desktop OpenGL, which does so only when told to, and wgpu does not tell it.
+    fn filters_over_an_edge(&self, n_dot_v: f32, roughness: f32) -> bool {
+        let (cos, sin) = self.turn;
+        let to_eye = Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), n_dot_v, 0.0);
+        let Vec3 { x, y, z } = mirrored(to_eye, roughness);
+        let mut sizes = [x * cos + z * sin, y, z * cos - x * sin].map(f32::abs);
+        sizes.sort_by(f32::total_cmp);
+        let level = (roughness * (self.prefiltered.level_count() - 1) as f32).ceil();
+        let side = self.prefiltered.side() as f32 / level.exp2();
+        sizes[1] / sizes[2] > 1.0 - 1.0 / side
     }
 
     /// Uploads as a renderer does: uniform, cube with its levels, table, sampler.
@@ -264,6 +278,11 @@ impl Room<'_> {
     }
 }
 
+/// The direction in which quantity 5 looks up mirror light: many, all over the upper half.
+fn mirrored(to_eye: Vec3, roughness: f32) -> Vec3 {
+    to_eye + Vec3::Z * (roughness - 0.5)
+}
+
 fn texture_descriptor(
     side: u32,
     faces: u32,
@@ -342,6 +361,9 @@ on_both_backends! {
         let found = room.on_gpu(gpu);
         assert_eq!(found.len(), cases().count());
         for ((quantity, n_dot_v, roughness), found) in cases().zip(found) {
+            if quantity == 5 && gpu.backend == Backend::Gl && room.filters_over_an_edge(n_dot_v, roughness) {
+                continue;
+            }
             let expected = room.on_cpu(quantity, n_dot_v, roughness);
             let tolerance = match quantity {
                 0..=3 => FORMULA,
