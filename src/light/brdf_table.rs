@@ -8,7 +8,7 @@ use super::low_discrepancy::hammersley;
 use crate::image::half;
 
 /// Half vectors that are averaged for each entry.
-const HALF_VECTORS: u32 = 256;
+const HALF_VECTORS: u32 = 128;
 
 /// The table with its lookup.
 #[derive(Clone, Debug, PartialEq)]

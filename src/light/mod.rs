@@ -8,6 +8,15 @@
 //!
 //! Radiance is linear and in units where 1 shows as white. Direct lights are given as what a white surface that faces them
 //! shows, so their Lambert 1/π is in them already.
+//!
+//! ```
+//! use bindpose::light::{Environment, Prefiltered};
+//! use glam::Vec3;
+//!
+//! let studio = Prefiltered::of(&Environment::studio());
+//! let (above, below) = (studio.irradiance().towards(Vec3::Y), studio.irradiance().towards(Vec3::NEG_Y));
+//! assert!(above.min_element() > 2.0 * below.max_element());
+//! ```
 
 mod brdf_table;
 mod cube;

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-const SHOULDER: f32 = 0.76;
-const VEIL: f32 = 0.04;
+const VEIL: f32 = 0.016;
+const SHOULDER: f32 = 0.8 - VEIL;
 const DESATURATION: f32 = 0.15;
 
 /// Light after an exposure of so many stops more.
@@ -11,7 +11,7 @@ pub fn exposed(radiance: Vec3, stops: f32) -> Vec3 {
     radiance * stops.exp2()
 }
 
-/// The Khronos PBR neutral tone mapper. `radiance` is not negative.
+/// The Khronos PBR neutral tone mapper, its veil set for the studio. `radiance` is not negative.
 pub fn tone_mapped(radiance: Vec3) -> Vec3 {
     let least = radiance.min_element();
     let veil = if least < 2.0 * VEIL {

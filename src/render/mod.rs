@@ -226,6 +226,9 @@ impl Renderer {
             }
             self.overlays.draw_world(&mut pass, pipelines, nothing);
         }
+        // GL resolves the samples by a copy, which the scissor would cut.
+        let [width, height] = target.size();
+        pass.set_scissor_rect(0, 0, width, height);
     }
 }
 

@@ -27,6 +27,7 @@ macro_rules! on_both_backends {
 mod alpha_clip;
 mod golden;
 mod gpu;
+mod light;
 mod maps;
 mod normal_maps;
 mod picture;

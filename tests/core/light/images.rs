@@ -8,8 +8,12 @@ use glam::Vec3;
 
 use crate::light::{all_directions, difference};
 
-/// A DDS file of six square faces of half floats, one colour each.
-fn half_float_cube(side: u32, faces: [[u16; 4]; 6]) -> Vec<u8> {
+/// DXGI_FORMAT_R16G16B16A16_FLOAT and DXGI_FORMAT_R8G8B8A8_UNORM.
+const HALF_FLOATS: u32 = 10;
+const BYTES: u32 = 28;
+
+/// A DDS file of six square faces; `texel(face, x)` gives the bytes of a texel.
+fn cube_file<const N: usize>(side: u32, dxgi_format: u32, texel: impl Fn(usize, u32) -> [u8; N]) -> Vec<u8> {
     let mut header = [0u32; 37];
     header[0] = u32::from_le_bytes(*b"DDS ");
     // Size of the header, which of its members count, and the sides.
@@ -18,15 +22,23 @@ fn half_float_cube(side: u32, faces: [[u16; 4]; 6]) -> Vec<u8> {
     header[19..22].copy_from_slice(&[32, 4, u32::from_le_bytes(*b"DX10")]);
     // Complex texture; cube map with all faces.
     header[27..29].copy_from_slice(&[0x1008, 0xfe00]);
-    // DXGI_FORMAT_R16G16B16A16_FLOAT, a 2D texture, marked as a cube, one of it.
-    header[32..36].copy_from_slice(&[10, 3, 4, 1]);
+    // The format, a 2D texture, marked as a cube, one of it.
+    header[32..36].copy_from_slice(&[dxgi_format, 3, 4, 1]);
     let mut bytes: Vec<u8> = header.into_iter().flat_map(u32::to_le_bytes).collect();
-    for face in faces {
-        for _ in 0..side * side {
-            bytes.extend(face.into_iter().flat_map(u16::to_le_bytes));
+    for face in 0..6 {
+        for _ in 0..side {
+            bytes.extend((0..side).flat_map(|x| texel(face, x)));
         }
     }
     bytes
+}
+
+/// Each face of one colour.
+fn half_float_cube(side: u32, faces: [[u16; 4]; 6]) -> Vec<u8> {
+    cube_file(side, HALF_FLOATS, |face, _| {
+        let [red, green, blue, alpha] = faces[face].map(u16::to_le_bytes);
+        [red[0], red[1], green[0], green[1], blue[0], blue[1], alpha[0], alpha[1]]
+    })
 }
 
 fn read_cube(bytes: &[u8]) -> Environment {
@@ -51,6 +63,30 @@ fn light_that_cannot_be_is_none_and_a_sun_is_dimmed() {
     // NaN, −1 and infinity.
     let environment = read_cube(&half_float_cube(16, [[0x7e00, 0xbc00, 0x7c00, 0x3c00]; 6]));
     assert_eq!(environment.sample(Vec3::X), Vec3::new(0.0, 0.0, 256.0));
+}
+
+/// Half of the light of white is sRGB 188, not 128.
+#[test]
+fn bytes_are_srgb_and_are_averaged_as_light() {
+    let stripes = cube_file(
+        256,
+        BYTES,
+        |_, x| if x % 2 == 0 { [0, 0, 0, 255] } else { [255, 188, 0, 0] },
+    );
+    let environment = read_cube(&stripes);
+    assert_eq!(environment.side(), 128);
+    for direction in all_directions(50) {
+        let found = environment.sample(direction);
+        assert!(
+            difference(found, Vec3::new(0.5, 0.2515, 0.0)) < 2e-3,
+            "{direction}: {found}"
+        );
+    }
+    let bytes = environment.to_rgba8_srgb();
+    assert_eq!(
+        (bytes.len(), &bytes[..4]),
+        (6 * 128 * 128 * 4, [188, 137, 0, 255].as_slice())
+    );
 }
 
 #[test]

@@ -1,0 +1,397 @@
+//! The studio light on the GPU, read back, against its twins on the CPU; and furnaces, with the textures really sampled.
+
+use bindpose::light::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
+use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
+use bindpose::light::tone_map::{exposed, tone_mapped};
+use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::render::device::Backend;
+use bindpose::shaders::{self, STUDIO_LIGHT, TONE_MAP_WGSL};
+use glam::{Vec2, Vec3};
+use wgpu::util::DeviceExt as _;
+
+use crate::gpu::{Gpu, read_texture};
+
+const ANGLES: u32 = 32;
+const ROUGHNESSES: u32 = 16;
+const QUANTITIES: u32 = 10;
+
+/// Formulas in f32 on both sides; devices may round roots and powers by a few digits, and narrow lobes enlarge that.
+const FORMULA: f32 = 1e-3;
+/// Coefficients in f32 and a polynomial.
+const POLYNOMIAL: f32 = 1e-5;
+/// Texels are half floats, and devices may place samples to 1/256 of a texel.
+const TEXTURE: f32 = 0.01;
+
+/// What a device is given.
+struct Room<'a> {
+    prefiltered: &'a Prefiltered,
+    brdf_table: &'a BrdfTable,
+    turn: (f32, f32),
+    intensity: f32,
+    key_color: Vec3,
+    rim_color: Vec3,
+}
+
+impl Room<'_> {
+    /// The value of one case, by the twins.
+    fn on_cpu(&self, quantity: u32, n_dot_v: f32, roughness: f32) -> Vec3 {
+        let alpha = roughness * roughness;
+        let to_eye = Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), n_dot_v, 0.0);
+        let to_light = Vec3::new(-0.5, 0.6, 0.3).normalize();
+        let surroundings = Surroundings {
+            prefiltered: self.prefiltered,
+            brdf_table: self.brdf_table,
+            turn: self.turn,
+            intensity: self.intensity,
+        };
+        match quantity {
+            0 => {
+                let copper = Vec3::new(0.955, 0.638, 0.538);
+                specular_lobe(Vec3::Y, to_eye, to_light, to_light.y, n_dot_v, copper, alpha)
+            }
+            1 => {
+                let scale_bias = Vec2::new(n_dot_v, roughness) * 0.5;
+                let given = reflectance(Vec3::new(0.8, 0.5, 0.2), Vec3::new(0.04, 0.2, 0.6), scale_bias);
+                given.single + given.multiple * 2.0 + given.diffuse * 3.0 + given.boost * 4.0
+            }
+            2 => {
+                let tilted = Vec3::new(0.6, 0.5, 0.2).normalize();
+                Vec3::new(
+                    specular_occlusion(n_dot_v, roughness, alpha),
+                    horizon_fade((-to_eye).reflect(tilted), Vec3::Y),
+                    dominant_direction(Vec3::Y, (-to_eye).reflect(Vec3::Y), alpha).y,
+                )
+            }
+            3 => tone_mapped(exposed(Vec3::new(n_dot_v, roughness, 0.3) * 2.0, roughness * 4.0 - 2.0)),
+            4 => surroundings.environment_diffuse(to_eye),
+            5 => surroundings.environment_specular_light(mirrored(to_eye, roughness), roughness),
+            6 => self.brdf_table.lookup(n_dot_v, roughness).extend(0.0),
+            _ => {
+                let lights = StudioLights {
+                    to_key: to_light,
+                    key_color: self.key_color,
+                    key_visible: 0.75,
+                    to_rim: Vec3::new(0.0, 0.6, -0.8),
+                    rim_color: self.rim_color,
+                };
+                let plain = StudioSurface {
+                    albedo: Vec3::ONE,
+                    fresnel0: Vec3::splat(0.04),
+                    roughness,
+                    normal: Vec3::Y,
+                    smooth_normal: Vec3::Y,
+                    to_eye,
+                    ambient_occlusion: 1.0,
+                };
+                let surface = match quantity {
+                    7 => plain,
+                    8 => StudioSurface {
+                        fresnel0: Vec3::ONE,
+                        ..plain
+                    },
+                    _ => StudioSurface {
+                        albedo: Vec3::new(0.6, 0.4, 0.3),
+                        normal: Vec3::new(0.1, 1.0, -0.2).normalize(),
+                        ambient_occlusion: 0.6,
+                        ..plain
+                    },
+                };
+                surroundings.studio_light(&surface, &lights)
+            }
+        }
+    }
+
+    /// Whether the lookup of quantity 5 takes texels of two faces. OpenGL ES 3, WebGL2 and all others blend them, but
+    /// natively wgpu opens desktop OpenGL, which does so only when told to, and wgpu does not tell it.
+    fn filters_over_an_edge(&self, n_dot_v: f32, roughness: f32) -> bool {
+        let (cos, sin) = self.turn;
+        let to_eye = Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), n_dot_v, 0.0);
+        let Vec3 { x, y, z } = mirrored(to_eye, roughness);
+        let mut sizes = [x * cos + z * sin, y, z * cos - x * sin].map(f32::abs);
+        sizes.sort_by(f32::total_cmp);
+        let level = (roughness * (self.prefiltered.level_count() - 1) as f32).ceil();
+        let side = self.prefiltered.side() as f32 / level.exp2();
+        sizes[1] / sizes[2] > 1.0 - 1.0 / side
+    }
+
+    /// Uploads as a renderer does: uniform, cube with its levels, table, sampler.
+    fn bind(&self, gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+        let (device, queue) = (&gpu.open.device, &gpu.open.queue);
+        let level_count = self.prefiltered.level_count();
+        let uniform = shaders::Environment {
+            sh: self.prefiltered.irradiance().to_uniform(),
+            turn_cos: self.turn.0,
+            turn_sin: self.turn.1,
+            intensity: self.intensity,
+            specular_level_count: level_count as f32,
+        };
+        let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: None,
+            contents: bytemuck::bytes_of(&uniform),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let levels = (0..level_count).filter_map(|level| self.prefiltered.level_rgba16f(level));
+        // Faces outside, levels inside.
+        let levels: Vec<Vec<u16>> = levels.collect();
+        let face_levels = (0..6).flat_map(|face| {
+            levels
+                .iter()
+                .map(move |level| &level[face * level.len() / 6..][..level.len() / 6])
+        });
+        let cube_texels: Vec<u16> = face_levels.flatten().copied().collect();
+        let cube = device.create_texture_with_data(
+            queue,
+            &texture_descriptor(
+                self.prefiltered.side(),
+                6,
+                level_count,
+                wgpu::TextureFormat::Rgba16Float,
+            ),
+            wgpu::util::TextureDataOrder::LayerMajor,
+            bytemuck::cast_slice(&cube_texels),
+        );
+        let table = device.create_texture_with_data(
+            queue,
+            &texture_descriptor(self.brdf_table.side() as u32, 1, 1, wgpu::TextureFormat::Rg16Float),
+            wgpu::util::TextureDataOrder::LayerMajor,
+            bytemuck::cast_slice(&self.brdf_table.to_rg16f()),
+        );
+        let cube_view = cube.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..Default::default()
+        });
+        let table_view = table.create_view(&Default::default());
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        let resources = [
+            uniform.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&cube_view),
+            wgpu::BindingResource::TextureView(&table_view),
+            wgpu::BindingResource::Sampler(&sampler),
+        ];
+        let entries = resources.into_iter().zip(4..);
+        let entries: Vec<_> = entries
+            .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("environment"),
+            layout,
+            entries: &entries,
+        })
+    }
+
+    /// The values of all cases, by the shaders.
+    fn on_gpu(&self, gpu: &Gpu) -> Vec<Vec3> {
+        let (device, queue) = (&gpu.open.device, &gpu.open.queue);
+        let [key_color, rim_color] =
+            [self.key_color, self.rim_color].map(|Vec3 { x, y, z }| format!("vec3<f32>({x:?}, {y:?}, {z:?})"));
+        let constants = format!(
+            "const ANGLES: u32 = {ANGLES}u;\nconst ROUGHNESSES: u32 = {ROUGHNESSES}u;\n\
+             const KEY_COLOR: vec3<f32> = {key_color};\nconst RIM_COLOR: vec3<f32> = {rim_color};\n"
+        );
+        let files = STUDIO_LIGHT.iter().chain([&TONE_MAP_WGSL]).map(|file| file.source);
+        let source: String = files
+            .chain([constants.as_str(), include_str!("light_probe.wgsl")])
+            .collect();
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("light probe"),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+        let nothing = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &[],
+        });
+        let nothing_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &nothing,
+            entries: &[],
+        });
+        let environment = environment_layout(device);
+        let group = self.bind(gpu, &environment);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&nothing), Some(&nothing), Some(&environment)],
+            immediate_size: 0,
+        });
+        // GL may not draw into floats; every device draws into integers, and bits are bits.
+        let format = wgpu::TextureFormat::Rgba32Uint;
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("light probe"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: Default::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("light probe"),
+            size: wgpu::Extent3d {
+                width: ANGLES,
+                height: ROUGHNESSES * QUANTITIES,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&Default::default());
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations::default(),
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &nothing_group, &[]);
+            pass.set_bind_group(1, &nothing_group, &[]);
+            pass.set_bind_group(2, &group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        queue.submit([encoder.finish()]);
+        let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&read_texture(gpu, &texture, 16));
+        texels.into_iter().map(|[x, y, z, _]| Vec3::new(x, y, z)).collect()
+    }
+}
+
+/// The direction in which quantity 5 looks up mirror light: many, all over the upper half.
+fn mirrored(to_eye: Vec3, roughness: f32) -> Vec3 {
+    to_eye + Vec3::Z * (roughness - 0.5)
+}
+
+fn texture_descriptor(
+    side: u32,
+    faces: u32,
+    levels: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::TextureDescriptor<'static> {
+    wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: faces,
+        },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    }
+}
+
+fn environment_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let texture = |view_dimension| wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension,
+        multisampled: false,
+    };
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let types = [
+        uniform,
+        texture(wgpu::TextureViewDimension::Cube),
+        texture(wgpu::TextureViewDimension::D2),
+        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+    ];
+    let entries = types
+        .into_iter()
+        .zip(4..)
+        .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        });
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("environment"),
+        entries: &entries.collect::<Vec<_>>(),
+    })
+}
+
+/// Every case as quantity, n·v and roughness, in the order of the pixels.
+fn cases() -> impl Iterator<Item = (u32, f32, f32)> {
+    (0..QUANTITIES * ROUGHNESSES).flat_map(|row| {
+        (0..ANGLES).map(move |column| {
+            let n_dot_v = (column as f32 + 0.5) / ANGLES as f32;
+            let roughness = (row % ROUGHNESSES) as f32 / (ROUGHNESSES - 1) as f32;
+            (row / ROUGHNESSES, n_dot_v, roughness.max(0.05))
+        })
+    })
+}
+
+on_both_backends! {
+    fn formulas_and_lookups_agree_with_their_twins(gpu) {
+        let room = Room {
+            prefiltered: &Prefiltered::of(&Environment::studio()),
+            brdf_table: &BrdfTable::new(32),
+            turn: (0.6, -0.8),
+            intensity: 1.25,
+            key_color: KEY_COLOR,
+            rim_color: RIM_COLOR,
+        };
+        let found = room.on_gpu(gpu);
+        assert_eq!(found.len(), cases().count());
+        for ((quantity, n_dot_v, roughness), found) in cases().zip(found) {
+            if quantity == 5 && gpu.backend == Backend::Gl && room.filters_over_an_edge(n_dot_v, roughness) {
+                continue;
+            }
+            let expected = room.on_cpu(quantity, n_dot_v, roughness);
+            let tolerance = match quantity {
+                0..=3 => FORMULA,
+                4 => POLYNOMIAL,
+                _ => TEXTURE,
+            };
+            let error = (found - expected).abs().max_element() / expected.max_element().max(0.1);
+            assert!(
+                error <= tolerance,
+                "quantity {quantity}, n·v {n_dot_v}, roughness {roughness}: {found} for {expected}, off by {error:e}"
+            );
+        }
+    }
+    fn a_white_surface_vanishes_in_a_white_room(gpu) {
+        let room = Room {
+            prefiltered: &Prefiltered::of(&Environment::from_fn(16, |_| Vec3::ONE)),
+            brdf_table: &BrdfTable::new(32),
+            turn: (0.8, 0.6),
+            intensity: 1.0,
+            key_color: Vec3::ZERO,
+            rim_color: Vec3::ZERO,
+        };
+        let white = |&((quantity, ..), _): &((u32, f32, f32), Vec3)| quantity == 7 || quantity == 8;
+        let found: Vec<_> = cases().zip(room.on_gpu(gpu)).filter(white).collect();
+        assert_eq!(found.len() as u32, 2 * ANGLES * ROUGHNESSES);
+        for ((quantity, n_dot_v, roughness), found) in found {
+            let error = (found - Vec3::ONE).abs().max_element();
+            assert!(error < 0.02, "quantity {quantity}, n·v {n_dot_v}, roughness {roughness}: {found}");
+        }
+    }
+}
