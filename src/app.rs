@@ -38,8 +38,15 @@ impl App {
     /// One pass. Returns what only the page around can do.
     pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Request> {
         let mut session = self.session.borrow_mut();
-        let dt_secs = ui.input(|input| input.unstable_dt).min(MAX_STEP_SECS);
-        session.advance(if self.stage.was_moving { dt_secs } else { 0.0 });
+        let dt_secs = ui.input(|input| input.unstable_dt);
+        if self.stage.was_moving {
+            session.note_frame(dt_secs);
+        }
+        session.advance(if self.stage.was_moving {
+            dt_secs.min(MAX_STEP_SECS)
+        } else {
+            0.0
+        });
 
         let window = ui.max_rect();
         ui.painter()
@@ -80,7 +87,8 @@ impl App {
         self.stage.upload_error.as_deref()
     }
 
-    /// Draws the session's view into a target of its own, for a picture of any size.
+    /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
+    /// were given up for speed are drawn.
     pub fn draw_snapshot(&mut self, size: [u32; 2], transparent: bool) -> Target {
         let mut session = self.session.borrow_mut();
         self.stage.draw_snapshot(&mut session, size, transparent)
@@ -102,6 +110,8 @@ struct Stage {
     target: Target,
     model: Option<u64>,
     maps: Option<u64>,
+    materials: Option<u64>,
+    sky: Option<u64>,
     drawn: Option<Drawn>,
     frames_rendered: u64,
     was_moving: bool,
@@ -118,6 +128,8 @@ impl Stage {
             gpu: gpu.clone(),
             model: None,
             maps: None,
+            materials: None,
+            sky: None,
             drawn: None,
             frames_rendered: 0,
             was_moving: false,
@@ -127,7 +139,7 @@ impl Stage {
 
     /// Draws when the picture would be another one than the last.
     fn draw(&mut self, session: &mut Session, size: [u32; 2]) {
-        self.take_up_model(session);
+        self.take_up(session);
         let wanted = Drawn {
             picture: session.picture_revision(),
             size,
@@ -147,9 +159,11 @@ impl Stage {
     }
 
     fn draw_snapshot(&mut self, session: &mut Session, [width, height]: [u32; 2], transparent: bool) -> Target {
-        self.take_up_model(session);
+        self.take_up(session);
         let mut target = Target::with_samples(&self.gpu.device, width, height, self.samples);
+        let passes = session.quality().wanted();
         let mut frame = session.frame();
+        frame.options.passes = passes;
         if transparent {
             frame.options.background = crate::scene::Background::None;
         }
@@ -157,7 +171,14 @@ impl Stage {
         target
     }
 
-    fn take_up_model(&mut self, session: &Session) {
+    /// Brings to the GPU what is not there yet.
+    fn take_up(&mut self, session: &Session) {
+        let sky = session.sky_revision();
+        if self.sky != Some(sky) {
+            self.renderer.set_sky(session.sky().map(|image| &**image));
+            self.sky = Some(sky);
+            self.drawn = None;
+        }
         let Some(open) = session.open_model() else { return };
         let (model, maps) = (session.model_revision(), session.maps_revision());
         if self.model != Some(model) {
@@ -165,6 +186,7 @@ impl Stage {
             self.upload_error = uploaded.err().map(|error| error.to_string());
             self.model = Some(model);
             self.maps = None;
+            self.materials = None;
             self.drawn = None;
         }
         if self.maps != Some(maps) {
@@ -174,6 +196,12 @@ impl Stage {
                 .collect();
             self.renderer.set_maps(&images);
             self.maps = Some(maps);
+            self.drawn = None;
+        }
+        let materials = session.materials_revision();
+        if self.materials != Some(materials) {
+            self.renderer.set_materials(session.materials());
+            self.materials = Some(materials);
             self.drawn = None;
         }
     }

@@ -196,6 +196,7 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu, backend: device
         .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
         .collect();
     renderer.set_maps(&images);
+    renderer.set_sky(session.sky().map(|image| &**image));
     let mut target = Target::with_samples(device, width, height, *samples);
     renderer.render(&session.frame(), &mut target);
     let pixels = read_back_blocking(device, queue, &target);

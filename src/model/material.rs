@@ -17,6 +17,11 @@ pub struct Material {
     pub normal_map: Option<String>,
 }
 
+impl Material {
+    /// The share of alpha below which the books cut.
+    pub const ALPHA_CLIP: f32 = 0.1;
+}
+
 /// How a material reflects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reflectance {

@@ -35,7 +35,7 @@ const DARK: Look = Look {
     shadow_strength: 0.60,
     contact_strength: 0.55,
     wire: [0xE7, 0xEA, 0xF0],
-    wire_opacity: 0.42,
+    wire_opacity: 0.28,
     accent: [0x5A, 0xA9, 0xFF],
 };
 
@@ -49,7 +49,7 @@ const LIGHT: Look = Look {
     shadow_strength: 0.5,
     contact_strength: 0.45,
     wire: [0x1B, 0x20, 0x29],
-    wire_opacity: 0.55,
+    wire_opacity: 0.4,
     accent: [0x17, 0x69, 0xD2],
 };
 

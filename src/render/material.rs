@@ -9,9 +9,6 @@ use crate::{scene, shaders};
 /// dielectrics they stand for.
 const PHONG_TO_FRESNEL: f32 = 0.05;
 
-/// The share of alpha below which the books cut.
-const ALPHA_CLIP: f32 = 0.1;
-
 /// What a material's values must know of its maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct MapFacts {
@@ -43,7 +40,7 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
     let common = shaders::Material {
         albedo: stand_in.unwrap_or(unit(material.diffuse)),
         alpha_clip: if material.alpha_clip && maps.has_alpha {
-            ALPHA_CLIP
+            Material::ALPHA_CLIP
         } else {
             0.0
         },

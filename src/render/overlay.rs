@@ -59,7 +59,9 @@ pub(super) struct Overlays {
     tangents: Style,
     veil: Style,
     world_ends: wgpu::Buffer,
-    world_end_count: u32,
+    /// Ends of the box come first, then those of the axes.
+    box_end_count: u32,
+    axis_end_count: u32,
 }
 
 impl Overlays {
@@ -75,7 +77,8 @@ impl Overlays {
                 usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
-            world_end_count: 0,
+            box_end_count: 0,
+            axis_end_count: 0,
         }
     }
 
@@ -104,8 +107,10 @@ impl Overlays {
             ..Default::default()
         };
         queue.write_buffer(&self.veil.buffer, 0, bytemuck::bytes_of(&veil));
-        let ends = world_ends(frame);
-        self.world_end_count = ends.len() as u32;
+        let mut ends = box_ends(frame);
+        self.box_end_count = ends.len() as u32;
+        ends.extend(axis_ends(frame));
+        self.axis_end_count = ends.len() as u32 - self.box_end_count;
         queue.write_buffer(&self.world_ends, 0, bytemuck::cast_slice(&ends));
     }
 
@@ -140,50 +145,62 @@ impl Overlays {
 
     /// Draws what stands in the world. Group 0 is set.
     pub(super) fn draw_world(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: &Pipelines, nothing: &wgpu::BindGroup) {
-        if self.world_end_count == 0 {
-            return;
+        let axes_start = self.box_end_count;
+        // Axes are mostly inside the model.
+        for (through, ends) in [
+            (false, 0..axes_start),
+            (true, axes_start..axes_start + self.axis_end_count),
+        ] {
+            if ends.is_empty() {
+                continue;
+            }
+            pass.set_pipeline(&pipelines.get(Draw::WorldLines { through }));
+            pass.set_bind_group(1, nothing, &[]);
+            pass.set_bind_group(2, nothing, &[]);
+            pass.set_bind_group(3, &self.wire.group, &[]);
+            pass.set_vertex_buffer(0, self.world_ends.slice(..));
+            pass.draw(ends, 0..1);
         }
-        pass.set_pipeline(&pipelines.get(Draw::WorldLines));
-        pass.set_bind_group(1, nothing, &[]);
-        pass.set_bind_group(2, nothing, &[]);
-        pass.set_bind_group(3, &self.wire.group, &[]);
-        pass.set_vertex_buffer(0, self.world_ends.slice(..));
-        pass.draw(0..self.world_end_count, 0..1);
     }
 }
 
-/// Ends of the lines of the box and the axes, as far as they are on.
-fn world_ends(frame: &RenderFrame<'_>) -> Vec<LineVertex> {
+fn line(from: Vec3, to: Vec3, color_srgb: [f32; 4]) -> [LineVertex; 2] {
+    [from, to].map(|position| LineVertex {
+        position: position.to_array(),
+        color_srgb,
+    })
+}
+
+/// Ends of the twelve edges of the scene's box, if they are shown.
+fn box_ends(frame: &RenderFrame<'_>) -> Vec<LineVertex> {
     let bounds = &frame.world_bounds;
-    let mut ends = Vec::with_capacity(MAX_WORLD_ENDS);
-    let mut line = |from: Vec3, to: Vec3, color_srgb| {
-        ends.extend([from, to].map(|position| LineVertex {
-            position: position.to_array(),
-            color_srgb,
-        }));
-    };
-    if frame.options.overlays.has(Overlay::Bounds) && !bounds.is_empty() {
-        let corner = |bits: usize| {
-            let pick = |axis: usize| {
-                if bits >> axis & 1 == 0 {
-                    bounds.min[axis]
-                } else {
-                    bounds.max[axis]
-                }
-            };
-            Vec3::new(pick(0), pick(1), pick(2))
-        };
-        for bits in 0..8 {
-            for axis in (0..3).filter(|axis| bits >> axis & 1 == 0) {
-                line(corner(bits), corner(bits | 1 << axis), BOUNDS_SRGB);
+    if !frame.options.overlays.has(Overlay::Bounds) || bounds.is_empty() {
+        return Vec::new();
+    }
+    let corner = |bits: usize| {
+        let pick = |axis: usize| {
+            if bits >> axis & 1 == 0 {
+                bounds.min[axis]
+            } else {
+                bounds.max[axis]
             }
-        }
+        };
+        Vec3::new(pick(0), pick(1), pick(2))
+    };
+    let edges = (0..8).flat_map(|bits| (0..3).map(move |axis| (bits, bits | 1 << axis)));
+    edges
+        .filter(|(from, to)| from != to)
+        .flat_map(|(from, to)| line(corner(from), corner(to), BOUNDS_SRGB))
+        .collect()
+}
+
+/// Ends of the world's axes, if they are shown.
+fn axis_ends(frame: &RenderFrame<'_>) -> Vec<LineVertex> {
+    if !frame.options.overlays.has(Overlay::Axes) {
+        return Vec::new();
     }
-    if frame.options.overlays.has(Overlay::Axes) {
-        let length = bounds.radius().max(f32::MIN_POSITIVE) * AXIS_LENGTH;
-        for (axis, color) in Vec3::AXES.into_iter().zip(AXES_SRGB) {
-            line(Vec3::ZERO, axis * length, color);
-        }
-    }
-    ends
+    let length = frame.world_bounds.radius().max(f32::MIN_POSITIVE) * AXIS_LENGTH;
+    let axes = Vec3::AXES.into_iter().zip(AXES_SRGB);
+    axes.flat_map(|(axis, color)| line(Vec3::ZERO, axis * length, color))
+        .collect()
 }

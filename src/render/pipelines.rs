@@ -48,9 +48,15 @@ pub(super) enum ModelDraw {
 /// What is drawn without the model's buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Draw {
-    Model { draw: ModelDraw, skinned: bool },
+    Model {
+        draw: ModelDraw,
+        skinned: bool,
+    },
     Backdrop,
-    WorldLines,
+    /// Hidden by what is nearer, or seen through everything.
+    WorldLines {
+        through: bool,
+    },
     Occlusion(Light),
     OcclusionBlurRows,
     OcclusionBlurColumns,
@@ -158,7 +164,7 @@ impl Pipelines {
         let buffers = match draw {
             Draw::Model { skinned: true, .. } => vec![geometry, influences],
             Draw::Model { skinned: false, .. } => vec![geometry],
-            Draw::WorldLines => vec![buffer(size_of::<LineVertex>(), &LINE_ENDS)],
+            Draw::WorldLines { .. } => vec![buffer(size_of::<LineVertex>(), &LINE_ENDS)],
             _ => Vec::new(),
         };
         let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
@@ -215,7 +221,7 @@ impl Pipelines {
                 }
             },
             Draw::Backdrop => vec![frame, nothing, surroundings],
-            Draw::WorldLines => vec![frame, nothing, nothing, line],
+            Draw::WorldLines { .. } => vec![frame, nothing, nothing, line],
             Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, around],
             Draw::ContactBlurRows | Draw::ContactBlurColumns => vec![texels],
         }
@@ -241,8 +247,16 @@ impl Pipelines {
                 samples: self.samples.count(),
                 ..fullscreen(shaders::BACKDROP, "fragment")
             },
-            Draw::WorldLines => Recipe {
+            Draw::WorldLines { through } => Recipe {
                 vertex: "world_line".into(),
+                depth: Some(depth(
+                    false,
+                    if through {
+                        wgpu::CompareFunction::Always
+                    } else {
+                        wgpu::CompareFunction::LessEqual
+                    },
+                )),
                 ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)
             },
             Draw::Occlusion(Light::Book) => fullscreen(shaders::OCCLUSION_BOOK, "fragment"),

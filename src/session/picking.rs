@@ -8,10 +8,8 @@ use glam::{Vec2, Vec3};
 use super::{MapSlot, Maps, Session};
 use crate::anim;
 use crate::image::Image;
+use crate::model::Material;
 use crate::scene::{Hit, pick, tex_coord_at};
-
-/// The share of alpha below which the books cut.
-const ALPHA_CLIP: f32 = 0.1;
 
 /// Buffers that are kept from pick to pick.
 #[derive(Debug, Default)]
@@ -99,7 +97,7 @@ impl Cutouts {
 
     fn is_cut(&self, material: usize, tex_coord: Vec2) -> bool {
         let alpha = self.of_materials.get(&material).and_then(Option::as_ref);
-        alpha.is_some_and(|alpha| alpha.nearest(tex_coord) < ALPHA_CLIP)
+        alpha.is_some_and(|alpha| alpha.nearest(tex_coord) < Material::ALPHA_CLIP)
     }
 }
 

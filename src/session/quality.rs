@@ -61,6 +61,13 @@ impl Quality {
         })
     }
 
+    /// Those that the person did not leave out, however long they take.
+    pub fn wanted(&self) -> Passes {
+        Pass::ALL.into_iter().fold(Passes::none(), |passes, pass| {
+            passes.with(pass, self.choice(pass) != PassChoice::Off)
+        })
+    }
+
     /// Chooses. A new choice of [`PassChoice::Auto`] gives the device another try.
     pub(super) fn choose(&mut self, pass: Pass, choice: PassChoice) {
         self.choices[pass as usize] = choice;
