@@ -11,7 +11,7 @@ use super::{BrdfTable, Prefiltered};
 pub const KEY_SIZE: f32 = 0.08;
 
 /// The key light of the studio, a little warm: what a white surface that faces it shows.
-pub const KEY_COLOR: Vec3 = Vec3::new(0.92, 0.895, 0.855);
+pub const KEY_COLOR: Vec3 = Vec3::new(1.00, 0.975, 0.93);
 
 /// The rim light of the studio, cool: from behind, opposite to the key.
 pub const RIM_COLOR: Vec3 = Vec3::new(0.50, 0.66, 0.95);

@@ -8,11 +8,11 @@ use glam::Vec3;
 use super::cube::smoothstep;
 
 /// Above: a pale ceiling.
-const CEILING: Vec3 = Vec3::new(0.30, 0.31, 0.33);
+const CEILING: Vec3 = Vec3::new(0.335, 0.345, 0.365);
 /// Around: dim walls.
-const WALL: Vec3 = Vec3::new(0.205, 0.21, 0.22);
+const WALL: Vec3 = Vec3::new(0.23, 0.235, 0.245);
 /// Below: darker and a little warm, as light that comes back from a floor.
-const FLOOR: Vec3 = Vec3::new(0.165, 0.156, 0.146);
+const FLOOR: Vec3 = Vec3::new(0.185, 0.175, 0.163);
 
 /// A rectangle of light, bright in its middle and soft at its edges.
 struct Panel {
@@ -33,14 +33,14 @@ const PANELS: [Panel; 4] = [
         towards: Vec3::new(0.34, 0.80, -0.52),
         half_size: (0.72, 0.48),
         softness: 0.17,
-        radiance: Vec3::new(1.80, 1.765, 1.71),
+        radiance: Vec3::new(1.95, 1.91, 1.85),
     },
     // The fill: a wall of cloth opposite to the key.
     Panel {
         towards: Vec3::new(-0.90, 0.12, -0.42),
         half_size: (0.62, 0.80),
         softness: 0.42,
-        radiance: Vec3::new(0.62, 0.65, 0.70),
+        radiance: Vec3::new(0.68, 0.71, 0.76),
     },
     // Cool strips behind on both sides draw a line along the silhouette.
     Panel {

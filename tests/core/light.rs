@@ -5,6 +5,7 @@ mod furnace;
 mod images;
 mod prefilter;
 mod shaders;
+mod studio;
 mod tone_map;
 
 use glam::Vec3;

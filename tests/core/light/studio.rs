@@ -1,0 +1,171 @@
+//! What a surface looks like in the studio.
+
+use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
+use bindpose::light::tone_map::tone_mapped;
+use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::scene::{Camera, Projection};
+use glam::Vec3;
+
+use crate::light::{all_directions, difference};
+
+struct Studio {
+    environment: Environment,
+    prefiltered: Prefiltered,
+    brdf_table: BrdfTable,
+}
+
+impl Studio {
+    fn new() -> Self {
+        let environment = Environment::studio();
+        Self {
+            prefiltered: Prefiltered::of(&environment),
+            environment,
+            brdf_table: BrdfTable::new(32),
+        }
+    }
+
+    fn turned(&self, turn: (f32, f32)) -> Surroundings<'_> {
+        Surroundings {
+            prefiltered: &self.prefiltered,
+            brdf_table: &self.brdf_table,
+            turn,
+            intensity: 1.0,
+        }
+    }
+}
+
+/// For a viewer at −z who looks along +z.
+fn lights(key_visible: f32) -> StudioLights {
+    StudioLights {
+        to_key: Vec3::new(0.64, 0.74, -0.34).normalize(),
+        key_color: KEY_COLOR,
+        key_visible,
+        to_rim: Vec3::new(-0.72, 0.36, 0.58).normalize(),
+        rim_color: RIM_COLOR,
+    }
+}
+
+fn surface(normal: Vec3) -> StudioSurface {
+    StudioSurface {
+        albedo: Vec3::splat(0.5),
+        fresnel0: Vec3::splat(0.04),
+        roughness: 0.5,
+        normal,
+        smooth_normal: normal,
+        to_eye: Vec3::NEG_Z,
+        ambient_occlusion: 1.0,
+    }
+}
+
+/// Normals that the viewer sees.
+fn seen_normals() -> impl Iterator<Item = Vec3> {
+    all_directions(600).filter(|normal| normal.z < -0.05)
+}
+
+#[test]
+fn the_studio_turns_with_the_viewer() {
+    let studio = Studio::new();
+    for yaw_radians in [0.0, 0.7, 2.5, -2.0] {
+        let camera = Camera {
+            target: Vec3::ZERO,
+            distance: 1.0,
+            yaw_radians,
+            pitch_radians: 0.2,
+            projection: Projection::Orthographic,
+        };
+        let right = camera.right();
+        let ahead = right.cross(Vec3::Y);
+        assert!(ahead.dot(camera.forward()) > 0.9);
+        let surroundings = studio.turned((right.x, right.z));
+        for local in all_directions(40) {
+            let world = right * local.x + Vec3::Y * local.y + ahead * local.z;
+            let found = surroundings.environment_specular_light(world, 0.0);
+            assert!(difference(found, studio.environment.sample(local)) < 1e-3, "{local}");
+            let diffuse = surroundings.environment_diffuse(world);
+            assert!(
+                difference(diffuse, studio.prefiltered.irradiance().towards(local)) < 1e-4,
+                "{local}"
+            );
+        }
+    }
+}
+
+#[test]
+fn nothing_of_skin_or_cloth_is_burnt_out_and_nothing_is_black() {
+    let studio = Studio::new();
+    let surroundings = studio.turned((1.0, 0.0));
+    for normal in seen_normals() {
+        for (albedo, roughness) in [(0.6, 0.4), (0.6, 0.9), (0.05, 0.35)] {
+            let surface = StudioSurface {
+                albedo: Vec3::splat(albedo),
+                roughness,
+                ..surface(normal)
+            };
+            for key_visible in [0.0, 1.0] {
+                let shown = tone_mapped(surroundings.studio_light(&surface, &lights(key_visible)));
+                // sRGB 247.
+                assert!(shown.max_element() < 0.93, "{normal}, {albedo}, {roughness}: {shown}");
+                // sRGB 14 for nearly black cloth, 61 for skin.
+                assert!(
+                    shown.min_element() > albedo * 0.085,
+                    "{normal}, {albedo}, {roughness}: {shown}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_base_colour_shows_about_as_it_is() {
+    let studio = Studio::new();
+    let surroundings = studio.turned((1.0, 0.0));
+    let color = Vec3::new(0.16, 0.20, 0.12);
+    let (mut sum, mut count) = (Vec3::ZERO, 0.0);
+    for normal in seen_normals() {
+        // As large as each part is in the picture.
+        let weight = -normal.z;
+        let surface = StudioSurface {
+            albedo: color,
+            ..surface(normal)
+        };
+        let key_visible = normal.dot(lights(1.0).to_key).clamp(0.0, 1.0).sqrt();
+        sum += tone_mapped(surroundings.studio_light(&surface, &lights(key_visible))) * weight;
+        count += weight;
+    }
+    let ratio = sum / count / color;
+    assert!(ratio.min_element() > 0.75 && ratio.max_element() < 1.25, "{ratio}");
+}
+
+#[test]
+fn the_rim_is_cool_and_hugs_the_silhouette() {
+    let studio = Studio::new();
+    let surroundings = studio.turned((1.0, 0.0));
+    let rim = |normal: Vec3| {
+        let without = StudioLights {
+            rim_color: Vec3::ZERO,
+            ..lights(1.0)
+        };
+        let surface = surface(normal.normalize());
+        surroundings.studio_light(&surface, &lights(1.0)) - surroundings.studio_light(&surface, &without)
+    };
+    let silhouette = rim(Vec3::new(-0.9, 0.4, -0.1));
+    assert!(silhouette.z > 0.2 && silhouette.z > 1.5 * silhouette.x, "{silhouette}");
+    let turned_to_the_viewer = rim(Vec3::new(-0.9, 0.4, -1.0));
+    assert!(turned_to_the_viewer.z < 0.3 * silhouette.z, "{turned_to_the_viewer}");
+    assert_eq!(rim(Vec3::NEG_Z), Vec3::ZERO);
+}
+
+#[test]
+fn the_key_goes_with_its_shadow_and_the_surroundings_with_their_occlusion() {
+    let studio = Studio::new();
+    let surroundings = studio.turned((1.0, 0.0));
+    let facing = surface(Vec3::new(0.4, 0.6, -0.7).normalize());
+    let [lit, half, shadowed] = [1.0, 0.5, 0.0].map(|visible| surroundings.studio_light(&facing, &lights(visible)));
+    assert!(difference(lit + shadowed, half * 2.0) < 1e-5);
+    assert!(lit.min_element() > 2.0 * shadowed.max_element(), "{lit} {shadowed}");
+    let hidden = StudioSurface {
+        ambient_occlusion: 0.0,
+        ..facing
+    };
+    assert!(surroundings.studio_light(&hidden, &lights(0.0)).max_element() < 1e-3);
+}

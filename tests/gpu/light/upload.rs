@@ -1,0 +1,225 @@
+//! A room on the GPU: uploaded as a renderer does it, its light read back.
+
+use bindpose::shaders::{self, STUDIO_LIGHT, TONE_MAP_WGSL};
+use glam::Vec3;
+use wgpu::util::DeviceExt as _;
+
+use super::{ANGLES, QUANTITIES, ROUGHNESSES, Room};
+use crate::gpu::{Gpu, read_texture};
+
+impl Room<'_> {
+    /// Uploads as a renderer does: uniform, cube with its levels, table, sampler.
+    fn bind(&self, gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+        let (device, queue) = (&gpu.open.device, &gpu.open.queue);
+        let level_count = self.prefiltered.level_count();
+        let uniform = shaders::Environment {
+            sh: self.prefiltered.irradiance().to_uniform(),
+            turn_cos: self.turn.0,
+            turn_sin: self.turn.1,
+            intensity: self.intensity,
+            specular_level_count: level_count as f32,
+        };
+        let uniform = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: None,
+            contents: bytemuck::bytes_of(&uniform),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let levels = (0..level_count).filter_map(|level| self.prefiltered.level_rgba16f(level));
+        // Faces outside, levels inside.
+        let levels: Vec<Vec<u16>> = levels.collect();
+        let face_levels = (0..6).flat_map(|face| {
+            levels
+                .iter()
+                .map(move |level| &level[face * level.len() / 6..][..level.len() / 6])
+        });
+        let cube_texels: Vec<u16> = face_levels.flatten().copied().collect();
+        let cube = device.create_texture_with_data(
+            queue,
+            &texture_descriptor(
+                self.prefiltered.side(),
+                6,
+                level_count,
+                wgpu::TextureFormat::Rgba16Float,
+            ),
+            wgpu::util::TextureDataOrder::LayerMajor,
+            bytemuck::cast_slice(&cube_texels),
+        );
+        let table = device.create_texture_with_data(
+            queue,
+            &texture_descriptor(self.brdf_table.side() as u32, 1, 1, wgpu::TextureFormat::Rg16Float),
+            wgpu::util::TextureDataOrder::LayerMajor,
+            bytemuck::cast_slice(&self.brdf_table.to_rg16f()),
+        );
+        let cube_view = cube.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::Cube),
+            ..Default::default()
+        });
+        let table_view = table.create_view(&Default::default());
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        let resources = [
+            uniform.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&cube_view),
+            wgpu::BindingResource::TextureView(&table_view),
+            wgpu::BindingResource::Sampler(&sampler),
+        ];
+        let entries = resources.into_iter().zip(4..);
+        let entries: Vec<_> = entries
+            .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("environment"),
+            layout,
+            entries: &entries,
+        })
+    }
+
+    /// The values of all cases, by the shaders.
+    pub(super) fn on_gpu(&self, gpu: &Gpu) -> Vec<Vec3> {
+        let (device, queue) = (&gpu.open.device, &gpu.open.queue);
+        let [key_color, rim_color] =
+            [self.key_color, self.rim_color].map(|Vec3 { x, y, z }| format!("vec3<f32>({x:?}, {y:?}, {z:?})"));
+        let constants = format!(
+            "const ANGLES: u32 = {ANGLES}u;\nconst ROUGHNESSES: u32 = {ROUGHNESSES}u;\n\
+             const KEY_COLOR: vec3<f32> = {key_color};\nconst RIM_COLOR: vec3<f32> = {rim_color};\n"
+        );
+        let files = STUDIO_LIGHT.iter().chain([&TONE_MAP_WGSL]).map(|file| file.source);
+        let source: String = files.chain([constants.as_str(), include_str!("probe.wgsl")]).collect();
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("light probe"),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+        let nothing = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &[],
+        });
+        let nothing_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &nothing,
+            entries: &[],
+        });
+        let environment = environment_layout(device);
+        let group = self.bind(gpu, &environment);
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&nothing), Some(&nothing), Some(&environment)],
+            immediate_size: 0,
+        });
+        // GL may not draw into floats; every device draws into integers, and bits are bits.
+        let format = wgpu::TextureFormat::Rgba32Uint;
+        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("light probe"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some("fragment"),
+                compilation_options: Default::default(),
+                targets: &[Some(format.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("light probe"),
+            size: wgpu::Extent3d {
+                width: ANGLES,
+                height: ROUGHNESSES * QUANTITIES,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&Default::default());
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations::default(),
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &nothing_group, &[]);
+            pass.set_bind_group(1, &nothing_group, &[]);
+            pass.set_bind_group(2, &group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        queue.submit([encoder.finish()]);
+        let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&read_texture(gpu, &texture, 16));
+        texels.into_iter().map(|[x, y, z, _]| Vec3::new(x, y, z)).collect()
+    }
+}
+
+fn texture_descriptor(
+    side: u32,
+    faces: u32,
+    levels: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::TextureDescriptor<'static> {
+    wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: faces,
+        },
+        mip_level_count: levels,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    }
+}
+
+fn environment_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let texture = |view_dimension| wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension,
+        multisampled: false,
+    };
+    let uniform = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let types = [
+        uniform,
+        texture(wgpu::TextureViewDimension::Cube),
+        texture(wgpu::TextureViewDimension::D2),
+        wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+    ];
+    let entries = types
+        .into_iter()
+        .zip(4..)
+        .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty,
+            count: None,
+        });
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("environment"),
+        entries: &entries.collect::<Vec<_>>(),
+    })
+}
