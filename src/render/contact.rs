@@ -10,7 +10,7 @@ use crate::scene::Aabb;
 /// Texels along each edge: it is blurred anyway.
 const SIZE: u32 = 256;
 /// Half the width of the map in half widths of the scene: the blur needs room.
-const MARGIN: f32 = 1.35;
+const MARGIN: f32 = 1.4;
 
 /// What the map covers of the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,10 +77,10 @@ impl ContactMap {
             pass.set_bind_group(0, frame_group, &[]);
             model.draw_shape(&mut pass, posed, ModelDraw::Contact);
         }
-        for (draw, source, target) in [
-            (Draw::ContactBlurRows, &self.map_group, &self.between),
-            (Draw::ContactBlurColumns, &self.between_group, &self.map),
-        ] {
+        let rows = (Draw::ContactBlurRows, &self.map_group, &self.between);
+        let columns = (Draw::ContactBlurColumns, &self.between_group, &self.map);
+        // Two narrow blurs are as wide as one that reads many more texels.
+        for (draw, source, target) in [rows, columns, rows, columns] {
             let mut pass = begin_color_pass(encoder, "contact blur", target, wgpu::Color::BLACK, None);
             pass.set_pipeline(&posed.pipelines.get(draw));
             pass.set_bind_group(0, source, &[]);
