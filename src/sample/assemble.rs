@@ -52,9 +52,7 @@ fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influ
         }
         let points = corners.map(|corner| skin.positions[corner as usize]);
         let centre = (points[0] + points[1] + points[2]) / 3.0;
-        let normals = corners.map(|corner| skin.normals[corner as usize]);
-        let moved_by = heaviest(corners.map(|corner| influences[corner as usize]));
-        let (number, chart) = texcoords::chart(rig, *region, moved_by, points, normals);
+        let (number, chart) = texcoords::chart(rig, *region, points);
         let near = chart.tex_coords(centre, None);
         document.triangles.push(corners.map(|corner| {
             let point = skin.positions[corner as usize];
@@ -71,26 +69,11 @@ fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influ
     }
 }
 
-/// The joint that moves a triangle most; the lower one of equals.
-fn heaviest(corners: [Influences; 3]) -> usize {
-    let mut sums = BTreeMap::<usize, u32>::new();
-    for (joint, weight) in corners.into_iter().flatten() {
-        *sums.entry(joint).or_default() += weight;
-    }
-    sums.into_iter()
-        .fold(
-            (0, 0),
-            |best, (joint, sum)| if sum > best.1 { (joint, sum) } else { best },
-        )
-        .0
-}
-
 fn vertex(point: DVec3, normal: DVec3, chart: Chart, tex_coords: DVec2, influences: Influences) -> Vertex {
-    let (tangent, sign) = chart.tangent(point, normal);
-    let [x, y, z] = rounded(tangent, 4);
+    let [x, y, z] = rounded(chart.tangent(point, normal), 4);
     Vertex {
         position: rounded(point, 5),
-        tangent: [x, y, z, sign as f32],
+        tangent: [x, y, z, 1.0],
         normal: rounded(normal, 4),
         tex_coords: tex_coords.to_array().map(|value| round(value, 4)),
         blend_weights: influences.map(|(_, weight)| round(f64::from(weight) / 10_000.0, 4)),

@@ -1,67 +1,189 @@
-//! Texture coordinates: tubes are unrolled round their limb, blocks and ends are projected along their nearest axis, all at
-//! one density. Seams split vertices; a tube's coordinates wrap by a whole number, so a repeating texture shows no seam.
+//! Texture coordinates: each piece of the figure is laid flat in its own way, so that seams run along its borders. Tubes are
+//! unrolled round their limb and wrap by a whole number, so a repeating texture shows no seam; blocks are projected along
+//! their nearest axis. No chart is mirrored: the bitangent is `cross(normal, tangent)` everywhere, as renderers that leave
+//! `tangent.w` unread take it.
 
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::materials::Region;
-use super::rig::{ARM, CENTRE_COUNT, FORWARD, HEAD, Limb, NECK, PALM, Rig, Side, joint};
-
-/// Repeats of a texture per metre.
-const DENSITY: f64 = 4.0;
-/// Cosine between the normal and a tube's axis, or its way round, past which the skin does not lie along the tube.
-const END: f64 = 0.8;
+use super::materials::{CROWN_HEIGHT, Region};
+use super::rig::{ARM, FORWARD, Limb, PALM, Rig, Side};
 
 /// A way to lay a part of the skin flat.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Chart {
-    /// Round `axis` through `origin`, `repeats` times across; u starts opposite `front` and grows through it to `side`.
+    /// Round `axis` through `origin`, `repeats` times across; u is `origin_uv.x` at `front` and grows from there to
+    /// cross(axis, front), v is `origin_uv.y` at `origin` and grows along `axis`.
     Tube {
         origin: DVec3,
         axis: DVec3,
         front: DVec3,
-        side: DVec3,
         repeats: f64,
+        per_metre: f64,
+        origin_uv: DVec2,
     },
-    /// Straight down onto two axes.
-    Flat { u: DVec3, v: DVec3 },
+    /// Straight down onto two axes, whose lengths are repeats per metre; `origin_uv` at `origin`.
+    Flat {
+        origin: DVec3,
+        u: DVec3,
+        v: DVec3,
+        origin_uv: DVec2,
+    },
+    /// True distances and directions from the pole of a ball, where the texture has its middle.
+    Dome {
+        centre: DVec3,
+        pole: DVec3,
+        u: DVec3,
+        v: DVec3,
+        repeats_per_radian: f64,
+    },
 }
 
 /// A chart and its number: charts with equal numbers are equal.
 pub(super) type NumberedChart = (u32, Chart);
 
-/// The chart of a triangle that is moved most by `joint`, with its corners and their normals.
-pub(super) fn chart(rig: &Rig, region: Region, joint: usize, points: [DVec3; 3], normals: [DVec3; 3]) -> NumberedChart {
+/// Repeats per metre of the suit's cloth.
+const CLOTH: f64 = 2.8;
+/// Repeats per metre of moulded parts.
+const MOULDED: f64 = 4.0;
+/// The middle of a texture.
+const MIDDLE: DVec2 = DVec2::splat(0.5);
+
+/// The chart of a triangle of `region`, with its corners.
+pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedChart {
     let centre = (points[0] + points[1] + points[2]) / 3.0;
     let normal = (points[1] - points[0]).cross(points[2] - points[0]).normalize();
     let side = if centre.x < 0.0 { Side::Right } else { Side::Left };
-    let (part, tube, block) = part(rig, region, joint, side);
-    if let Some((origin, axis, repeats)) = tube {
-        let round = |point: DVec3| axis.cross(point - origin).normalize();
-        let lies_along =
-            |point: DVec3, normal: DVec3| normal.dot(axis).abs() < END && normal.dot(round(point)).abs() < END;
-        if lies_along(centre, normal)
-            && points
-                .into_iter()
-                .zip(normals)
-                .all(|(point, normal)| lies_along(point, normal))
-        {
-            let side = axis.cross(FORWARD).normalize();
-            return (
-                part * 8,
-                Chart::Tube {
-                    origin,
-                    axis,
-                    front: FORWARD,
-                    side,
-                    repeats,
-                },
-            );
-        }
-    }
-    // The axis that the face itself follows most is looked along; the other two become u and v.
-    let along = block.map(|axis| normal.dot(axis));
+    let at = |limb| rig.origin(side, limb);
+    let arm = side.mirror(ARM);
+    let upright = |height: f64, repeats, per_metre, origin_uv| Chart::Tube {
+        origin: DVec3::new(0.0, height, 0.0),
+        axis: DVec3::NEG_Y,
+        front: FORWARD,
+        repeats,
+        per_metre,
+        origin_uv,
+    };
+    let round_arm = |repeats, per_metre, origin_uv| Chart::Tube {
+        origin: at(Limb::UpperArm),
+        axis: arm,
+        front: FORWARD,
+        repeats,
+        per_metre,
+        origin_uv,
+    };
+    let facing_front = |height: f64, per_metre: f64, origin_uv| {
+        let x = if region == Region::KneePad { at(Limb::Shin).x } else { 0.0 };
+        Chart::flat(DVec3::new(x, height, 0.0), FORWARD, DVec3::NEG_Y * per_metre, per_metre, origin_uv)
+    };
+    let (face, chart) = match region {
+        Region::Trunk => (0, upright(0.995, 2.0, CLOTH, DVec2::new(0.5, 0.0))),
+        Region::Yoke => (
+            0,
+            Chart::Tube {
+                origin: DVec3::new(0.0, 1.335, 0.002),
+                axis: DVec3::X,
+                front: DVec3::Y,
+                repeats: TAU * 0.1 * CLOTH,
+                per_metre: CLOTH,
+                origin_uv: MIDDLE,
+            },
+        ),
+        Region::Sleeve => (0, round_arm(1.0, 3.0, DVec2::new(0.5, 0.0))),
+        Region::Leg => (
+            0,
+            Chart::Tube {
+                origin: at(Limb::Shin),
+                axis: DVec3::NEG_Y,
+                front: FORWARD,
+                repeats: 1.0,
+                per_metre: 2.6,
+                // The seam lies on the inner side.
+                origin_uv: DVec2::new(0.25 * side.sign(), 0.0),
+            },
+        ),
+        Region::Helmet => (0, upright(CROWN_HEIGHT, 4.0, MOULDED, DVec2::new(0.0, 0.0))),
+        Region::Crown => (
+            0,
+            Chart::Dome {
+                centre: DVec3::new(0.0, 1.638, 0.004),
+                pole: DVec3::Y,
+                u: DVec3::X,
+                v: DVec3::NEG_Z,
+                repeats_per_radian: 0.165 * 3.4,
+            },
+        ),
+        Region::EarCup => (
+            0,
+            Chart::Dome {
+                centre: DVec3::new(0.152 * side.sign(), 1.624, 0.014),
+                pole: DVec3::X * side.sign(),
+                u: DVec3::Z * side.sign(),
+                v: DVec3::NEG_Y,
+                repeats_per_radian: 0.048 * MOULDED,
+            },
+        ),
+        Region::Neck => (0, upright(1.45, 2.0, MOULDED, MIDDLE)),
+        Region::Belt => (0, upright(0.995, 3.0, MOULDED, MIDDLE)),
+        Region::Stripe => (0, round_arm(1.0, 3.0, DVec2::new(0.5, 0.12))),
+        Region::Cuff => (0, round_arm(1.0, 3.0, DVec2::new(0.5, -1.03))),
+        Region::Boot => (
+            0,
+            Chart::Tube {
+                origin: at(Limb::Foot),
+                axis: DVec3::NEG_Y,
+                front: FORWARD,
+                repeats: 2.0,
+                per_metre: MOULDED,
+                origin_uv: DVec2::new(0.5, 0.72),
+            },
+        ),
+        Region::Visor => (0, facing_front(1.618, 3.8, super::maps::PANE_MIDDLE)),
+        Region::Badge => (0, facing_front(1.275, 3.0, super::maps::BADGE_MIDDLE)),
+        Region::KneePad => (0, facing_front(0.49, 5.0, MIDDLE)),
+        Region::Hand => on_block(
+            at(Limb::Hand) + arm * 0.09,
+            [arm, side.mirror(PALM), DVec3::Z * side.sign()],
+            [MOULDED; 3],
+            normal,
+        ),
+        Region::Foot | Region::Sole => on_block(
+            at(Limb::Foot) + DVec3::new(0.0, -0.05, -0.08),
+            [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::X],
+            [MOULDED; 3],
+            normal,
+        ),
+        // One panel covers the flat of each large face.
+        Region::Pack => on_block(
+            DVec3::new(0.0, 1.25, 0.148),
+            [DVec3::Z, DVec3::NEG_Y, DVec3::X],
+            [6.0, 5.4, 6.3],
+            normal,
+        ),
+    };
+    let number = (region as u32 * 2 + side as u32) * 8 + face;
+    // What runs round the middle is one piece on both sides.
+    let one_piece = matches!(
+        region,
+        Region::Trunk
+            | Region::Yoke
+            | Region::Helmet
+            | Region::Crown
+            | Region::Neck
+            | Region::Belt
+            | Region::Visor
+            | Region::Badge
+            | Region::Pack
+    );
+    let of_left = (region as u32 * 2 + Side::Left as u32) * 8 + face;
+    (if one_piece { of_left } else { number }, chart)
+}
+
+/// A projection along that axis of a block which the face follows most, and the number of the block's side. The second axis
+/// is v where it can be, the first where it is looked along.
+fn on_block(origin: DVec3, axes: [DVec3; 3], per_metre: [f64; 3], normal: DVec3) -> NumberedChart {
+    let along = axes.map(|axis| normal.dot(axis));
     let size = along.map(f64::abs);
     let looked = if size[0] >= size[1] && size[0] >= size[2] {
         0
@@ -70,53 +192,24 @@ pub(super) fn chart(rig: &Rig, region: Region, joint: usize, points: [DVec3; 3],
     } else {
         2
     };
-    let number = part * 8 + 1 + 2 * looked as u32 + u32::from(along[looked] < 0.0);
-    let v = block[if looked == 1 { 2 } else { 1 }];
-    let u = block[if looked == 0 { 2 } else { 0 }];
-    (number, Chart::Flat { u, v: -v })
-}
-
-type Tube = (DVec3, DVec3, f64);
-
-/// Number of the part, its tube where it has one, and the axes of its block.
-fn part(rig: &Rig, region: Region, moved_by: usize, side: Side) -> (u32, Option<Tube>, [DVec3; 3]) {
-    let upright = [DVec3::X, DVec3::Y, DVec3::Z];
-    let of_side = |number: u32| number + side as u32;
-    if matches!(region, Region::Visor | Region::Pack) {
-        return (region as u32, None, upright);
-    }
-    let trunk = DVec3::new(0.0, 1.0, 0.0);
-    if moved_by < CENTRE_COUNT {
-        let repeats = if moved_by == HEAD { 4.0 } else { 3.0 };
-        let number = if moved_by == HEAD {
-            10
-        } else if moved_by == NECK {
-            11
-        } else {
-            12
-        };
-        return (number, Some((trunk, DVec3::NEG_Y, repeats)), upright);
-    }
-    let is = |limbs: &[Limb]| limbs.iter().any(|limb| joint(side, *limb) == moved_by);
-    let origin = |limb| rig.origin(side, limb);
-    if is(&[Limb::Clavicle]) {
-        (12, Some((trunk, DVec3::NEG_Y, 3.0)), upright)
-    } else if is(&[Limb::UpperArm, Limb::Forearm]) {
-        (
-            of_side(14),
-            Some((origin(Limb::UpperArm), side.mirror(ARM), 1.0)),
-            upright,
-        )
-    } else if is(&[Limb::Thigh, Limb::Shin]) {
-        (of_side(16), Some((origin(Limb::Shin), DVec3::NEG_Y, 2.0)), upright)
-    } else if is(&[Limb::Foot, Limb::Toe]) {
-        (of_side(18), None, upright)
-    } else {
-        (of_side(20), None, [side.mirror(ARM), side.mirror(PALM), DVec3::Z])
-    }
+    let outwards = axes[looked] * along[looked].signum();
+    let down = if looked == 1 { 0 } else { 1 };
+    let across = 3 - looked - down;
+    let chart = Chart::flat(origin, outwards, axes[down] * per_metre[down], per_metre[across], MIDDLE);
+    (2 * looked as u32 + u32::from(along[looked] < 0.0), chart)
 }
 
 impl Chart {
+    /// Seen from outside with v running down, u runs to the right.
+    fn flat(origin: DVec3, outwards: DVec3, v: DVec3, u_per_metre: f64, origin_uv: DVec2) -> Chart {
+        Chart::Flat {
+            origin,
+            u: v.cross(outwards).normalize() * u_per_metre,
+            v,
+            origin_uv,
+        }
+    }
+
     /// Texture coordinates; those of a tube lie within half its repeats of `near`, so that a triangle stays whole.
     pub(super) fn tex_coords(&self, point: DVec3, near: Option<DVec2>) -> DVec2 {
         match *self {
@@ -124,40 +217,67 @@ impl Chart {
                 origin,
                 axis,
                 front,
-                side,
                 repeats,
+                per_metre,
+                origin_uv,
             } => {
                 let offset = point - origin;
-                let turn = offset.dot(side).atan2(offset.dot(front)) / TAU;
-                let u = (turn + 0.5) * repeats;
+                let turn = offset.dot(axis.cross(front)).atan2(offset.dot(front)) / TAU;
+                let u = turn * repeats + origin_uv.x;
                 let wraps = near.map_or(0.0, |near| ((near.x - u) / repeats).round());
-                DVec2::new(u + wraps * repeats, offset.dot(axis) * DENSITY)
+                DVec2::new(u + wraps * repeats, offset.dot(axis) * per_metre + origin_uv.y)
             }
-            Chart::Flat { u, v } => DVec2::new(point.dot(u), point.dot(v)) * DENSITY,
+            Chart::Flat {
+                origin,
+                u,
+                v,
+                origin_uv,
+            } => DVec2::new((point - origin).dot(u), (point - origin).dot(v)) + origin_uv,
+            Chart::Dome {
+                centre,
+                pole,
+                u,
+                v,
+                repeats_per_radian,
+            } => {
+                let offset = point - centre;
+                let across = DVec2::new(offset.dot(u), offset.dot(v));
+                let angle = across.length().atan2(offset.dot(pole));
+                across.normalize_or_zero() * (angle * repeats_per_radian) + MIDDLE
+            }
         }
     }
 
-    /// Unit tangent across `normal` along growing u, and the sign of w · cross(normal, tangent) that makes growing v.
-    pub(super) fn tangent(&self, point: DVec3, normal: DVec3) -> (DVec3, f64) {
-        let (along_u, along_v) = match *self {
+    /// Unit tangent across `normal` along growing u; cross(normal, tangent) runs along growing v.
+    pub(super) fn tangent(&self, point: DVec3, normal: DVec3) -> DVec3 {
+        let along_u = match *self {
             Chart::Tube {
-                origin,
-                axis,
-                front,
-                side,
-                ..
+                origin, axis, front, ..
             } => {
-                let offset = point - origin;
-                (side * offset.dot(front) - front * offset.dot(side), axis)
+                let (offset, side) = (point - origin, axis.cross(front));
+                side * offset.dot(front) - front * offset.dot(side)
             }
-            Chart::Flat { u, v } => (u, v),
+            Chart::Flat { u, .. } => u,
+            Chart::Dome {
+                centre, pole, u, v, ..
+            } => {
+                // Towards the rim the ball's circles are shorter than the flat ones by sin angle over angle.
+                let offset = point - centre;
+                let across = DVec2::new(offset.dot(u), offset.dot(v));
+                let (radial, height) = (across.length(), offset.dot(pole));
+                let angle = radial.atan2(height);
+                if angle < 1e-6 {
+                    u
+                } else {
+                    let outwards = across / radial;
+                    let outwards_in_space = u * outwards.x + v * outwards.y;
+                    let round_in_space = v * outwards.x - u * outwards.y;
+                    let down = (outwards_in_space * height - pole * radial) / offset.length();
+                    let shrunk = radial / offset.length() / angle;
+                    down * outwards.x - round_in_space * (outwards.y * shrunk)
+                }
+            }
         };
-        let tangent = (along_u - normal * along_u.dot(normal)).normalize();
-        let sign = if normal.cross(tangent).dot(along_v) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        (tangent, sign)
+        (along_u - normal * along_u.dot(normal)).normalize()
     }
 }

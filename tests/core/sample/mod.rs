@@ -1,6 +1,7 @@
 //! Tests of `sample`: the figure, and helpers that pose it the obvious way.
 
 mod file;
+mod maps;
 mod motion;
 mod rig;
 mod skin;
