@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::body::{Body, Part};
 use super::maps;
-use super::rig::{ARM, Limb, Rig, Side};
+use super::rig::{ARM, Limb, PALM, Rig, Side};
 use crate::format;
 
 /// Where the crown begins that closes the helmet, metres above the ground.
@@ -20,6 +20,7 @@ pub(super) enum Region {
     Sole,
     Foot,
     Boot,
+    Palm,
     Hand,
     Cuff,
     EarCup,
@@ -33,6 +34,7 @@ pub(super) enum Region {
     Belt,
     Sleeve,
     Yoke,
+    Gusset,
     Leg,
     Trunk,
 }
@@ -48,11 +50,12 @@ pub(super) enum Material {
 }
 
 impl Region {
-    const BORDERED: [Region; 18] = [
+    const BORDERED: [Region; 20] = [
         Region::Visor,
         Region::Sole,
         Region::Foot,
         Region::Boot,
+        Region::Palm,
         Region::Hand,
         Region::Cuff,
         Region::EarCup,
@@ -66,6 +69,7 @@ impl Region {
         Region::Belt,
         Region::Sleeve,
         Region::Yoke,
+        Region::Gusset,
         Region::Leg,
     ];
 
@@ -81,8 +85,8 @@ impl Region {
             | Region::Pack
             | Region::EarCup
             | Region::Stripe => Material::Trim,
-            Region::Sole | Region::Neck | Region::Belt | Region::KneePad => Material::Rubber,
-            Region::Sleeve | Region::Yoke | Region::Leg | Region::Trunk => Material::Suit,
+            Region::Sole | Region::Palm | Region::Neck | Region::Belt | Region::KneePad => Material::Rubber,
+            Region::Sleeve | Region::Yoke | Region::Gusset | Region::Leg | Region::Trunk => Material::Suit,
         }
     }
 
@@ -105,11 +109,17 @@ impl Region {
             Region::Foot => point.y - 0.128,
             Region::Boot => point.y - 0.268,
             // Planes across the arm cut the legs too, but those are nearer to the middle.
+            Region::Palm => {
+                let from_wrist = on_left - rig.origin(Side::Left, Limb::Hand);
+                (0.004 - from_wrist.dot(PALM))
+                    .max(0.012 - from_wrist.dot(ARM))
+                    .max(0.3 - on_left.x)
+            }
             Region::Hand => (-0.024 - along_arm(Limb::Hand)).max(0.3 - on_left.x),
             Region::Cuff => (-0.108 - along_arm(Limb::Hand)).max(0.3 - on_left.x),
             Region::Crown => CROWN_HEIGHT - point.y,
             Region::Helmet => 1.45 - point.y,
-            Region::Neck => (1.425 - point.y).max(0.011 - body.part_distance(Part::Helmet, point)),
+            Region::Neck => (1.443 - point.y).max(0.011 - body.part_distance(Part::Helmet, point)),
             Region::Pack => body.part_distance(Part::Pack, point) - 0.009,
             Region::Badge => badge(point),
             Region::EarCup => body.part_distance(Part::EarCups, point) - 0.005,
@@ -118,11 +128,12 @@ impl Region {
                 .max(0.2 - on_left.x)
                 .max(1.1 - point.y),
             Region::Belt => band(point.y, 0.995, 0.02).max(on_left.x - 0.25),
-            // Upright planes round the armholes; hips lie lower.
-            Region::Sleeve => (0.166 - on_left.x).max(1.1 - point.y),
+            // Upright planes round the armholes. The hips reach as far out but lie lower, the hands lie further out.
+            Region::Sleeve => (0.166 - on_left.x).max(1.1 - point.y - 4.0 * (on_left.x - 0.25).max(0.0)),
             Region::Yoke => YOKE_HEIGHT - point.y,
+            Region::Gusset => point.distance(DVec3::new(0.0, 0.748, 0.003)) - 0.042,
             // From the crotch outwards and up.
-            Region::Leg => point.y - 0.775 - 0.75 * on_left.x,
+            Region::Leg => point.y - 0.79 - 0.7 * on_left.x,
             Region::Trunk => 1.0,
         }
     }

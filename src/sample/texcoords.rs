@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use super::materials::{CROWN_HEIGHT, Region};
 use super::rig::{ARM, FORWARD, Limb, PALM, Rig, Side};
@@ -47,6 +47,8 @@ pub(super) type NumberedChart = (u32, Chart);
 const CLOTH: f64 = 2.8;
 /// Repeats per metre of moulded parts.
 const MOULDED: f64 = 4.0;
+/// Cosine between a normal and the way out of its chart below which the chart says little about directions there.
+const LEAST_FACING: f64 = 0.3;
 /// The middle of a texture.
 const MIDDLE: DVec2 = DVec2::splat(0.5);
 
@@ -74,8 +76,18 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
         origin_uv,
     };
     let facing_front = |height: f64, per_metre: f64, origin_uv| {
-        let x = if region == Region::KneePad { at(Limb::Shin).x } else { 0.0 };
-        Chart::flat(DVec3::new(x, height, 0.0), FORWARD, DVec3::NEG_Y * per_metre, per_metre, origin_uv)
+        let x = if region == Region::KneePad {
+            at(Limb::Shin).x
+        } else {
+            0.0
+        };
+        Chart::flat(
+            DVec3::new(x, height, 0.0),
+            FORWARD,
+            DVec3::NEG_Y * per_metre,
+            per_metre,
+            origin_uv,
+        )
     };
     let (face, chart) = match region {
         Region::Trunk => (0, upright(0.995, 2.0, CLOTH, DVec2::new(0.5, 0.0))),
@@ -91,6 +103,10 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
             },
         ),
         Region::Sleeve => (0, round_arm(1.0, 3.0, DVec2::new(0.5, 0.0))),
+        Region::Gusset => (
+            0,
+            Chart::flat(DVec3::new(0.0, 0.8, 0.0), DVec3::NEG_Y, DVec3::Z * CLOTH, CLOTH, MIDDLE),
+        ),
         Region::Leg => (
             0,
             Chart::Tube {
@@ -111,7 +127,7 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
                 pole: DVec3::Y,
                 u: DVec3::X,
                 v: DVec3::NEG_Z,
-                repeats_per_radian: 0.165 * 3.4,
+                repeats_per_radian: 0.165 * 2.6,
             },
         ),
         Region::EarCup => (
@@ -142,14 +158,14 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
         Region::Visor => (0, facing_front(1.618, 3.8, super::maps::PANE_MIDDLE)),
         Region::Badge => (0, facing_front(1.275, 3.0, super::maps::BADGE_MIDDLE)),
         Region::KneePad => (0, facing_front(0.49, 5.0, MIDDLE)),
-        Region::Hand => on_block(
+        Region::Palm | Region::Hand => on_block(
             at(Limb::Hand) + arm * 0.09,
             [arm, side.mirror(PALM), DVec3::Z * side.sign()],
             [MOULDED; 3],
             normal,
         ),
         Region::Foot | Region::Sole => on_block(
-            at(Limb::Foot) + DVec3::new(0.0, -0.05, -0.08),
+            at(Limb::Foot) + DVec3::new(0.0, -0.05, -0.037),
             [DVec3::NEG_Z, DVec3::NEG_Y, DVec3::X],
             [MOULDED; 3],
             normal,
@@ -168,6 +184,7 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
         region,
         Region::Trunk
             | Region::Yoke
+            | Region::Gusset
             | Region::Helmet
             | Region::Crown
             | Region::Neck
@@ -180,23 +197,29 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
     (if one_piece { of_left } else { number }, chart)
 }
 
-/// A projection along that axis of a block which the face follows most, and the number of the block's side. The second axis
-/// is v where it can be, the first where it is looked along.
+/// A projection against the side of a block which the face follows most, and the side's number. The second axis is v where
+/// it can be, the first where it is looked along.
 fn on_block(origin: DVec3, axes: [DVec3; 3], per_metre: [f64; 3], normal: DVec3) -> NumberedChart {
-    let along = axes.map(|axis| normal.dot(axis));
-    let size = along.map(f64::abs);
-    let looked = if size[0] >= size[1] && size[0] >= size[2] {
-        0
-    } else if size[1] >= size[2] {
-        1
-    } else {
-        2
+    let outwards = |side: usize| {
+        if side.is_multiple_of(2) {
+            axes[side / 2]
+        } else {
+            -axes[side / 2]
+        }
     };
-    let outwards = axes[looked] * along[looked].signum();
+    let facing = |side: usize| normal.dot(outwards(side));
+    let side = (1..6).fold(0, |best, side| if facing(side) > facing(best) { side } else { best });
+    let (looked, outwards) = (side / 2, outwards(side));
     let down = if looked == 1 { 0 } else { 1 };
     let across = 3 - looked - down;
-    let chart = Chart::flat(origin, outwards, axes[down] * per_metre[down], per_metre[across], MIDDLE);
-    (2 * looked as u32 + u32::from(along[looked] < 0.0), chart)
+    let chart = Chart::flat(
+        origin,
+        outwards,
+        axes[down] * per_metre[down],
+        per_metre[across],
+        MIDDLE,
+    );
+    (side as u32, chart)
 }
 
 impl Chart {
@@ -248,36 +271,32 @@ impl Chart {
         }
     }
 
-    /// Unit tangent across `normal` along growing u; cross(normal, tangent) runs along growing v.
+    /// Unit tangent across `normal`: as near to growing u as cross(normal, tangent) is to growing v.
     pub(super) fn tangent(&self, point: DVec3, normal: DVec3) -> DVec3 {
-        let along_u = match *self {
-            Chart::Tube {
-                origin, axis, front, ..
-            } => {
-                let (offset, side) = (point - origin, axis.cross(front));
-                side * offset.dot(front) - front * offset.dot(side)
-            }
-            Chart::Flat { u, .. } => u,
-            Chart::Dome {
-                centre, pole, u, v, ..
-            } => {
-                // Towards the rim the ball's circles are shorter than the flat ones by sin angle over angle.
-                let offset = point - centre;
-                let across = DVec2::new(offset.dot(u), offset.dot(v));
-                let (radial, height) = (across.length(), offset.dot(pole));
-                let angle = radial.atan2(height);
-                if angle < 1e-6 {
-                    u
-                } else {
-                    let outwards = across / radial;
-                    let outwards_in_space = u * outwards.x + v * outwards.y;
-                    let round_in_space = v * outwards.x - u * outwards.y;
-                    let down = (outwards_in_space * height - pole * radial) / offset.length();
-                    let shrunk = radial / offset.length() / angle;
-                    down * outwards.x - round_in_space * (outwards.y * shrunk)
-                }
-            }
-        };
+        let (u, v, outwards) = self.axes(point);
+        // The chart's directions slide along `outwards` until they lie in the skin. In creases that would go on for ever.
+        let facing = normal.dot(outwards).max(LEAST_FACING);
+        let in_skin = |axis: DVec3| (axis - outwards * (axis.dot(normal) / facing)).normalize();
+        let along_u = in_skin(u) + in_skin(v).cross(normal);
         (along_u - normal * along_u.dot(normal)).normalize()
+    }
+
+    /// Unit directions of growing u, of growing v, and out of the chart, each across the others.
+    fn axes(&self, point: DVec3) -> (DVec3, DVec3, DVec3) {
+        match *self {
+            Chart::Tube { origin, axis, .. } => {
+                let outwards = (point - origin).reject_from(axis).normalize();
+                (axis.cross(outwards), axis, outwards)
+            }
+            Chart::Flat { u, v, .. } => {
+                let (u, v) = (u.normalize(), v.normalize());
+                (u, v, u.cross(v))
+            }
+            Chart::Dome { centre, pole, u, v, .. } => {
+                let outwards = (point - centre).normalize();
+                let turned = DQuat::from_rotation_arc(pole, outwards);
+                (turned * u, turned * v, outwards)
+            }
+        }
     }
 }

@@ -28,7 +28,8 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
     Place {
         height: 3.4 * quilted * puff + fold + (0.16 * weave) * (1.0 - thread) + 0.8 * thread,
         tone: sewn.map(|sewn| shade + (sewn - shade) * thread),
-        polish: 0.55 + 0.2 * weave + 0.25 * thread,
+        polish: (0.35 + 0.15 * weave + 0.35 * quilted * puff + 0.3 * thread - 0.2 * bead(from_border, 4.0))
+            .clamp(0.0, 1.0),
     }
 }
 
@@ -64,6 +65,6 @@ fn seam(u: f64, v: f64, from_border: f64) -> (f64, f64) {
     let along_u = off_whole(v).abs() < off_whole(u).abs();
     let along = if along_u { u } else { v } * SIDE_MM;
     let line = |at: f64| stitches(from_border - at, along, 5.0);
-    let fold = 1.3 * (1.0 - ramp(9.5, 12.5, from_border)) - 2.2 * bead(from_border, 2.2);
+    let fold = 1.3 * (1.0 - ramp(9.5, 12.5, from_border)) - 2.4 * bead(from_border, 3.2);
     (fold, line(6.0).max(line(MARGIN_MM - 6.0)))
 }

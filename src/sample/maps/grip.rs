@@ -1,7 +1,7 @@
 //! Rubber: hexagonal studs with hollow tops.
 
 use super::bake::Place;
-use super::noise::{clouds, noise};
+use super::noise::clouds;
 use super::shapes::ramp;
 
 /// Side of the square.
@@ -19,7 +19,7 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
     let worn = clouds(u, v, 5, 61);
     let shade = 0.95 + 0.05 * worn - 0.25 * (1.0 - stud) - 0.06 * hollow;
     Place {
-        height: 1.7 * stud - 0.7 * hollow + 0.06 * noise(u, v, 64, 62),
+        height: 1.7 * stud - 0.7 * hollow,
         tone: [shade; 3],
         polish: (0.75 + 0.12 * worn - 0.55 * (1.0 - stud) - 0.15 * hollow).clamp(0.0, 1.0),
     }

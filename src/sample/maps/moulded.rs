@@ -24,13 +24,14 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
     let sunk = bead(rivet - RIVET_RADIUS_MM - 0.6, 1.3);
     let scratch = scratches(u, v);
     // Grained as out of a blasted mould.
-    let grain = 0.6 * noise(u, v, 128, 31) + 0.4 * noise(u, v, 64, 32);
+    let grain = noise(u, v, 96, 31);
 
     let shade = 0.97 + 0.03 * clouds(u, v, 5, 21) - 0.3 * groove - 0.2 * sunk + 0.12 * scratch;
     Place {
-        height: 0.05 * grain * (1.0 - groove) - 1.6 * groove + 0.7 * field + 1.5 * head - 0.5 * sunk - 0.12 * scratch,
+        height: 0.02 * grain * (1.0 - groove) - 1.6 * groove + 0.7 * field + 1.5 * head - 0.5 * sunk - 0.12 * scratch,
         tone: [shade; 3],
-        polish: (0.86 + 0.1 * clouds(u, v, 7, 41) - 0.6 * groove - 0.4 * sunk - 0.25 * scratch + 0.1 * head).clamp(0.0, 1.0),
+        polish: (0.86 + 0.1 * clouds(u, v, 7, 41) - 0.6 * groove - 0.4 * sunk - 0.25 * scratch + 0.1 * head)
+            .clamp(0.0, 1.0),
     }
 }
 

@@ -32,12 +32,13 @@ fn pane(place: DVec2, from_middle: DVec2) -> Place {
     let ring = (x * x + y * y).sqrt().sqrt();
     let frame = ramp(0.885, 0.905, ring);
     let groove = bead(ring - 0.885, 0.016);
-    let brushed = frame * (chance((ring * 420.0) as u32, 0, 51) - 0.5);
+    let brushed = frame * (1.0 - ramp(1.06, 1.08, ring)) * (chance((ring * 120.0) as u32, 0, 51) - 0.5);
     let shade = 1.0 - 0.3 * groove;
     Place {
-        height: 1.6 * frame - 1.2 * groove + 0.09 * brushed,
+        height: 1.6 * frame - 1.2 * groove + 0.12 * brushed,
         tone: [shade; 3],
-        polish: (1.0 + 0.02 * clouds(place.x, place.y, 4, 52) - 0.35 * frame - 0.6 * groove + 0.2 * brushed).clamp(0.0, 1.0),
+        polish: (1.0 + 0.02 * clouds(place.x, place.y, 4, 52) - 0.35 * frame - 0.6 * groove + 0.2 * brushed)
+            .clamp(0.0, 1.0),
     }
 }
 

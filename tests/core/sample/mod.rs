@@ -5,6 +5,7 @@ mod maps;
 mod motion;
 mod rig;
 mod skin;
+mod texcoords;
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
