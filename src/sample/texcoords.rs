@@ -159,9 +159,9 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
         Region::Badge => (0, facing_front(1.275, 3.0, super::maps::BADGE_MIDDLE)),
         Region::KneePad => (0, facing_front(0.49, 5.0, MIDDLE)),
         Region::Palm | Region::Hand => on_block(
-            at(Limb::Hand) + arm * 0.09,
+            at(Limb::Hand) + arm * 0.082,
             [arm, side.mirror(PALM), DVec3::Z * side.sign()],
-            [MOULDED; 3],
+            [3.6; 3],
             normal,
         ),
         Region::Foot | Region::Sole => on_block(

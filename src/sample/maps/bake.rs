@@ -76,7 +76,12 @@ fn normals(places: &[Place], side: usize, side_mm: f64) -> Vec<u8> {
         let rise_v = (height(x, y + 1) - height(x, y + side - 1)) / two_texels_mm;
         let length = (rise_u * rise_u + rise_v * rise_v + 1.0).sqrt();
         let direction = [-rise_u, -rise_v, 1.0].map(|part| byte(part / length * 0.5 + 0.5));
-        [direction[0], direction[1], direction[2], byte(places[index].polish)]
+        [
+            direction[0],
+            direction[1],
+            direction[2],
+            polish_byte(places[index].polish),
+        ]
     };
     (0..side * side).flat_map(texel).collect()
 }
@@ -84,4 +89,9 @@ fn normals(places: &[Place], side: usize, side_mm: f64) -> Vec<u8> {
 /// 0…1 to 0…255.
 fn byte(value: f64) -> u8 {
     (value * 255.0).round().clamp(0.0, 255.0) as u8
+}
+
+/// In 64 steps: finer ones cannot be seen, but cost the download most of what alpha costs.
+fn polish_byte(polish: f64) -> u8 {
+    byte((polish.clamp(0.0, 1.0) * 63.0).round() / 63.0)
 }

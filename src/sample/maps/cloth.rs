@@ -10,18 +10,20 @@ pub(super) const SIDE_MM: f64 = 360.0;
 const THREADS: u32 = 128;
 /// Every so many threads one is thicker.
 const RIPSTOP: u32 = 8;
-/// Diamonds along a side; their lines meet the panel's middle.
+/// Diamonds along a side; their lines meet in the panel's middle.
 const DIAMONDS: f64 = 8.0;
-/// From the border to where the quilting starts.
-const MARGIN_MM: f64 = 30.0;
+/// From the border to where the quilting starts: a row of the diamonds' corners.
+const MARGIN_MM: f64 = SIDE_MM / DIAMONDS;
+/// From the border to the rows of stitches.
+const STITCHES_MM: [f64; 2] = [6.0, 32.0];
 
 pub(super) fn surface(u: f64, v: f64) -> Place {
     let from_border = from_border(u, v, SIDE_MM);
     let (weave, thread_tone) = weave(u, v);
-    let quilted = ramp(MARGIN_MM, MARGIN_MM + 9.0, from_border);
+    let quilted = ramp(MARGIN_MM - 7.0, MARGIN_MM + 2.0, from_border);
     let (puff, quilt_thread) = quilting(u, v);
     let (fold, seam_thread) = seam(u, v, from_border);
-    let thread = (quilt_thread * ramp(MARGIN_MM, MARGIN_MM + 3.0, from_border)).max(seam_thread);
+    let thread = (quilt_thread * ramp(MARGIN_MM - 2.0, MARGIN_MM, from_border)).max(seam_thread);
 
     let shade = 0.97 + 0.025 * clouds(u, v, 6, 11) + thread_tone - 0.1 * quilted * (1.0 - puff) * (1.0 - puff);
     let sewn = [0.9, 0.56, 0.34];
@@ -64,7 +66,7 @@ fn quilting(u: f64, v: f64) -> (f64, f64) {
 fn seam(u: f64, v: f64, from_border: f64) -> (f64, f64) {
     let along_u = off_whole(v).abs() < off_whole(u).abs();
     let along = if along_u { u } else { v } * SIDE_MM;
-    let line = |at: f64| stitches(from_border - at, along, 5.0);
     let fold = 1.3 * (1.0 - ramp(9.5, 12.5, from_border)) - 2.4 * bead(from_border, 3.2);
-    (fold, line(6.0).max(line(MARGIN_MM - 6.0)))
+    let [inner, outer] = STITCHES_MM.map(|at| stitches(from_border - at, along, 5.0));
+    (fold, inner.max(outer))
 }
