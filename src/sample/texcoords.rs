@@ -119,7 +119,7 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
                 origin_uv: DVec2::new(0.25 * side.sign(), 0.0),
             },
         ),
-        Region::Helmet => (0, upright(CROWN_HEIGHT, 4.0, MOULDED, DVec2::new(0.0, 0.0))),
+        Region::Helmet => (0, upright(CROWN_HEIGHT, 3.0, 3.1, DVec2::new(0.5, 0.0))),
         Region::Crown => (
             0,
             Chart::Dome {
@@ -127,7 +127,7 @@ pub(super) fn chart(rig: &Rig, region: Region, points: [DVec3; 3]) -> NumberedCh
                 pole: DVec3::Y,
                 u: DVec3::X,
                 v: DVec3::NEG_Z,
-                repeats_per_radian: 0.165 * 2.6,
+                repeats_per_radian: 0.165 * 2.5,
             },
         ),
         Region::EarCup => (

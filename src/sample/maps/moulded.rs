@@ -13,6 +13,10 @@ const RIVETS_IN_MM: f64 = 13.0;
 const RIVET_RADIUS_MM: f64 = 3.4;
 /// Rivets along a side.
 const RIVETS: f64 = 4.0;
+/// Ribs in the middle of a panel: half their length without the round ends, and how they follow each other.
+const RIB_HALF_MM: f64 = 21.0;
+const RIB_SPACING_MM: f64 = 9.0;
+const RIBS_EACH_WAY: f64 = 2.0;
 const SCRATCHES: u32 = 22;
 
 pub(super) fn surface(u: f64, v: f64) -> Place {
@@ -22,13 +26,16 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
     let rivet = rivet(u, v);
     let head = bead(rivet, RIVET_RADIUS_MM).sqrt();
     let sunk = bead(rivet - RIVET_RADIUS_MM - 0.6, 1.3);
-    let scratch = scratches(u, v);
+    let rib = rib(u, v);
+    let scratch = scratches(u, v) * (1.0 - rib);
     // Grained as out of a blasted mould.
     let grain = noise(u, v, 96, 31);
 
     let shade = 0.97 + 0.03 * clouds(u, v, 5, 21) - 0.3 * groove - 0.2 * sunk + 0.12 * scratch;
     Place {
-        height: 0.02 * grain * (1.0 - groove) - 1.6 * groove + 0.7 * field + 1.5 * head - 0.5 * sunk - 0.12 * scratch,
+        height: 0.02 * grain * (1.0 - groove) - 1.6 * groove + 0.7 * field + 1.5 * head + 1.3 * rib
+            - 0.5 * sunk
+            - 0.12 * scratch,
         tone: [shade; 3],
         polish: (0.86 + 0.1 * clouds(u, v, 7, 41) - 0.6 * groove - 0.4 * sunk - 0.25 * scratch + 0.1 * head)
             .clamp(0.0, 1.0),
@@ -43,6 +50,13 @@ fn rivet(u: f64, v: f64) -> f64 {
         (across * across + along * along).sqrt()
     };
     beside(u, v).min(beside(v, u))
+}
+
+/// Ribs across the middle of a panel: 0…1. They come to lie on knuckles and insteps too.
+fn rib(u: f64, v: f64) -> f64 {
+    let (x, y) = (((u - 0.5).abs() * SIDE_MM - RIB_HALF_MM).max(0.0), (v - 0.5) * SIDE_MM);
+    let y = y - (y / RIB_SPACING_MM).round().clamp(-RIBS_EACH_WAY, RIBS_EACH_WAY) * RIB_SPACING_MM;
+    1.0 - ramp(1.6, 3.6, (x * x + y * y).sqrt())
 }
 
 /// Short straight marks of use: 0…1.

@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use bindpose::image;
+use bindpose::format::LineMap;
+use bindpose::model::Model;
 use bindpose::sample::SampleMap;
+use bindpose::{image, scene};
 
 use super::FIGURE;
 
@@ -72,6 +74,19 @@ fn the_materials_and_the_page_name_every_map() {
         assert!(
             page.contains(&format!("\"{name}\": \"sample/{name}\"")),
             "the page leaves out {name}"
+        );
+    }
+}
+
+#[test]
+fn without_its_maps_each_material_keeps_its_colour() {
+    let (model, _) = Model::from_document(&FIGURE, &LineMap::default()).expect("the figure is sound");
+    for (index, material) in model.materials.iter().enumerate() {
+        assert_eq!(
+            scene::display_color(index, material),
+            material.diffuse,
+            "{}",
+            material.name
         );
     }
 }
