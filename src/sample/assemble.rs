@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use glam::{DMat4, DVec2, DVec3};
 
+use super::charts;
 use super::materials::Material;
 use super::rig::Rig;
 use super::skin::Skin;
-use super::texcoords::{self, Chart};
+use super::texcoords::Chart;
 use super::weights::Influences;
 use crate::format::{AnimationClip, Dialect, Document, Subset, Vertex};
 
@@ -45,24 +46,25 @@ pub(super) fn document(skin: &Skin, influences: &[Influences], rig: &Rig, clips:
 
 /// Adds the triangles of one material, with vertices of their own, split where charts meet or wrap.
 fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influences: &[Influences], rig: &Rig) {
-    let mut added = BTreeMap::<(u32, u32, [u64; 2]), u32>::new();
+    let mut added = BTreeMap::<(u32, [u32; 2], [u32; 4]), u32>::new();
     for (corners, region) in skin.triangles.iter().zip(&skin.regions) {
         if region.material() != material {
             continue;
         }
         let points = corners.map(|corner| skin.positions[corner as usize]);
-        let centre = (points[0] + points[1] + points[2]) / 3.0;
-        let (number, chart) = texcoords::chart(rig, *region, points);
-        let near = chart.tex_coords(centre, None);
+        let chart = charts::chart(rig, *region, points);
+        let near = chart.tex_coords(points.into_iter().sum::<DVec3>() / 3.0, None);
         document.triangles.push(corners.map(|corner| {
-            let point = skin.positions[corner as usize];
+            let (point, normal) = (skin.positions[corner as usize], skin.normals[corner as usize]);
             let tex_coords = chart.tex_coords(point, Some(near));
-            let key = (corner, number, tex_coords.to_array().map(f64::to_bits));
+            let vertex = vertex(point, normal, chart, tex_coords, influences[corner as usize]);
+            let key = (
+                corner,
+                vertex.tex_coords.map(f32::to_bits),
+                vertex.tangent.map(f32::to_bits),
+            );
             *added.entry(key).or_insert_with(|| {
-                let normal = skin.normals[corner as usize];
-                document
-                    .vertices
-                    .push(vertex(point, normal, chart, tex_coords, influences[corner as usize]));
+                document.vertices.push(vertex);
                 document.vertices.len() as u32 - 1
             })
         }));

@@ -1,7 +1,7 @@
 //! The sample: a figure that the project makes itself, so that there is something to see before a file was dropped.
 //!
 //! ```text
-//! rig -> volumes -> body -> skin (surface nets, relaxed, snapped) -> weights, texcoords -> Document
+//! rig -> volumes -> body -> skin (surface nets, relaxed, snapped) -> weights, charts -> Document
 //!    \-> motion (poses, two-bone legs) -> clips                                        /
 //! maps (reliefs: cloth, moulded panels, grip, visor) -> texels
 //! ```
@@ -13,6 +13,7 @@
 
 mod assemble;
 mod body;
+mod charts;
 mod lattice;
 mod maps;
 mod materials;

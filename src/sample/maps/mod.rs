@@ -10,7 +10,7 @@ mod noise;
 mod shapes;
 mod visor;
 
-pub(super) use visor::{BADGE_MIDDLE, PANE_MIDDLE};
+pub(super) use visor::{BADGE_MIDDLE, BADGE_PER_METRE, PANE_MIDDLE, PANE_PER_METRE};
 
 /// Names of a material's diffuse and normal map.
 pub(super) type MapNames = [&'static str; 2];

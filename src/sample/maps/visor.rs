@@ -7,13 +7,16 @@ use super::noise::{chance, clouds};
 use super::shapes::{bead, from_stretch, ramp};
 
 /// Side of the square.
-pub(super) const SIDE_MM: f64 = 263.0;
-/// Where the middle of the pane and of the badge lie.
+pub(super) const SIDE_MM: f64 = 1000.0 / PANE_PER_METRE;
+/// Repeats per metre where the pane and the badge are drawn on the figure, and where in the square their middles lie.
+pub(in crate::sample) const PANE_PER_METRE: f64 = 3.8;
 pub(in crate::sample) const PANE_MIDDLE: DVec2 = DVec2::new(0.5, 0.33);
+pub(in crate::sample) const BADGE_PER_METRE: f64 = 3.0;
 pub(in crate::sample) const BADGE_MIDDLE: DVec2 = DVec2::new(0.5, 0.83);
-/// Half of the pane, and the badge's radius; the badge is 50 mm on the figure and drawn at 3 repeats a metre.
+/// Half of the pane.
 const PANE_HALF_MM: DVec2 = DVec2::new(126.0, 83.0);
-const BADGE_MM: f64 = 39.5;
+/// Radius of the badge, which is 50 mm on the figure.
+const BADGE_MM: f64 = 50.0 * BADGE_PER_METRE / PANE_PER_METRE;
 
 pub(super) fn surface(u: f64, v: f64) -> Place {
     let place = DVec2::new(u, v);
