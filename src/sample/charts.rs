@@ -14,8 +14,8 @@ use super::texcoords::Chart;
 const CLOTH: f64 = 2.8;
 /// Of sleeves, stripes and cuffs, so that one repeat goes round an arm.
 const ROUND_ARM: f64 = 3.0;
-/// Of legs, so that one repeat goes round.
-const ROUND_LEG: f64 = 2.6;
+/// Of legs, so that one repeat goes round, and from the knee to the hip.
+const ROUND_LEG: f64 = 2.27;
 /// Of moulded parts and of rubber.
 const MOULDED: f64 = 4.0;
 /// The middle of a texture.
@@ -75,7 +75,7 @@ fn trunk(region: Region) -> Chart {
 fn arm(rig: &Rig, region: Region, side: Side) -> Chart {
     let v = match region {
         Region::Stripe => 0.12,
-        Region::Cuff => -1.03,
+        Region::Cuff => -1.055,
         _ => 0.0,
     };
     Chart::Tube {

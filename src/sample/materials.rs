@@ -175,7 +175,7 @@ impl Material {
             Material::Suit => ("Suit", [0.69, 0.66, 0.61], [0.04; 3], 0.62, maps::SUIT),
             Material::Shell => ("Shell", [0.68, 0.69, 0.69], [0.05; 3], 0.28, maps::TRIM),
             Material::Trim => ("Trim", [0.82, 0.235, 0.045], [0.04; 3], 0.45, maps::TRIM),
-            Material::Rubber => ("Rubber", [0.05, 0.055, 0.066], [0.04; 3], 0.6, maps::RUBBER),
+            Material::Rubber => ("Rubber", [0.065, 0.07, 0.08], [0.04; 3], 0.6, maps::RUBBER),
             Material::Visor => ("Visor", [0.012, 0.02, 0.034], [0.09, 0.1, 0.12], 0.12, maps::VISOR),
         };
         format::Material {
