@@ -10,6 +10,19 @@ import { letTabLeave, mirrorTransport } from "./transport.js";
 const MAX_RESTARTS = 3;
 const RESTARTS_FORGOTTEN_MS = 60_000;
 
+/** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
+const SAMPLE = {
+  "figure.m3d": "sample/figure.m3d",
+  "suit_diff.png": "sample/suit_diff.png",
+  "suit_norm.png": "sample/suit_norm.png",
+  "trim_diff.png": "sample/trim_diff.png",
+  "trim_norm.png": "sample/trim_norm.png",
+  "rubber_diff.png": "sample/rubber_diff.png",
+  "rubber_norm.png": "sample/rubber_norm.png",
+  "visor_diff.png": "sample/visor_diff.png",
+  "visor_norm.png": "sample/visor_norm.png",
+};
+
 const element = (id) => document.getElementById(id);
 const view = element("view");
 /** What the address asks for, before the `#` or after it. */
@@ -179,8 +192,10 @@ async function fetchOpening() {
   const named = ["src", "tex"].flatMap((key) => options.getAll(key));
   try {
     if (named.length) return await Promise.all(named.map((address) => fetchFile(address, lastPart(address))));
-    // Its address may carry a hash, its name never does.
-    return [await fetchFile(new URL("sample/figure.m3d", import.meta.url), "figure.m3d")];
+    const [model, ...maps] = Object.entries(SAMPLE).map(([name, at]) => fetchFile(new URL(at, import.meta.url), name));
+    // A figure without one of its maps is still a figure.
+    const opened = await Promise.all([model, ...maps.map((map) => map.catch(() => null))]);
+    return opened.filter(Boolean);
   } catch (error) {
     refuse(wordsOf(error));
     return null;

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use glam::{DMat4, DVec2, DVec3};
 
+use super::charts;
 use super::materials::Material;
 use super::rig::Rig;
 use super::skin::Skin;
-use super::texcoords::{self, Chart};
+use super::texcoords::Chart;
 use super::weights::Influences;
 use crate::format::{AnimationClip, Dialect, Document, Subset, Vertex};
 
@@ -45,52 +46,36 @@ pub(super) fn document(skin: &Skin, influences: &[Influences], rig: &Rig, clips:
 
 /// Adds the triangles of one material, with vertices of their own, split where charts meet or wrap.
 fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influences: &[Influences], rig: &Rig) {
-    let mut added = BTreeMap::<(u32, u32, [u64; 2]), u32>::new();
+    let mut added = BTreeMap::<(u32, [u32; 2], [u32; 4]), u32>::new();
     for (corners, region) in skin.triangles.iter().zip(&skin.regions) {
         if region.material() != material {
             continue;
         }
         let points = corners.map(|corner| skin.positions[corner as usize]);
-        let centre = (points[0] + points[1] + points[2]) / 3.0;
-        let normals = corners.map(|corner| skin.normals[corner as usize]);
-        let moved_by = heaviest(corners.map(|corner| influences[corner as usize]));
-        let (number, chart) = texcoords::chart(rig, *region, moved_by, points, normals);
-        let near = chart.tex_coords(centre, None);
+        let chart = charts::chart(rig, *region, points);
+        let near = chart.tex_coords(points.into_iter().sum::<DVec3>() / 3.0, None);
         document.triangles.push(corners.map(|corner| {
-            let point = skin.positions[corner as usize];
+            let (point, normal) = (skin.positions[corner as usize], skin.normals[corner as usize]);
             let tex_coords = chart.tex_coords(point, Some(near));
-            let key = (corner, number, tex_coords.to_array().map(f64::to_bits));
+            let vertex = vertex(point, normal, chart, tex_coords, influences[corner as usize]);
+            let key = (
+                corner,
+                vertex.tex_coords.map(f32::to_bits),
+                vertex.tangent.map(f32::to_bits),
+            );
             *added.entry(key).or_insert_with(|| {
-                let normal = skin.normals[corner as usize];
-                document
-                    .vertices
-                    .push(vertex(point, normal, chart, tex_coords, influences[corner as usize]));
+                document.vertices.push(vertex);
                 document.vertices.len() as u32 - 1
             })
         }));
     }
 }
 
-/// The joint that moves a triangle most; the lower one of equals.
-fn heaviest(corners: [Influences; 3]) -> usize {
-    let mut sums = BTreeMap::<usize, u32>::new();
-    for (joint, weight) in corners.into_iter().flatten() {
-        *sums.entry(joint).or_default() += weight;
-    }
-    sums.into_iter()
-        .fold(
-            (0, 0),
-            |best, (joint, sum)| if sum > best.1 { (joint, sum) } else { best },
-        )
-        .0
-}
-
 fn vertex(point: DVec3, normal: DVec3, chart: Chart, tex_coords: DVec2, influences: Influences) -> Vertex {
-    let (tangent, sign) = chart.tangent(point, normal);
-    let [x, y, z] = rounded(tangent, 4);
+    let [x, y, z] = rounded(chart.tangent(point, normal), 4);
     Vertex {
         position: rounded(point, 5),
-        tangent: [x, y, z, sign as f32],
+        tangent: [x, y, z, 1.0],
         normal: rounded(normal, 4),
         tex_coords: tex_coords.to_array().map(|value| round(value, 4)),
         blend_weights: influences.map(|(_, weight)| round(f64::from(weight) / 10_000.0, 4)),

@@ -51,14 +51,12 @@ pub(super) fn helmet() -> [Shape; 2] {
     ]
 }
 
-/// Both, as one rod through the helmet.
+/// Both, as one bar through the helmet.
 pub(super) fn ear_cups() -> Shape {
-    let (from, to) = (v(-0.152, 1.624, 0.014), v(0.152, 1.624, 0.014));
-    Shape::RoundCone {
-        from,
-        to,
-        from_radius: 0.048,
-        to_radius: 0.048,
+    Shape::RoundBox {
+        centre: v(0.0, 1.624, 0.014),
+        half: v(0.184, 0.054, 0.054),
+        rounding: 0.036,
     }
 }
 

@@ -113,6 +113,8 @@ fn strongest(weights: &Weights, rig: &Rig, point: DVec3) -> Influences {
     }
     // What rounding lost or gained goes to the strongest.
     influences[0].1 = 10_000 - influences[1..].iter().map(|slot| slot.1).sum::<u32>();
+    // That can put it just behind its equal.
+    influences.sort_by_key(|slot| std::cmp::Reverse(slot.1));
     influences
 }
 

@@ -16,6 +16,20 @@ test("the page opens the sample, draws it and logs no error", { viewport: LARGE 
   assert.ok((await coloursOnScreen(page)) > 200, "the canvas itself is not blank");
 });
 
+test("the sample opens with all of its maps", {}, async (page) => {
+  assert.deepEqual((await state(page)).textures, { named: 8, missing: [] });
+});
+
+test("the sample opens although one of its maps does not arrive", {
+  expectErrors: true,
+  prepare: (page) => page.route("**/suit_norm*.png", (route) => route.abort()),
+}, async (page) => {
+  const { model, error, textures } = await state(page);
+  assert.equal(model.name, "figure.m3d");
+  assert.equal(error, null);
+  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.png"] });
+});
+
 test("the light scheme is followed", { colorScheme: "light", viewport: LARGE }, async (page) => {
   await settled(page);
   await keep(page, "sample-light");

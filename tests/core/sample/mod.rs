@@ -1,9 +1,11 @@
 //! Tests of `sample`: the figure, and helpers that pose it the obvious way.
 
 mod file;
+mod maps;
 mod motion;
 mod rig;
 mod skin;
+mod texcoords;
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;

@@ -71,7 +71,8 @@ fn normals_and_tangents_are_unit_and_across() {
             normal.dot(tangent).abs() < ROUNDING,
             "vertex {index}: {normal} and {tangent}"
         );
-        assert!(w.abs() == 1.0, "vertex {index}: {w}");
+        // Some renderers of these files, the books' own among them, leave it unread and take 1.
+        assert!(w == 1.0, "vertex {index}: {w}");
     }
 }
 
