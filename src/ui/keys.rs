@@ -6,8 +6,8 @@ use super::UiState;
 use crate::scene::{Overlay, ViewPreset};
 use crate::session::{Command, LookCommand, Session};
 
-/// Reads the keys of this frame. Nothing while words are typed.
-pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Reads the keys of this frame. Nothing while words are typed. `popover_open`: Esc has shut something that hung from a button.
+pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
     if ui.ctx().text_edit_focused() {
         return;
     }
@@ -26,8 +26,10 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &m
                     continue;
                 }
                 commands.extend(command_for(key, modifiers));
-                if key == Key::Escape {
-                    escape(session, state, commands);
+                match key {
+                    Key::Escape if !popover_open => escape(session, state, commands),
+                    Key::P if is_picture(modifiers) => state.save_picture(ui, modifiers.shift),
+                    _ => {}
                 }
             }
             // The question mark is on different keys of different keyboards.
@@ -48,6 +50,11 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     }
 }
 
+/// Whether P asks for a picture: the browser prints with Ctrl.
+fn is_picture(modifiers: Modifiers) -> bool {
+    !modifiers.command && !modifiers.alt
+}
+
 /// What a key asks for.
 pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
     let Modifiers {
@@ -60,6 +67,7 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         return None;
     }
     let opposite = |preset, other| Some(Command::LookFrom(if ctrl { other } else { preset }));
+    let overlay = |overlay| Some(LookCommand::ToggleOverlay(overlay).into());
     let frames = if shift { 10 } else { 1 };
     match key {
         Key::Space if shift => Some(Command::TogglePlayBackward),
@@ -74,7 +82,12 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         Key::L => Some(Command::CycleLoopMode),
         Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
         Key::F => Some(Command::FrameModel),
-        Key::G => Some(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid))),
+        Key::G => overlay(Overlay::Grid),
+        Key::Z => overlay(Overlay::Wireframe),
+        Key::N => overlay(Overlay::Normals),
+        Key::X => overlay(Overlay::Axes),
+        Key::T => Some(LookCommand::CycleViewMode(if shift { -1 } else { 1 }).into()),
+        Key::V => Some(LookCommand::ToggleLight.into()),
         Key::Num1 => opposite(ViewPreset::Front, ViewPreset::Back),
         Key::Num3 => opposite(ViewPreset::Right, ViewPreset::Left),
         Key::Num7 => opposite(ViewPreset::Top, ViewPreset::Bottom),
@@ -87,7 +100,7 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
 
 /// Whether a key is the viewer's, so that the browser must not act on it too.
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
-    key == Key::Escape || command_for(key, modifiers).is_some()
+    key == Key::Escape || (key == Key::P && is_picture(modifiers)) || command_for(key, modifiers).is_some()
 }
 
 #[cfg(test)]
@@ -96,9 +109,25 @@ mod tests {
 
     #[test]
     fn keys_of_the_browser_are_left_alone() {
-        for key in [Key::L, Key::F, Key::C, Key::W, Key::T, Key::Num5, Key::ArrowLeft] {
-            assert_eq!(command_for(key, Modifiers::COMMAND), None, "{key:?}");
-            assert_eq!(command_for(key, Modifiers::ALT), None, "{key:?}");
+        let keys = [
+            Key::L,
+            Key::F,
+            Key::C,
+            Key::W,
+            Key::T,
+            Key::N,
+            Key::P,
+            Key::V,
+            Key::X,
+            Key::Z,
+            Key::Num5,
+            Key::ArrowLeft,
+        ];
+        for key in keys {
+            for modifiers in [Modifiers::COMMAND, Modifiers::ALT] {
+                assert_eq!(command_for(key, modifiers), None, "{key:?}");
+                assert!(!owns_key(key, modifiers), "{key:?}");
+            }
         }
     }
 

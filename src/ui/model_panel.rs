@@ -4,8 +4,8 @@ use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
-use super::timeline::shortened;
-use super::widgets::{choice_row, grouped, is_touch, measured, menu_item, rule, section_name, value_row};
+use super::widgets::{choice_row, is_touch, menu_item, paint_chip, rule, section_name, value_row};
+use super::wording::{counted, grouped, measured, shortened};
 use super::{UiState, textures, title_bar};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, UpAxis};
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     subsets(ui, session, open);
     if session.maps().checklist().named > 0 {
         rule(ui, PANEL_MARGIN);
-        textures::show(ui, session, open);
+        textures::show(ui, session, open, &mut state.thumbnails);
     }
     other_models(ui, session, commands);
     rule(ui, PANEL_MARGIN);
@@ -187,18 +187,8 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
         tokens.text,
     );
     let (count, color) = summary(session, &tokens);
-    let galley = ui
-        .painter()
-        .layout_no_wrap(count.clone(), FontId::proportional(11.5), color);
-    let chip = egui::Rect::from_min_size(
-        egui::pos2(
-            rect.max.x - galley.size().x - 14.0,
-            rect.center().y - galley.size().y * 0.5 - 2.5,
-        ),
-        galley.size() + vec2(14.0, 5.0),
-    );
-    ui.painter().rect_filled(chip, chip.height() * 0.5, tokens.field);
-    ui.painter().galley(chip.min + vec2(7.0, 2.5), galley, color);
+    let right = rect.right_center();
+    paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Diagnostics: {count}")));
     if response.on_hover_text("What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;
@@ -208,13 +198,12 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
 /// `2 warnings`, `1 note`, `none`, with the colour that says how bad it is.
 fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
     let count = |severity| session.notices().filter(|notice| notice.severity == severity).count();
-    let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     match (count(Severity::Warning), count(Severity::Note)) {
         (0, 0) => ("none".to_owned(), tokens.muted),
-        (0, notes) => (plural(notes, "note"), tokens.muted),
-        (warnings, 0) => (plural(warnings, "warning"), tokens.warning),
+        (0, notes) => (counted(notes, "note"), tokens.muted),
+        (warnings, 0) => (counted(warnings, "warning"), tokens.warning),
         (warnings, notes) => (
-            format!("{}, {}", plural(warnings, "warning"), plural(notes, "note")),
+            format!("{}, {}", counted(warnings, "warning"), counted(notes, "note")),
             tokens.warning,
         ),
     }

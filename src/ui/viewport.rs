@@ -2,13 +2,15 @@
 
 use std::f32::consts::PI;
 
-use egui::{PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo};
+use egui::{Modifiers, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::Vec2;
 
-use crate::session::Command;
+use crate::session::{Command, LookCommand};
 
 /// Radians of orbit for a drag over the height of the view.
 const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
+/// Radians that the surroundings turn for a drag over the height of the view.
+const ENVIRONMENT_TURN_PER_HEIGHT: f32 = PI;
 /// Distance factor of one point of wheel movement.
 const ZOOM_PER_POINT: f32 = 0.0025;
 
@@ -35,8 +37,13 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, commands: &mut Vec<Command>) -> Resp
         }
         return response;
     }
-    let shift = ui.input(|input| input.modifiers.shift);
-    if response.dragged_by(PointerButton::Secondary)
+    let Modifiers { shift, alt, .. } = ui.input(|input| input.modifiers);
+    if alt && response.dragged_by(PointerButton::Primary) {
+        let turn = shares(response.drag_delta()).x * ENVIRONMENT_TURN_PER_HEIGHT;
+        if turn != 0.0 {
+            commands.push(LookCommand::TurnEnvironment(turn).into());
+        }
+    } else if response.dragged_by(PointerButton::Secondary)
         || response.dragged_by(PointerButton::Middle)
         || (response.dragged_by(PointerButton::Primary) && shift)
     {
