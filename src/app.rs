@@ -39,7 +39,7 @@ impl App {
     pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Request> {
         let mut session = self.session.borrow_mut();
         let dt_secs = ui.input(|input| input.unstable_dt).min(MAX_STEP_SECS);
-        session.advance(if self.stage.was_animating { dt_secs } else { 0.0 });
+        session.advance(if self.stage.was_moving { dt_secs } else { 0.0 });
 
         let window = ui.max_rect();
         ui.painter()
@@ -63,8 +63,8 @@ impl App {
         self.stage
             .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
 
-        self.stage.was_animating = session.is_animating();
-        if self.stage.was_animating || session.picture_revision() != self.stage.drawn.map_or(0, |drawn| drawn.picture) {
+        self.stage.was_moving = session.is_moving();
+        if self.stage.was_moving || session.picture_revision() != self.stage.drawn.map_or(0, |drawn| drawn.picture) {
             ui.ctx().request_repaint();
         }
         requests
@@ -104,7 +104,7 @@ struct Stage {
     maps: Option<u64>,
     drawn: Option<Drawn>,
     frames_rendered: u64,
-    was_animating: bool,
+    was_moving: bool,
     upload_error: Option<String>,
 }
 
@@ -120,7 +120,7 @@ impl Stage {
             maps: None,
             drawn: None,
             frames_rendered: 0,
-            was_animating: false,
+            was_moving: false,
             upload_error: None,
         }
     }

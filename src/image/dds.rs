@@ -63,6 +63,16 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
     })
 }
 
+/// Texels a side of a cube map, by the header alone; the rest of the file may be damaged.
+pub(super) fn cube_side(bytes: &[u8]) -> Option<u32> {
+    let header = Header::read(bytes).ok()?;
+    let is_cube = match &header.dx10 {
+        Some(dx10) => dx10.misc_flags & MISC_CUBE != 0,
+        None => header.caps2 & CAPS2_CUBE != 0,
+    };
+    is_cube.then_some(header.width)
+}
+
 /// Levels of each face. Writers that make no mips leave it at 0.
 fn level_count(header: &Header) -> Result<u32, ImageErrorKind> {
     let (width, height) = (header.width, header.height);

@@ -60,3 +60,9 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
         kind,
     })
 }
+
+/// Texels a side of each face when a file begins like a cube map, whose texels may still be damaged; `None` for anything
+/// else. Reads the header alone.
+pub fn cube_side(bytes: &[u8]) -> Option<u32> {
+    dds::cube_side(bytes)
+}

@@ -145,7 +145,7 @@ impl Camera {
         self.move_target((self.up() * drag.y - self.right() * drag.x) * self.height_in_view());
     }
 
-    fn move_target(&mut self, way: Vec3) {
+    pub(super) fn move_target(&mut self, way: Vec3) {
         if (self.target + way).is_finite() {
             self.target += way;
         }

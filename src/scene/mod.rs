@@ -1,10 +1,13 @@
 //! What is looked at, and from where: plain data for a renderer.
 
 mod camera;
+mod flight;
 mod frame;
 mod framing;
 mod ground;
 mod look;
+mod pick;
+mod ray;
 mod tint;
 mod view_preset;
 
@@ -14,5 +17,7 @@ pub use frame::{FrameOptions, RenderFrame, Theme};
 pub use framing::Insets;
 pub use ground::Ground;
 pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
+pub use pick::{Hit, pick, tex_coord_at};
+pub use ray::Ray;
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear};
 pub use view_preset::ViewPreset;

@@ -8,11 +8,20 @@ use crate::scene::{Camera, Passes, Projection, Theme};
 impl Session {
     /// Does what was asked. What makes no sense now is left undone.
     pub fn apply(&mut self, command: Command) -> Effect {
-        let mut effect = Effect::default();
         let before = self.shown();
+        let effect = self.perform(command);
+        if self.shown() != before {
+            self.picture_revision += 1;
+        }
+        effect
+    }
+
+    pub(super) fn perform(&mut self, command: Command) -> Effect {
+        let mut effect = Effect::default();
         match command {
             Command::AddFiles(files) => effect.model_replaced = self.add_files(files),
             Command::OpenFile(path) => effect.model_replaced = self.open_file(&path),
+            Command::ClearSky => self.clear_sky(),
             Command::DismissError => self.error = None,
 
             Command::Play => self.set_playing(true),
@@ -51,14 +60,25 @@ impl Session {
             Command::Orbit {
                 yaw_radians,
                 pitch_radians,
-            } => self.camera.orbit(yaw_radians, pitch_radians),
+            } => {
+                self.motion.interrupt();
+                self.camera.orbit(yaw_radians, pitch_radians);
+            }
             Command::Pan { drag } => {
+                self.motion.interrupt();
                 self.camera.pan(drag);
                 self.framed = false;
             }
-            Command::Zoom { factor, pointer } => self.zoom(factor, pointer),
-            Command::FrameModel => self.frame_model(),
+            Command::Zoom { factor, pointer } => {
+                self.motion.interrupt();
+                self.zoom(factor, pointer);
+            }
+            Command::FrameModel => {
+                self.motion.interrupt();
+                self.frame_model();
+            }
             Command::LookFrom(preset) => {
+                self.motion.interrupt();
                 self.camera.look_from(preset);
                 self.frame_model();
             }
@@ -69,29 +89,49 @@ impl Session {
                 };
             }
             Command::ResetCamera => {
+                self.motion.interrupt();
                 self.camera = Camera::default();
                 self.frame_model();
             }
+            Command::Glide(command) => effect = self.glide(*command),
+            Command::BeginDrag => self.motion.hold(true),
+            Command::EndDrag => self.motion.hold(false),
+            Command::Fling {
+                yaw_radians_per_sec,
+                pitch_radians_per_sec,
+            } if !self.reduced_motion => self.motion.fling(yaw_radians_per_sec, pitch_radians_per_sec),
+            Command::Fling { .. } => {}
+            Command::SetTurntable(turns) => self.motion.set_turntable(turns),
+            Command::ToggleTurntable => self.motion.set_turntable(!self.turntable()),
+            Command::Fly { direction, fast } => self.motion.fly(direction, fast),
+            Command::FlyLook {
+                yaw_radians,
+                pitch_radians,
+            } => {
+                self.motion.interrupt();
+                self.camera.look_around(yaw_radians, pitch_radians);
+                self.framed = false;
+            }
             Command::SetViewport { aspect, insets } => {
                 if (self.aspect, self.insets) != (aspect, insets) {
-                    self.set_viewport(aspect, insets);
+                    self.change_goal(|session| session.set_viewport(aspect, insets));
                 }
             }
 
             Command::SetHandedness(handedness) => {
                 self.handedness_override = handedness;
-                self.frame_model();
+                self.change_goal(Self::frame_model);
             }
             Command::SetUpAxis(up_axis) => {
                 self.up_axis_override = up_axis;
-                self.frame_model();
+                self.change_goal(Self::frame_model);
             }
+            Command::Subset(command) => self.apply_to_subsets(command),
+            Command::EditMaterial { index, material } => self.materials.edit(index, &material),
+            Command::ResetMaterial(material) => self.reset_material(material),
             Command::Look(command) => self.look.apply(command),
             Command::SetPass(pass, choice) => self.quality.choose(pass, choice),
             Command::SetTheme(theme) => self.theme = theme,
-        }
-        if self.shown() != before {
-            self.picture_revision += 1;
         }
         effect
     }
@@ -100,6 +140,9 @@ impl Session {
         Shown {
             model: self.model_revision,
             maps: self.maps_revision,
+            sky: self.sky.revision(),
+            materials: self.materials.revision(),
+            subsets: self.subsets.drawn_revision(),
             clip: self.clip,
             time_secs: self.playback.time_secs(),
             camera: self.camera,
@@ -117,6 +160,9 @@ impl Session {
 struct Shown {
     model: u64,
     maps: u64,
+    sky: u64,
+    materials: u64,
+    subsets: u64,
     clip: Option<usize>,
     time_secs: f32,
     camera: Camera,

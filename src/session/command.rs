@@ -1,21 +1,24 @@
 //! All that a person or a program can ask for, and what came of it.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use super::files::File;
 use super::look::LookCommand;
 use super::quality::PassChoice;
+use super::subsets::SubsetCommand;
 use crate::anim::LoopMode;
-use crate::model::{Handedness, UpAxis};
+use crate::model::{Handedness, Material, UpAxis};
 use crate::scene::{Insets, Pass, Theme, ViewPreset};
 
 /// A wish. [`super::Session::apply`] is the one place where things change.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Opens the largest model of a drop; the others are listed, pictures are kept beside it.
+    /// Opens the largest model of a drop; the others are listed, pictures are kept beside it, a cube map becomes the sky.
     AddFiles(Vec<File>),
     /// Opens another model of the last drop, by its path.
     OpenFile(String),
+    /// Takes the sky away that was dropped.
+    ClearSky,
     /// Takes the error card away.
     DismissError,
 
@@ -84,6 +87,38 @@ pub enum Command {
     ToggleProjection,
     /// The default view.
     ResetCamera,
+    /// Does what another command asks, but lets the camera go there within a quarter of a second where it would jump.
+    /// Under reduced motion it jumps.
+    Glide(Box<Command>),
+    /// The pointer holds the camera: what it did by itself ends, and the turntable waits until [`Command::EndDrag`].
+    BeginDrag,
+    /// The pointer let go.
+    EndDrag,
+    /// Turns on after a drag, slower and slower. Nothing under reduced motion.
+    Fling {
+        /// Rate of [`Command::Orbit`]'s yaw when the pointer let go, radians a second.
+        yaw_radians_per_sec: f32,
+        /// Rate of its pitch.
+        pitch_radians_per_sec: f32,
+    },
+    /// Turns the camera about the model, once in twelve seconds, or leaves it.
+    SetTurntable(bool),
+    /// Turns the camera about the model, or leaves it, in turn.
+    ToggleTurntable,
+    /// Flies on, at one radius of the scene a second, until another command of this kind: the keys that are held now.
+    Fly {
+        /// To the right, up in the world, forward: −1…1 each. Zero ends it.
+        direction: Vec3,
+        /// Four times as fast.
+        fast: bool,
+    },
+    /// Turns the head: the eye stays where it is.
+    FlyLook {
+        /// Positive looks to the right.
+        yaw_radians: f32,
+        /// Positive looks up.
+        pitch_radians: f32,
+    },
     /// The picture's shape, and what of it is covered by panels.
     SetViewport {
         /// Width / height.
@@ -96,6 +131,18 @@ pub enum Command {
     SetHandedness(Option<Handedness>),
     /// Takes the file's up axis as given; `None` is what was found.
     SetUpAxis(Option<UpAxis>),
+    /// Which subsets are drawn, selected, hovered.
+    Subset(SubsetCommand),
+    /// Draws a material with the values of another. Its names, the names of its maps and its book stay; numbers are brought
+    /// into their range.
+    EditMaterial {
+        /// Which of the model's.
+        index: usize,
+        /// The values.
+        material: Material,
+    },
+    /// Draws a material as the file has it.
+    ResetMaterial(usize),
     /// Light, view mode, background, lines.
     Look(LookCommand),
     /// Whether a costly pass is drawn.
@@ -107,6 +154,12 @@ pub enum Command {
 impl From<LookCommand> for Command {
     fn from(command: LookCommand) -> Self {
         Self::Look(command)
+    }
+}
+
+impl From<SubsetCommand> for Command {
+    fn from(command: SubsetCommand) -> Self {
+        Self::Subset(command)
     }
 }
 

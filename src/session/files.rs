@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::image;
+
 /// One file: where it lay relative to what was dropped, and its bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
@@ -38,6 +40,11 @@ impl File {
     /// Whether it is a picture by its name.
     pub fn is_image(&self) -> bool {
         IMAGE_EXTENSIONS.contains(&self.extension().as_str())
+    }
+
+    /// Whether it is a cube map, by its name and its first bytes.
+    pub fn is_cube(&self) -> bool {
+        self.is_image() && image::cube_side(&self.bytes).is_some()
     }
 }
 
@@ -80,9 +87,14 @@ impl FileSet {
         models
     }
 
-    /// Files that are pictures by their name.
+    /// Flat pictures: those that a model can name.
     pub fn images(&self) -> impl Iterator<Item = &File> {
-        self.files.iter().filter(|file| file.is_image())
+        self.files.iter().filter(|file| file.is_image() && !file.is_cube())
+    }
+
+    /// Cube maps: one of them is the sky.
+    pub fn cubes(&self) -> impl Iterator<Item = &File> {
+        self.files.iter().filter(|file| file.is_cube())
     }
 
     /// The file with this path.

@@ -1,7 +1,6 @@
 //! The camera, where it needs to know the model and the window.
 
 use super::Session;
-use crate::model::world_from_model;
 use crate::scene::Insets;
 
 impl Session {
@@ -14,7 +13,7 @@ impl Session {
     }
 
     pub(super) fn frame_model(&mut self) {
-        let world_from_model = world_from_model(self.handedness(), self.up_axis());
+        let world_from_model = self.world_from_model();
         if let Some(open) = &mut self.open {
             let (_, points) = open.extent(self.clip);
             let world_points: Vec<_> = points

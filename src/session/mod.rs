@@ -7,9 +7,14 @@ mod load;
 mod look;
 mod looking;
 mod maps;
+mod materials;
+mod motion;
 mod opening;
+mod picking;
 mod playing;
 mod quality;
+mod sky;
+mod subsets;
 mod textures;
 
 pub use command::{Command, Effect, Event};
@@ -17,11 +22,20 @@ pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
+pub use materials::MAX_SPEC_POWER;
 pub use quality::{PassChoice, PassState, Quality};
+pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
+use glam::Affine3A;
+
+use materials::Materials;
+use motion::Motion;
+use picking::Picker;
+use sky::Sky;
+
 use crate::anim::{LoopMode, Playback, PoseBuffers};
-use crate::model::{Clip, Handedness, UpAxis, world_from_model};
+use crate::model::{self, Clip, Handedness, UpAxis};
 use crate::scene::{Aabb, Camera, Insets, Overlay, RenderFrame, Theme};
 
 /// Speeds of the slower and faster keys.
@@ -33,6 +47,9 @@ pub struct Session {
     open: Option<OpenModel>,
     files: FileSet,
     maps: Maps,
+    sky: Sky,
+    materials: Materials,
+    subsets: Subsets,
     error: Option<LoadError>,
 
     clip: Option<usize>,
@@ -42,7 +59,10 @@ pub struct Session {
     pose: PoseBuffers,
     posed_at: Option<(Option<usize>, f32)>,
 
+    picker: Picker,
+
     camera: Camera,
+    motion: Motion,
     framed: bool,
     aspect: f32,
     insets: Insets,
@@ -78,10 +98,10 @@ impl Session {
         &self.files
     }
 
-    /// What was mended or is worth knowing about the model on screen and its maps.
+    /// What was mended or is worth knowing about the model on screen, its maps and the sky.
     pub fn notices(&self) -> impl Iterator<Item = &crate::diagnostic::Diagnostic> {
         let of_file = self.open.iter().flat_map(|open| &open.notices);
-        of_file.chain(self.maps.notices())
+        of_file.chain(self.maps.notices()).chain(self.sky.notices())
     }
 
     /// Maps of the model on screen.
@@ -114,7 +134,7 @@ impl Session {
         self.scrubbing
     }
 
-    /// Whether time moves by itself.
+    /// Whether time moves by itself. The camera may move too: [`Session::is_moving`].
     pub fn is_animating(&self) -> bool {
         // A clip of no length would loop on the spot for ever; playing it once still has to end.
         let has_length = self.playback.duration_secs() > 0.0 || self.playback.loop_mode() == LoopMode::Once;
@@ -187,8 +207,13 @@ impl Session {
         std::mem::take(&mut self.events)
     }
 
-    /// Moves time by `dt_secs` while it plays.
+    /// Moves time by `dt_secs` while it plays, and the camera while it moves.
     pub fn advance(&mut self, dt_secs: f32) {
+        let seen_from = self.camera;
+        self.advance_camera(dt_secs);
+        if self.camera != seen_from {
+            self.picture_revision += 1;
+        }
         if !self.is_animating() {
             return;
         }
@@ -206,34 +231,43 @@ impl Session {
 
     /// All that a renderer needs for the picture of now. The box is empty and the palette too when nothing is open.
     pub fn frame(&mut self) -> RenderFrame<'_> {
-        let world_from_model = world_from_model(self.handedness(), self.up_axis());
+        let world_from_model = self.world_from_model();
         let world_bounds = self.world_bounds();
-        if let Some(open) = &self.open {
-            let wanted = (self.clip, self.playback.time_secs());
-            if self.posed_at != Some(wanted) {
-                let skeleton = &open.model.skeleton;
-                match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                    Some(clip) => self.pose.evaluate(skeleton, clip, wanted.1),
-                    None => self.pose.set_bind_pose(skeleton),
-                }
-                self.posed_at = Some(wanted);
-            }
-        }
+        self.pose_now();
         let options = self.frame_options();
         RenderFrame {
             camera: self.camera,
             world_from_model,
             world_bounds,
             palette: &self.pose.palette,
-            hidden_submeshes: &[],
-            highlighted_submesh: None,
+            hidden_submeshes: self.subsets.left_out(),
+            highlighted_submesh: self.subsets.highlighted(),
             options,
         }
     }
 
+    /// Brings the pose to the clip and the time.
+    fn pose_now(&mut self) {
+        let Some(open) = &self.open else { return };
+        let wanted = (self.clip, self.playback.time_secs());
+        if self.posed_at != Some(wanted) {
+            let skeleton = &open.model.skeleton;
+            match self.clip.and_then(|clip| open.model.clips.get(clip)) {
+                Some(clip) => self.pose.evaluate(skeleton, clip, wanted.1),
+                None => self.pose.set_bind_pose(skeleton),
+            }
+            self.posed_at = Some(wanted);
+        }
+    }
+
+    /// The file's space -> the world.
+    fn world_from_model(&self) -> Affine3A {
+        model::world_from_model(self.handedness(), self.up_axis())
+    }
+
     /// Box of all that the clip reaches, world space.
     pub fn world_bounds(&mut self) -> Aabb {
-        let world_from_model = world_from_model(self.handedness(), self.up_axis());
+        let world_from_model = self.world_from_model();
         let clip = self.clip;
         let bounds = self.open.as_mut().map(|open| open.extent(clip).0);
         bounds.unwrap_or_default().transformed(world_from_model)

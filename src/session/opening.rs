@@ -8,24 +8,36 @@ impl Session {
     pub(super) fn add_files(&mut self, files: Vec<File>) -> bool {
         let files = FileSet::new(files);
         let Some(path) = files.models().first().map(|file| file.path.clone()) else {
-            match &self.open {
-                Some(open) if files.images().next().is_some() => {
-                    if self.maps.add(&open.model.materials, files.images().cloned()) {
-                        self.maps_revision += 1;
-                    }
-                    self.error = None;
-                }
-                _ => self.fail(LoadError::no_model(files.files().len())),
-            }
+            self.add_pictures(&files);
             return false;
         };
         // The old set stays while the new model is not there: its other models can still be opened.
         let previous = std::mem::replace(&mut self.files, files);
         let opened = self.open_file(&path);
-        if !opened {
+        if opened {
+            self.take_up_sky(self.files.cubes().cloned().collect());
+        } else {
             self.files = previous;
         }
         opened
+    }
+
+    /// A drop without a model: maps join the open one, and a cube map needs none.
+    fn add_pictures(&mut self, files: &FileSet) {
+        let has_maps = files.images().next().is_some();
+        let has_cubes = files.cubes().next().is_some();
+        match &self.open {
+            Some(open) if has_maps => {
+                if self.maps.add(&open.model.materials, files.images().cloned()) {
+                    self.maps_revision += 1;
+                }
+                self.error = None;
+            }
+            None if has_maps => self.fail(LoadError::no_model(files.files().len())),
+            _ if has_cubes => self.error = None,
+            _ => self.fail(LoadError::no_model(files.files().len())),
+        }
+        self.take_up_sky(files.cubes().cloned().collect());
     }
 
     pub(super) fn open_file(&mut self, path: &str) -> bool {
@@ -72,6 +84,13 @@ impl Session {
         };
         self.maps = Maps::new(&open.model.materials, kept);
         self.maps.add(&open.model.materials, self.files.images().cloned());
+        self.subsets.take_up(open.model.mesh.submeshes.len(), again);
+        match &self.open {
+            Some(before) if again => self
+                .materials
+                .take_up_again(&open.model.materials, &before.model.materials),
+            _ => self.materials.take_up(&open.model.materials),
+        }
         self.open = Some(open);
         if again {
             let time_secs = self.playback.time_secs();
@@ -90,6 +109,7 @@ impl Session {
                 self.playback = Playback::default();
             }
         } else {
+            self.motion.take_up_model();
             self.handedness_override = None;
             self.up_axis_override = None;
             self.clip = None;

@@ -1,0 +1,98 @@
+//! From a point of the picture into the scene.
+
+use glam::{Affine3A, Mat3A, Vec2, Vec3, Vec3A};
+
+use super::{Aabb, Camera, Projection};
+
+/// A half line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it begins.
+    pub origin: Vec3,
+    /// Where it goes: a unit vector.
+    pub direction: Vec3,
+}
+
+impl Ray {
+    /// The space of the ray: it begins at the origin and goes along z. Lengths stay.
+    pub fn ray_from_world(&self) -> Affine3A {
+        let (right, up) = self.direction.any_orthonormal_pair();
+        let axes = Mat3A::from_cols(right.into(), up.into(), self.direction.into()).transpose();
+        Affine3A {
+            matrix3: axes,
+            translation: axes * -Vec3A::from(self.origin),
+        }
+    }
+}
+
+impl Camera {
+    /// The ray that a point of the picture shows: x right, y up, −1…1, in a picture of `aspect` = width / height. It begins on
+    /// the near plane of [`Camera::depth_range`], since nothing before that is in the picture.
+    pub fn ray(&self, point: Vec2, aspect: f32, world_bounds: &Aabb) -> Ray {
+        let (near, _) = self.depth_range(world_bounds);
+        let half_height = self.height_in_view() * 0.5;
+        let in_plane = (self.right() * (point.x * aspect) + self.up() * point.y) * half_height;
+        let forward = self.forward();
+        match self.projection {
+            Projection::Perspective { .. } => {
+                let way = forward + in_plane / self.distance;
+                Ray {
+                    origin: self.eye() + way * near,
+                    direction: way.normalize_or_zero(),
+                }
+            }
+            Projection::Orthographic => Ray {
+                origin: self.eye() + in_plane + forward * near,
+                direction: forward,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_goes_through_all_points_that_are_drawn_at_its_place() {
+        let bounds = Aabb::from_points([Vec3::splat(-2.0), Vec3::new(3.0, 5.0, 1.0)]);
+        for projection in [Camera::default().projection, Projection::Orthographic] {
+            for (yaw_radians, pitch_radians) in [(0.0, 0.0), (-0.62, 0.2), (2.5, -1.2), (4.0, 1.5)] {
+                let camera = Camera {
+                    target: Vec3::new(0.3, 1.0, -0.2),
+                    distance: 7.0,
+                    yaw_radians,
+                    pitch_radians,
+                    projection,
+                };
+                let aspect = 1.7;
+                let clip_from_world = camera.clip_from_view(aspect, &bounds) * camera.view_from_world();
+                for point in [Vec2::ZERO, Vec2::new(0.8, -0.4), Vec2::new(-1.0, 1.0)] {
+                    let ray = camera.ray(point, aspect, &bounds);
+                    assert!((ray.direction.length() - 1.0).abs() < 1e-6);
+                    for length in [0.0, 1.0, 8.0] {
+                        let drawn = clip_from_world.project_point3(ray.origin + ray.direction * length);
+                        assert!((drawn.truncate() - point).length() < 1e-4, "{drawn} instead of {point}");
+                        if length == 0.0 {
+                            assert!(drawn.z.abs() < 1e-4, "it begins on the near plane: {drawn}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn in_its_own_space_a_ray_is_the_z_axis() {
+        let ray = Ray {
+            origin: Vec3::new(3.0, -1.0, 4.0),
+            direction: Vec3::new(2.0, -1.0, 0.5).normalize(),
+        };
+        let ray_from_world = ray.ray_from_world();
+        for length in [0.0, 2.0] {
+            let point = ray_from_world.transform_point3(ray.origin + ray.direction * length);
+            assert!((point - Vec3::Z * length).length() < 1e-5, "{point}");
+        }
+        assert!((ray_from_world.matrix3.determinant().abs() - 1.0).abs() < 1e-5);
+    }
+}

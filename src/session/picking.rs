@@ -1,0 +1,159 @@
+//! What of the model is at a point of the picture: the first triangle of the pose on show, without what is hidden or cut
+//! away.
+
+use std::collections::BTreeMap;
+
+use glam::{Vec2, Vec3};
+
+use super::{MapSlot, Maps, Session};
+use crate::anim;
+use crate::image::Image;
+use crate::scene::{Hit, pick, tex_coord_at};
+
+/// The share of alpha below which the books cut.
+const ALPHA_CLIP: f32 = 0.1;
+
+/// Buffers that are kept from pick to pick.
+#[derive(Debug, Default)]
+pub(super) struct Picker {
+    /// Model, clip and time of the positions.
+    posed: Option<(u64, Option<usize>, f32)>,
+    positions: Vec<Vec3>,
+    in_ray: Vec<Vec3>,
+    cutouts: Cutouts,
+}
+
+impl Session {
+    /// What is at a point of the picture: x right, y up, −1…1. Subsets that are left out are looked through, and what alpha
+    /// cuts away too. Skins the mesh once a pose; some milliseconds at most.
+    pub fn pick(&mut self, pointer: Vec2) -> Option<Hit> {
+        if !pointer.is_finite() {
+            return None;
+        }
+        let world_bounds = self.world_bounds();
+        let ray = self.camera.ray(pointer, self.aspect, &world_bounds);
+        let world_from_model = self.world_from_model();
+        self.pose_now();
+        let pose = (self.model_revision, self.clip, self.playback.time_secs());
+        let maps_revision = self.maps_revision;
+        let Self {
+            open,
+            picker,
+            subsets,
+            materials,
+            maps,
+            ..
+        } = self;
+        let mesh = &open.as_ref()?.model.mesh;
+        if picker.posed != Some(pose) {
+            anim::skin_positions(mesh, &self.pose.palette, &mut picker.positions);
+            picker.posed = Some(pose);
+        }
+        let drawn = |hit: &Hit| subsets.is_visible(hit.submesh);
+        let alpha_clips = |material: usize| materials.get(material).is_some_and(|material| material.alpha_clip);
+        // Maps are decoded for what can be met alone, before the search: the search borrows them all.
+        picker.cutouts.take_up(maps_revision);
+        for submesh in &mesh.submeshes {
+            let material = submesh.material as usize;
+            if alpha_clips(material) {
+                picker.cutouts.decode(material, maps);
+            }
+        }
+        let cutouts = &picker.cutouts;
+        let is_solid = |hit: &Hit| {
+            let material = mesh.submeshes[hit.submesh].material as usize;
+            drawn(hit) && !(alpha_clips(material) && cutouts.is_cut(material, || tex_coord_at(mesh, hit)))
+        };
+        pick(
+            mesh,
+            &picker.positions,
+            world_from_model,
+            ray,
+            &mut picker.in_ray,
+            is_solid,
+        )
+    }
+}
+
+/// Alpha of diffuse maps, by material.
+#[derive(Debug, Default)]
+struct Cutouts {
+    maps_revision: u64,
+    /// None where the map is not there or has no alpha.
+    of_materials: BTreeMap<usize, Option<Alpha>>,
+}
+
+impl Cutouts {
+    /// Forgets the alpha of other maps than these.
+    fn take_up(&mut self, maps_revision: u64) {
+        if self.maps_revision != maps_revision {
+            self.maps_revision = maps_revision;
+            self.of_materials.clear();
+        }
+    }
+
+    fn decode(&mut self, material: usize, maps: &Maps) {
+        let alpha = || Alpha::of(maps.image(material, MapSlot::Diffuse)?);
+        self.of_materials.entry(material).or_insert_with(alpha);
+    }
+
+    fn is_cut(&self, material: usize, tex_coord: impl FnOnce() -> Vec2) -> bool {
+        let alpha = self.of_materials.get(&material).and_then(Option::as_ref);
+        alpha.is_some_and(|alpha| alpha.nearest(tex_coord()) < ALPHA_CLIP)
+    }
+}
+
+/// Alpha of a picture's largest level, rows from the top.
+#[derive(Debug)]
+struct Alpha {
+    width: usize,
+    height: usize,
+    texels: Vec<u8>,
+}
+
+impl Alpha {
+    fn of(image: &Image) -> Option<Self> {
+        if !image.has_alpha() {
+            return None;
+        }
+        let rgba = image.to_rgba8(0, 0)?;
+        Some(Self {
+            width: image.width() as usize,
+            height: image.height() as usize,
+            texels: rgba.into_iter().skip(3).step_by(4).collect(),
+        })
+    }
+
+    /// The texel at texture coordinates, which repeat; 0…1.
+    fn nearest(&self, tex_coord: Vec2) -> f32 {
+        let index =
+            |coordinate: f32, side: usize| (((coordinate - coordinate.floor()) * side as f32) as usize).min(side - 1);
+        let (column, row) = (index(tex_coord.x, self.width), index(tex_coord.y, self.height));
+        f32::from(self.texels[row * self.width + column]) / 255.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alpha_is_that_of_the_texel_and_repeats() {
+        let rgba = [0, 64, 128, 255].map(|alpha| [9, 9, 9, alpha]).concat();
+        let image = Image::from_rgba8(2, 2, rgba, "by hand").expect("two by two");
+        let alpha = Alpha::of(&image).expect("it has alpha");
+        for (x, y, value) in [
+            (0.25, 0.25, 0),
+            (0.75, 0.25, 64),
+            (-0.75, 3.75, 128),
+            (0.999_999_99, 1.999_999_9, 255),
+            (f32::NAN, f32::INFINITY, 0),
+        ] {
+            assert_eq!(
+                alpha.nearest(Vec2::new(x, y)),
+                f32::from(value as u8) / 255.0,
+                "{x} {y}"
+            );
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The sky: a cube map that was dropped.
+
+use std::sync::Arc;
+
+use super::{File, Session};
+use crate::diagnostic::Diagnostic;
+use crate::image::{self, Image};
+use crate::scene::Background;
+
+/// The sky of a session. It belongs to no model, and stays when another opens.
+#[derive(Debug, Default)]
+pub(super) struct Sky {
+    taken: Option<Taken>,
+    notices: Vec<Diagnostic>,
+    revision: u64,
+}
+
+#[derive(Debug)]
+struct Taken {
+    file: File,
+    image: Arc<Image>,
+    /// What was behind the model before there was a sky.
+    background_before: Background,
+}
+
+impl Sky {
+    pub(super) fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Cube maps that could not be read.
+    pub(super) fn notices(&self) -> &[Diagnostic] {
+        &self.notices
+    }
+}
+
+impl Session {
+    /// The cube map that is the sky.
+    pub fn sky(&self) -> Option<&Arc<Image>> {
+        self.sky.taken.as_ref().map(|taken| &taken.image)
+    }
+
+    /// The file of the sky.
+    pub fn sky_file(&self) -> Option<&File> {
+        self.sky.taken.as_ref().map(|taken| &taken.file)
+    }
+
+    /// Counts changes of the sky: another number, another sky.
+    pub fn sky_revision(&self) -> u64 {
+        self.sky.revision
+    }
+
+    /// Makes the largest of these cube maps the sky, and shows it. One that cannot be read is noted, and the next largest
+    /// taken. Without any everything stays.
+    pub(super) fn take_up_sky(&mut self, mut cubes: Vec<File>) {
+        if cubes.is_empty() {
+            return;
+        }
+        cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
+        self.sky.notices.clear();
+        for file in cubes {
+            match image::decode(&file.bytes, file.base_name()) {
+                Ok(image) => {
+                    let before = self.sky.taken.take();
+                    self.sky.taken = Some(Taken {
+                        file,
+                        image: Arc::new(image),
+                        background_before: before.map_or(self.look.background, |taken| taken.background_before),
+                    });
+                    self.sky.revision += 1;
+                    self.look.background = Background::Sky;
+                    return;
+                }
+                Err(error) => self.sky.notices.push(error.diagnostic()),
+            }
+        }
+    }
+
+    pub(super) fn clear_sky(&mut self) {
+        self.sky.notices.clear();
+        if let Some(taken) = self.sky.taken.take() {
+            self.sky.revision += 1;
+            if self.look.background == Background::Sky {
+                self.look.background = taken.background_before;
+            }
+        }
+    }
+}

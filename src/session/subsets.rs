@@ -1,0 +1,182 @@
+//! Which subsets of the model are drawn, and which one the pointer or a choice is about.
+
+use glam::Vec2;
+
+use super::Session;
+use crate::scene::Hit;
+
+/// A wish about subsets, by their index. An index that the model has not is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SubsetCommand {
+    /// Shows or hides one. While one is shown alone, that ends, and what is on screen stays but for this one.
+    SetVisible {
+        /// Which.
+        subset: usize,
+        /// Whether it is drawn.
+        visible: bool,
+    },
+    /// Shows one alone; asked again for the same one, what was hidden before comes back.
+    Solo(usize),
+    /// Shows all.
+    ShowAll,
+    /// Selects one, or none.
+    Select(Option<usize>),
+    /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none.
+    SelectAt(Vec2),
+    /// Lets one stand out, or none.
+    Hover(Option<usize>),
+    /// Lets what is drawn at a point of the picture stand out: x right, y up, −1…1.
+    HoverAt(Option<Vec2>),
+}
+
+/// The subsets of the open model, as they are looked at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Subsets {
+    hidden: Vec<bool>,
+    solo: Option<usize>,
+    /// What comes of both.
+    left_out: Vec<bool>,
+    selected: Option<usize>,
+    selected_at: Option<Hit>,
+    hovered: Option<usize>,
+    drawn_revision: u64,
+}
+
+impl Subsets {
+    /// How many the model has.
+    pub fn count(&self) -> usize {
+        self.hidden.len()
+    }
+
+    /// Whether one is drawn.
+    pub fn is_visible(&self, subset: usize) -> bool {
+        self.left_out.get(subset) == Some(&false)
+    }
+
+    /// Whether one was hidden by itself, whatever is shown alone now.
+    pub fn is_hidden(&self, subset: usize) -> bool {
+        self.hidden.get(subset) == Some(&true)
+    }
+
+    /// For each whether it is left out of the picture.
+    pub fn left_out(&self) -> &[bool] {
+        &self.left_out
+    }
+
+    /// The one that is shown alone.
+    pub fn solo(&self) -> Option<usize> {
+        self.solo
+    }
+
+    /// The one that was selected.
+    pub fn selected(&self) -> Option<usize> {
+        self.selected
+    }
+
+    /// Where the selected one was met, when the pointer selected it. The place is that of the pose of then.
+    pub fn selected_at(&self) -> Option<&Hit> {
+        self.selected_at.as_ref()
+    }
+
+    /// The one that the pointer is over, in the picture or in a list.
+    pub fn hovered(&self) -> Option<usize> {
+        self.hovered
+    }
+
+    /// The one that stands out in the picture: hovered and drawn. A selected one does not by itself, since its colours are
+    /// what it was selected for.
+    pub fn highlighted(&self) -> Option<usize> {
+        self.hovered.filter(|&subset| self.is_visible(subset))
+    }
+
+    /// Counts changes of what is drawn.
+    pub(super) fn drawn_revision(&self) -> u64 {
+        self.drawn_revision
+    }
+
+    /// Takes up another model. With `keeps` set and as many subsets as before, all stays as it is.
+    pub(super) fn take_up(&mut self, count: usize, keeps: bool) {
+        if keeps && count == self.count() {
+            // The place belongs to the vertices of the old file.
+            self.selected_at = None;
+            return;
+        }
+        *self = Self {
+            hidden: vec![false; count],
+            left_out: vec![false; count],
+            drawn_revision: self.drawn_revision + 1,
+            ..Self::default()
+        };
+    }
+
+    pub(super) fn set_visible(&mut self, subset: usize, visible: bool) {
+        if subset < self.count() {
+            if self.solo.take().is_some() {
+                self.hidden.clone_from(&self.left_out);
+            }
+            self.hidden[subset] = !visible;
+            self.update();
+        }
+    }
+
+    pub(super) fn toggle_solo(&mut self, subset: usize) {
+        if subset < self.count() {
+            self.solo = if self.solo == Some(subset) { None } else { Some(subset) };
+            self.update();
+        }
+    }
+
+    pub(super) fn show_all(&mut self) {
+        self.hidden.fill(false);
+        self.solo = None;
+        self.update();
+    }
+
+    pub(super) fn select(&mut self, subset: Option<usize>, at: Option<Hit>) {
+        if subset.is_none_or(|subset| subset < self.count()) {
+            (self.selected, self.selected_at) = (subset, at);
+        }
+    }
+
+    pub(super) fn hover(&mut self, subset: Option<usize>) {
+        if subset.is_none_or(|subset| subset < self.count()) && subset != self.hovered {
+            let before = self.highlighted();
+            self.hovered = subset;
+            self.drawn_revision += u64::from(self.highlighted() != before);
+        }
+    }
+
+    fn update(&mut self) {
+        let left_out = |(subset, &hidden): (usize, &bool)| self.solo.map_or(hidden, |solo| solo != subset);
+        let left_out: Vec<bool> = self.hidden.iter().enumerate().map(left_out).collect();
+        if left_out != self.left_out {
+            self.left_out = left_out;
+            self.drawn_revision += 1;
+        }
+    }
+}
+
+impl Session {
+    /// Which subsets are drawn, selected, hovered.
+    pub fn subsets(&self) -> &Subsets {
+        &self.subsets
+    }
+
+    pub(super) fn apply_to_subsets(&mut self, command: SubsetCommand) {
+        match command {
+            SubsetCommand::SetVisible { subset, visible } => self.subsets.set_visible(subset, visible),
+            SubsetCommand::Solo(subset) => self.subsets.toggle_solo(subset),
+            SubsetCommand::ShowAll => self.subsets.show_all(),
+            SubsetCommand::Select(subset) => self.subsets.select(subset, None),
+            SubsetCommand::SelectAt(pointer) => {
+                let hit = self.pick(pointer);
+                self.subsets.select(hit.map(|hit| hit.submesh), hit);
+            }
+            SubsetCommand::Hover(subset) => self.subsets.hover(subset),
+            SubsetCommand::HoverAt(pointer) => {
+                let hit = pointer.and_then(|pointer| self.pick(pointer));
+                self.subsets.hover(hit.map(|hit| hit.submesh));
+            }
+        }
+    }
+}
