@@ -23,6 +23,7 @@ const KEYS: [&[(&str, &str)]; 3] = [
     &[
         ("Drag", "orbit"),
         ("Right drag", "pan"),
+        ("Right + WASD", "fly; Q E down, up"),
         ("Wheel", "zoom to the pointer"),
         ("One finger", "orbit"),
         ("Two fingers", "pan and zoom"),
@@ -37,6 +38,8 @@ const KEYS: [&[(&str, &str)]; 3] = [
         ("Shift T", "previous view mode"),
         ("V", "studio light, book light"),
         ("Alt drag", "turn the surroundings"),
+        ("Click", "select a subset"),
+        ("Alt click", "in the list: show alone"),
         ("G", "ground grid"),
         ("Z", "wireframe"),
         ("N X", "vertex normals, axes"),

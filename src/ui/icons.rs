@@ -22,8 +22,6 @@ pub(super) enum Icon {
     Loop,
     /// Turn round at the end.
     PingPong,
-    /// Ground grid.
-    Grid,
     /// Fit into view.
     Frame,
     /// Direction to look from.
@@ -46,8 +44,6 @@ pub(super) enum Icon {
     EyeOff,
     /// Nothing but this.
     Solo,
-    /// As it was.
-    Reset,
     /// What keys do.
     Help,
     /// Take away.
@@ -118,12 +114,6 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             line(&[(5.0, 5.0), (2.0, 8.0), (5.0, 11.0)]);
             line(&[(11.0, 5.0), (14.0, 8.0), (11.0, 11.0)]);
         }
-        Icon::Grid => {
-            for offset in [5.6, 10.4] {
-                line(&[(offset, 2.0), (offset, 14.0)]);
-                line(&[(2.0, offset), (14.0, offset)]);
-            }
-        }
         Icon::Frame => {
             line(&[(2.4, 5.4), (2.4, 2.4), (5.4, 2.4)]);
             line(&[(10.6, 2.4), (13.6, 2.4), (13.6, 5.4)]);
@@ -175,14 +165,9 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             line(&[(2.0, 11.0), (8.0, 14.2), (14.0, 11.0)]);
         }
         Icon::Turntable => {
-            // An ellipse seen from above, open where the arrow begins.
-            let turn = (2..=22).map(|i| {
-                let angle = i as f32 / 24.0 * std::f32::consts::TAU - std::f32::consts::FRAC_PI_2;
-                at(8.0 + 6.2 * angle.cos(), 9.6 + 3.2 * angle.sin())
-            });
-            painter.add(Shape::line(turn.collect(), stroke));
-            line(&[(3.0, 5.2), (6.4, 6.6), (4.4, 9.6)]);
-            line(&[(8.0, 2.0), (8.0, 9.6)]);
+            arc(8.0, 8.0, 5.6, -0.55, 2.75);
+            line(&[(13.9, 6.6), (12.0, 3.3), (8.6, 4.9)]);
+            painter.circle_filled(at(8.0, 8.0), 1.6, color);
         }
         Icon::Camera => {
             closed(&[
@@ -213,10 +198,6 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             for (x, y) in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
                 line(&[(8.0 + 4.6 * x, 8.0 + 4.6 * y), (8.0 + 6.6 * x, 8.0 + 6.6 * y)]);
             }
-        }
-        Icon::Reset => {
-            arc(8.0, 8.4, 5.0, -1.6, 1.9);
-            line(&[(3.0, 2.6), (3.6, 5.8), (6.8, 5.4)]);
         }
         Icon::Help => {
             arc(8.0, 5.9, 2.9, 2.0, 4.9);

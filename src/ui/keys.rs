@@ -3,8 +3,9 @@
 use egui::{Event, Key, Modifiers, Ui};
 
 use super::UiState;
+use super::flight::FLIGHT_KEYS;
 use crate::scene::{Overlay, ViewPreset};
-use crate::session::{Command, LookCommand, Session};
+use crate::session::{Command, LookCommand, Session, SubsetCommand};
 
 /// Reads the keys of this frame. Nothing while words are typed. `popover_open`: Esc has shut something that hung from a button.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
@@ -28,7 +29,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 commands.extend(command_for(key, modifiers));
                 match key {
                     Key::Escape if !popover_open => escape(session, state, commands),
-                    Key::P if is_picture(modifiers) => state.save_picture(ui, modifiers.shift),
+                    Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
                     _ => {}
                 }
             }
@@ -45,14 +46,11 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         commands.push(Command::DismissError);
     } else if state.help_open {
         state.help_open = false;
-    } else {
+    } else if state.diagnostics_open {
         state.diagnostics_open = false;
+    } else if session.subsets().selected().is_some() {
+        commands.push(SubsetCommand::Select(None).into());
     }
-}
-
-/// Whether P asks for a picture: the browser prints with Ctrl.
-fn is_picture(modifiers: Modifiers) -> bool {
-    !modifiers.command && !modifiers.alt
 }
 
 /// What a key asks for.
@@ -66,7 +64,8 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
     if alt || (ctrl && !matches!(key, Key::Num1 | Key::Num3 | Key::Num7)) {
         return None;
     }
-    let opposite = |preset, other| Some(Command::LookFrom(if ctrl { other } else { preset }));
+    let glide = |command| Some(Command::Glide(Box::new(command)));
+    let opposite = |preset, other| glide(Command::LookFrom(if ctrl { other } else { preset }));
     let overlay = |overlay| Some(LookCommand::ToggleOverlay(overlay).into());
     let frames = if shift { 10 } else { 1 };
     match key {
@@ -81,7 +80,7 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         Key::Backslash => Some(Command::SetSpeed(1.0)),
         Key::L => Some(Command::CycleLoopMode),
         Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
-        Key::F => Some(Command::FrameModel),
+        Key::F => glide(Command::FrameModel),
         Key::G => overlay(Overlay::Grid),
         Key::Z => overlay(Overlay::Wireframe),
         Key::N => overlay(Overlay::Normals),
@@ -92,15 +91,17 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         Key::Num3 => opposite(ViewPreset::Right, ViewPreset::Left),
         Key::Num7 => opposite(ViewPreset::Top, ViewPreset::Bottom),
         Key::Num5 => Some(Command::ToggleProjection),
-        Key::Num9 => Some(Command::LookFrom(ViewPreset::Isometric)),
-        Key::Num0 => Some(Command::ResetCamera),
+        Key::Num9 => glide(Command::LookFrom(ViewPreset::Isometric)),
+        Key::Num0 => glide(Command::ResetCamera),
         _ => None,
     }
 }
 
 /// Whether a key is the viewer's, so that the browser must not act on it too.
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
-    key == Key::Escape || (key == Key::P && is_picture(modifiers)) || command_for(key, modifiers).is_some()
+    let plain = !modifiers.command && !modifiers.alt;
+    let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);
+    key == Key::Escape || (plain && (flies || key == Key::P)) || command_for(key, modifiers).is_some()
 }
 
 #[cfg(test)]
@@ -147,11 +148,11 @@ mod tests {
     fn ctrl_looks_from_the_opposite_side() {
         assert_eq!(
             command_for(Key::Num1, Modifiers::NONE),
-            Some(Command::LookFrom(ViewPreset::Front))
+            Some(Command::Glide(Box::new(Command::LookFrom(ViewPreset::Front))))
         );
         assert_eq!(
             command_for(Key::Num1, Modifiers::COMMAND),
-            Some(Command::LookFrom(ViewPreset::Back))
+            Some(Command::Glide(Box::new(Command::LookFrom(ViewPreset::Back))))
         );
     }
 }

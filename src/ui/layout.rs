@@ -1,17 +1,20 @@
 //! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one.
 
-use egui::{Align2, Margin, Rect, Ui, Vec2, vec2};
+use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
 
 use super::panel::{Panel, scrolled};
 use super::state::{SheetPage, UiState};
 use super::theme::MARGIN;
 use super::{
-    diagnostics_panel, light, model_panel, overlays, picture, timeline, title_bar, toolbar, view_modes, widgets,
+    diagnostics_panel, inspector, light, model_panel, overlays, picture, timeline, title_bar, toolbar, view_modes,
+    widgets,
 };
 use crate::session::{Command, Session};
 
 /// Width of the panel on the left.
 pub(super) const SIDE_WIDTH: f32 = 246.0;
+/// Width of the inspector on the right.
+const INSPECTOR_WIDTH: f32 = 292.0;
 /// Margin around the controls of the bars at the top.
 const BAR_MARGIN: f32 = 4.0;
 
@@ -49,11 +52,22 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
             });
         });
     }
+    let inspects = session.subsets().selected().is_some();
     if state.diagnostics_open {
         let at = side_top + vec2(SIDE_WIDTH + MARGIN, 0.0);
+        let right = window.max.x - if inspects { MARGIN + INSPECTOR_WIDTH } else { 0.0 };
         Panel::new("diagnostics", Align2::LEFT_TOP, at).show(ui, |ui| {
-            ui.set_width(430.0_f32.min(window.width() - SIDE_WIDTH - 3.0 * MARGIN - 26.0));
+            ui.set_width(430.0_f32.min(right - MARGIN - at.x - 26.0));
             diagnostics_panel::show(ui, session, state, side_room - 50.0);
+        });
+    }
+    if inspects {
+        let at = pos2(window.max.x - MARGIN, side_top.y);
+        Panel::new("inspector", Align2::RIGHT_TOP, at).show(ui, |ui| {
+            ui.set_width(INSPECTOR_WIDTH - 26.0);
+            scrolled("inspector", side_room).show(ui, |ui| {
+                inspector::show(ui, session, state, commands);
+            });
         });
     }
     if session.clip().is_some() {
@@ -132,6 +146,7 @@ fn sheet_page(
 ) {
     match page {
         SheetPage::Model if state.diagnostics_open => diagnostics_panel::show(ui, session, state, room - 50.0),
+        SheetPage::Model if session.subsets().selected().is_some() => inspector::show(ui, session, state, commands),
         SheetPage::Model => model_panel::show(ui, session, state, commands),
         SheetPage::ViewMode => {
             widgets::section_name(ui, "View mode");

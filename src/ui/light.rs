@@ -1,11 +1,15 @@
 //! Light on the model, what is behind it, and what that costs.
 
-use egui::{Response, Ui, pos2};
+use egui::{Align2, FontId, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use super::icons::Icon;
 use super::passes;
 use super::popover::gap;
 use super::theme::Tokens;
-use super::widgets::{Slider, color_picker, keyed_section_name, section_name, segmented, switch_row};
+use super::widgets::{
+    Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, section_name, segmented,
+    switch_row,
+};
 use crate::scene::{Background, Light};
 use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, Session};
 
@@ -101,10 +105,33 @@ fn background(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if let Some(background) = segmented(ui, "Background", &choices, Some(in_force)) {
         commands.push(LookCommand::SetBackground(background).into());
     }
+    if let Some(file) = session.sky_file() {
+        sky_row(ui, file.base_name(), commands);
+    }
     if let Background::Color(color) = in_force {
         ui.add_space(8.0);
         if let Some(color) = color_picker(ui, "Background colour", color) {
             commands.push(LookCommand::SetBackground(Background::Color(color)).into());
         }
     }
+}
+
+/// The name of the sky that was dropped, and a button that takes it away.
+fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        let tokens = Tokens::of(ui);
+        let height = control_size(ui);
+        let width = ui.available_width() - height - 6.0;
+        let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+        let font = FontId::proportional(13.0);
+        let (painter, left) = (ui.painter(), rect.left_center());
+        let label = painter.text(left, Align2::LEFT_CENTER, "Sky", font.clone(), tokens.muted);
+        let at = pos2(label.max.x + 10.0, rect.center().y);
+        paint_elided(painter, at, name, font, tokens.text, rect.max.x - at.x);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
+        if icon_button(ui, Icon::Close, "Remove the sky", false).clicked() {
+            commands.push(Command::ClearSky);
+        }
+    });
 }

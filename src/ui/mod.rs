@@ -1,13 +1,17 @@
 //! The interface. It reads a [`Session`] and answers with [`Command`]s; what is open and shut is its own [`UiState`].
 
 mod diagnostics_panel;
+mod drag_trail;
 mod error_card;
 mod excerpt;
+mod flight;
 mod help;
 mod icons;
+mod inspector;
 mod keys;
 mod layout;
 mod light;
+mod material_fields;
 mod model_panel;
 mod overlays;
 mod panel;
@@ -16,6 +20,7 @@ mod picture;
 mod popover;
 mod split;
 mod state;
+mod subset_list;
 mod textures;
 pub mod theme;
 mod thumbnails;
@@ -30,7 +35,7 @@ mod wording;
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
 use crate::scene::{Insets, Theme};
-use crate::session::{Command, Session};
+use crate::session::{Command, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 pub use state::{Request, SheetPage, UiState};
@@ -54,15 +59,19 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
 
     commands.push(set_theme(ui));
     commands.push(set_viewport(ui, session, window, narrow));
-    viewport::show(ui, window, &mut commands);
-    split::show(ui, session, window, &mut commands);
-    // Esc shuts what hangs from a button before anything else.
+    // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
+    viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
+    split::show(ui, session, window, &mut commands);
+    state.hovered_subset = None;
 
     if narrow {
         layout::narrow(ui, session, state, window, &mut commands);
     } else {
         layout::wide(ui, session, state, window, &mut commands);
+    }
+    if session.subsets().hovered() != state.hovered_subset {
+        commands.push(SubsetCommand::Hover(state.hovered_subset).into());
     }
     if state.help_open {
         let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));

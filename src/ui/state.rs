@@ -2,9 +2,11 @@
 
 use egui::Ui;
 
+use super::inspector::VertexCount;
 use super::picture::PictureChoice;
 use super::thumbnails::Thumbnails;
 use super::timeline::KeyTimes;
+use super::viewport::ViewHold;
 use crate::scene::Theme;
 
 /// What only the page around the interface can do.
@@ -26,7 +28,7 @@ pub enum Request {
 /// What the bottom sheet of a narrow window shows below the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SheetPage {
-    /// Facts, subsets, textures, or the findings while they are open.
+    /// Facts, subsets, textures; the selected subset, or the findings while they are open.
     Model,
     /// What of a surface is shown.
     ViewMode,
@@ -55,6 +57,9 @@ pub struct UiState {
     pub(super) key_times: KeyTimes,
     pub(super) picture: PictureChoice,
     pub(super) thumbnails: Thumbnails,
+    pub(super) view_hold: ViewHold,
+    pub(super) hovered_subset: Option<usize>,
+    pub(super) vertex_count: VertexCount,
     pub(super) requests: Vec<Request>,
 }
 

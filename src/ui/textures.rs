@@ -1,7 +1,6 @@
 //! The maps of the open model: how many are there, which are missing, what each holds and who uses it.
 
 use egui::epaint::RectShape;
-use egui::text::{LayoutJob, TextWrapping};
 use egui::{
     Align2, Color32, FontId, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2,
     WidgetInfo, pos2, vec2,
@@ -9,7 +8,7 @@ use egui::{
 
 use super::theme::{ROW_HEIGHT, Tokens};
 use super::thumbnails::Thumbnails;
-use super::widgets::section_name;
+use super::widgets::{paint_elided, section_name};
 use super::wording::counted;
 use crate::image::{Channels, Image, ImageKind};
 use crate::session::{OpenModel, Session, UsedMap};
@@ -66,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, thumbnails:
     }
 }
 
-/// One map: its thumbnail, name and size, below them what it holds; its users under the pointer.
+/// One map: its thumbnail and name, below them what it holds; its users under the pointer.
 fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, thumbnails: &mut Thumbnails) {
     let name_of = |material: usize| {
         let material = open.model.materials.get(material);
@@ -107,20 +106,17 @@ pub(super) fn picture_row(
 
     let left = picture.max.x + 9.0;
     let size = format!("{} × {}", image.width(), image.height());
-    let size_at = pos2(rect.max.x, rect.center().y - 8.0);
+    let size_at = pos2(rect.max.x, rect.center().y + 8.0);
     let small = FontId::proportional(11.5);
     let painter = ui.painter();
     let drawn = painter.text(size_at, Align2::RIGHT_CENTER, size, small.clone(), tokens.muted);
     let lines = [
-        (name, FontId::proportional(13.0), tokens.text, drawn.min.x - 6.0, -8.0),
-        (&holds(image), small, tokens.muted, rect.max.x, 8.0),
+        (name, FontId::proportional(13.0), tokens.text, rect.max.x, -8.0),
+        (&holds(image), small, tokens.muted, drawn.min.x - 6.0, 8.0),
     ];
     for (text, font, color, right, y) in lines {
-        let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
-        job.wrap = TextWrapping::truncate_at_width((right - left).max(0.0));
-        let galley = ui.painter().layout_job(job);
-        let at = pos2(left, rect.center().y + y - galley.size().y * 0.5);
-        ui.painter().galley(at, galley, color);
+        let at = pos2(left, rect.center().y + y);
+        paint_elided(ui.painter(), at, text, font, color, right - left);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, details));
     response.on_hover_text(details)

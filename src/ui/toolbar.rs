@@ -25,7 +25,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         overlays_button(ui, session, commands);
         view_from_menu(ui, session, commands);
         if icon_button(ui, Icon::Frame, "Frame the model (F)", false).clicked() {
-            commands.push(Command::FrameModel);
+            commands.push(Command::Glide(Box::new(Command::FrameModel)));
+        }
+        if icon_button(ui, Icon::Turntable, "Turntable", session.turntable()).clicked() {
+            commands.push(Command::ToggleTurntable);
         }
         let camera = icon_button(ui, Icon::Camera, "Picture… (P)", false);
         popover::show(ui, &camera, 224.0, |ui| picture::show(ui, state));
@@ -141,7 +144,7 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     let before = commands.len();
     for preset in ViewPreset::ALL {
         if keyed_menu_item(ui, preset.label(), preset_key(preset), false).clicked() {
-            commands.push(Command::LookFrom(preset));
+            commands.push(Command::Glide(Box::new(Command::LookFrom(preset))));
         }
     }
     let orthographic = session.camera().projection == Projection::Orthographic;
@@ -167,7 +170,11 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
         }
     }
     if menu_item(ui, "Frame the model", false).clicked() {
-        commands.push(Command::FrameModel);
+        commands.push(Command::Glide(Box::new(Command::FrameModel)));
+        ui.close();
+    }
+    if menu_item(ui, "Turntable", session.turntable()).clicked() {
+        commands.push(Command::ToggleTurntable);
         ui.close();
     }
     let (label, request) = other_theme(ui);
@@ -179,5 +186,4 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
         state.help_open = true;
         ui.close();
     }
-    let _ = session;
 }

@@ -18,21 +18,21 @@ pub(crate) struct Page {
     pub(crate) state: UiState,
     /// All that was asked of the page around.
     pub(crate) requests: Vec<Request>,
-    was_animating: bool,
+    was_moving: bool,
 }
 
 impl Page {
     /// One pass, in the order of the app: time, interface, commands.
     fn pass(&mut self, ui: &mut egui::Ui) {
-        if self.was_animating {
+        if self.was_moving {
             self.session.advance(STEP_SECS);
         }
         for command in ui::show(ui, &self.session, &mut self.state) {
             self.session.apply(command);
         }
         self.requests.extend(self.state.take_requests());
-        self.was_animating = self.session.is_animating();
-        if self.was_animating {
+        self.was_moving = self.session.is_moving();
+        if self.was_moving {
             ui.ctx().request_repaint();
         }
     }
@@ -68,7 +68,7 @@ impl Window {
             session,
             state: UiState::new(coarse_pointer),
             requests: Vec::new(),
-            was_animating: false,
+            was_moving: false,
         };
         let mut harness = Harness::builder()
             .with_size(size)

@@ -8,6 +8,7 @@ use egui::{
 use super::super::theme::{CONTROL_RADIUS, Tokens};
 use super::hsv::{Hsv, hsv_from_srgb, srgb_from_hsv};
 use super::{MOUSE_CONTROL, control_size, focus_ring};
+use crate::scene::srgb8_from_linear;
 
 /// Height of the square.
 const SQUARE_HEIGHT: f32 = 112.0;
@@ -145,6 +146,11 @@ fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]>
     let typed = response.changed().then(|| from_hex(&text)).flatten();
     ui.data_mut(|data| data.insert_temp(id, text));
     typed
+}
+
+/// A linear colour as egui paints it.
+pub(crate) fn color32_from_linear(linear: [f32; 3]) -> Color32 {
+    color32(linear.map(srgb8_from_linear))
 }
 
 fn color32([red, green, blue]: [u8; 3]) -> Color32 {

@@ -10,13 +10,18 @@ mod segmented;
 mod slider;
 mod switch;
 
-use egui::{CornerRadius, Event, EventFilter, Key, Rect, Response, Stroke, StrokeKind, Ui, Vec2};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{
+    Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Stroke, StrokeKind, Ui, Vec2,
+};
 
 pub(super) use button::{TextButton, icon_button, keyed_menu_item, menu_item};
 pub(super) use chip::{chip, chip_size, paint_chip};
-pub(super) use color::{color_button, color_picker};
+pub(super) use color::{color_button, color_picker, color32_from_linear};
 pub(super) use number::number_field;
-pub(super) use row::{choice_row, closable_heading, keyed_section_name, rule, section_name, sheet_handle, value_row};
+pub(super) use row::{
+    choice_row, closable_heading, keyed_section_name, rule, section_name, section_with_action, sheet_handle, value_row,
+};
 pub(super) use segmented::segmented;
 pub(super) use slider::Slider;
 pub(super) use switch::switch_row;
@@ -59,6 +64,14 @@ pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
         ui.painter()
             .rect_stroke(rect, CornerRadius::same(CONTROL_RADIUS), stroke, StrokeKind::Inside);
     }
+}
+
+/// Draws words that begin at a point, in the middle of their height; what is longer than `most` ends in an ellipsis.
+pub(super) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId, color: Color32, most: f32) {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
+    job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
+    let galley = painter.layout_job(job);
+    painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
 }
 
 /// Steps that arrow keys ask of a control that has the keyboard: right and up count up. They are taken, so that nothing else

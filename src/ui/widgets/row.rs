@@ -4,7 +4,10 @@ use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec2, Widget
 
 use super::super::icons::{self, Icon};
 use super::super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
-use super::{MOUSE_CONTROL, control_size, icon_button, pressed_row_height};
+use super::{MOUSE_CONTROL, control_size, icon_button, is_touch, pressed_row_height};
+
+/// Height of the name of a part.
+const SECTION_HEIGHT: f32 = 21.0;
 
 /// A row of a panel: a quiet label and a value at the right edge.
 pub(crate) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
@@ -79,7 +82,7 @@ pub(crate) fn section_name(ui: &mut Ui, name: &str) {
 /// The name of a part of a panel with the key that changes it.
 pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 21.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SECTION_HEIGHT), Sense::hover());
     // The words stand a little higher than the middle, nearer to what is above than a row would be.
     let y = rect.center().y - 1.0;
     let font = theme::semibold(11.0);
@@ -94,6 +97,31 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
     ui.painter()
         .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, key, font, tokens.faint);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
+}
+
+/// The name of a part of a panel, and at its right end something to do about it. Whether it was clicked.
+pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>) -> bool {
+    let top = ui.cursor().min;
+    section_name(ui, name);
+    let Some(action) = action else { return false };
+    let tokens = Tokens::of(ui);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(action.to_owned(), FontId::proportional(11.5), tokens.accent);
+    let middle = top.y + 0.5 * SECTION_HEIGHT - 1.0;
+    let height = if is_touch(ui) { control_size(ui) } else { SECTION_HEIGHT };
+    let size = vec2(galley.size().x + 12.0, height);
+    let right = top.x + ui.available_width() + 6.0;
+    let place = Rect::from_center_size(pos2(right - 0.5 * size.x, middle), size);
+    let response = ui.interact(place, ui.scope_id().with(("action", name)), Sense::click());
+    let ground = Rect::from_center_size(place.center(), vec2(size.x, 19.0));
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(ground, CONTROL_RADIUS, tokens.accent_ground);
+    }
+    let at = place.center() - galley.size() * 0.5;
+    ui.painter().galley(at, galley, tokens.accent);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, action));
+    response.clicked()
 }
 
 /// A hairline across a panel, from border to border.

@@ -8,7 +8,7 @@ use super::super::theme::{self, Tokens};
 use super::{MOUSE_CONTROL, arrow_steps, control_size};
 
 /// Width of the label before the track.
-const LABEL_WIDTH: f32 = 92.0;
+const LABEL_WIDTH: f32 = 90.0;
 /// Width of the number behind the track: it stands still while the number changes.
 const NUMBER_WIDTH: f32 = 56.0;
 const KNOB_RADIUS: f32 = 6.0;
