@@ -164,30 +164,30 @@ impl<'a> Subset<'a> {
                 alone,
             ),
         ];
+        // Each icon has its place, whether or not the other is shown.
         let mut right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
-        let mut any = false;
+        let mut begins = None;
         for (shown, icon, label, on, command) in icons {
-            if !shown {
-                continue;
-            }
-            any = true;
             let place = Rect::from_min_max(pos2(right - width, rect.min.y), pos2(right, rect.max.y));
-            if row_icon(ui, place, row, icon, &label, on) {
-                commands.push(command.into());
-            }
             right = place.min.x;
+            if shown {
+                begins = Some(right);
+                if row_icon(ui, place, row, icon, &label, on) {
+                    commands.push(command.into());
+                }
+            }
         }
-        if any && !is_touch(ui) {
-            return right;
-        }
-        let color = Tokens::of(ui).muted;
-        let at = pos2(right - if any { 6.0 } else { 0.0 }, rect.center().y);
-        let at = if any { at } else { rect.right_center() };
-        let font = FontId::proportional(13.0);
-        let drawn = ui
-            .painter()
-            .text(at, Align2::RIGHT_CENTER, &self.triangles, font, color);
-        drawn.min.x
+        let count_at = match begins {
+            Some(x) if is_touch(ui) => pos2(x - 6.0, rect.center().y),
+            Some(x) => return x,
+            None => rect.right_center(),
+        };
+        let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
+        let painter = ui.painter();
+        painter
+            .text(count_at, Align2::RIGHT_CENTER, &self.triangles, font, color)
+            .min
+            .x
     }
 }
 

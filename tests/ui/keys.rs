@@ -251,7 +251,7 @@ fn a_focused_control_keeps_space_for_itself() {
     let mut window = open();
     for _ in 0..40 {
         window.press(PLAIN, Key::Tab);
-        let focused = focused_name(&window);
+        let focused = window.focused();
         if focused.as_deref() == Some("Turntable") {
             window.press(PLAIN, Key::Space);
             assert!(window.session().turntable(), "the switch was pressed");
@@ -260,14 +260,4 @@ fn a_focused_control_keeps_space_for_itself() {
         }
     }
     panic!("Tab never reached the turntable");
-}
-
-fn focused_name(window: &Window) -> Option<String> {
-    use egui_kittest::kittest::NodeT as _;
-    let focused = window
-        .harness
-        .root()
-        .children_recursive()
-        .find(egui_kittest::Node::is_focused)?;
-    focused.accesskit_node().label()
 }

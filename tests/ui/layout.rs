@@ -205,7 +205,7 @@ const POPOVERS: [(&str, &str); 5] = [
     ("Lighting", "Ambient occlusion: on"),
     ("Lines over the model", "Axes"),
     ("View from", "Isometric"),
-    ("Picture", "Save PNG"),
+    ("Picture", "Save PNG (P)"),
 ];
 
 #[test]
