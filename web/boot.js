@@ -4,6 +4,7 @@
 import { createApi } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
 import { clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showPanic, wordsOf } from "./fault.js";
+import { saveFile } from "./save.js";
 import { letTabLeave, mirrorTransport } from "./transport.js";
 
 /** A GPU that goes away more often than this within the time below does not come back for good. */
@@ -172,6 +173,8 @@ function onEvent(type, detail) {
   if (type === "devicelost") return void restart(detail?.reason ?? "the device was lost");
   if (type === "panic") return onPanic(detail?.message ?? "");
   if (type === "pickfiles") return pick(Boolean(detail?.folder));
+  if (type === "picture") return saveFile(detail.name, detail.bytes, "image/png");
+  if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
     clearNotice();
     const name = bindpose.state().model?.name;

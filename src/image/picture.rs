@@ -97,6 +97,11 @@ impl Image {
         self.format
     }
 
+    /// What the file calls its texels: `BC5`, `B8G8R8X8`, `PNG`.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
     /// Which channels carry data.
     pub fn channels(&self) -> Channels {
         self.channels

@@ -1,11 +1,11 @@
 //! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
 
-use egui::{Align, Align2, Layout, RichText, Sense, Ui, vec2};
+use egui::{Align, Align2, Layout, Rangef, RichText, Sense, Ui, vec2};
 
 use super::excerpt;
 use super::icons::Icon;
 use super::theme::{self, Tokens};
-use super::widgets::{control_size, icon_button, rule, text_button};
+use super::widgets::{TextButton, control_size, icon_button, rule};
 use crate::session::{Command, LoadError, Session};
 
 const CARD_MARGIN: f32 = 12.0;
@@ -15,7 +15,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
     let tokens = Tokens::of(ui);
     let title = match error.file_name.as_str() {
         "" => "Nothing to open".to_owned(),
-        name => format!("{} could not be read", super::timeline::shortened(name, 40)),
+        name => format!("{} could not be read", super::wording::shortened(name, 40)),
     };
     ui.horizontal(|ui| {
         let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width() - 106.0, 28.0), Sense::hover());
@@ -32,15 +32,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
                 commands.push(Command::DismissError);
             }
-            if text_button(
-                ui,
-                "Copy",
-                "Copy the error",
-                false,
-                egui::Rangef::new(control_size(ui), f32::INFINITY),
-            )
-            .clicked()
-            {
+            let copy = TextButton::new("Copy", "Copy the error");
+            let copy = copy.width(Rangef::new(control_size(ui), f32::INFINITY));
+            if copy.show(ui).clicked() {
                 ui.ctx().copy_text(error.to_text());
             }
         });

@@ -22,18 +22,28 @@ pub(super) enum Icon {
     Loop,
     /// Turn round at the end.
     PingPong,
-    /// Ground grid.
-    Grid,
     /// Fit into view.
     Frame,
     /// Direction to look from.
     Cube,
     /// Open files.
     Open,
-    /// Dark surroundings.
-    Moon,
-    /// Light surroundings.
+    /// The other surroundings, dark or light.
+    Contrast,
+    /// Light on the model.
     Sun,
+    /// Lines over the model.
+    Layers,
+    /// The camera goes round.
+    Turntable,
+    /// A picture as a file.
+    Camera,
+    /// It can be seen.
+    Eye,
+    /// It cannot be seen.
+    EyeOff,
+    /// Nothing but this.
+    Solo,
     /// What keys do.
     Help,
     /// Take away.
@@ -104,12 +114,6 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             line(&[(5.0, 5.0), (2.0, 8.0), (5.0, 11.0)]);
             line(&[(11.0, 5.0), (14.0, 8.0), (11.0, 11.0)]);
         }
-        Icon::Grid => {
-            for offset in [5.6, 10.4] {
-                line(&[(offset, 2.0), (offset, 14.0)]);
-                line(&[(2.0, offset), (14.0, offset)]);
-            }
-        }
         Icon::Frame => {
             line(&[(2.4, 5.4), (2.4, 2.4), (5.4, 2.4)]);
             line(&[(10.6, 2.4), (13.6, 2.4), (13.6, 5.4)]);
@@ -140,15 +144,59 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             ]);
             closed(&[(2.0, 12.6), (4.4, 7.2), (15.0, 7.2), (12.6, 12.6)]);
         }
-        Icon::Moon => {
-            arc(8.0, 8.0, 5.6, -0.85, -3.15);
-            arc(10.9, 5.1, 4.35, 0.55, 2.42);
+        Icon::Contrast => {
+            painter.circle_stroke(at(8.0, 8.0), 5.6, stroke);
+            let half = (0..=16).map(|i| {
+                let angle = (i as f32 / 16.0 - 0.5) * std::f32::consts::PI;
+                at(8.0 + 5.6 * angle.cos(), 8.0 + 5.6 * angle.sin())
+            });
+            painter.add(Shape::convex_polygon(half.collect(), color, Stroke::NONE));
         }
         Icon::Sun => {
             painter.circle_stroke(at(8.0, 8.0), 2.9, stroke);
             for i in 0..8 {
                 let (sin, cos) = (i as f32 * std::f32::consts::FRAC_PI_4).sin_cos();
                 line(&[(8.0 + 5.0 * cos, 8.0 + 5.0 * sin), (8.0 + 6.6 * cos, 8.0 + 6.6 * sin)]);
+            }
+        }
+        Icon::Layers => {
+            closed(&[(8.0, 2.2), (14.0, 5.4), (8.0, 8.6), (2.0, 5.4)]);
+            line(&[(2.0, 8.2), (8.0, 11.4), (14.0, 8.2)]);
+            line(&[(2.0, 11.0), (8.0, 14.2), (14.0, 11.0)]);
+        }
+        Icon::Turntable => {
+            arc(8.0, 8.0, 5.6, -0.55, 2.75);
+            line(&[(13.9, 6.6), (12.0, 3.3), (8.6, 4.9)]);
+            painter.circle_filled(at(8.0, 8.0), 1.6, color);
+        }
+        Icon::Camera => {
+            closed(&[
+                (1.8, 5.0),
+                (4.6, 5.0),
+                (5.8, 3.0),
+                (10.2, 3.0),
+                (11.4, 5.0),
+                (14.2, 5.0),
+                (14.2, 12.8),
+                (1.8, 12.8),
+            ]);
+            painter.circle_stroke(at(8.0, 8.7), 2.4, stroke);
+        }
+        Icon::Eye => {
+            arc(8.0, 11.54, 7.14, -1.67, -0.33);
+            arc(8.0, 4.46, 7.14, 0.33, 1.67);
+            painter.circle_filled(at(8.0, 8.0), 1.9, color);
+        }
+        Icon::EyeOff => {
+            arc(8.0, 11.54, 7.14, -1.67, -0.33);
+            arc(8.0, 4.46, 7.14, 0.33, 1.67);
+            line(&[(3.2, 13.0), (12.8, 3.0)]);
+        }
+        Icon::Solo => {
+            painter.circle_stroke(at(8.0, 8.0), 4.6, stroke);
+            painter.circle_filled(at(8.0, 8.0), 1.7, color);
+            for (x, y) in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
+                line(&[(8.0 + 4.6 * x, 8.0 + 4.6 * y), (8.0 + 6.6 * x, 8.0 + 6.6 * y)]);
             }
         }
         Icon::Help => {

@@ -3,11 +3,12 @@
 use egui::{Event, Key, Modifiers, Ui};
 
 use super::UiState;
+use super::flight::FLIGHT_KEYS;
 use crate::scene::{Overlay, ViewPreset};
-use crate::session::{Command, LookCommand, Session};
+use crate::session::{Command, LookCommand, Session, SubsetCommand};
 
-/// Reads the keys of this frame. Nothing while words are typed.
-pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+/// Reads the keys of this frame. Nothing while words are typed. `popover_open`: Esc has shut something that hung from a button.
+pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
     if ui.ctx().text_edit_focused() {
         return;
     }
@@ -26,8 +27,10 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, commands: &m
                     continue;
                 }
                 commands.extend(command_for(key, modifiers));
-                if key == Key::Escape {
-                    escape(session, state, commands);
+                match key {
+                    Key::Escape if !popover_open => escape(session, state, commands),
+                    Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
+                    _ => {}
                 }
             }
             // The question mark is on different keys of different keyboards.
@@ -43,8 +46,10 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         commands.push(Command::DismissError);
     } else if state.help_open {
         state.help_open = false;
-    } else {
+    } else if state.diagnostics_open {
         state.diagnostics_open = false;
+    } else if session.subsets().selected().is_some() {
+        commands.push(SubsetCommand::Select(None).into());
     }
 }
 
@@ -59,7 +64,9 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
     if alt || (ctrl && !matches!(key, Key::Num1 | Key::Num3 | Key::Num7)) {
         return None;
     }
-    let opposite = |preset, other| Some(Command::LookFrom(if ctrl { other } else { preset }));
+    let glide = |command| Some(Command::Glide(Box::new(command)));
+    let opposite = |preset, other| glide(Command::LookFrom(if ctrl { other } else { preset }));
+    let overlay = |overlay| Some(LookCommand::ToggleOverlay(overlay).into());
     let frames = if shift { 10 } else { 1 };
     match key {
         Key::Space if shift => Some(Command::TogglePlayBackward),
@@ -73,21 +80,28 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         Key::Backslash => Some(Command::SetSpeed(1.0)),
         Key::L => Some(Command::CycleLoopMode),
         Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
-        Key::F => Some(Command::FrameModel),
-        Key::G => Some(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid))),
+        Key::F => glide(Command::FrameModel),
+        Key::G => overlay(Overlay::Grid),
+        Key::Z => overlay(Overlay::Wireframe),
+        Key::N => overlay(Overlay::Normals),
+        Key::X => overlay(Overlay::Axes),
+        Key::T => Some(LookCommand::CycleViewMode(if shift { -1 } else { 1 }).into()),
+        Key::V => Some(LookCommand::ToggleLight.into()),
         Key::Num1 => opposite(ViewPreset::Front, ViewPreset::Back),
         Key::Num3 => opposite(ViewPreset::Right, ViewPreset::Left),
         Key::Num7 => opposite(ViewPreset::Top, ViewPreset::Bottom),
         Key::Num5 => Some(Command::ToggleProjection),
-        Key::Num9 => Some(Command::LookFrom(ViewPreset::Isometric)),
-        Key::Num0 => Some(Command::ResetCamera),
+        Key::Num9 => glide(Command::LookFrom(ViewPreset::Isometric)),
+        Key::Num0 => glide(Command::ResetCamera),
         _ => None,
     }
 }
 
 /// Whether a key is the viewer's, so that the browser must not act on it too.
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
-    key == Key::Escape || command_for(key, modifiers).is_some()
+    let plain = !modifiers.command && !modifiers.alt;
+    let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);
+    key == Key::Escape || (plain && (flies || key == Key::P)) || command_for(key, modifiers).is_some()
 }
 
 #[cfg(test)]
@@ -96,9 +110,25 @@ mod tests {
 
     #[test]
     fn keys_of_the_browser_are_left_alone() {
-        for key in [Key::L, Key::F, Key::C, Key::W, Key::T, Key::Num5, Key::ArrowLeft] {
-            assert_eq!(command_for(key, Modifiers::COMMAND), None, "{key:?}");
-            assert_eq!(command_for(key, Modifiers::ALT), None, "{key:?}");
+        let keys = [
+            Key::L,
+            Key::F,
+            Key::C,
+            Key::W,
+            Key::T,
+            Key::N,
+            Key::P,
+            Key::V,
+            Key::X,
+            Key::Z,
+            Key::Num5,
+            Key::ArrowLeft,
+        ];
+        for key in keys {
+            for modifiers in [Modifiers::COMMAND, Modifiers::ALT] {
+                assert_eq!(command_for(key, modifiers), None, "{key:?}");
+                assert!(!owns_key(key, modifiers), "{key:?}");
+            }
         }
     }
 
@@ -118,11 +148,11 @@ mod tests {
     fn ctrl_looks_from_the_opposite_side() {
         assert_eq!(
             command_for(Key::Num1, Modifiers::NONE),
-            Some(Command::LookFrom(ViewPreset::Front))
+            Some(Command::Glide(Box::new(Command::LookFrom(ViewPreset::Front))))
         );
         assert_eq!(
             command_for(Key::Num1, Modifiers::COMMAND),
-            Some(Command::LookFrom(ViewPreset::Back))
+            Some(Command::Glide(Box::new(Command::LookFrom(ViewPreset::Back))))
         );
     }
 }

@@ -3,19 +3,16 @@
 use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::panel::scrolled;
-use super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
-use super::timeline::shortened;
-use super::widgets::{choice_row, grouped, is_touch, measured, menu_item, rule, section_name, value_row};
-use super::{UiState, textures, title_bar};
+use super::theme::{self, CONTROL_RADIUS, Tokens};
+use super::widgets::{choice_row, is_touch, menu_item, paint_chip, rule, section_name, value_row};
+use super::wording::{counted, grouped, measured, shortened};
+use super::{UiState, subset_list, textures, title_bar};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, UpAxis};
-use crate::scene::display_color;
-use crate::session::{Command, MapSlot, OpenModel, Session};
+use crate::session::{Command, OpenModel, Session};
 
 /// Margin inside the panel.
 pub(super) const PANEL_MARGIN: f32 = 12.0;
-/// Subsets listed before the list scrolls.
-const SUBSET_ROWS: f32 = 8.0;
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -34,10 +31,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     space_rows(ui, session, commands);
     bounds_row(ui, open);
     rule(ui, PANEL_MARGIN);
-    subsets(ui, session, open);
+    subset_list::show(ui, session, open, state, commands);
     if session.maps().checklist().named > 0 {
         rule(ui, PANEL_MARGIN);
-        textures::show(ui, session, open);
+        textures::show(ui, session, open, &mut state.thumbnails);
     }
     other_models(ui, session, commands);
     rule(ui, PANEL_MARGIN);
@@ -104,49 +101,6 @@ fn bounds_row(ui: &mut Ui, open: &OpenModel) {
     ));
 }
 
-fn subsets(ui: &mut Ui, session: &Session, open: &OpenModel) {
-    let tokens = Tokens::of(ui);
-    section_name(ui, "Subsets");
-    let submeshes = &open.model.mesh.submeshes;
-    let list = scrolled("subsets", SUBSET_ROWS * ROW_HEIGHT);
-    list.auto_shrink([false, true]).show(ui, |ui| {
-        for submesh in submeshes {
-            let Some(material) = open.model.materials.get(submesh.material as usize) else {
-                continue;
-            };
-            // A map that is there brings its own colours; the tint only stands in for one that is missing.
-            let index = submesh.material as usize;
-            let color = match session.maps().image(index, MapSlot::Diffuse) {
-                Some(_) => material.diffuse,
-                None => display_color(index, material),
-            };
-            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-            let swatch = egui::Rect::from_center_size(rect.left_center() + vec2(5.0, 0.0), vec2(10.0, 10.0));
-            ui.painter().rect_filled(swatch, 2.5, color_srgb(color));
-            // A dark material on a dark panel still has an outline.
-            let outline = egui::Stroke::new(1.0, tokens.field_hovered);
-            ui.painter().rect_stroke(swatch, 2.5, outline, egui::StrokeKind::Inside);
-            let count = grouped(submesh.triangle_count as usize);
-            let font = FontId::proportional(13.0);
-            let name = shortened(&material.name, 22);
-            let name_at = rect.left_center() + vec2(18.0, 0.0);
-            ui.painter()
-                .text(name_at, Align2::LEFT_CENTER, name, font.clone(), tokens.text);
-            ui.painter()
-                .text(rect.right_center(), Align2::RIGHT_CENTER, &count, font, tokens.muted);
-            let label = format!("{}, {count} triangles", material.name);
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
-            response.on_hover_text(label);
-        }
-    });
-}
-
-/// Linear colour to what egui paints.
-fn color_srgb(linear: [f32; 3]) -> Color32 {
-    let [r, g, b] = linear;
-    egui::Rgba::from_rgb(r, g, b).into()
-}
-
 fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let models = session.files().models();
     if models.len() < 2 {
@@ -187,18 +141,8 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
         tokens.text,
     );
     let (count, color) = summary(session, &tokens);
-    let galley = ui
-        .painter()
-        .layout_no_wrap(count.clone(), FontId::proportional(11.5), color);
-    let chip = egui::Rect::from_min_size(
-        egui::pos2(
-            rect.max.x - galley.size().x - 14.0,
-            rect.center().y - galley.size().y * 0.5 - 2.5,
-        ),
-        galley.size() + vec2(14.0, 5.0),
-    );
-    ui.painter().rect_filled(chip, chip.height() * 0.5, tokens.field);
-    ui.painter().galley(chip.min + vec2(7.0, 2.5), galley, color);
+    let right = rect.right_center();
+    paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Diagnostics: {count}")));
     if response.on_hover_text("What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;
@@ -208,13 +152,12 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
 /// `2 warnings`, `1 note`, `none`, with the colour that says how bad it is.
 fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
     let count = |severity| session.notices().filter(|notice| notice.severity == severity).count();
-    let plural = |n: usize, word: &str| format!("{n} {word}{}", if n == 1 { "" } else { "s" });
     match (count(Severity::Warning), count(Severity::Note)) {
         (0, 0) => ("none".to_owned(), tokens.muted),
-        (0, notes) => (plural(notes, "note"), tokens.muted),
-        (warnings, 0) => (plural(warnings, "warning"), tokens.warning),
+        (0, notes) => (counted(notes, "note"), tokens.muted),
+        (warnings, 0) => (counted(warnings, "warning"), tokens.warning),
         (warnings, notes) => (
-            format!("{}, {}", plural(warnings, "warning"), plural(notes, "note")),
+            format!("{}, {}", counted(warnings, "warning"), counted(notes, "note")),
             tokens.warning,
         ),
     }

@@ -1,6 +1,6 @@
 //! Panels that float over the view.
 
-use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, ScrollArea, Ui};
+use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, Rect, ScrollArea, Ui};
 
 use super::theme::{self, Tokens};
 
@@ -64,8 +64,8 @@ impl Panel {
         }
     }
 
-    /// Shows it.
-    pub(super) fn show(self, ui: &Ui, contents: impl FnOnce(&mut Ui)) {
+    /// Shows it. Where it came to be.
+    pub(super) fn show(self, ui: &Ui, contents: impl FnOnce(&mut Ui)) -> Rect {
         let frame: Frame = theme::panel_frame(&Tokens::of(ui))
             .inner_margin(self.margin)
             .corner_radius(self.corner_radius);
@@ -77,6 +77,8 @@ impl Panel {
             // What a panel may grow to before it is first measured.
             .default_size(ui.max_rect().size())
             .fade_in(false)
-            .show(ui.ctx(), |ui| frame.show(ui, contents));
+            .show(ui.ctx(), |ui| frame.show(ui, contents))
+            .response
+            .rect
     }
 }

@@ -1,17 +1,28 @@
 //! The maps of the open model: how many are there, which are missing, what each holds and who uses it.
 
-use egui::{Align2, FontId, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::epaint::RectShape;
+use egui::{
+    Align2, Color32, FontId, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
+};
 
 use super::theme::{ROW_HEIGHT, Tokens};
-use super::timeline::shortened;
-use super::widgets::section_name;
+use super::thumbnails::Thumbnails;
+use super::widgets::{paint_elided, section_name};
+use super::wording::counted;
+use crate::image::{Channels, Image, ImageKind};
 use crate::session::{OpenModel, Session, UsedMap};
+
+/// Side of a thumbnail, in points.
+const THUMBNAIL: f32 = 32.0;
+/// Height of a row with one.
+const MAP_ROW_HEIGHT: f32 = 40.0;
 
 /// Missing names that are spelled out before the rest is counted.
 const NAMES_SHOWN: usize = 8;
 
 /// The section's contents. Nothing for a model whose materials name no map.
-pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel) {
+pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, thumbnails: &mut Thumbnails) {
     let checklist = session.maps().checklist();
     let tokens = Tokens::of(ui);
     section_name(ui, "Textures");
@@ -33,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel) {
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Textures: {count}")));
     for map in session.maps().used() {
-        map_row(ui, open, &map);
+        map_row(ui, session, open, &map, thumbnails);
     }
     if !checklist.missing.is_empty() {
         let mut names = checklist
@@ -54,42 +65,80 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel) {
     }
 }
 
-/// One map: its name, and what it holds; its users under the pointer.
-fn map_row(ui: &mut Ui, open: &OpenModel, map: &UsedMap<'_>) {
-    let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let name = shortened(map.file.base_name(), 20);
-    let size = format!("{} × {}", map.image.width(), map.image.height());
-    ui.painter().text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        name,
-        FontId::proportional(13.0),
-        tokens.text,
-    );
-    ui.painter().text(
-        rect.right_center(),
-        Align2::RIGHT_CENTER,
-        size,
-        FontId::proportional(12.0),
-        tokens.muted,
-    );
-    let users = map.users.iter().map(|(material, slot)| {
-        let name = open
-            .model
-            .materials
-            .get(*material)
-            .map_or("", |material| material.name.as_str());
-        format!("{} of {name}", slot.label())
-    });
-    let users = users.collect::<Vec<_>>().join("\n");
-    let channels = match map.image.channels().count() {
-        1 => "1 channel".to_owned(),
-        count => format!("{count} channels"),
+/// One map: its thumbnail and name, below them what it holds; its users under the pointer.
+fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, thumbnails: &mut Thumbnails) {
+    let name_of = |material: usize| {
+        let material = open.model.materials.get(material);
+        material.map_or("", |material| material.name.as_str())
     };
-    let details = format!("{}\n{}, {channels}\n{users}", map.file.path, map.image.description());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &details));
-    response.on_hover_text(details);
+    let users: Vec<String> = map
+        .users
+        .iter()
+        .map(|&(material, slot)| format!("{} of {}", slot.label(), name_of(material)))
+        .collect();
+    let details = format!("{}\n{}\n{}", map.file.path, holds(map.image), users.join("\n"));
+    let thumbnail = thumbnails.of(ui.ctx(), session, map);
+    picture_row(ui, thumbnail, map.file.base_name(), map.image, &details);
+}
+
+/// A row with a small picture of a map, its name, and in the second line what it holds.
+pub(super) fn picture_row(
+    ui: &mut Ui,
+    thumbnail: Option<TextureId>,
+    name: &str,
+    image: &Image,
+    details: &str,
+) -> Response {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), MAP_ROW_HEIGHT), Sense::hover());
+    let picture = Rect::from_center_size(
+        pos2(rect.min.x + THUMBNAIL * 0.5, rect.center().y),
+        Vec2::splat(THUMBNAIL),
+    );
+    ui.painter().rect_filled(picture, 4.0, tokens.field);
+    if let Some(texture) = thumbnail {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter()
+            .add(RectShape::filled(picture, 4.0, Color32::WHITE).with_texture(texture, whole));
+    }
+    let outline = Stroke::new(1.0, tokens.hairline);
+    ui.painter().rect_stroke(picture, 4.0, outline, StrokeKind::Inside);
+
+    let left = picture.max.x + 9.0;
+    let size = format!("{} × {}", image.width(), image.height());
+    let size_at = pos2(rect.max.x, rect.center().y + 8.0);
+    let small = FontId::proportional(11.5);
+    let painter = ui.painter();
+    let drawn = painter.text(size_at, Align2::RIGHT_CENTER, size, small.clone(), tokens.muted);
+    let lines = [
+        (name, FontId::proportional(13.0), tokens.text, rect.max.x, -8.0),
+        (&holds(image), small, tokens.muted, drawn.min.x - 6.0, 8.0),
+    ];
+    for (text, font, color, right, y) in lines {
+        let at = pos2(left, rect.center().y + y);
+        paint_elided(ui.painter(), at, text, font, color, right - left);
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, details));
+    response.on_hover_text(details)
+}
+
+/// Format, mips and channels: `BC1 · 10 mips · RGB`.
+pub(super) fn holds(image: &Image) -> String {
+    let kind = match image.kind() {
+        ImageKind::Texture2d => String::new(),
+        ImageKind::Cube => " cube".to_owned(),
+        ImageKind::Array { slices } => format!(", 1 of {slices}"),
+    };
+    let mips = counted(image.level_count() as usize, "mip");
+    let channels = match image.channels() {
+        Channels::Grey => "grey",
+        Channels::GreyAlpha => "grey, alpha",
+        Channels::Alpha => "alpha",
+        Channels::RedGreen => "RG",
+        Channels::Rgb => "RGB",
+        Channels::Rgba => "RGBA",
+    };
+    format!("{}{kind} · {mips} · {channels}", image.source())
 }
 
 /// `head_diff.dds: diffuse map of soldier_head`, a line each.

@@ -100,6 +100,11 @@ impl Tokens {
         }
     }
 
+    /// The colour of an icon: muted, and full under the pointer.
+    pub fn muted_to_text(&self, hovered: bool) -> Color32 {
+        if hovered { self.text } else { self.muted }
+    }
+
     /// The tokens of the style in force.
     pub fn of(ui: &egui::Ui) -> Self {
         if ui.visuals().dark_mode {

@@ -7,7 +7,8 @@ use egui::{
 use super::icons::{self, Icon};
 use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
-use super::widgets::{control_size, focus_ring, icon_button, is_touch, menu_item, text_button};
+use super::widgets::{TextButton, control_size, focus_ring, icon_button, is_touch, menu_item};
+use super::wording::{shortened, trimmed};
 use crate::anim::LoopMode;
 use crate::model::Clip;
 use crate::session::{Command, SPEEDS, Session};
@@ -157,7 +158,7 @@ fn clip_menu(ui: &mut Ui, session: &Session, width: Rangef, commands: &mut Vec<C
     let Some(open) = session.open_model() else { return };
     let name = session.clip().map_or("", |clip| clip.name.as_str());
     let label = format!("Clip {name}");
-    let response = text_button(ui, name, &label, true, width);
+    let response = TextButton::new(name, &label).list().width(width).show(ui);
     let response = response.on_hover_text(format!("{name}\nNext clip: C"));
     Popup::menu(&response).show(|ui| {
         ui.set_width(240.0);
@@ -319,20 +320,6 @@ fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if icon_button(ui, icon, label, false).clicked() {
         commands.push(Command::CycleLoopMode);
     }
-}
-
-/// A number without trailing zeros.
-fn trimmed(number: f32) -> String {
-    let text = format!("{number:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// A name cut to some characters, with an ellipsis.
-pub(super) fn shortened(name: &str, most: usize) -> String {
-    if name.chars().count() <= most {
-        return name.to_owned();
-    }
-    name.chars().take(most - 1).chain(['…']).collect()
 }
 
 /// Room that the strip takes from the window's lower edge.

@@ -1,38 +1,96 @@
-//! Top right: where to look from, what to show, opening files, help.
+//! Top right: what of the model is shown and in which light, from where, pictures, opening files, help.
 
-use egui::{Popup, Ui};
+use egui::{Popup, Rangef, RectAlign, Ui};
 
 use super::icons::Icon;
-use super::widgets::{icon_button, menu_item};
-use super::{Request, UiState};
-use crate::scene::{Overlay, Projection, Theme, ViewPreset};
-use crate::session::{Command, LookCommand, Session};
+use super::state::{Request, SheetPage, UiState};
+use super::widgets::{TextButton, control_size, icon_button, keyed_menu_item, menu_item};
+use super::{light, overlays, picture, popover, view_modes};
+use crate::scene::{Projection, Theme, ViewPreset};
+use crate::session::{Command, Session};
+
+/// Width of the popover with light, background and passes.
+const LIGHT_WIDTH: f32 = 288.0;
+/// The light's button is as wide for either light, so that nothing beside it moves.
+const LIGHT_BUTTON_WIDTH: f32 = 103.0;
+/// Room between buttons.
+const SPACING: f32 = 4.0;
 
 /// Buttons in one row.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        open_button(ui, state);
-        view_menu(ui, session, commands);
+        ui.spacing_mut().item_spacing.x = SPACING;
+        view_mode_menu(ui, session, commands);
+        light_button(ui, session, commands);
+        overlays_button(ui, session, commands);
+        view_from_menu(ui, session, commands);
         if icon_button(ui, Icon::Frame, "Frame the model (F)", false).clicked() {
-            commands.push(Command::FrameModel);
+            commands.push(Command::Glide(Box::new(Command::FrameModel)));
         }
-        if icon_button(ui, Icon::Grid, "Ground grid (G)", session.grid_visible()).clicked() {
-            commands.push(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)));
+        if icon_button(ui, Icon::Turntable, "Turntable", session.turntable()).clicked() {
+            commands.push(Command::ToggleTurntable);
         }
+        let camera = icon_button(ui, Icon::Camera, "Picture… (P)", false);
+        popover::show(ui, &camera, 224.0, |ui| picture::show(ui, state));
         theme_button(ui, state);
+        open_button(ui, state);
         if icon_button(ui, Icon::Help, "Keys (?)", state.help_open).clicked() {
             state.help_open = !state.help_open;
         }
     });
 }
 
-/// In a narrow window, from the right edge: the rarer buttons wait behind dots.
+/// In a narrow window, from the right edge: the rarer buttons wait behind dots, and what they open is in the sheet.
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.spacing_mut().item_spacing.x = 4.0;
+    ui.spacing_mut().item_spacing.x = SPACING;
     let dots = icon_button(ui, Icon::Dots, "More", false);
     Popup::menu(&dots).show(|ui| more_menu(ui, session, state, commands));
     open_button(ui, state);
+    let shown = state.sheet == Some(SheetPage::Light);
+    let button = icon_button(ui, Icon::Sun, &lighting(session), shown);
+    light::mark_button(ui, session, &button);
+    if button.clicked() {
+        state.sheet = (!shown).then_some(SheetPage::Light);
+    }
+}
+
+/// Width of the buttons of a narrow window.
+pub(super) fn narrow_width(ui: &Ui) -> f32 {
+    3.0 * (control_size(ui) + SPACING)
+}
+
+fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let mode = session.look().view_mode.label();
+    let label = format!("View mode: {mode}");
+    let button = TextButton::new(mode, &label).list().show(ui);
+    let button = button.on_hover_text("View mode (T)");
+    Popup::menu(&button).align(RectAlign::BOTTOM_START).gap(8.0).show(|ui| {
+        ui.set_width(190.0);
+        if view_modes::items(ui, session, commands) {
+            ui.close();
+        }
+    });
+}
+
+fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let button = TextButton::new(light::label(session), &lighting(session))
+        .icon(Icon::Sun)
+        .list()
+        .width(Rangef::point(LIGHT_BUTTON_WIDTH))
+        .show(ui);
+    light::mark_button(ui, session, &button);
+    let button = button.on_hover_text("Light and background (V: the other light)");
+    popover::show(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, commands));
+}
+
+fn lighting(session: &Session) -> String {
+    format!("Lighting: {}", light::label(session))
+}
+
+fn overlays_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let on = overlays::any_beside_the_grid(&session.look().overlays);
+    let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
+    popover::show(ui, &button, 236.0, |ui| overlays::show(ui, session, commands));
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
@@ -41,60 +99,91 @@ fn open_button(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-fn theme_button(ui: &mut Ui, state: &mut UiState) {
-    let (icon, label, other) = match ui.visuals().dark_mode {
-        true => (Icon::Sun, "Light surroundings", Theme::Light),
-        false => (Icon::Moon, "Dark surroundings", Theme::Dark),
-    };
-    if icon_button(ui, icon, label, false).clicked() {
-        state.requests.push(Request::UseTheme(other));
+/// The name of the other surroundings, and what asks for them.
+fn other_theme(ui: &Ui) -> (&'static str, Request) {
+    if ui.visuals().dark_mode {
+        ("Light surroundings", Request::UseTheme(Theme::Light))
+    } else {
+        ("Dark surroundings", Request::UseTheme(Theme::Dark))
     }
 }
 
-fn view_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn theme_button(ui: &mut Ui, state: &mut UiState) {
+    let (label, request) = other_theme(ui);
+    if icon_button(ui, Icon::Contrast, label, false).clicked() {
+        state.requests.push(request);
+    }
+}
+
+fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let cube = icon_button(ui, Icon::Cube, "View from…", false);
-    Popup::menu(&cube).show(|ui| {
+    Popup::menu(&cube).align(RectAlign::BOTTOM_END).gap(8.0).show(|ui| {
         ui.set_width(190.0);
-        view_items(ui, session, commands);
+        if view_from_items(ui, session, commands) {
+            ui.close();
+        }
     });
 }
 
-fn view_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    for preset in ViewPreset::ALL {
-        if menu_item(ui, preset.label(), false).clicked() {
-            commands.push(Command::LookFrom(preset));
-            ui.close();
-        }
-    }
-    let orthographic = session.camera().projection == Projection::Orthographic;
-    if menu_item(ui, "Orthographic", orthographic).clicked() {
-        commands.push(Command::ToggleProjection);
-        ui.close();
+/// The key of a direction; empty where there is none.
+fn preset_key(preset: ViewPreset) -> &'static str {
+    match preset {
+        ViewPreset::Front => "1",
+        ViewPreset::Right => "3",
+        ViewPreset::Top => "7",
+        ViewPreset::Back => "Ctrl 1",
+        ViewPreset::Left => "Ctrl 3",
+        ViewPreset::Bottom => "Ctrl 7",
+        ViewPreset::Isometric => "9",
+        ViewPreset::ThreeQuarter => "0",
     }
 }
 
+/// A line for each direction, and the projection. Whether one was chosen.
+pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
+    let before = commands.len();
+    for preset in ViewPreset::ALL {
+        if keyed_menu_item(ui, preset.label(), preset_key(preset), false).clicked() {
+            commands.push(Command::Glide(Box::new(Command::LookFrom(preset))));
+        }
+    }
+    let orthographic = session.camera().projection == Projection::Orthographic;
+    if keyed_menu_item(ui, "Orthographic", "5", orthographic).clicked() {
+        commands.push(Command::ToggleProjection);
+    }
+    commands.len() > before
+}
+
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.set_width(200.0);
+    ui.set_width(210.0);
+    let pages = [
+        ("View mode", SheetPage::ViewMode),
+        ("Light and background", SheetPage::Light),
+        ("Lines over the model", SheetPage::Overlays),
+        ("View from…", SheetPage::ViewFrom),
+        ("Picture…", SheetPage::Picture),
+    ];
+    for (label, page) in pages {
+        if menu_item(ui, label, state.sheet == Some(page)).clicked() {
+            state.sheet = Some(page);
+            ui.close();
+        }
+    }
     if menu_item(ui, "Frame the model", false).clicked() {
-        commands.push(Command::FrameModel);
+        commands.push(Command::Glide(Box::new(Command::FrameModel)));
         ui.close();
     }
-    if menu_item(ui, "Ground grid", session.grid_visible()).clicked() {
-        commands.push(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)));
+    if menu_item(ui, "Turntable", session.turntable()).clicked() {
+        commands.push(Command::ToggleTurntable);
         ui.close();
     }
-    let (label, other) = if ui.visuals().dark_mode {
-        ("Light surroundings", Theme::Light)
-    } else {
-        ("Dark surroundings", Theme::Dark)
-    };
+    let (label, request) = other_theme(ui);
     if menu_item(ui, label, false).clicked() {
-        state.requests.push(Request::UseTheme(other));
+        state.requests.push(request);
         ui.close();
     }
     if menu_item(ui, "Keys", false).clicked() {
         state.help_open = true;
         ui.close();
     }
-    view_items(ui, session, commands);
 }

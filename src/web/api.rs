@@ -3,12 +3,9 @@
 use js_sys::{Array, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::{PAGE, Running, state, tell_events};
-use crate::render::read_back;
+use super::picture::{longest_side, picture};
+use super::{PAGE, state, tell_events};
 use crate::session::{Command, File, Session};
-
-/// Largest side of a picture that is asked for, where the GPU allows it.
-const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// Applies a command and asks for a frame.
 fn apply(command: Command) {
@@ -115,31 +112,13 @@ pub async fn snapshot(options: JsValue) -> Result<Uint8Array, JsError> {
     // Read before anything is borrowed: a getter is a script, and may call back.
     let transparent = field("transparent").is_truthy();
     let sides = [("width", field("width").as_f64()), ("height", field("height").as_f64())];
-    let (target, gpu) = PAGE.with_borrow(|page| {
-        let not_running = || JsError::new("the viewer is not running");
-        let running: &Running = page
-            .as_ref()
-            .and_then(|page| page.running.as_ref())
-            .ok_or_else(not_running)?;
-        let most = running
-            .gpu
-            .device
-            .limits()
-            .max_texture_dimension_2d
-            .min(MAX_PICTURE_SIDE);
-        let mut size = [0; 2];
-        for (pixels, (name, side)) in size.iter_mut().zip(sides) {
-            *pixels = match side {
-                Some(side) if (1.0..=f64::from(most)).contains(&side) => side as u32,
-                _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
-            };
-        }
-        let mut app = running.app.borrow_mut();
-        let app = app.as_mut().ok_or_else(not_running)?;
-        Ok((app.draw_snapshot(size, transparent), running.gpu.clone()))
-    })?;
-    let pixels = read_back(&gpu.device, &gpu.queue, &target, async || super::sleep(1).await).await?;
-    let [width, height] = target.size();
-    let png = crate::image::encode_png(&pixels, width, height).map_err(|error| JsError::new(&error.to_string()))?;
-    Ok(Uint8Array::from(png.as_slice()))
+    let most = longest_side()?;
+    let mut size = [0; 2];
+    for (pixels, (name, side)) in size.iter_mut().zip(sides) {
+        *pixels = match side {
+            Some(side) if (1.0..=f64::from(most)).contains(&side) => side as u32,
+            _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
+        };
+    }
+    picture(size, transparent).await
 }

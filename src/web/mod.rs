@@ -7,6 +7,7 @@
 
 mod api;
 mod backend;
+mod picture;
 mod state;
 
 use std::cell::{Cell, RefCell};
@@ -188,8 +189,11 @@ impl eframe::App for Shell {
             self.frames.set(app.frames_rendered());
         }
         for request in requests {
-            if request == Request::PickFiles {
-                emit("pickfiles", &JsValue::UNDEFINED);
+            match request {
+                Request::PickFiles => emit("pickfiles", &JsValue::UNDEFINED),
+                Request::SavePicture { size, transparent } => picture::save(size, transparent),
+                // The app has done it.
+                Request::UseTheme(_) => {}
             }
         }
         tell_events(&self.session);

@@ -61,8 +61,12 @@ fn what_was_touched_settles() {
         "Diagnostics",
         "Keys (?)",
         "Loops",
-        "Ground grid",
+        "Lines over the model",
+        "Vertex normals",
+        "Lighting",
+        "Split",
         "Frame the model",
+        "Painted, 12",
         "Last frame",
     ] {
         window.click(label);

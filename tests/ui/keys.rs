@@ -1,8 +1,9 @@
 //! Each key of the table does what the table says.
 
 use bindpose::anim::LoopMode;
-use bindpose::scene::{Projection, ViewPreset};
-use bindpose::session::{Command, File};
+use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
+use bindpose::session::{Command, File, SubsetCommand};
+use bindpose::ui::Request;
 use egui::{Key, Modifiers};
 
 use crate::models::moving;
@@ -122,6 +123,64 @@ fn f_frames_and_g_hides_the_grid() {
 }
 
 #[test]
+fn letters_change_how_the_model_is_looked_at() {
+    let mut window = open();
+    for (key, overlay) in [
+        (Key::Z, Overlay::Wireframe),
+        (Key::N, Overlay::Normals),
+        (Key::X, Overlay::Axes),
+    ] {
+        for on in [true, false] {
+            window.press(PLAIN, key);
+            assert_eq!(window.session().look().overlays.has(overlay), on, "{overlay:?}");
+        }
+    }
+    window.press(PLAIN, Key::T);
+    assert_eq!(window.session().look().view_mode, ViewMode::BaseColor);
+    assert!(window.shows("View mode: Base colour"));
+    window.press(SHIFT, Key::T);
+    window.press(SHIFT, Key::T);
+    assert_eq!(window.session().look().view_mode, ViewMode::Shadow);
+    for light in [Light::Book, Light::Studio] {
+        window.press(PLAIN, Key::V);
+        assert_eq!(window.session().look().light, light);
+        assert!(window.shows(&format!("Lighting: {}", light.label())));
+    }
+}
+
+#[test]
+fn p_asks_for_a_picture_as_large_as_the_window_and_shift_leaves_the_ground_out() {
+    let mut window = open();
+    window.press(PLAIN, Key::P);
+    window.press(SHIFT, Key::P);
+    window.press(CTRL, Key::P);
+    let size = [1440, 900];
+    let pictures = [false, true].map(|transparent| Request::SavePicture { size, transparent });
+    assert_eq!(window.harness.state().requests, pictures);
+}
+
+#[test]
+fn escape_clears_the_selection_last_of_all() {
+    let mut window = open();
+    window.apply(SubsetCommand::Select(Some(0)).into());
+    window.click("Lighting");
+    window.press(PLAIN, Key::Escape);
+    assert!(!window.shows("Exposure") && window.session().subsets().selected().is_some());
+    window.press(PLAIN, Key::Escape);
+    assert_eq!(window.session().subsets().selected(), None);
+}
+
+#[test]
+fn letters_that_are_typed_are_no_keys() {
+    let mut window = open();
+    window.click("Lighting");
+    window.click("Background: Colour");
+    window.click("Background colour: number");
+    window.press(PLAIN, Key::Z);
+    assert!(!window.session().look().overlays.has(Overlay::Wireframe));
+}
+
+#[test]
 fn the_question_mark_shows_the_table_and_escape_takes_it_away() {
     let mut window = open();
     window.harness.event(egui::Event::Text("?".to_owned()));
@@ -168,6 +227,9 @@ fn keys_of_the_browser_do_nothing_here() {
         Key::W,
         Key::T,
         Key::N,
+        Key::P,
+        Key::V,
+        Key::Z,
         Key::Num5,
         Key::Home,
     ] {
@@ -189,23 +251,13 @@ fn a_focused_control_keeps_space_for_itself() {
     let mut window = open();
     for _ in 0..40 {
         window.press(PLAIN, Key::Tab);
-        let focused = focused_name(&window);
-        if focused.as_deref() == Some("Ground grid (G)") {
+        let focused = window.focused();
+        if focused.as_deref() == Some("Turntable") {
             window.press(PLAIN, Key::Space);
-            assert!(!window.session().grid_visible(), "the switch was pressed");
+            assert!(window.session().turntable(), "the switch was pressed");
             assert!(!window.session().is_animating(), "and nothing plays");
             return;
         }
     }
-    panic!("Tab never reached the grid switch");
-}
-
-fn focused_name(window: &Window) -> Option<String> {
-    use egui_kittest::kittest::NodeT as _;
-    let focused = window
-        .harness
-        .root()
-        .children_recursive()
-        .find(egui_kittest::Node::is_focused)?;
-    focused.accesskit_node().label()
+    panic!("Tab never reached the turntable");
 }

@@ -1,6 +1,7 @@
 //! Where things are: inside the window, off each other, large enough, and still while values change.
 
-use bindpose::session::Command;
+use bindpose::scene::ViewMode;
+use bindpose::session::{Command, LookCommand, SubsetCommand};
 use egui::{Rect, Vec2, vec2};
 
 use crate::models::{self, broken, moving, still};
@@ -51,6 +52,7 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
         "title",
         "toolbar",
         "model",
+        "inspector",
         "diagnostics",
         "timeline",
         "sheet",
@@ -67,6 +69,12 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
         visible.then_some((name, rect))
     };
     names.into_iter().filter_map(area).collect()
+}
+
+#[track_caller]
+fn panel(window: &Window, wanted: &str) -> Rect {
+    let found = panels(window).into_iter().find(|(name, _)| *name == wanted);
+    found.unwrap_or_else(|| panic!("no panel {wanted}")).1
 }
 
 #[track_caller]
@@ -98,6 +106,10 @@ fn in_a_wide_window_nothing_is_cut_and_no_panel_lies_on_another() {
                 window.click("Diagnostics");
                 assert_inside(&window, size);
                 assert_apart(&window, &["title", "toolbar", "model", "diagnostics", "timeline"]);
+                window.apply(SubsetCommand::Select(Some(0)).into());
+                assert_inside(&window, size);
+                let all = ["title", "toolbar", "model", "inspector", "diagnostics", "timeline"];
+                assert_apart(&window, &all);
             }
         }
         assert_apart(&window(size, vec![still("a.m3d")]), &["title", "toolbar", "model"]);
@@ -187,12 +199,73 @@ fn the_error_card_and_the_keys_fit_the_window() {
     }
 }
 
+/// What hangs from each button of the toolbar, and something in it.
+const POPOVERS: [(&str, &str); 5] = [
+    ("View mode", "Depth"),
+    ("Lighting", "Ambient occlusion: on"),
+    ("Lines over the model", "Axes"),
+    ("View from", "Isometric"),
+    ("Picture", "Save PNG (P)"),
+];
+
+#[test]
+fn what_hangs_from_the_toolbar_stays_inside_the_window() {
+    for size in [WIDE, vec2(900.0, 700.0), vec2(900.0, 600.0)] {
+        for touch in [false, true] {
+            let open = if touch { touch_window } else { window };
+            let mut window = open(size, vec![moving(LONG)]);
+            window.apply(LookCommand::SetViewMode(ViewMode::TexCoords).into());
+            assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
+            for (button, item) in POPOVERS {
+                window.click(button);
+                assert_between_sides(&window, size);
+                if !touch {
+                    assert_inside(&window, size);
+                }
+                assert!(window.shows(item), "{button}: {item}");
+                window.press(egui::Modifiers::NONE, egui::Key::Escape);
+                assert!(!window.shows(item), "{button} is shut");
+            }
+        }
+    }
+}
+
+#[test]
+fn pages_of_the_sheet_fit_a_phone_and_fingers() {
+    for size in [PHONE, vec2(320.0, 568.0)] {
+        let mut window = touch_window(size, vec![moving("a.m3d")]);
+        for (item, inside) in [
+            ("View mode", "Depth"),
+            ("Light and background", "Light: Book"),
+            ("Lines over", "Wireframe"),
+            ("View from", "Front"),
+            ("Picture", "4K"),
+        ] {
+            window.click("More");
+            window.click(item);
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+            let rect = window.rect(inside);
+            assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{inside}: {rect}");
+            window.click("Close the sheet");
+        }
+        window.apply(SubsetCommand::Select(Some(0)).into());
+        window.click("Model facts");
+        assert!(window.shows("Selected: Painted"));
+        assert_between_sides(&window, size);
+        assert_apart(&window, &["title", "sheet"]);
+    }
+}
+
 #[test]
 fn names_are_shortened_to_their_room_and_kept_for_readers() {
     let window = window(WIDE, vec![models::file(LONG, &models::skinned(&[(LONG, 0.0, 31)]))]);
-    let name = window.named(|name| name.starts_with("a_name_that") && name.ends_with('…'));
-    assert_eq!(name.len(), 1, "the file's");
-    assert!(window.shows(&format!("Clip {LONG}")), "all of it for a reader");
+    assert!(
+        window.shows(LONG) && window.shows(&format!("Clip {LONG}")),
+        "all of it for a reader"
+    );
+    let [toolbar, title] = ["toolbar", "title"].map(|name| panel(&window, name));
+    assert!(title.contains_rect(window.rect(LONG)) && title.max.x < toolbar.min.x);
     assert!(window.rect("Clip ").width() < 240.0);
 }
 
@@ -249,7 +322,7 @@ fn targets_are_large_enough_for_fingers() {
     }
     for (opener, item) in [
         ("Clip ", "Turn"),
-        ("More", "Front"),
+        ("More", "Turntable"),
         ("Speed ", "0.5×"),
         ("Handedness", "As found"),
     ] {

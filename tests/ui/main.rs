@@ -3,6 +3,7 @@
 mod idle;
 mod keys;
 mod layout;
+mod look;
 #[path = "../core/session/models.rs"]
 #[allow(dead_code, reason = "shared with the tests of the session, which need more of it")]
 mod models;
@@ -10,4 +11,7 @@ mod page;
 mod panels;
 mod picture;
 mod pointer;
+mod saving;
+mod split;
+mod subsets;
 mod timeline;

@@ -153,6 +153,12 @@ impl Window {
         self.pass_on();
     }
 
+    /// The name of the control that has the keyboard.
+    pub(crate) fn focused(&self) -> Option<String> {
+        let mut widgets = self.harness.root().children_recursive();
+        name(&widgets.find(Node::is_focused)?)
+    }
+
     pub(crate) fn press(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();

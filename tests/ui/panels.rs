@@ -1,7 +1,7 @@
 //! Model facts, diagnostics, error card, the buttons of the bars.
 
 use bindpose::model::{Handedness, UpAxis};
-use bindpose::scene::{Projection, ViewPreset};
+use bindpose::scene::{Light, Projection, ViewMode, ViewPreset};
 use bindpose::session::{Command, File};
 use bindpose::ui::Request;
 use egui::{Key, Modifiers, OutputCommand};
@@ -201,7 +201,7 @@ fn opening_and_the_theme_are_asked_of_the_page() {
 }
 
 #[test]
-fn the_bar_looks_frames_and_hides_the_grid() {
+fn the_bar_looks_from_a_side_frames_and_turns() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let framed = *window.session().camera();
     window.click("View from");
@@ -218,19 +218,40 @@ fn the_bar_looks_frames_and_hides_the_grid() {
     window.apply(Command::Pan { drag: glam::Vec2::ONE });
     window.click("Frame the model");
     assert_eq!(window.session().camera(), &framed);
-    window.click("Ground grid");
-    assert!(!window.session().grid_visible());
+    window.click("Turntable");
+    assert!(window.session().turntable());
+    window.click("Turntable");
+    assert!(!window.session().turntable());
 }
 
 #[test]
 fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
     let mut window = phone(vec![moving("a.m3d")]);
     window.click("More");
+    window.click("Lines over");
     window.click("Ground grid");
     assert!(!window.session().grid_visible());
     window.click("More");
+    window.click("View from");
     window.click("Back");
     assert_eq!(window.session().camera().yaw_radians, std::f32::consts::PI);
+    window.click("More");
+    window.click("View mode");
+    window.click("Depth");
+    assert_eq!(window.session().look().view_mode, ViewMode::Depth);
+    window.click("Lighting");
+    window.click("Light: Book");
+    assert_eq!(window.session().look().light, Light::Book);
+    window.click("More");
+    window.click("Picture");
+    window.click("Save PNG");
+    let size = [390, 844];
+    let transparent = false;
+    let picture = Request::SavePicture { size, transparent };
+    assert_eq!(window.harness.state().requests, [picture]);
+    window.click("More");
+    window.click("Turntable");
+    assert!(window.session().turntable());
     window.click("More");
     window.click("Keys");
     assert!(window.shows("Space: play or pause"));

@@ -10,6 +10,7 @@ use bindpose::session::{Command, File, Session};
 use bindpose::ui;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
+use egui_kittest::kittest::NodeT as _;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use image::RgbaImage;
 use image::imageops::{self, FilterType};
@@ -23,6 +24,11 @@ const SHARE: f64 = 0.001;
 
 /// The window as it looks once it has settled, with the sample at a moment of its walk.
 fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> RgbaImage {
+    draw_after(size, theme, coarse_pointer, then, &[])
+}
+
+/// The same after clicks on controls, by the beginnings of their names.
+fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>, clicks: &[&str]) -> RgbaImage {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
     let figure = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/sample/figure.m3d");
@@ -48,7 +54,25 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
             app.ui(&mut whole_window(ui));
         });
     harness.run();
+    for start in clicks {
+        let at = rect_of(&harness, start).center();
+        harness.hover_at(at);
+        harness.drag_at(at);
+        harness.drop_at(at);
+        harness.run();
+    }
     harness.render().unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
+fn rect_of(harness: &Harness<'_>, start: &str) -> egui::Rect {
+    let named = |node: &egui_kittest::Node<'_>| {
+        node.accesskit_node()
+            .label()
+            .is_some_and(|name| name.starts_with(start))
+    };
+    let node = harness.root().children_recursive().find(named);
+    node.unwrap_or_else(|| panic!("no {start:?}")).rect()
 }
 
 fn compare(name: &str, actual: &RgbaImage) {

@@ -1,0 +1,137 @@
+//! Light on the model, what is behind it, and what that costs.
+
+use egui::{Align2, FontId, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::icons::Icon;
+use super::passes;
+use super::popover::gap;
+use super::theme::Tokens;
+use super::widgets::{
+    Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, section_name, segmented,
+    switch_row,
+};
+use crate::scene::{Background, Light};
+use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, Session};
+
+/// Colours that a background of one colour begins with: the middle of the backdrop.
+const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
+const FIRST_COLOR_LIGHT: [u8; 3] = [0xF4, 0xF5, 0xF7];
+
+/// What the button says: the light in force.
+pub(super) fn label(session: &Session) -> &'static str {
+    match session.look().split {
+        Some(_) => "Split",
+        None => session.look().light.label(),
+    }
+}
+
+/// A dot on the button while something is left out because the device is too slow.
+pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
+    if passes::note(session).is_some() {
+        let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
+        ui.painter().circle_filled(at, 3.0, Tokens::of(ui).warning);
+    }
+}
+
+/// The popover's contents.
+pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let look = session.look();
+    keyed_section_name(ui, "Light", "V");
+    let lights = Light::ALL.map(|light| (light, light.label()));
+    let in_force = look.split.is_none().then_some(look.light);
+    if let Some(light) = segmented(ui, "Light", &lights, in_force) {
+        commands.push(LookCommand::SetSplit(None).into());
+        commands.push(LookCommand::SetLight(light).into());
+    }
+    ui.add_space(4.0);
+    let split = look.split.is_some();
+    let response = switch_row(ui, "Split: both side by side", "", split);
+    if response.clicked() {
+        let middle = (!split).then_some(0.5);
+        commands.push(LookCommand::SetSplit(middle).into());
+    }
+    if split || look.light == Light::Studio {
+        exposure(ui, look.exposure_stops, commands);
+    }
+    environment_turn(ui, look.environment_turn_radians, commands);
+    gap(ui);
+    background(ui, session, commands);
+    gap(ui);
+    section_name(ui, "Green of normal maps");
+    let directions = [(false, "DirectX ↓"), (true, "OpenGL ↑")];
+    if let Some(flipped) = segmented(ui, "Normal maps", &directions, Some(look.normal_green_flipped)) {
+        commands.push(LookCommand::SetNormalGreenFlipped(flipped).into());
+    }
+    gap(ui);
+    passes::show(ui, session, commands);
+}
+
+fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
+    // A true minus sign, as wide as the plus.
+    let text = format!("{}{:.1} EV", if stops < -0.04 { '−' } else { '+' }, stops.abs());
+    let slider = Slider::new("Exposure", stops, -MAX_EXPOSURE_STOPS..=MAX_EXPOSURE_STOPS, &text);
+    if let Some(stops) = slider.reset_to(0.0).show(ui) {
+        commands.push(LookCommand::SetExposure(stops).into());
+    }
+}
+
+fn environment_turn(ui: &mut Ui, radians: f32, commands: &mut Vec<Command>) {
+    let degrees = radians.to_degrees();
+    let text = format!("{degrees:.0}°");
+    if let Some(degrees) = Slider::new("Surroundings", degrees, 0.0..=360.0, &text).show(ui) {
+        // A whole turn would come back as none, and the knob would jump to the other end.
+        commands.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()).into());
+    }
+}
+
+fn background(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let in_force = session.look().background;
+    section_name(ui, "Background");
+    let first_color = if ui.visuals().dark_mode {
+        FIRST_COLOR_DARK
+    } else {
+        FIRST_COLOR_LIGHT
+    };
+    let color = match in_force {
+        Background::Color(color) => color,
+        _ => first_color,
+    };
+    let choices = [
+        (Background::Backdrop, "Backdrop"),
+        (Background::Sky, "Sky"),
+        (Background::Color(color), "Colour"),
+        (Background::None, "None"),
+    ];
+    if let Some(background) = segmented(ui, "Background", &choices, Some(in_force)) {
+        commands.push(LookCommand::SetBackground(background).into());
+    }
+    if let Some(file) = session.sky_file() {
+        sky_row(ui, file.base_name(), commands);
+    }
+    if let Background::Color(color) = in_force {
+        ui.add_space(8.0);
+        if let Some(color) = color_picker(ui, "Background colour", color) {
+            commands.push(LookCommand::SetBackground(Background::Color(color)).into());
+        }
+    }
+}
+
+/// The name of the sky that was dropped, and a button that takes it away.
+fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        let tokens = Tokens::of(ui);
+        let height = control_size(ui);
+        let width = ui.available_width() - height - 6.0;
+        let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+        let font = FontId::proportional(13.0);
+        let (painter, left) = (ui.painter(), rect.left_center());
+        let label = painter.text(left, Align2::LEFT_CENTER, "Sky", font.clone(), tokens.muted);
+        let at = pos2(label.max.x + 10.0, rect.center().y);
+        paint_elided(painter, at, name, font, tokens.text, rect.max.x - at.x);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
+        if icon_button(ui, Icon::Close, "Remove the sky", false).clicked() {
+            commands.push(Command::ClearSky);
+        }
+    });
+}

@@ -1,0 +1,48 @@
+//! Lines over and beside the model.
+
+use egui::Ui;
+
+use super::widgets::{Slider, section_name, switch_row};
+use crate::scene::{Overlay, Overlays};
+use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, Session};
+
+/// The key that turns lines on and off; empty where there is none.
+fn key(overlay: Overlay) -> &'static str {
+    match overlay {
+        Overlay::Grid => "G",
+        Overlay::Wireframe => "Z",
+        Overlay::Normals => "N",
+        Overlay::Axes => "X",
+        Overlay::Tangents | Overlay::Bounds => "",
+    }
+}
+
+/// The popover's contents.
+pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let overlays = &session.look().overlays;
+    section_name(ui, "Overlays");
+    for overlay in Overlay::ALL {
+        if switch_row(ui, overlay.label(), key(overlay), overlays.has(overlay)).clicked() {
+            commands.push(LookCommand::ToggleOverlay(overlay).into());
+        }
+        let last_with_lines = overlay == Overlay::Tangents;
+        if last_with_lines && (overlays.has(Overlay::Normals) || overlays.has(Overlay::Tangents)) {
+            line_length(ui, overlays.line_length, commands);
+        }
+    }
+}
+
+/// Whether anything beside the ground is drawn over the model.
+pub(super) fn any_beside_the_grid(overlays: &Overlays) -> bool {
+    Overlay::ALL
+        .into_iter()
+        .any(|overlay| overlay != Overlay::Grid && overlays.has(overlay))
+}
+
+fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
+    let text = format!("{:.1} %", length * 100.0);
+    let slider = Slider::new("Line length", length, 0.0..=MAX_LINE_LENGTH, &text);
+    if let Some(length) = slider.reset_to(Overlays::default().line_length).show(ui) {
+        commands.push(LookCommand::SetLineLength(length).into());
+    }
+}

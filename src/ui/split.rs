@@ -1,0 +1,95 @@
+//! Where the picture is divided between both lights: a line over the view with a handle that moves it.
+
+use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use super::layout::bar_height;
+use super::theme::{MARGIN, Tokens};
+use super::widgets::{arrow_steps, is_touch, paint_chip};
+use crate::scene::Light;
+use crate::session::{Command, LookCommand, Session};
+
+/// The handle never leaves the window: shares of its width.
+const REACH: std::ops::RangeInclusive<f32> = 0.02..=0.98;
+/// One step of an arrow key, as a share of the width.
+const KEY_STEP: f32 = 0.01;
+const HANDLE_RADIUS: f32 = 13.0;
+
+/// Shows the line while the picture is divided.
+pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<Command>) {
+    let Some(share) = session.look().split else { return };
+    let x = window.min.x + share * window.width();
+    let handle = pos2(x, window.center().y);
+    let reach = if is_touch(ui) { 22.0 } else { HANDLE_RADIUS };
+    let id = ui.scope_id().with("split");
+    // The line itself is thin; a finger takes the handle, and the model beside it stays within reach.
+    let line = Rect::from_x_y_ranges(x - 4.0..=x + 4.0, window.y_range());
+    let line = ui.interact(line, id.with("line"), Sense::click_and_drag());
+    let grip = Rect::from_center_size(handle, egui::Vec2::splat(2.0 * reach));
+    let grip = ui.interact(grip, id.with("handle"), Sense::click_and_drag());
+    grip.widget_info(|| WidgetInfo::slider(true, f64::from(share), "Split"));
+    let active = [&line, &grip].into_iter().any(|part| part.hovered() || part.dragged());
+    if active {
+        ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
+    }
+    paint(ui, window, handle, active || grip.has_focus());
+
+    let steps = arrow_steps(ui, &grip);
+    let asked = if line.double_clicked() || grip.double_clicked() {
+        Some(0.5)
+    } else if steps != 0.0 {
+        Some(share + steps * KEY_STEP)
+    } else {
+        let pointer = dragged_to(&line).or_else(|| dragged_to(&grip));
+        pointer.map(|pointer| (pointer - window.min.x) / window.width().max(1.0))
+    };
+    if let Some(asked) = asked {
+        let share = asked.clamp(*REACH.start(), *REACH.end());
+        commands.push(LookCommand::SetSplit(Some(share)).into());
+    }
+}
+
+fn dragged_to(part: &Response) -> Option<f32> {
+    let pointer = part.interact_pointer_pos().filter(|_| part.dragged())?;
+    Some(pointer.x)
+}
+
+fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, active: bool) {
+    let tokens = Tokens::of(ui);
+    let painter = ui.painter();
+    // Over any picture the line is seen: light, with a dark edge.
+    painter.vline(
+        handle.x,
+        window.y_range(),
+        Stroke::new(3.0, Color32::from_black_alpha(50)),
+    );
+    let color = if active {
+        tokens.accent
+    } else {
+        Color32::from_white_alpha(230)
+    };
+    painter.vline(handle.x, window.y_range(), Stroke::new(1.0, color));
+
+    let ground = tokens.panel.to_opaque();
+    painter.circle_filled(
+        handle + vec2(0.0, 2.0),
+        HANDLE_RADIUS + 2.0,
+        Color32::from_black_alpha(40),
+    );
+    painter.circle(handle, HANDLE_RADIUS, ground, Stroke::new(1.5, color));
+    let arrow = if active { tokens.accent } else { tokens.muted };
+    for side in [-1.0, 1.0] {
+        let at = |x: f32, y: f32| handle + vec2(side * x, y);
+        let points = vec![at(3.5, -4.0), at(7.5, 0.0), at(3.5, 4.0)];
+        painter.add(Shape::line(points, Stroke::new(1.4, arrow)));
+    }
+
+    let y = window.min.y + 2.0 * MARGIN + bar_height(ui);
+    let sides = [
+        (Light::Book, Align2::RIGHT_TOP, -8.0),
+        (Light::Studio, Align2::LEFT_TOP, 8.0),
+    ];
+    for (light, anchor, away) in sides {
+        let at = pos2(handle.x + away, y);
+        paint_chip(painter, at, anchor, light.label(), tokens.text, tokens.panel);
+    }
+}

@@ -1,0 +1,88 @@
+//! What of the interface is open, and what it asks of the page around.
+
+use egui::Ui;
+
+use super::inspector::VertexCount;
+use super::picture::PictureChoice;
+use super::thumbnails::Thumbnails;
+use super::timeline::KeyTimes;
+use super::viewport::ViewHold;
+use crate::scene::Theme;
+
+/// What only the page around the interface can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// Let the person pick files.
+    PickFiles,
+    /// Take this theme, whatever the system says.
+    UseTheme(Theme),
+    /// Save the view as a picture; [`picture_name`](super::picture_name) says how the file is called.
+    SavePicture {
+        /// Width and height in pixels.
+        size: [u32; 2],
+        /// Without what is behind the model.
+        transparent: bool,
+    },
+}
+
+/// What the bottom sheet of a narrow window shows below the timeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SheetPage {
+    /// Facts, subsets, textures; the selected subset, or the findings while they are open.
+    Model,
+    /// What of a surface is shown.
+    ViewMode,
+    /// Light, background, passes.
+    Light,
+    /// Lines over the model.
+    Overlays,
+    /// Named directions.
+    ViewFrom,
+    /// A picture as a file.
+    Picture,
+}
+
+/// Which panels are open. Nothing here changes the model or the picture of it.
+#[derive(Debug, Default)]
+pub struct UiState {
+    /// The table of keys.
+    pub help_open: bool,
+    /// The list of findings.
+    pub diagnostics_open: bool,
+    /// In a narrow window: what the bottom sheet shows; shut if nothing.
+    pub sheet: Option<SheetPage>,
+    pub(super) coarse_pointer: bool,
+    pub(super) shown_finding: Option<usize>,
+    pub(super) shown_model: u64,
+    pub(super) key_times: KeyTimes,
+    pub(super) picture: PictureChoice,
+    pub(super) thumbnails: Thumbnails,
+    pub(super) view_hold: ViewHold,
+    pub(super) hovered_subset: Option<usize>,
+    pub(super) vertex_count: VertexCount,
+    pub(super) requests: Vec<Request>,
+}
+
+impl UiState {
+    /// Everything shut. `coarse_pointer`: the device says that fingers are its pointer.
+    pub fn new(coarse_pointer: bool) -> Self {
+        Self {
+            coarse_pointer,
+            ..Self::default()
+        }
+    }
+
+    /// What was asked of the page since the last call.
+    pub fn take_requests(&mut self) -> Vec<Request> {
+        std::mem::take(&mut self.requests)
+    }
+
+    /// Asks for a picture as it was chosen, or without ground in any case.
+    pub(super) fn save_picture(&mut self, ui: &Ui, transparent: bool) {
+        let size = self.picture.size_in_pixels(ui);
+        self.requests.push(Request::SavePicture {
+            size,
+            transparent: transparent || self.picture.transparent,
+        });
+    }
+}

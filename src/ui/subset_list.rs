@@ -1,0 +1,207 @@
+//! The subsets of the open model: which are drawn, which one is selected.
+
+use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use super::icons::{self, Icon};
+use super::panel::scrolled;
+use super::state::UiState;
+use super::theme::{CONTROL_RADIUS, Tokens};
+use super::widgets::{
+    color32_from_linear, focus_ring, is_touch, paint_elided, pressed_row_height, section_with_action,
+};
+use super::wording::grouped;
+use crate::model::Submesh;
+use crate::scene::display_color;
+use crate::session::{Command, MapSlot, OpenModel, Session, SubsetCommand};
+
+/// Subsets listed before the list scrolls.
+const ROWS: f32 = 8.0;
+/// Width of an icon of a row where a mouse is the pointer.
+const ICON_WIDTH: f32 = 22.0;
+
+/// The section's contents.
+pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
+    let all_drawn = !session.subsets().left_out().contains(&true);
+    let action = (!all_drawn).then_some("Show all");
+    if section_with_action(ui, "Subsets", action) {
+        commands.push(SubsetCommand::ShowAll.into());
+    }
+    let list = scrolled("subsets", ROWS * pressed_row_height(ui));
+    list.auto_shrink([false, true]).show(ui, |ui| {
+        for (index, submesh) in open.model.mesh.submeshes.iter().enumerate() {
+            let subset = Subset::new(session, index, submesh);
+            if subset.show(ui, commands) {
+                state.hovered_subset = Some(index);
+            }
+        }
+    });
+}
+
+/// The colour in which a subset's material is shown, linear. A map that is there brings its own colours; the tint only stands
+/// in for one that is missing.
+pub(super) fn shown_color(session: &Session, material: usize) -> [f32; 3] {
+    let Some(values) = session.materials().get(material) else {
+        return [0.0; 3];
+    };
+    match session.maps().image(material, MapSlot::Diffuse) {
+        Some(_) => values.diffuse,
+        None => display_color(material, values),
+    }
+}
+
+/// A square in a colour (linear).
+pub(super) fn paint_swatch(ui: &Ui, center: egui::Pos2, color: [f32; 3], opacity: f32) {
+    let swatch = Rect::from_center_size(center, vec2(10.0, 10.0));
+    let color = color32_from_linear(color).gamma_multiply(opacity);
+    ui.painter().rect_filled(swatch, 2.5, color);
+    // A dark material on a dark panel still has an outline.
+    let outline = Stroke::new(1.0, Tokens::of(ui).field_hovered);
+    ui.painter().rect_stroke(swatch, 2.5, outline, StrokeKind::Inside);
+}
+
+/// One row.
+struct Subset<'a> {
+    index: usize,
+    name: &'a str,
+    triangles: String,
+    color: [f32; 3],
+    visible: bool,
+    alone: bool,
+    selected: bool,
+}
+
+impl<'a> Subset<'a> {
+    fn new(session: &'a Session, index: usize, submesh: &Submesh) -> Self {
+        let material = submesh.material as usize;
+        let subsets = session.subsets();
+        Self {
+            index,
+            name: session.materials().get(material).map_or("", |values| &values.name),
+            triangles: grouped(submesh.triangle_count as usize),
+            color: shown_color(session, material),
+            visible: subsets.is_visible(index),
+            alone: subsets.solo() == Some(index),
+            selected: subsets.selected() == Some(index),
+        }
+    }
+
+    /// Whether the pointer is over it.
+    fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) -> bool {
+        let tokens = Tokens::of(ui);
+        let size = vec2(ui.available_width(), pressed_row_height(ui));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let around = rect.expand2(vec2(6.0, 0.0));
+        let touch = is_touch(ui);
+        let over = response.contains_pointer() && !touch;
+        if self.selected {
+            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
+        } else if over {
+            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+        }
+        focus_ring(ui, around, &response);
+        response.widget_info(|| {
+            let label = format!("{}, {} triangles", self.name, self.triangles);
+            WidgetInfo::selected(Role::ListItem, true, self.selected, label)
+        });
+
+        let opacity = if self.visible { 1.0 } else { 0.35 };
+        paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
+        let icons_shown = over || touch || response.has_focus();
+        let end = self.show_end(ui, rect, &response, icons_shown, commands);
+        let color = if self.selected { tokens.accent } else { tokens.text };
+        let left = rect.min.x + 18.0;
+        let middle = pos2(left, rect.center().y);
+        let font = FontId::proportional(13.0);
+        paint_elided(
+            ui.painter(),
+            middle,
+            self.name,
+            font,
+            color.gamma_multiply(opacity.max(0.55)),
+            end - 6.0 - left,
+        );
+
+        if response.clicked() {
+            let alone = ui.input(|input| input.modifiers.alt);
+            let selected = (!self.selected).then_some(self.index);
+            let asked = if alone {
+                SubsetCommand::Solo(self.index)
+            } else {
+                SubsetCommand::Select(selected)
+            };
+            commands.push(asked.into());
+        }
+        if !touch {
+            response.on_hover_text(format!("{}\nAlt click: show alone", self.name));
+        }
+        over
+    }
+
+    /// What stands at the right end: the icons under the pointer or where one of them is on, else the count of triangles.
+    /// Where it begins.
+    fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, all: bool, commands: &mut Vec<Command>) -> f32 {
+        let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
+        let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };
+        let verb = if self.visible { "Hide" } else { "Show" };
+        let visible = SubsetCommand::SetVisible {
+            subset: self.index,
+            visible: !self.visible,
+        };
+        let alone = SubsetCommand::Solo(self.index);
+        let icons = [
+            (
+                all || !self.visible,
+                eye,
+                format!("{verb} {}", self.name),
+                false,
+                visible,
+            ),
+            (
+                all || self.alone,
+                Icon::Solo,
+                format!("Show {} alone", self.name),
+                self.alone,
+                alone,
+            ),
+        ];
+        // Each icon has its place, whether or not the other is shown.
+        let mut right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
+        let mut begins = None;
+        for (shown, icon, label, on, command) in icons {
+            let place = Rect::from_min_max(pos2(right - width, rect.min.y), pos2(right, rect.max.y));
+            right = place.min.x;
+            if shown {
+                begins = Some(right);
+                if row_icon(ui, place, row, icon, &label, on) {
+                    commands.push(command.into());
+                }
+            }
+        }
+        let count_at = match begins {
+            Some(x) if is_touch(ui) => pos2(x - 6.0, rect.center().y),
+            Some(x) => return x,
+            None => rect.right_center(),
+        };
+        let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
+        let painter = ui.painter();
+        painter
+            .text(count_at, Align2::RIGHT_CENTER, &self.triangles, font, color)
+            .min
+            .x
+    }
+}
+
+/// A small icon in a row. Whether it was clicked.
+fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
+    let tokens = Tokens::of(ui);
+    let response = ui.interact(place, row.id.with(icon), Sense::click());
+    let color = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tokens.accent,
+        (false, hovered) => tokens.muted_to_text(hovered),
+    };
+    let box_of = Rect::from_center_size(place.center(), Vec2::splat(16.0));
+    icons::paint(ui.painter(), box_of, icon, color);
+    focus_ring(ui, place, &response);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
+    response.on_hover_text(label).clicked()
+}

@@ -1,0 +1,143 @@
+//! Buttons: an icon, words, a line of a menu.
+
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Align2, Color32, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use super::super::icons::{self, Icon};
+use super::super::theme::{self, CONTROL_RADIUS, Tokens};
+use super::{TOUCH_CONTROL, control_size, focus_ring, is_touch};
+
+/// Width of an icon in a button with words, with the room after it.
+const ICON_WIDTH: f32 = 21.0;
+/// Width of the chevron of a drop-down.
+const CHEVRON_WIDTH: f32 = 18.0;
+
+/// A square button with an icon. `on` marks a switch that is on.
+pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+    let size = Vec2::splat(control_size(ui));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let tokens = Tokens::of(ui);
+    let fill = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tokens.accent_ground,
+        (false, true) => tokens.field_hovered,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, CONTROL_RADIUS, fill);
+    focus_ring(ui, rect, &response);
+    let color = if on {
+        tokens.accent
+    } else {
+        tokens.muted_to_text(response.hovered())
+    };
+    icons::paint(ui.painter(), rect, icon, color);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
+    response.on_hover_text(label)
+}
+
+/// A button with words on a quiet ground, as wide as they need within its width; what is longer ends in an ellipsis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TextButton<'a> {
+    text: &'a str,
+    label: &'a str,
+    icon: Option<Icon>,
+    opens_list: bool,
+    width: Rangef,
+}
+
+impl<'a> TextButton<'a> {
+    /// A button with this text; `label` is what a reader says.
+    pub(crate) fn new(text: &'a str, label: &'a str) -> Self {
+        Self {
+            text,
+            label,
+            icon: None,
+            opens_list: false,
+            width: Rangef::new(0.0, f32::INFINITY),
+        }
+    }
+
+    /// With an icon before the words.
+    pub(crate) fn icon(self, icon: Icon) -> Self {
+        Self {
+            icon: Some(icon),
+            ..self
+        }
+    }
+
+    /// With the chevron of a drop-down.
+    pub(crate) fn list(self) -> Self {
+        Self {
+            opens_list: true,
+            ..self
+        }
+    }
+
+    /// Its least and greatest width.
+    pub(crate) fn width(self, width: Rangef) -> Self {
+        Self { width, ..self }
+    }
+
+    /// Shows it.
+    pub(crate) fn show(self, ui: &mut Ui) -> Response {
+        let tokens = Tokens::of(ui);
+        let before = 8.0 + if self.icon.is_some() { ICON_WIDTH } else { 0.0 };
+        let after = 8.0 + if self.opens_list { CHEVRON_WIDTH } else { 0.0 };
+        let mut job = LayoutJob::simple_singleline(self.text.to_owned(), FontId::proportional(13.0), tokens.text);
+        job.wrap = TextWrapping::truncate_at_width(self.width.max - before - after);
+        let galley = ui.painter().layout_job(job);
+        let width = self.width.clamp(galley.size().x + before + after);
+        let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
+        let fill = if response.hovered() || response.has_focus() {
+            tokens.field_hovered
+        } else {
+            tokens.field
+        };
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, fill);
+        focus_ring(ui, rect, &response);
+        if let Some(icon) = self.icon {
+            let place = Rect::from_center_size(pos2(rect.min.x + 16.0, rect.center().y), Vec2::splat(16.0));
+            icons::paint(ui.painter(), place, icon, tokens.text);
+        }
+        let free = (width - before - after - galley.size().x).max(0.0);
+        // Words alone stand in the middle; before a chevron they begin at the left.
+        let start = rect.min.x + before + if self.opens_list { 0.0 } else { free * 0.5 };
+        let text_at = pos2(start, rect.center().y - galley.size().y * 0.5);
+        ui.painter().galley(text_at, galley, tokens.text);
+        if self.opens_list {
+            let chevron = Rect::from_center_size(pos2(rect.max.x - 14.0, rect.center().y), Vec2::splat(16.0));
+            icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
+        }
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, self.label));
+        response
+    }
+}
+
+/// A line of a menu; `on` marks the one in force.
+pub(crate) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
+    keyed_menu_item(ui, text, "", on)
+}
+
+/// A line of a menu with the key that does the same.
+pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, on: bool) -> Response {
+    let tokens = Tokens::of(ui);
+    let color = if on { tokens.accent } else { tokens.text };
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), FontId::proportional(13.0), color);
+    let width = ui.available_width().max(galley.size().x + 20.0);
+    let height = if is_touch(ui) { TOUCH_CONTROL } else { 26.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::click());
+    if on {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
+    } else if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
+    }
+    focus_ring(ui, rect, &response);
+    let at = pos2(rect.min.x + 10.0, rect.center().y - galley.size().y * 0.5);
+    ui.painter().galley(at, galley, color);
+    let right = rect.right_center() - vec2(10.0, 0.0);
+    ui.painter()
+        .text(right, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
+    response
+}

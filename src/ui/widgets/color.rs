@@ -1,0 +1,192 @@
+//! Choosing a colour: a square of saturation and value, a bar of hues, the hexadecimal number.
+
+use egui::{
+    Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Response, Role, Sense, Shape, Stroke,
+    StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+};
+
+use super::super::theme::{CONTROL_RADIUS, Tokens};
+use super::hsv::{Hsv, hsv_from_srgb, srgb_from_hsv};
+use super::{MOUSE_CONTROL, control_size, focus_ring};
+use crate::scene::srgb8_from_linear;
+
+/// Height of the square.
+const SQUARE_HEIGHT: f32 = 112.0;
+/// Fields of the square's mesh, a side: corners alone would bend the colours along the diagonal.
+const SQUARE_FIELDS: u32 = 8;
+
+/// A button in a colour (sRGB) that opens the picker. The new colour, when there is one.
+pub(crate) fn color_button(ui: &mut Ui, label: &str, size: Vec2, srgb: [u8; 3]) -> Option<[u8; 3]> {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    ui.painter().rect_filled(rect, CONTROL_RADIUS, color32(srgb));
+    // A dark colour on a dark panel still has an outline.
+    let outline = if response.hovered() {
+        tokens.muted
+    } else {
+        tokens.field_hovered
+    };
+    let radius = CornerRadius::same(CONTROL_RADIUS);
+    ui.painter()
+        .rect_stroke(rect, radius, Stroke::new(1.0, outline), StrokeKind::Inside);
+    focus_ring(ui, rect, &response);
+    response.widget_info(|| WidgetInfo::labeled(Role::ColorWell, true, format!("{label}: {}", hex(srgb))));
+    let mut chosen = None;
+    Popup::from_toggle_button_response(&response)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .gap(6.0)
+        .show(|ui| {
+            ui.set_width(200.0);
+            chosen = color_picker(ui, label, srgb);
+        });
+    response.on_hover_text(format!("{label}: {}", hex(srgb)));
+    chosen
+}
+
+/// The picker in place, over the whole width. The new colour, when there is one.
+pub(crate) fn color_picker(ui: &mut Ui, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]> {
+    let id = ui.make_persistent_id(("picker", label));
+    // A grey has no hue and a black has no saturation; they stay where they were put.
+    let kept = ui.data(|data| data.get_temp::<Hsv>(id));
+    let hsv = kept
+        .filter(|&kept| srgb_from_hsv(kept) == srgb)
+        .unwrap_or_else(|| hsv_from_srgb(srgb));
+    let mut asked = square(ui, label, hsv);
+    ui.add_space(8.0);
+    asked = hue_bar(ui, label, hsv).or(asked);
+    if let Some(asked) = asked {
+        ui.data_mut(|data| data.insert_temp(id, asked));
+    }
+    ui.add_space(8.0);
+    let typed = ui
+        .horizontal(|ui| {
+            let (swatch, _) = ui.allocate_exact_size(Vec2::splat(MOUSE_CONTROL), Sense::hover());
+            ui.painter().rect_filled(swatch, CONTROL_RADIUS, color32(srgb));
+            hex_field(ui, id.with("hex"), label, srgb)
+        })
+        .inner;
+    typed.or(asked.map(srgb_from_hsv)).filter(|&chosen| chosen != srgb)
+}
+
+fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv> {
+    let size = vec2(ui.available_width(), SQUARE_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let mut mesh = Mesh::default();
+    let side = SQUARE_FIELDS + 1;
+    for (row, column) in (0..side).flat_map(|row| (0..side).map(move |column| (row, column))) {
+        let share = vec2(column as f32, row as f32) / SQUARE_FIELDS as f32;
+        let at = rect.min + share * rect.size();
+        mesh.colored_vertex(at, color32(srgb_from_hsv([hue, share.x, 1.0 - share.y])));
+        if row > 0 && column > 0 {
+            let here = row * side + column;
+            mesh.add_triangle(here, here - 1, here - side);
+            mesh.add_triangle(here - 1, here - side, here - side - 1);
+        }
+    }
+    ui.painter().add(Shape::mesh(mesh));
+    let at = rect.min + vec2(saturation, 1.0 - value) * rect.size();
+    mark(ui, at, color32(srgb_from_hsv([hue, saturation, value])));
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, format!("{label}: saturation and brightness")));
+    let at = (held(&response)? - rect.min) / rect.size();
+    Some([hue, at.x.clamp(0.0, 1.0), 1.0 - at.y.clamp(0.0, 1.0)])
+}
+
+fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv> {
+    let height = if control_size(ui) > MOUSE_CONTROL { 28.0 } else { 14.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
+    let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+    let mut mesh = Mesh::default();
+    for sixth in 0..=6 {
+        let share = sixth as f32 / 6.0;
+        let x = lerp(rect.x_range(), share);
+        let color = color32(srgb_from_hsv([share, 1.0, 1.0]));
+        mesh.colored_vertex(pos2(x, rect.min.y), color);
+        mesh.colored_vertex(pos2(x, rect.max.y), color);
+        if sixth > 0 {
+            let here = 2 * sixth;
+            mesh.add_triangle(here - 2, here - 1, here);
+            mesh.add_triangle(here - 1, here, here + 1);
+        }
+    }
+    ui.painter().add(Shape::mesh(mesh));
+    let at = pos2(lerp(rect.x_range(), hue), rect.center().y);
+    mark(ui, at, color32(srgb_from_hsv([hue, 1.0, 1.0])));
+    response.widget_info(|| WidgetInfo::slider(true, f64::from(hue), format!("{label}: hue")));
+    let share = (held(&response)?.x - rect.min.x) / rect.width().max(1.0);
+    Some([share.clamp(0.0, 1.0), saturation, value])
+}
+
+/// Where the pointer holds a field.
+fn held(response: &Response) -> Option<egui::Pos2> {
+    let holds = response.is_pointer_button_down_on() || response.clicked();
+    response.interact_pointer_pos().filter(|_| holds)
+}
+
+/// A ring that can be seen on every colour.
+fn mark(ui: &Ui, at: egui::Pos2, color: Color32) {
+    ui.painter()
+        .circle(at, 6.0, color, Stroke::new(3.0, Color32::from_black_alpha(90)));
+    ui.painter().circle_stroke(at, 6.0, Stroke::new(1.6, Color32::WHITE));
+}
+
+/// The colour as `#rrggbb`; what is typed counts as soon as it is one.
+fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]> {
+    let typing = ui.memory(|memory| memory.has_focus(id));
+    let kept = ui.data(|data| data.get_temp::<String>(id)).filter(|_| typing);
+    let mut text = kept.unwrap_or_else(|| hex(srgb));
+    let field = TextEdit::singleline(&mut text)
+        .id(id)
+        .font(TextStyle::Monospace)
+        .char_limit(7)
+        .margin(vec2(8.0, 6.0))
+        .desired_width(f32::INFINITY);
+    let response = ui.add(field);
+    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, format!("{label}: number")));
+    let typed = response.changed().then(|| from_hex(&text)).flatten();
+    ui.data_mut(|data| data.insert_temp(id, text));
+    typed
+}
+
+/// A linear colour as egui paints it.
+pub(crate) fn color32_from_linear(linear: [f32; 3]) -> Color32 {
+    color32(linear.map(srgb8_from_linear))
+}
+
+fn color32([red, green, blue]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(red, green, blue)
+}
+
+fn hex([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// Three or six hexadecimal digits, with or without the mark before them.
+fn from_hex(text: &str) -> Option<[u8; 3]> {
+    let digits = text.trim().trim_start_matches('#');
+    // A sign before the digits would be read as a part of the number.
+    let value = u32::from_str_radix(digits, 16)
+        .ok()
+        .filter(|_| digits.bytes().all(|byte| byte.is_ascii_hexdigit()))?;
+    match digits.len() {
+        6 => Some([16, 8, 0].map(|shift| (value >> shift) as u8)),
+        3 => Some([8, 4, 0].map(|shift| (value >> shift & 0xF) as u8 * 0x11)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hexadecimal_colours_are_read_as_people_write_them() {
+        assert_eq!(from_hex("#5aa9FF"), Some([0x5A, 0xA9, 0xFF]));
+        assert_eq!(from_hex(" 5aa9ff "), Some([0x5A, 0xA9, 0xFF]));
+        assert_eq!(from_hex("#fa0"), Some([0xFF, 0xAA, 0x00]));
+        for bad in ["", "#", "#12", "#1234567", "red", "#12345g", "+12345", "１２３"] {
+            assert_eq!(from_hex(bad), None, "{bad:?}");
+        }
+        assert_eq!(hex([0x05, 0xA9, 0xFF]), "#05a9ff");
+    }
+}

@@ -1,0 +1,159 @@
+//! Rows of panels: headings, facts, choices, hairlines.
+
+use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use super::super::icons::{self, Icon};
+use super::super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+use super::{MOUSE_CONTROL, control_size, icon_button, is_touch, pressed_row_height};
+
+/// Height of the name of a part.
+const SECTION_HEIGHT: f32 = 21.0;
+
+/// A row of a panel: a quiet label and a value at the right edge.
+pub(crate) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+    let font = FontId::proportional(13.0);
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        label,
+        font.clone(),
+        tokens.muted,
+    );
+    ui.painter()
+        .text(rect.right_center(), Align2::RIGHT_CENTER, value, font, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {value}")));
+    response
+}
+
+/// A row of a panel whose value opens a menu.
+pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    let height = pressed_row_height(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+    if response.hovered() || response.has_focus() {
+        ui.painter()
+            .rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);
+    }
+    let font = FontId::proportional(13.0);
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        label,
+        font.clone(),
+        tokens.muted,
+    );
+    let chevron = Rect::from_center_size(pos2(rect.max.x - 5.0, rect.center().y), Vec2::splat(16.0));
+    icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
+    let mut right = rect.max.x - 15.0;
+    for (text, color) in [(how, tokens.muted), (value, tokens.text)] {
+        let drawn = ui.painter().text(
+            pos2(right, rect.center().y),
+            Align2::RIGHT_CENTER,
+            text,
+            font.clone(),
+            color,
+        );
+        right = drawn.min.x - 4.0;
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {value} {how}")));
+    response
+}
+
+/// The title of a panel with a button that closes it. Whether it was clicked.
+pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
+    ui.horizontal(|ui| {
+        let width = ui.available_width() - control_size(ui) - 6.0;
+        let (heading, _) = ui.allocate_exact_size(vec2(width, MOUSE_CONTROL), Sense::hover());
+        let (at, color) = (heading.left_center(), Tokens::of(ui).text);
+        ui.painter()
+            .text(at, Align2::LEFT_CENTER, title, theme::semibold(13.0), color);
+        icon_button(ui, Icon::Close, "Close", false).clicked()
+    })
+    .inner
+}
+
+/// The name of a part of a panel: 11 points, capitals.
+pub(crate) fn section_name(ui: &mut Ui, name: &str) {
+    keyed_section_name(ui, name, "");
+}
+
+/// The name of a part of a panel with the key that changes it.
+pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SECTION_HEIGHT), Sense::hover());
+    // The words stand a little higher than the middle, nearer to what is above than a row would be.
+    let y = rect.center().y - 1.0;
+    let font = theme::semibold(11.0);
+    ui.painter().text(
+        pos2(rect.min.x, y),
+        Align2::LEFT_CENTER,
+        name.to_uppercase(),
+        font,
+        tokens.muted,
+    );
+    let font = theme::mono(11.0);
+    ui.painter()
+        .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, key, font, tokens.faint);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
+}
+
+/// The name of a part of a panel, and at its right end something to do about it. Whether it was clicked.
+pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>) -> bool {
+    let top = ui.cursor().min;
+    section_name(ui, name);
+    let Some(action) = action else { return false };
+    let tokens = Tokens::of(ui);
+    let galley = ui
+        .painter()
+        .layout_no_wrap(action.to_owned(), FontId::proportional(11.5), tokens.accent);
+    let middle = top.y + 0.5 * SECTION_HEIGHT - 1.0;
+    let height = if is_touch(ui) { control_size(ui) } else { SECTION_HEIGHT };
+    let size = vec2(galley.size().x + 12.0, height);
+    let right = top.x + ui.available_width() + 6.0;
+    let place = Rect::from_center_size(pos2(right - 0.5 * size.x, middle), size);
+    let response = ui.interact(place, ui.scope_id().with(("action", name)), Sense::click());
+    let ground = Rect::from_center_size(place.center(), vec2(size.x, 19.0));
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(ground, CONTROL_RADIUS, tokens.accent_ground);
+    }
+    let at = place.center() - galley.size() * 0.5;
+    ui.painter().galley(at, galley, tokens.accent);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, action));
+    response.clicked()
+}
+
+/// A hairline across a panel, from border to border.
+pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
+    let tokens = Tokens::of(ui);
+    ui.add_space(7.0);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
+    let rect = rect.expand2(vec2(panel_margin, 0.0));
+    ui.painter()
+        .hline(rect.x_range(), rect.center().y, Stroke::new(1.0, tokens.hairline));
+    ui.add_space(7.0);
+}
+
+/// The grip of the bottom sheet.
+pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
+    // A finger may also take hold of it a little above the sheet.
+    let above = (control_size(ui) - rect.height()).max(0.0);
+    let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
+    let response = ui.interact(target, response.id.with("grip"), Sense::click());
+    let grip = Rect::from_center_size(rect.center(), vec2(38.0, 4.0));
+    ui.painter().rect_filled(
+        grip,
+        2.0,
+        if response.hovered() {
+            tokens.faint
+        } else {
+            tokens.hairline
+        },
+    );
+    let label = if open { "Close the sheet" } else { "Model facts" };
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
+    response
+}

@@ -1,0 +1,88 @@
+//! Numbers and names as people read them.
+
+/// A whole number with its thousands grouped by narrow spaces: `13 748`.
+pub(super) fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A length with about three significant digits: `73.4`, `0.0123`, `13 748`.
+pub(super) fn measured(length: f32) -> String {
+    match length.abs() {
+        _ if !length.is_finite() => "–".to_owned(),
+        0.0 => "0".to_owned(),
+        size if !(1e-3..1e7).contains(&size) => format!("{length:.2e}"),
+        size if size >= 1000.0 => {
+            let sign = if length < 0.0 { "−" } else { "" };
+            format!("{sign}{}", grouped(size.round() as usize))
+        }
+        size if size >= 100.0 => format!("{length:.0}"),
+        size if size >= 10.0 => format!("{length:.1}"),
+        size if size >= 1.0 => format!("{length:.2}"),
+        size if size >= 0.1 => format!("{length:.3}"),
+        size if size >= 0.01 => format!("{length:.4}"),
+        _ => format!("{length:.5}"),
+    }
+}
+
+/// A name cut to some characters, with an ellipsis.
+pub(super) fn shortened(name: &str, most: usize) -> String {
+    if name.chars().count() <= most {
+        return name.to_owned();
+    }
+    name.chars().take(most - 1).chain(['…']).collect()
+}
+
+/// A number without trailing zeros.
+pub(super) fn trimmed(number: f32) -> String {
+    let text = format!("{number:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// `1 note`, `2 notes`.
+pub(super) fn counted(count: usize, word: &str) -> String {
+    format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_grouped() {
+        let cases = [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1\u{2009}000"),
+            (13_748, "13\u{2009}748"),
+            (1_234_567, "1\u{2009}234\u{2009}567"),
+        ];
+        for (number, text) in cases {
+            assert_eq!(grouped(number), text);
+        }
+    }
+
+    #[test]
+    fn lengths_keep_about_three_digits() {
+        let cases = [
+            (0.0, "0"),
+            (73.42, "73.4"),
+            (1.8, "1.80"),
+            (0.437_6, "0.438"),
+            (0.012_34, "0.0123"),
+            (1e9, "1.00e9"),
+            (-2000.0, "−2\u{2009}000"),
+            (f32::NAN, "–"),
+        ];
+        for (length, text) in cases {
+            assert_eq!(measured(length), text);
+        }
+    }
+}

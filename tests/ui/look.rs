@@ -1,0 +1,246 @@
+//! View modes, light, background, overlays, passes: each control does what it says.
+
+use bindpose::image::{Image, encode_png};
+use bindpose::scene::{Background, Light, Overlay, Pass, ViewMode};
+use bindpose::session::{Command, LookCommand, PassChoice, PassState};
+use egui::{Key, Modifiers, pos2};
+
+use crate::models::moving;
+use crate::page::{WIDE, Window, window};
+
+fn open() -> Window {
+    window(WIDE, vec![moving("a.m3d")])
+}
+
+#[test]
+fn the_menu_lists_all_view_modes_and_shows_one() {
+    let mut window = open();
+    window.click("View mode: Lit");
+    for mode in ViewMode::ALL {
+        assert!(window.shows(mode.label()), "{mode:?}");
+    }
+    window.click("Roughness");
+    assert_eq!(window.session().look().view_mode, ViewMode::Roughness);
+    assert!(
+        window.shows("View mode: Roughness") && !window.shows("Depth"),
+        "the menu is shut"
+    );
+}
+
+#[test]
+fn the_light_is_chosen_and_exposure_belongs_to_the_studio() {
+    let mut window = open();
+    window.click("Lighting: Studio");
+    assert!(window.shows("Exposure"));
+    window.click("Light: Book");
+    assert_eq!(window.session().look().light, Light::Book);
+    assert!(window.shows("Lighting: Book") && !window.shows("Exposure"));
+    window.click("Split");
+    assert_eq!(window.session().look().split, Some(0.5));
+    assert!(
+        window.shows("Lighting: Split") && window.shows("Exposure"),
+        "half of it is the studio's"
+    );
+    window.click("Light: Studio");
+    let look = window.session().look();
+    assert_eq!((look.light, look.split), (Light::Studio, None));
+}
+
+/// Presses a slider at a share of its track.
+fn press_slider(window: &mut Window, label: &str, share: f32) {
+    let track = window.rect(label);
+    let at = pos2(track.min.x + 6.0 + share * (track.width() - 12.0), track.center().y);
+    window.harness.hover_at(at);
+    window.harness.drag_at(at);
+    window.harness.drop_at(at);
+    window.pass_on();
+    // The next press is not the second of a double click.
+    window.wait(0.6);
+}
+
+#[test]
+fn sliders_follow_the_pointer_and_the_arrows_and_go_back_with_a_double_click() {
+    let mut window = open();
+    window.click("Lighting");
+    press_slider(&mut window, "Exposure", 0.75);
+    assert!((window.session().look().exposure_stops - 2.0).abs() < 0.05);
+    press_slider(&mut window, "Surroundings", 0.5);
+    assert!((window.session().look().environment_turn_radians - std::f32::consts::PI).abs() < 0.05);
+    press_slider(&mut window, "Surroundings", 1.0);
+    assert!(
+        window.session().look().environment_turn_radians > 6.2,
+        "a whole turn stays at its end"
+    );
+
+    let stops = window.session().look().exposure_stops;
+    while window.focused().as_deref() != Some("Exposure") {
+        window.press(Modifiers::NONE, Key::Tab);
+    }
+    window.press(Modifiers::NONE, Key::ArrowRight);
+    assert!(window.session().look().exposure_stops > stops);
+    assert_eq!(window.time_secs(), 0.0, "and no frame was stepped");
+
+    let at = window.rect("Exposure").center();
+    for _ in 0..2 {
+        window.harness.hover_at(at);
+        window.harness.drag_at(at);
+        window.harness.drop_at(at);
+    }
+    window.pass_on();
+    assert_eq!(window.session().look().exposure_stops, 0.0);
+}
+
+#[test]
+fn the_background_is_chosen_and_its_colour_typed() {
+    let mut window = open();
+    window.click("Lighting");
+    for (label, background) in [
+        ("Background: Sky", Background::Sky),
+        ("Background: None", Background::None),
+        ("Background: Backdrop", Background::Backdrop),
+    ] {
+        window.click(label);
+        assert_eq!(window.session().look().background, background);
+    }
+    window.click("Background: Colour");
+    assert!(matches!(window.session().look().background, Background::Color(_)));
+    window.click("Background colour: number");
+    window.press(Modifiers::COMMAND, Key::A);
+    window.harness.event(egui::Event::Text("#ff8000".to_owned()));
+    window.pass_on();
+    assert_eq!(
+        window.session().look().background,
+        Background::Color([0xFF, 0x80, 0x00])
+    );
+    window.click("Background colour: saturation");
+    let Background::Color(color) = window.session().look().background else {
+        panic!("a colour")
+    };
+    assert_eq!(
+        color.map(|channel| i32::from(channel) / 10),
+        [12, 9, 6],
+        "the middle of the square"
+    );
+}
+
+#[test]
+fn the_green_of_normal_maps_is_turned() {
+    let mut window = open();
+    window.click("Lighting");
+    window.click("Normal maps: OpenGL");
+    assert!(window.session().look().normal_green_flipped);
+    window.click("Normal maps: DirectX");
+    assert!(!window.session().look().normal_green_flipped);
+}
+
+#[test]
+fn each_overlay_has_its_switch_and_lines_have_a_length() {
+    let mut window = open();
+    window.click("Lines over the model");
+    for overlay in Overlay::ALL {
+        let before = window.session().look().overlays.has(overlay);
+        window.click(overlay.label());
+        assert_eq!(window.session().look().overlays.has(overlay), !before, "{overlay:?}");
+    }
+    press_slider(&mut window, "Line length", 0.5);
+    let length = window.session().look().overlays.line_length;
+    assert!((length - 0.125).abs() < 0.01, "{length}");
+    window.click("Vertex normals");
+    assert!(window.shows("Line length"), "tangents are on");
+    window.click("Vertex tangents");
+    assert!(!window.shows("Line length"));
+}
+
+#[test]
+fn passes_say_their_state_and_a_click_changes_it() {
+    let mut window = open();
+    window.click("Lighting");
+    for pass in Pass::ALL {
+        let [on, off] = ["on", "off"].map(|words| format!("{}: {words}", pass.label()));
+        window.click(&on);
+        assert_eq!(window.session().quality().choice(pass), PassChoice::Off);
+        window.click(&off);
+        assert_eq!(window.session().quality().choice(pass), PassChoice::Auto);
+        assert!(window.shows(&on));
+    }
+}
+
+#[test]
+fn what_was_given_up_is_said_and_can_be_insisted_on() {
+    let mut window = open();
+    let slow_frames = |window: &mut Window| {
+        for _ in 0..12 {
+            window.harness.state_mut().session.note_frame(0.2);
+        }
+    };
+    slow_frames(&mut window);
+    window.click("Lighting");
+    assert!(window.shows("Ambient occlusion is off: frames took too long"));
+    slow_frames(&mut window);
+    window.pass_on();
+    assert!(window.shows("Contact shadow and ambient occlusion are off: frames took too long"));
+    window.click("Ambient occlusion: too slow here");
+    assert_eq!(
+        window.session().quality().choice(Pass::AmbientOcclusion),
+        PassChoice::On
+    );
+    assert_eq!(
+        window.session().quality().state(Pass::AmbientOcclusion),
+        PassState::Drawn
+    );
+    assert!(window.shows("Contact shadow is off: frames took too long"));
+}
+
+#[test]
+fn numbers_stand_still_while_they_change() {
+    let mut window = open();
+    window.apply(LookCommand::SetOverlay(Overlay::Normals, true).into());
+    window.click("Lighting");
+    let places = |window: &Window| {
+        let mut widgets = window.widgets();
+        widgets.retain(|(name, _)| !name.starts_with("Light"));
+        widgets.into_iter().map(|(_, rect)| rect).collect::<Vec<_>>()
+    };
+    let before = places(&window);
+    for command in [
+        LookCommand::SetExposure(-3.3),
+        LookCommand::SetExposure(3.9),
+        LookCommand::SetEnvironmentTurn(6.0),
+        LookCommand::SetLight(Light::Studio),
+    ] {
+        window.apply(Command::Look(command));
+        assert_eq!(places(&window), before, "{command:?}");
+    }
+}
+
+#[test]
+fn a_click_beside_a_popover_shuts_it_and_selects_nothing() {
+    let mut window = open();
+    window.click("Lighting");
+    let middle = pos2(WIDE.x * 0.5, WIDE.y * 0.5);
+    let click = |window: &mut Window| {
+        window.harness.hover_at(middle);
+        window.harness.drag_at(middle);
+        window.harness.drop_at(middle);
+        window.pass_on();
+        window.wait(0.6);
+    };
+    click(&mut window);
+    assert!(!window.shows("Exposure") && window.session().subsets().selected().is_none());
+    click(&mut window);
+    assert_eq!(
+        window.session().subsets().selected(),
+        Some(0),
+        "the model is in the middle"
+    );
+}
+
+#[test]
+fn a_picture_that_is_no_cube_is_no_sky() {
+    let mut window = open();
+    let image = Image::from_rgba8(1, 1, vec![0; 4], "PNG").expect("a picture");
+    let png = encode_png(image.data(), 1, 1).expect("a PNG");
+    window.apply(Command::AddFiles(vec![bindpose::session::File::new("flat.png", png)]));
+    window.click("Lighting");
+    assert!(!window.shows("Remove the sky"));
+}

@@ -1,0 +1,244 @@
+//! The list of subsets and the inspector of the one that is selected.
+
+use bindpose::format::{Dialect, Document, Reflectance as FileReflectance};
+use bindpose::model::Reflectance;
+use bindpose::session::File;
+use egui::{Event, Key, Modifiers, PointerButton, Vec2, pos2};
+
+use crate::models;
+use crate::page::{PHONE, WIDE, Window, touch_window, window};
+
+/// The box as two subsets: three sides painted, three bare.
+fn halves() -> Document {
+    let mut document = models::document();
+    let mut bare = document.materials[0].clone();
+    bare.name = "Bare".to_owned();
+    bare.diffuse_map = Some("bare_diff.dds".to_owned());
+    document.materials.push(bare);
+    let mut second = document.subsets[0];
+    document.subsets[0].vertex_count = 12;
+    document.subsets[0].face_count = 6;
+    second.id = 1;
+    second.vertex_start = 12;
+    second.vertex_count = 12;
+    second.face_start = 6;
+    second.face_count = 6;
+    document.subsets.push(second);
+    document
+}
+
+fn files() -> Vec<File> {
+    vec![models::file("a.m3d", &halves())]
+}
+
+fn open() -> Window {
+    window(WIDE, files())
+}
+
+fn hover(window: &mut Window, start: &str) {
+    let at = window.rect(start).center();
+    window.harness.hover_at(at);
+    window.pass_on();
+}
+
+#[test]
+fn a_row_under_the_pointer_stands_out_in_the_view_and_offers_its_icons() {
+    let mut window = open();
+    assert!(!window.shows("Hide Bare"));
+    hover(&mut window, "Bare, 6 triangles");
+    assert_eq!(window.session().subsets().highlighted(), Some(1));
+    assert!(window.shows("Hide Bare") && window.shows("Show Bare alone"));
+    window.harness.event(Event::PointerGone);
+    window.pass_on();
+    assert_eq!(window.session().subsets().highlighted(), None);
+    assert!(!window.shows("Hide Bare"));
+}
+
+#[test]
+fn the_eye_hides_and_shows_and_one_word_shows_all() {
+    let mut window = open();
+    hover(&mut window, "Bare, 6 triangles");
+    window.click("Hide Bare");
+    assert_eq!(window.session().subsets().left_out(), [false, true]);
+    window.harness.event(Event::PointerGone);
+    window.pass_on();
+    window.click("Show Bare");
+    assert_eq!(window.session().subsets().left_out(), [false, false]);
+    hover(&mut window, "Painted, 6 triangles");
+    window.click("Hide Painted");
+    window.click("Show all");
+    assert_eq!(window.session().subsets().left_out(), [false, false]);
+    assert!(!window.shows("Show all"));
+}
+
+#[test]
+fn alone_by_the_icon_or_by_an_alt_click() {
+    let mut window = open();
+    hover(&mut window, "Bare, 6 triangles");
+    window.click("Show Bare alone");
+    assert_eq!(window.session().subsets().left_out(), [true, false]);
+    window.click("Show Bare alone");
+    assert_eq!(window.session().subsets().left_out(), [false, false]);
+
+    let at = window.rect("Painted, 6").left_center() + Vec2::new(40.0, 0.0);
+    let modifiers = Modifiers::ALT;
+    window.harness.event(Event::ModifiersChanged(modifiers));
+    window.harness.hover_at(at);
+    for pressed in [true, false] {
+        window.harness.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers,
+        });
+    }
+    window.pass_on();
+    assert_eq!(window.session().subsets().left_out(), [false, true]);
+    assert_eq!(window.session().subsets().selected(), None);
+}
+
+#[test]
+fn a_click_in_the_list_or_in_the_view_selects() {
+    let mut window = open();
+    window.click("Bare, 6 triangles");
+    assert_eq!(window.session().subsets().selected(), Some(1));
+    for words in ["Selected: Bare", "Subset 2 of 2", "Triangles 6", "Vertices 12"] {
+        assert!(window.shows(words), "{words}");
+    }
+    window.click("Bare, 6 triangles");
+    assert_eq!(window.session().subsets().selected(), None, "a second click lets go");
+
+    let click_at = |window: &mut Window, at| {
+        window.harness.hover_at(at);
+        window.harness.drag_at(at);
+        window.harness.drop_at(at);
+        window.pass_on();
+        window.wait(0.6);
+    };
+    click_at(&mut window, pos2(WIDE.x * 0.5, WIDE.y * 0.5));
+    let selected = window.session().subsets().selected();
+    assert!(selected.is_some() && window.session().subsets().selected_at().is_some());
+    click_at(&mut window, pos2(WIDE.x * 0.3, WIDE.y * 0.85));
+    assert_eq!(window.session().subsets().selected(), None, "there is nothing");
+}
+
+/// Types a number into a field.
+fn type_number(window: &mut Window, field: &str, number: &str) {
+    window.click(field);
+    window.press(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text(number.to_owned()));
+    window.press(Modifiers::NONE, Key::Enter);
+}
+
+#[test]
+fn values_of_the_books_second_edition_are_edited_and_given_back() {
+    let mut window = open();
+    window.click("Painted, 6 triangles");
+    assert!(!window.shows("Reset"));
+    type_number(&mut window, "Diffuse: red", "0.25");
+    type_number(&mut window, "Fresnel R0: green", "0.5");
+    window.click("Alpha clip");
+    window.click("Roughness");
+    let edited = window.session().materials()[0].clone();
+    assert_eq!(edited.diffuse, [0.25, 0.3, 0.2]);
+    assert!(edited.alpha_clip);
+    let Reflectance::Fresnel { fresnel0, roughness } = edited.reflectance else {
+        panic!("{edited:?}")
+    };
+    assert_eq!(fresnel0, [0.04, 0.5, 0.04]);
+    assert!((roughness - 0.5).abs() < 0.02, "the middle of the track");
+    window.click("Reset");
+    assert!(!window.session().is_edited(0) && !window.shows("Reset"));
+}
+
+#[test]
+fn values_of_the_books_first_edition_are_edited() {
+    let mut document = halves();
+    document.dialect = Dialect::D3d11;
+    for material in &mut document.materials {
+        material.reflectance = FileReflectance::Phong {
+            ambient: [0.1; 3],
+            specular: [0.2; 3],
+            spec_power: 16.0,
+            reflectivity: [0.0; 3],
+        };
+    }
+    let mut window = window(WIDE, vec![models::file("a.m3d", &document)]);
+    window.click("Bare, 6 triangles");
+    for (field, number) in [
+        ("Ambient: red", "0.3"),
+        ("Diffuse: green", "0.4"),
+        ("Specular: blue", "0.5"),
+        ("Power", "64"),
+        ("Reflectivity: red", "0.6"),
+    ] {
+        let field = if field == "Power" { "Power: number" } else { field };
+        type_number(&mut window, field, number);
+    }
+    let edited = &window.session().materials()[1];
+    assert_eq!(edited.diffuse[1], 0.4);
+    let expected = Reflectance::Phong {
+        ambient: [0.3, 0.1, 0.1],
+        specular: [0.2, 0.2, 0.5],
+        spec_power: 64.0,
+        reflectivity: [0.6, 0.0, 0.0],
+    };
+    assert_eq!(edited.reflectance, expected);
+}
+
+#[test]
+fn a_colour_is_chosen_by_eye() {
+    let mut window = open();
+    window.click("Painted, 6 triangles");
+    window.click("Diffuse: #");
+    window.click("Diffuse: number");
+    window.press(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text("#ff0000".to_owned()));
+    window.pass_on();
+    assert_eq!(window.session().materials()[0].diffuse, [1.0, 0.0, 0.0]);
+    window.press(Modifiers::NONE, Key::Escape);
+    assert!(!window.shows("Diffuse: number"));
+    assert!(
+        window.session().subsets().selected().is_some(),
+        "the picker alone was shut"
+    );
+}
+
+#[test]
+fn maps_that_are_missing_say_so() {
+    let mut window = open();
+    window.click("Bare, 6 triangles");
+    assert!(window.shows("Diffuse map: bare_diff.dds, missing"));
+    window.click("Clear the selection");
+    assert_eq!(window.session().subsets().selected(), None);
+    window.click("Painted, 6 triangles");
+    assert!(!window.shows("Maps"), "it names none");
+}
+
+#[test]
+fn numbers_of_the_inspector_stand_still() {
+    let mut window = open();
+    window.click("Painted, 6 triangles");
+    window.click("Alpha clip");
+    let places = |window: &Window| {
+        let fields = window.named(|name| name.contains(": ") || name == "Roughness");
+        fields.into_iter().map(|(_, rect)| rect).collect::<Vec<_>>()
+    };
+    let before = places(&window);
+    for number in ["0", "1", "0.123"] {
+        type_number(&mut window, "Diffuse: red", number);
+        assert_eq!(places(&window), before, "{number}");
+    }
+}
+
+#[test]
+fn fingers_find_icons_and_inspector_in_the_sheet() {
+    let mut window = touch_window(PHONE, files());
+    window.click("Model facts");
+    let rect = window.rect("Hide Painted");
+    assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{rect}");
+    window.click("Painted, 6 triangles");
+    assert!(window.shows("Selected: Painted") && !window.shows("Handedness: Left found"));
+    window.click("Clear the selection");
+    assert!(window.shows("Painted, 6 triangles"), "the list is back");
+}
