@@ -6,7 +6,7 @@ use std::rc::Rc;
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
 use crate::render::{Compositor, MaterialImages, Renderer, SampleCount, Target, device};
-use crate::scene::Theme;
+use crate::scene::{FrameOptions, Theme};
 use crate::session::Session;
 use crate::ui::{self, Request, UiState};
 
@@ -89,9 +89,10 @@ impl App {
 
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
     /// were given up for speed are drawn.
-    pub fn draw_snapshot(&mut self, size: [u32; 2], transparent: bool) -> Target {
+    /// `adjust` may have it looked at in another way than the window shows.
+    pub fn draw_snapshot(&mut self, size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Target {
         let mut session = self.session.borrow_mut();
-        self.stage.draw_snapshot(&mut session, size, transparent)
+        self.stage.draw_snapshot(&mut session, size, adjust)
     }
 }
 
@@ -158,15 +159,18 @@ impl Stage {
         self.frames_rendered += 1;
     }
 
-    fn draw_snapshot(&mut self, session: &mut Session, [width, height]: [u32; 2], transparent: bool) -> Target {
+    fn draw_snapshot(
+        &mut self,
+        session: &mut Session,
+        [width, height]: [u32; 2],
+        adjust: impl FnOnce(&mut FrameOptions),
+    ) -> Target {
         self.take_up(session);
         let mut target = Target::with_samples(&self.gpu.device, width, height, self.samples);
         let passes = session.quality().wanted();
         let mut frame = session.frame();
         frame.options.passes = passes;
-        if transparent {
-            frame.options.background = crate::scene::Background::None;
-        }
+        adjust(&mut frame.options);
         self.renderer.render(&frame, &mut target);
         target
     }

@@ -69,48 +69,32 @@ impl LookArguments {
     }
 }
 
-/// The one of `all` with this name.
-fn named<T: Copy>(text: &str, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
-    all.iter().copied().find(|&one| name(one) == text).ok_or_else(|| {
+/// What was understood, or the list of what could have been.
+fn one_of<T: Copy>(found: Option<T>, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
+    found.ok_or_else(|| {
         let names: Vec<_> = all.iter().map(|&one| name(one)).collect();
         format!("expected one of {}", names.join(", "))
     })
 }
 
 fn light(text: &str) -> Result<Light, String> {
-    named(text, &Light::ALL, Light::name)
+    one_of(Light::from_name(text), &Light::ALL, Light::name)
 }
 
 fn view_mode(text: &str) -> Result<ViewMode, String> {
-    named(text, &ViewMode::ALL, ViewMode::name)
+    one_of(ViewMode::from_name(text), &ViewMode::ALL, ViewMode::name)
 }
 
 fn overlay(text: &str) -> Result<Overlay, String> {
-    named(text, &Overlay::ALL, Overlay::name)
+    one_of(Overlay::from_name(text), &Overlay::ALL, Overlay::name)
 }
 
 fn pass(text: &str) -> Result<Pass, String> {
-    named(text, &Pass::ALL, Pass::name)
+    one_of(Pass::from_name(text), &Pass::ALL, Pass::name)
 }
 
 fn background(text: &str) -> Result<Background, String> {
-    match text {
-        "backdrop" => Ok(Background::Backdrop),
-        "sky" => Ok(Background::Sky),
-        "none" => Ok(Background::None),
-        _ => color(text)
-            .map(Background::Color)
-            .ok_or_else(|| "expected backdrop, sky, none, or a colour such as #20262e".into()),
-    }
-}
-
-/// `#20262e`.
-fn color(text: &str) -> Option<[u8; 3]> {
-    let digits = text
-        .strip_prefix('#')
-        .filter(|digits| digits.len() == 6 && digits.is_ascii())?;
-    let channel = |at: usize| u8::from_str_radix(&digits[at..at + 2], 16).ok();
-    Some([channel(0)?, channel(2)?, channel(4)?])
+    Background::from_name(text).ok_or_else(|| "expected backdrop, sky, none, or a colour such as #20262e".into())
 }
 
 fn number(text: &str) -> Result<f32, String> {
@@ -134,21 +118,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_name_is_understood_and_others_are_answered_with_the_list() {
-        for mode in ViewMode::ALL {
-            assert_eq!(view_mode(mode.name()), Ok(mode));
-        }
-        for one in Light::ALL {
-            assert_eq!(light(one.name()), Ok(one));
-        }
+    fn names_that_are_none_are_answered_with_the_list() {
+        assert_eq!(light("book"), Ok(Light::Book));
         assert_eq!(light("lamp"), Err("expected one of studio, book".into()));
+        assert_eq!(background("#20262e"), Ok(Background::Color([0x20, 0x26, 0x2e])));
+        assert!(background("blue").is_err());
     }
 
     #[test]
-    fn colours_are_six_digits() {
-        assert_eq!(background("#20262e"), Ok(Background::Color([0x20, 0x26, 0x2e])));
-        for wrong in ["", "#", "#20262", "20262e", "#20262g", "#ääää", "#+12-34"] {
-            assert!(background(wrong).is_err(), "{wrong}");
+    fn shares_lie_between_0_and_1() {
+        assert_eq!(share("0.25"), Ok(0.25));
+        for wrong in ["-0.1", "1.1", "NaN", "half", ""] {
+            assert!(share(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -30,6 +30,11 @@ impl Light {
         }
     }
 
+    /// The light with this [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
+    }
+
     /// The other one.
     pub fn other(self) -> Self {
         match self {
@@ -117,6 +122,11 @@ impl ViewMode {
         }
     }
 
+    /// The mode with this [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
+    }
+
     /// The mode some places further in the menu, around the end.
     pub fn cycled(self, places: i32) -> Self {
         let here = Self::ALL.iter().position(|&mode| mode == self).unwrap_or(0) as i64;
@@ -136,6 +146,35 @@ pub enum Background {
     Color([u8; 3]),
     /// Nothing: alpha 0, for pictures.
     None,
+}
+
+impl Background {
+    /// Name for programs and addresses: `backdrop`, `sky`, `none`, or a colour such as `#20262e`.
+    pub fn name(self) -> String {
+        match self {
+            Self::Backdrop => "backdrop".into(),
+            Self::Sky => "sky".into(),
+            Self::Color([red, green, blue]) => format!("#{red:02x}{green:02x}{blue:02x}"),
+            Self::None => "none".into(),
+        }
+    }
+
+    /// The background with this [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "backdrop" => Some(Self::Backdrop),
+            "sky" => Some(Self::Sky),
+            "none" => Some(Self::None),
+            _ => {
+                let digits = name.strip_prefix('#')?;
+                if digits.len() != 6 || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+                    return None;
+                }
+                let [_, red, green, blue] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
+                Some(Self::Color([red, green, blue]))
+            }
+        }
+    }
 }
 
 /// Lines drawn over or beside the model.
@@ -188,6 +227,11 @@ impl Overlay {
             Self::Bounds => "bounds",
             Self::Axes => "axes",
         }
+    }
+
+    /// The lines with this [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
     }
 }
 
@@ -269,6 +313,11 @@ impl Pass {
             Self::Environment => "reflections",
         }
     }
+
+    /// The pass with this [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|one| one.name() == name)
+    }
 }
 
 /// Which passes are drawn.
@@ -313,6 +362,29 @@ mod tests {
         assert_eq!(ViewMode::Lit.cycled(1), ViewMode::BaseColor);
         assert_eq!(ViewMode::Lit.cycled(-1), ViewMode::Shadow);
         assert_eq!(ViewMode::Shadow.cycled(1), ViewMode::Lit);
+    }
+
+    #[test]
+    fn every_name_leads_back_to_what_it_names() {
+        for mode in ViewMode::ALL {
+            assert_eq!(ViewMode::from_name(mode.name()), Some(mode));
+        }
+        for light in Light::ALL {
+            assert_eq!(Light::from_name(light.name()), Some(light));
+        }
+        for overlay in Overlay::ALL {
+            assert_eq!(Overlay::from_name(overlay.name()), Some(overlay));
+        }
+        for pass in Pass::ALL {
+            assert_eq!(Pass::from_name(pass.name()), Some(pass));
+        }
+        let colored = Background::Color([0x20, 0x0a, 0xff]);
+        for background in [Background::Backdrop, Background::Sky, Background::None, colored] {
+            assert_eq!(Background::from_name(&background.name()), Some(background));
+        }
+        for wrong in ["", "#", "#20262", "20262e", "#20262g", "#ääää", "#+12-34", "Sky"] {
+            assert_eq!(Background::from_name(wrong), None, "{wrong}");
+        }
     }
 
     #[test]

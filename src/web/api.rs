@@ -4,6 +4,7 @@ use js_sys::{Array, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use super::picture::{longest_side, picture};
+use super::picture_look::PictureLook;
 use super::{PAGE, state, tell_events};
 use crate::session::{Command, File, Session};
 
@@ -102,15 +103,17 @@ pub fn select_clip(name: &str) -> bool {
     index.is_some()
 }
 
-/// A picture of the view without the interface: `{width, height, transparent}` to the bytes of a PNG.
+/// A picture of the view without the interface: `{width, height}` to the bytes of a PNG. `transparent`, `light`, `viewMode`,
+/// `background`, `split` and `overlays` (an array of names) may have it looked at in another way than the window shows; the names are those
+/// of the command line.
 ///
 /// # Errors
-/// When the viewer is not running, the size is not possible, or the GPU fails.
+/// When the viewer is not running, the size is not possible, a name is none, or the GPU fails.
 #[wasm_bindgen]
 pub async fn snapshot(options: JsValue) -> Result<Uint8Array, JsError> {
     let field = |name: &str| Reflect::get(&options, &name.into()).unwrap_or(JsValue::UNDEFINED);
     // Read before anything is borrowed: a getter is a script, and may call back.
-    let transparent = field("transparent").is_truthy();
+    let look = PictureLook::read(field)?;
     let sides = [("width", field("width").as_f64()), ("height", field("height").as_f64())];
     let most = longest_side()?;
     let mut size = [0; 2];
@@ -120,5 +123,5 @@ pub async fn snapshot(options: JsValue) -> Result<Uint8Array, JsError> {
             _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
         };
     }
-    picture(size, transparent).await
+    picture(size, |options| look.apply(options)).await
 }

@@ -8,6 +8,7 @@
 mod api;
 mod backend;
 mod picture;
+mod picture_look;
 mod state;
 
 use std::cell::{Cell, RefCell};

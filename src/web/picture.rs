@@ -5,6 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use super::{PAGE, Running, detail, emit, text_of};
 use crate::render::read_back;
+use crate::scene::{Background, FrameOptions};
 use crate::ui::{MAX_PICTURE_SIDE, picture_name};
 
 fn not_running() -> JsError {
@@ -34,11 +35,11 @@ pub(super) fn longest_side() -> Result<u32, JsError> {
 ///
 /// # Errors
 /// When the viewer is not running or the GPU fails.
-pub(super) async fn picture(size: [u32; 2], transparent: bool) -> Result<Uint8Array, JsError> {
+pub(super) async fn picture(size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Result<Uint8Array, JsError> {
     let (target, gpu) = with_running(|running| {
         let mut app = running.app.borrow_mut();
         let app = app.as_mut().ok_or_else(not_running)?;
-        Ok((app.draw_snapshot(size, transparent), running.gpu.clone()))
+        Ok((app.draw_snapshot(size, adjust), running.gpu.clone()))
     })?;
     let pixels = read_back(&gpu.device, &gpu.queue, &target, async || super::sleep(1).await).await?;
     let [width, height] = target.size();
@@ -54,7 +55,14 @@ pub(super) fn save(size: [u32; 2], transparent: bool) {
     let Some(name) = name else { return };
     wasm_bindgen_futures::spawn_local(async move {
         let drawn = match longest_side() {
-            Ok(most) => picture(within(size, most), transparent).await,
+            Ok(most) => {
+                let adjust = |options: &mut FrameOptions| {
+                    if transparent {
+                        options.background = Background::None;
+                    }
+                };
+                picture(within(size, most), adjust).await
+            }
             Err(error) => Err(error),
         };
         match drawn {
