@@ -55,7 +55,7 @@ fn head(region: Region, side: Side) -> Chart {
 
 fn trunk(region: Region) -> Chart {
     match region {
-        // Tubes from shoulder to shoulder: cloth laid over them from front to back.
+        // A tube from shoulder to shoulder, with cloth laid over it from front to back.
         Region::Yoke => Chart::Tube {
             origin: DVec3::new(0.0, 1.335, 0.002),
             axis: DVec3::X,

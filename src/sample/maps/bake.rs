@@ -5,9 +5,9 @@
 pub(super) struct Place {
     /// Millimetres outwards.
     pub(super) height: f64,
-    /// Of the material's own colour, sRGB: 1 is all of it.
+    /// Of the material's own colour, sRGB, kept within 0…1: 1 is all of it.
     pub(super) tone: [f64; 3],
-    /// How polished: a factor of the material's shininess.
+    /// How polished: a factor of the material's shininess, kept within 0…1.
     pub(super) polish: f64,
 }
 

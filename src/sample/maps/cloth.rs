@@ -30,12 +30,11 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
     Place {
         height: 3.4 * quilted * puff + fold + (0.16 * weave) * (1.0 - thread) + 0.8 * thread,
         tone: sewn.map(|sewn| shade + (sewn - shade) * thread),
-        polish: (0.35 + 0.15 * weave + 0.35 * quilted * puff + 0.3 * thread - 0.2 * bead(from_border, 4.0))
-            .clamp(0.0, 1.0),
+        polish: 0.35 + 0.15 * weave + 0.35 * quilted * puff + 0.3 * thread - 0.2 * bead(from_border, 4.0),
     }
 }
 
-/// Plain weave: height 0…1, and how much lighter or darker this stretch of thread is.
+/// Plain weave: height, 1 on top of a usual thread, and how much lighter or darker this stretch of thread is.
 fn weave(u: f64, v: f64) -> (f64, f64) {
     let (x, y) = (u * f64::from(THREADS), v * f64::from(THREADS));
     let (column, row) = (x as u32, y as u32);

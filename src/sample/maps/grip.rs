@@ -21,7 +21,7 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
     Place {
         height: 1.7 * stud - 0.7 * hollow,
         tone: [shade; 3],
-        polish: (0.75 + 0.12 * worn - 0.55 * (1.0 - stud) - 0.15 * hollow).clamp(0.0, 1.0),
+        polish: 0.75 + 0.12 * worn - 0.55 * (1.0 - stud) - 0.15 * hollow,
     }
 }
 

@@ -37,8 +37,7 @@ pub(super) fn surface(u: f64, v: f64) -> Place {
             - 0.5 * sunk
             - 0.12 * scratch,
         tone: [shade; 3],
-        polish: (0.86 + 0.1 * clouds(u, v, 7, 41) - 0.6 * groove - 0.4 * sunk - 0.25 * scratch + 0.1 * head)
-            .clamp(0.0, 1.0),
+        polish: 0.86 + 0.1 * clouds(u, v, 7, 41) - 0.6 * groove - 0.4 * sunk - 0.25 * scratch + 0.1 * head,
     }
 }
 

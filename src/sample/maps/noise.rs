@@ -2,11 +2,11 @@
 
 /// 0…1 out of three whole numbers.
 pub(super) fn chance(x: u32, y: u32, seed: u32) -> f64 {
-    // Multiply and fold (after Wang and others): every bit of the numbers reaches the upper bits.
+    // Spread with primes of xxHash, mixed as MurmurHash3 ends.
     let mut bits = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ seed.wrapping_mul(0xC2B2_AE3D);
-    bits = (bits ^ (bits >> 15)).wrapping_mul(0x2C1B_3C6D);
-    bits = (bits ^ (bits >> 12)).wrapping_mul(0x297A_2D39);
-    bits ^= bits >> 15;
+    bits = (bits ^ (bits >> 16)).wrapping_mul(0x85EB_CA6B);
+    bits = (bits ^ (bits >> 13)).wrapping_mul(0xC2B2_AE35);
+    bits ^= bits >> 16;
     f64::from(bits) / f64::from(u32::MAX)
 }
 

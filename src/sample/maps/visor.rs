@@ -40,8 +40,7 @@ fn pane(place: DVec2, from_middle: DVec2) -> Place {
     Place {
         height: 1.6 * frame - 1.2 * groove + 0.12 * brushed,
         tone: [shade; 3],
-        polish: (1.0 + 0.02 * clouds(place.x, place.y, 4, 52) - 0.35 * frame - 0.6 * groove + 0.2 * brushed)
-            .clamp(0.0, 1.0),
+        polish: 1.0 + 0.02 * clouds(place.x, place.y, 4, 52) - 0.35 * frame - 0.6 * groove + 0.2 * brushed,
     }
 }
 
@@ -62,6 +61,6 @@ fn badge(from_middle: DVec2) -> Place {
     Place {
         height: 1.5 * rim + 1.5 * emblem + 0.12 * turned * (1.0 - emblem),
         tone: [1.0; 3],
-        polish: (0.75 + 0.25 * emblem.min(1.0) + 0.2 * turned * (1.0 - emblem)).clamp(0.0, 1.0),
+        polish: 0.75 + 0.25 * emblem.min(1.0) + 0.2 * turned * (1.0 - emblem),
     }
 }

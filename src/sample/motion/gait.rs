@@ -126,7 +126,7 @@ pub(super) const RUN: Gait = Gait {
     lean: 13.0,
     arm_swing: [-4.0, 40.0],
     elbow: [88.0, 14.0],
-    arm_raise: -36.0,
+    arm_raise: -14.0,
     finger_curl: 52.0,
 };
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{FIGURE, LEFT_THIGH, RIGHT_THIGH, end_secs, frames, model_from_joint, palette, quat, skinned};
+use super::{FIGURE, LEFT_THIGH, RIGHT_THIGH, end_secs, frames, is_below, model_from_joint, palette, quat, skinned};
 
 #[test]
 fn clips_loop_and_keep_30_keys_a_second() {
@@ -127,6 +127,51 @@ fn knees_and_elbows_bend_their_own_way() {
                     "{} frame {frame}: elbow {bent}",
                     clip.name
                 );
+            }
+        }
+    }
+}
+
+#[test]
+fn hands_do_not_pass_through_the_body() {
+    // The body as capsules inside the skin: hips and thighs, and the trunk up to the ribs.
+    const HIPS: usize = 1;
+    const RIBS: usize = 3;
+    let from_stretch = |point: DVec3, from: DVec3, to: DVec3| {
+        let along = to - from;
+        let part = ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        point.distance(from + along * part)
+    };
+    let hands: Vec<_> = FIGURE
+        .vertices
+        .iter()
+        .filter(|vertex| {
+            let mover = vertex.blend_indices[0] as usize;
+            is_below(mover, LEFT_THIGH - 9) || is_below(mover, RIGHT_THIGH - 9)
+        })
+        .collect();
+    assert!(hands.len() > 1_000, "{} vertices of hands", hands.len());
+    for clip in &FIGURE.clips {
+        for frame in 0..=frames(clip) {
+            let joints = model_from_joint(clip, frame);
+            let at = |joint: usize| joints[joint].w_axis.truncate();
+            let capsules = [
+                (at(LEFT_THIGH), at(LEFT_THIGH + 1), 0.06),
+                (at(RIGHT_THIGH), at(RIGHT_THIGH + 1), 0.06),
+                (at(LEFT_THIGH), at(RIGHT_THIGH), 0.085),
+                (at(HIPS), at(RIBS), 0.1),
+            ];
+            let palette = palette(clip, frame);
+            for vertex in &hands {
+                let point = skinned(vertex, &palette);
+                for (from, to, radius) in capsules {
+                    let distance = from_stretch(point, from, to);
+                    assert!(
+                        distance > radius,
+                        "{} frame {frame}: a hand {distance} from a bone",
+                        clip.name
+                    );
+                }
             }
         }
     }

@@ -75,5 +75,5 @@ fn seams_are_few() {
     }
     let cut = sides.values().filter(|ends| ends[0] != ends[1]).count();
     let part = cut as f64 / sides.len() as f64;
-    assert!(part < 0.17, "{:.1} % of the edges are cut", part * 100.0);
+    assert!(part < 0.12, "{:.1} % of the edges are cut", part * 100.0);
 }
