@@ -18,7 +18,7 @@ pub struct Hit {
     pub vertex: u32,
     /// The point, world space.
     pub position: Vec3,
-    /// Length of the ray up to the point, world units.
+    /// Length of the ray from its beginning to the point, world units.
     pub distance: f32,
 }
 
@@ -100,7 +100,7 @@ fn nearest_corner(corners: [u32; 3], in_ray: [Vec3; 3], distance: f32) -> u32 {
     corners[index]
 }
 
-/// A value at the vertices of a hit's triangle, mixed as the picture does.
+/// Texture coordinates where a mesh was met, mixed from those of the corners as the picture does.
 pub fn tex_coord_at(mesh: &Mesh, hit: &Hit) -> Vec2 {
     let corners = mesh.indices.as_chunks::<3>().0.get(hit.triangle);
     let corners = corners.into_iter().flatten();

@@ -82,12 +82,12 @@ impl Session {
                 self.camera.look_from(preset);
                 self.frame_model();
             }
-            Command::ToggleProjection => {
-                self.camera.projection = match self.camera.projection {
+            Command::ToggleProjection => self.change_goal(|session| {
+                session.camera.projection = match session.camera.projection {
                     Projection::Perspective { .. } => Projection::Orthographic,
                     Projection::Orthographic => Camera::default().projection,
                 };
-            }
+            }),
             Command::ResetCamera => {
                 self.motion.interrupt();
                 self.camera = Camera::default();

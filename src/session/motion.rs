@@ -141,8 +141,8 @@ impl Session {
 
     fn is_camera_moving(&self) -> bool {
         let motion = &self.motion;
-        let turns = motion.turns() && self.open.is_some();
-        turns || motion.is_flung() || motion.glide.is_some() || motion.flight.is_some()
+        let needs_model = motion.turns() || motion.flight.is_some();
+        motion.is_flung() || motion.glide.is_some() || (needs_model && self.open.is_some())
     }
 
     /// Does what was asked, and lets the camera go there instead of jumping.
@@ -214,10 +214,11 @@ impl Session {
     fn fly_on(&mut self, way: Vec3) {
         let bounds = self.world_bounds();
         let (center, radius) = (bounds.center(), bounds.radius().max(1e-6));
+        // Whoever is farther out already comes nearer or stays.
+        let farthest = (FARTHEST_RADII * radius).max(self.camera.eye().distance(center));
         self.camera.fly(way * radius);
         let off = self.camera.eye() - center;
-        let too_far = off - off.clamp_length_max(FARTHEST_RADII * radius);
-        let target = self.camera.target - too_far;
+        let target = self.camera.target - (off - off.clamp_length_max(farthest));
         if target.is_finite() {
             self.camera.target = target;
         }

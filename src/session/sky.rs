@@ -59,6 +59,10 @@ impl Session {
         cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
         self.sky.notices.clear();
         for file in cubes {
+            if self.sky_file() == Some(&file) {
+                // The folder came again; what was chosen since stays.
+                return;
+            }
             match image::decode(&file.bytes, file.base_name()) {
                 Ok(image) => {
                     let before = self.sky.taken.take();

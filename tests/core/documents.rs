@@ -16,11 +16,17 @@ pub(crate) const REAL_FILES: [&str; 6] = [
 ];
 
 /// A real file, or `None` with a line that says so where the files are not beside the project.
-#[allow(clippy::print_stderr, reason = "a test that did not run says so")]
 pub(crate) fn real_file(name: &str) -> Option<Parsed> {
-    let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models/{}.m3d"), name);
+    let bytes = shared_bytes(&format!("models/{name}.m3d"))?;
+    Some(parse(&bytes).expect("a real file parses"))
+}
+
+/// The bytes of a file from elsewhere, or `None` with a line that says so where they are not beside the project.
+#[allow(clippy::print_stderr, reason = "a test that did not run says so")]
+pub(crate) fn shared_bytes(path: &str) -> Option<Vec<u8>> {
+    let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/{}"), path);
     match std::fs::read(&path) {
-        Ok(bytes) => Some(parse(&bytes).expect("a real file parses")),
+        Ok(bytes) => Some(bytes),
         Err(error) => {
             eprintln!("skipped: {path}: {error}");
             None

@@ -2,10 +2,15 @@
 
 mod looking;
 mod maps;
+mod materials;
 mod models;
+mod motion;
 mod opening;
+mod picking;
 mod playing;
 mod random;
+mod sky;
+mod subsets;
 
 use bindpose::session::{Command, File, Session};
 

@@ -1,13 +1,15 @@
 //! Whatever a person does, in whatever order, the session stays in order.
 
 use bindpose::anim::LoopMode;
-use bindpose::model::{Handedness, UpAxis};
+use bindpose::model::{Handedness, Material, Reflectance, UpAxis};
 use bindpose::scene::{Insets, Overlay, Theme, ViewPreset};
-use bindpose::session::{Command, Event, File, LookCommand, Session};
-use glam::Vec2;
+use bindpose::session::{Command, Event, File, LookCommand, Session, SubsetCommand};
+use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
-use super::models::{broken, jointed, moving, still};
+use super::models::{self, broken, jointed, moving, still};
+use super::sky::cube;
+use super::subsets::parted;
 
 /// Numbers as pointers and programs give them, and those that they should not.
 fn number() -> impl Strategy<Value = f32> {
@@ -28,12 +30,81 @@ fn files() -> impl Strategy<Value = Vec<File>> {
         jointed("a.m3d"),
         still("c.m3d"),
         broken("a.m3d"),
+        models::file("a.m3d", &parted(models::document())),
         File::new("skin.dds", *b"not looked at"),
+        cube("sky.dds", 2, [7; 4]),
     ]);
     prop::collection::vec(one, 0..3)
 }
 
+fn moving_camera() -> impl Strategy<Value = Command> {
+    let pair = || (number(), number());
+    prop_oneof![
+        Just(Command::BeginDrag),
+        Just(Command::EndDrag),
+        pair().prop_map(|(yaw_radians_per_sec, pitch_radians_per_sec)| Command::Fling {
+            yaw_radians_per_sec,
+            pitch_radians_per_sec
+        }),
+        any::<bool>().prop_map(Command::SetTurntable),
+        Just(Command::ToggleTurntable),
+        (pair(), number(), any::<bool>()).prop_map(|((x, y), z, fast)| Command::Fly {
+            direction: Vec3::new(x, y, z),
+            fast
+        }),
+        pair().prop_map(|(yaw_radians, pitch_radians)| Command::FlyLook {
+            yaw_radians,
+            pitch_radians
+        }),
+    ]
+}
+
+fn subset_command() -> impl Strategy<Value = SubsetCommand> {
+    prop_oneof![
+        (0usize..4, any::<bool>()).prop_map(|(subset, visible)| SubsetCommand::SetVisible { subset, visible }),
+        (0usize..4).prop_map(SubsetCommand::Solo),
+        Just(SubsetCommand::ShowAll),
+        prop::option::of(0usize..4).prop_map(SubsetCommand::Select),
+        vector().prop_map(SubsetCommand::SelectAt),
+        prop::option::of(0usize..4).prop_map(SubsetCommand::Hover),
+        prop::option::of(vector()).prop_map(SubsetCommand::HoverAt),
+    ]
+}
+
+fn material_command() -> impl Strategy<Value = Command> {
+    let color = || (number(), number(), number()).prop_map(<[f32; 3]>::from);
+    let reflectance = prop_oneof![
+        3 => (color(), number()).prop_map(|(fresnel0, roughness)| Reflectance::Fresnel { fresnel0, roughness }),
+        1 => (color(), number()).prop_map(|(ambient, spec_power)| Reflectance::Phong {
+            ambient,
+            specular: ambient,
+            spec_power,
+            reflectivity: ambient
+        }),
+    ];
+    let material = (color(), reflectance, any::<bool>()).prop_map(|(diffuse, reflectance, alpha_clip)| Material {
+        name: "any".to_owned(),
+        diffuse,
+        reflectance,
+        alpha_clip,
+        diffuse_map: None,
+        normal_map: None,
+    });
+    prop_oneof![
+        2 => (0usize..4, material).prop_map(|(index, material)| Command::EditMaterial { index, material }),
+        1 => (0usize..4).prop_map(Command::ResetMaterial),
+    ]
+}
+
+/// Any command, and any as a glide.
 fn command() -> impl Strategy<Value = Command> {
+    (plain_command(), prop::bool::weighted(0.2)).prop_map(|(command, glides)| match glides {
+        true => Command::Glide(Box::new(command)),
+        false => command,
+    })
+}
+
+fn plain_command() -> impl Strategy<Value = Command> {
     let playing = prop_oneof![
         Just(Command::Play),
         Just(Command::Pause),
@@ -83,6 +154,10 @@ fn command() -> impl Strategy<Value = Command> {
     prop_oneof![
         6 => playing,
         6 => looking,
+        4 => moving_camera(),
+        4 => subset_command().prop_map(Command::Subset),
+        2 => material_command(),
+        1 => Just(Command::ClearSky),
         1 => files().prop_map(Command::AddFiles),
         1 => prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| Command::OpenFile(path.to_owned())),
         1 => Just(Command::DismissError),
@@ -116,6 +191,33 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
         prop_assert!(!playback.is_playing() && !session.is_animating());
     }
 
+    let of_file: &[Material] = session.open_model().map_or(&[], |open| &open.model.materials);
+    prop_assert_eq!(session.materials().len(), of_file.len());
+    for (index, (drawn, of_file)) in session.materials().iter().zip(of_file).enumerate() {
+        prop_assert_eq!(&drawn.name, &of_file.name);
+        prop_assert!(
+            drawn.diffuse.iter().all(|channel| (0.0..=1.0).contains(channel)),
+            "{drawn:?}"
+        );
+        prop_assert_eq!(session.is_edited(index), drawn != of_file);
+    }
+
+    let submeshes = session.open_model().map_or(0, |open| open.model.mesh.submeshes.len());
+    let subsets = session.subsets();
+    prop_assert_eq!(subsets.count(), submeshes);
+    prop_assert!(subsets.selected().is_none_or(|selected| selected < submeshes));
+    let frame = session.frame();
+    prop_assert_eq!(frame.hidden_submeshes.len(), submeshes);
+    prop_assert!(
+        frame
+            .highlighted_submesh
+            .is_none_or(|submesh| !frame.hidden_submeshes[submesh])
+    );
+    if let Some(hit) = session.pick(Vec2::new(0.1, -0.2)) {
+        prop_assert!(session.subsets().is_visible(hit.submesh), "{hit:?}");
+        prop_assert!(hit.position.is_finite() && hit.distance >= 0.0, "{hit:?}");
+    }
+
     let joints = session.open_model().map_or(0, |open| open.model.skeleton.joint_count());
     let frame = session.frame();
     prop_assert_eq!(frame.palette.0.len(), joints);
@@ -139,7 +241,9 @@ proptest! {
                 (session.picture_revision(), *session.camera(), session.playback().time_secs());
             session.apply(command);
             if let Some(dt_secs) = dt_secs {
+                let (picture, moves) = (session.picture_revision(), session.is_moving());
                 session.advance(dt_secs);
+                prop_assert!(moves || session.picture_revision() == picture, "nothing moved");
             }
             check(&mut session)?;
             let moved = *session.camera() != camera || session.playback().time_secs() != time_secs;

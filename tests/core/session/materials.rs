@@ -1,0 +1,137 @@
+//! Materials edited while one looks on.
+
+use bindpose::format;
+use bindpose::model::{Material, Reflectance};
+use bindpose::session::{Command, File, Session};
+
+use super::models::{self, document};
+use super::opened;
+use super::subsets::parted;
+
+fn three_materials(path: &str) -> File {
+    models::file(path, &parted(document()))
+}
+
+fn edit(session: &mut Session, index: usize, change: impl FnOnce(&mut Material)) {
+    let mut material = session.materials()[index].clone();
+    change(&mut material);
+    session.apply(Command::EditMaterial { index, material });
+}
+
+#[test]
+fn an_edited_material_is_drawn_and_the_files_stays_known() {
+    let mut session = opened(three_materials("a.m3d"));
+    let of_file = session.open_model().expect("open").model.materials.clone();
+    assert_eq!(session.materials(), of_file);
+    let (revision, picture) = (session.materials_revision(), session.picture_revision());
+
+    edit(&mut session, 1, |material| {
+        material.diffuse = [0.1, 0.2, 0.3];
+        material.name = "renamed".to_owned();
+        material.normal_map = Some("other.dds".to_owned());
+        material.reflectance = Reflectance::Fresnel {
+            fresnel0: [2.0, f32::NAN, 0.5],
+            roughness: -1.0,
+        };
+    });
+    let expected = Material {
+        diffuse: [0.1, 0.2, 0.3],
+        reflectance: Reflectance::Fresnel {
+            fresnel0: [1.0, 0.04, 0.5],
+            roughness: 0.0,
+        },
+        ..of_file[1].clone()
+    };
+    assert_eq!(session.materials()[1], expected);
+    assert_eq!(
+        [0, 1, 2, 3].map(|index| session.is_edited(index)),
+        [false, true, false, false]
+    );
+    assert!(session.materials_revision() > revision && session.picture_revision() > picture);
+    assert_eq!(session.open_model().expect("open").model.materials, of_file);
+
+    session.apply(Command::ResetMaterial(1));
+    assert_eq!(session.materials(), of_file);
+    assert!(!session.is_edited(1));
+}
+
+#[test]
+fn nothing_is_drawn_anew_for_what_changes_nothing() {
+    let mut session = opened(three_materials("a.m3d"));
+    let (revision, picture) = (session.materials_revision(), session.picture_revision());
+    edit(&mut session, 0, |_| {});
+    edit(&mut session, 0, |material| material.diffuse[0] = f32::INFINITY);
+    session.apply(Command::ResetMaterial(0));
+    session.apply(Command::ResetMaterial(7));
+    let material = session.materials()[0].clone();
+    session.apply(Command::EditMaterial { index: 7, material });
+    assert_eq!(
+        (session.materials_revision(), session.picture_revision()),
+        (revision, picture)
+    );
+}
+
+#[test]
+fn materials_of_the_older_book_are_edited_in_their_own_numbers() {
+    let mut document = document();
+    document.dialect = format::Dialect::D3d11;
+    document.materials[0].reflectance = format::Reflectance::Phong {
+        ambient: [0.5; 3],
+        specular: [0.2; 3],
+        spec_power: 16.0,
+        reflectivity: [0.0; 3],
+    };
+    let mut session = opened(models::file("a.m3d", &document));
+    edit(&mut session, 0, |material| {
+        material.reflectance = Reflectance::Phong {
+            ambient: [0.4; 3],
+            specular: [-0.1, 0.3, 1.5],
+            spec_power: 5000.0,
+            reflectivity: [0.6; 3],
+        };
+    });
+    let expected = Reflectance::Phong {
+        ambient: [0.4; 3],
+        specular: [0.0, 0.3, 1.0],
+        spec_power: 1024.0,
+        reflectivity: [0.6; 3],
+    };
+    assert_eq!(session.materials()[0].reflectance, expected);
+    edit(&mut session, 0, |material| {
+        material.reflectance = Reflectance::Fresnel {
+            fresnel0: [0.1; 3],
+            roughness: 0.1,
+        };
+    });
+    assert_eq!(session.materials()[0].reflectance, expected, "it stays of its book");
+}
+
+#[test]
+fn the_same_file_again_keeps_edits_by_name_and_takes_up_the_rest() {
+    let mut session = opened(three_materials("a.m3d"));
+    edit(&mut session, 2, |material| material.diffuse = [0.9; 3]);
+    let mut document = parted(document());
+    document.materials.swap(0, 2);
+    for material in &mut document.materials {
+        material.diffuse = [0.125; 3];
+    }
+    session.apply(Command::AddFiles(vec![models::file("a.m3d", &document)]));
+    let drawn: Vec<_> = session
+        .materials()
+        .iter()
+        .map(|material| (material.name.as_str(), material.diffuse[0]))
+        .collect();
+    assert_eq!(drawn, [("Z", 0.9), ("Y", 0.125), ("X", 0.125)]);
+    assert_eq!([0, 1, 2].map(|index| session.is_edited(index)), [true, false, false]);
+}
+
+#[test]
+fn another_model_comes_with_its_own() {
+    let mut session = opened(three_materials("a.m3d"));
+    edit(&mut session, 2, |material| material.diffuse = [0.9; 3]);
+    let revision = session.materials_revision();
+    session.apply(Command::AddFiles(vec![three_materials("b.m3d")]));
+    assert_eq!(session.materials(), session.open_model().expect("open").model.materials);
+    assert!(session.materials_revision() > revision && !session.is_edited(2));
+    assert!(Session::new(false).materials().is_empty());
+}
