@@ -1,6 +1,6 @@
 //! Panels that float over the view.
 
-use egui::{Align2, Area, CornerRadius, Frame, Id, Margin, Order, Pos2, Rect, ScrollArea, Ui};
+use egui::{Align2, Area, CornerRadius, Frame, Id, LayerId, Margin, Order, Pos2, Rect, ScrollArea, Ui};
 
 use super::theme::{self, Tokens};
 
@@ -11,6 +11,19 @@ pub(super) fn scrolled(id: &'static str, most: f32) -> ScrollArea {
         .id_salt(id)
         .max_height(most)
         .min_scrolled_height(most)
+}
+
+/// Where a panel is that was shown in the last pass.
+pub(super) fn shown_rect(ui: &Ui, name: &'static str) -> Option<Rect> {
+    let layer = LayerId::new(Order::Middle, id_of(name));
+    ui.memory(|memory| {
+        let shown = memory.areas().visible_last_frame(&layer);
+        memory.area_rect(layer.id).filter(|_| shown)
+    })
+}
+
+fn id_of(name: &'static str) -> Id {
+    Id::unique(("panel", name))
 }
 
 /// Where a panel is and what it looks like.
@@ -69,7 +82,7 @@ impl Panel {
         let frame: Frame = theme::panel_frame(&Tokens::of(ui))
             .inner_margin(self.margin)
             .corner_radius(self.corner_radius);
-        Area::new(Id::unique(("panel", self.name)))
+        Area::new(id_of(self.name))
             .order(self.order)
             .pivot(self.pivot)
             .fixed_pos(self.at)

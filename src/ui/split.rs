@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::layout::bar_height;
+use super::panel::shown_rect;
 use super::theme::{MARGIN, Tokens};
 use super::widgets::{arrow_steps, is_touch, paint_chip};
 use crate::scene::Light;
@@ -18,7 +19,7 @@ const HANDLE_RADIUS: f32 = 13.0;
 pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<Command>) {
     let Some(share) = session.look().split else { return };
     let x = window.min.x + share * window.width();
-    let handle = pos2(x, window.center().y);
+    let handle = pos2(x, handle_height(ui, window));
     let reach = if is_touch(ui) { 22.0 } else { HANDLE_RADIUS };
     let id = ui.scope_id().with("split");
     // The line itself is thin; a finger takes the handle, and the model beside it stays within reach.
@@ -45,6 +46,15 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<
     if let Some(asked) = asked {
         let share = asked.clamp(*REACH.start(), *REACH.end());
         commands.push(LookCommand::SetSplit(Some(share)).into());
+    }
+}
+
+/// The handle's height: in the middle, or of what the sheet of a phone leaves.
+fn handle_height(ui: &Ui, window: Rect) -> f32 {
+    let bar_bottom = window.min.y + MARGIN + bar_height(ui);
+    match shown_rect(ui, "sheet") {
+        Some(sheet) => window.center().y.min(0.5 * (bar_bottom + sheet.min.y)),
+        None => window.center().y,
     }
 }
 

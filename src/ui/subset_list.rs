@@ -16,6 +16,8 @@ use crate::session::{Command, MapSlot, OpenModel, Session, SubsetCommand};
 
 /// Subsets listed before the list scrolls.
 const ROWS: f32 = 8.0;
+/// From this width on a row has room for its count beside the icons.
+const WIDE_ROW: f32 = 280.0;
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
 
@@ -178,7 +180,7 @@ impl<'a> Subset<'a> {
             }
         }
         let count_at = match begins {
-            Some(x) if is_touch(ui) => pos2(x - 6.0, rect.center().y),
+            Some(x) if rect.width() >= WIDE_ROW => pos2(x - 6.0, rect.center().y),
             Some(x) => return x,
             None => rect.right_center(),
         };

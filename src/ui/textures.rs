@@ -14,9 +14,9 @@ use crate::image::{Channels, Image, ImageKind};
 use crate::session::{OpenModel, Session, UsedMap};
 
 /// Side of a thumbnail, in points.
-const THUMBNAIL: f32 = 32.0;
+const THUMBNAIL: f32 = 30.0;
 /// Height of a row with one.
-const MAP_ROW_HEIGHT: f32 = 40.0;
+const MAP_ROW_HEIGHT: f32 = 38.0;
 
 /// Missing names that are spelled out before the rest is counted.
 const NAMES_SHOWN: usize = 8;
@@ -104,10 +104,10 @@ pub(super) fn picture_row(
     let outline = Stroke::new(1.0, tokens.hairline);
     ui.painter().rect_stroke(picture, 4.0, outline, StrokeKind::Inside);
 
-    let left = picture.max.x + 9.0;
-    let size = format!("{} × {}", image.width(), image.height());
+    let left = picture.max.x + 8.0;
+    let size = format!("{}\u{2009}×\u{2009}{}", image.width(), image.height());
     let size_at = pos2(rect.max.x, rect.center().y + 8.0);
-    let small = FontId::proportional(11.5);
+    let small = FontId::proportional(11.0);
     let painter = ui.painter();
     let drawn = painter.text(size_at, Align2::RIGHT_CENTER, size, small.clone(), tokens.muted);
     let lines = [
@@ -138,7 +138,11 @@ pub(super) fn holds(image: &Image) -> String {
         Channels::Rgb => "RGB",
         Channels::Rgba => "RGBA",
     };
-    format!("{}{kind} · {mips} · {channels}", image.source())
+    // Narrow spaces: the panel on the left has little room.
+    format!(
+        "{}{kind}\u{2009}·\u{2009}{mips}\u{2009}·\u{2009}{channels}",
+        image.source()
+    )
 }
 
 /// `head_diff.dds: diffuse map of soldier_head`, a line each.

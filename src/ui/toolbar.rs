@@ -4,7 +4,8 @@ use egui::{Popup, Rangef, RectAlign, Ui};
 
 use super::icons::Icon;
 use super::state::{Request, SheetPage, UiState};
-use super::widgets::{TextButton, control_size, icon_button, keyed_menu_item, menu_item};
+use super::theme::MARGIN;
+use super::widgets::{TextButton, control_size, icon_button, keyed_menu_item, menu_item, valued_menu_item};
 use super::{light, overlays, picture, popover, view_modes};
 use crate::scene::{Projection, Theme, ViewPreset};
 use crate::session::{Command, Session};
@@ -13,6 +14,8 @@ use crate::session::{Command, Session};
 const LIGHT_WIDTH: f32 = 288.0;
 /// The light's button is as wide for either light, so that nothing beside it moves.
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
+/// From a button to its menu: as far from the bar as the panels are.
+const MENU_GAP: f32 = MARGIN + 4.0;
 /// Room between buttons.
 const SPACING: f32 = 4.0;
 
@@ -64,12 +67,15 @@ fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
     let button = button.on_hover_text("View mode (T)");
-    Popup::menu(&button).align(RectAlign::BOTTOM_START).gap(8.0).show(|ui| {
-        ui.set_width(190.0);
-        if view_modes::items(ui, session, commands) {
-            ui.close();
-        }
-    });
+    Popup::menu(&button)
+        .align(RectAlign::BOTTOM_START)
+        .gap(MENU_GAP)
+        .show(|ui| {
+            ui.set_width(190.0);
+            if view_modes::items(ui, session, commands) {
+                ui.close();
+            }
+        });
 }
 
 fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -117,12 +123,15 @@ fn theme_button(ui: &mut Ui, state: &mut UiState) {
 
 fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let cube = icon_button(ui, Icon::Cube, "View from…", false);
-    Popup::menu(&cube).align(RectAlign::BOTTOM_END).gap(8.0).show(|ui| {
-        ui.set_width(190.0);
-        if view_from_items(ui, session, commands) {
-            ui.close();
-        }
-    });
+    Popup::menu(&cube)
+        .align(RectAlign::BOTTOM_END)
+        .gap(MENU_GAP)
+        .show(|ui| {
+            ui.set_width(190.0);
+            if view_from_items(ui, session, commands) {
+                ui.close();
+            }
+        });
 }
 
 /// The key of a direction; empty where there is none.
@@ -155,16 +164,16 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
 }
 
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.set_width(210.0);
+    ui.set_width(230.0);
     let pages = [
-        ("View mode", SheetPage::ViewMode),
-        ("Light and background", SheetPage::Light),
-        ("Lines over the model", SheetPage::Overlays),
-        ("View from…", SheetPage::ViewFrom),
-        ("Picture…", SheetPage::Picture),
+        ("View mode", session.look().view_mode.label(), SheetPage::ViewMode),
+        ("Light and background", light::label(session), SheetPage::Light),
+        ("Lines over the model", "", SheetPage::Overlays),
+        ("View from…", "", SheetPage::ViewFrom),
+        ("Picture…", "", SheetPage::Picture),
     ];
-    for (label, page) in pages {
-        if menu_item(ui, label, state.sheet == Some(page)).clicked() {
+    for (label, in_force, page) in pages {
+        if valued_menu_item(ui, label, in_force, state.sheet == Some(page)).clicked() {
             state.sheet = Some(page);
             ui.close();
         }

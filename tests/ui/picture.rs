@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use bindpose::app::App;
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{Command, File, LookCommand, Session, SubsetCommand};
 use bindpose::ui;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
@@ -19,7 +19,7 @@ use crate::page::{PHONE, WIDE, whole_window};
 
 /// Drivers round and antialias differently: a channel may be off by this much anywhere …
 const TOLERANCE: u8 = 10;
-/// … and by more in this share of the pixels, those on edges. The smallest panel, the toolbar, covers 0.5 % of the window.
+/// … and by more in this share of the pixels, those on edges. The smallest panel, the title, covers 0.7 % of the window.
 const SHARE: f64 = 0.001;
 
 /// The window as it looks once it has settled, with the sample at a moment of its walk.
@@ -126,15 +126,47 @@ fn phone_and_light() {
     compare("phone-light", &draw(PHONE, Theme::Light, true, vec![]));
 }
 
+#[test]
+fn both_lights_and_what_is_chosen_about_them() {
+    let split = Command::Look(LookCommand::SetSplit(Some(0.5)));
+    compare(
+        "wide-dark-light",
+        &draw_after(WIDE, Theme::Dark, false, vec![split], &["Lighting"]),
+    );
+}
+
+#[test]
+fn a_subset_inspected_in_a_small_window() {
+    let size = Vec2::new(900.0, 700.0);
+    let hidden = SubsetCommand::SetVisible {
+        subset: 3,
+        visible: false,
+    };
+    let then = vec![hidden.into()];
+    compare(
+        "small-light-inspector",
+        &draw_after(size, Theme::Light, false, then, &["Trim, "]),
+    );
+}
+
+#[test]
+fn overlays_in_the_sheet_of_a_phone() {
+    let clicks = ["More", "Lines over", "Vertex normals"];
+    compare(
+        "phone-dark-overlays",
+        &draw_after(PHONE, Theme::Dark, true, vec![], &clicks),
+    );
+}
+
 /// A golden that would let a panel go missing proves nothing.
 #[test]
 fn a_missing_panel_would_be_seen() {
     let with = draw(WIDE, Theme::Dark, false, vec![]);
     let mut without = with.clone();
-    // The toolbar's place, filled with the backdrop beside it.
+    // The title's place, filled with the backdrop beside it.
     for y in 12..48 {
-        for x in 1220..1428 {
-            let backdrop = *with.get_pixel(x - 300, y);
+        for x in 12..280 {
+            let backdrop = *with.get_pixel(x + 300, y);
             without.put_pixel(x, y, backdrop);
         }
     }

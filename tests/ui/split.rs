@@ -1,7 +1,7 @@
 //! The line between both lights.
 
 use bindpose::session::{Command, LookCommand};
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 
 use crate::models::moving;
 use crate::page::{WIDE, Window, phone, window};
@@ -42,8 +42,14 @@ fn the_line_and_its_handle_follow_the_pointer_and_the_camera_stays() {
     let mut phone = phone(vec![moving("a.m3d")]);
     phone.apply(LookCommand::SetSplit(Some(0.5)).into());
     // A finger is less exact than a pointer.
-    drag(&mut phone, pos2(195.0 + 18.0, 422.0), pos2(273.0, 422.0));
+    let handle = phone.rect("Split").center();
+    drag(&mut phone, handle + vec2(18.0, 0.0), pos2(273.0, handle.y));
     assert_split(&phone, 0.7);
+    phone.click("Lighting");
+    assert!(
+        phone.rect("Split").max.y < phone.rect("Close the sheet").min.y,
+        "the sheet leaves the handle"
+    );
 }
 
 #[test]

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec
 
 use super::super::icons::{self, Icon};
 use super::super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::{TOUCH_CONTROL, control_size, focus_ring, is_touch};
+use super::{TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
 
 /// Width of an icon in a button with words, with the room after it.
 const ICON_WIDTH: f32 = 21.0;
@@ -114,11 +114,21 @@ impl<'a> TextButton<'a> {
 
 /// A line of a menu; `on` marks the one in force.
 pub(crate) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
-    keyed_menu_item(ui, text, "", on)
+    menu_line(ui, text, "", theme::mono(11.0), on)
 }
 
 /// A line of a menu with the key that does the same.
 pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, on: bool) -> Response {
+    let key = key_hint(ui, key);
+    menu_line(ui, text, key, theme::mono(11.0), on)
+}
+
+/// A line of a menu that opens something, with what is in force there.
+pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
+    menu_line(ui, text, value, FontId::proportional(12.0), on)
+}
+
+fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let color = if on { tokens.accent } else { tokens.text };
     let galley = ui
@@ -137,7 +147,7 @@ pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, on: bool) -> R
     ui.painter().galley(at, galley, color);
     let right = rect.right_center() - vec2(10.0, 0.0);
     ui.painter()
-        .text(right, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
+        .text(right, Align2::RIGHT_CENTER, behind, font_behind, tokens.faint);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
     response
 }

@@ -15,7 +15,7 @@ use egui::{
     Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Stroke, StrokeKind, Ui, Vec2,
 };
 
-pub(super) use button::{TextButton, icon_button, keyed_menu_item, menu_item};
+pub(super) use button::{TextButton, icon_button, keyed_menu_item, menu_item, valued_menu_item};
 pub(super) use chip::{chip, chip_size, paint_chip};
 pub(super) use color::{color_button, color_picker, color32_from_linear};
 pub(super) use number::number_field;
@@ -50,6 +50,11 @@ pub(super) fn control_size(ui: &Ui) -> f32 {
 /// Whether controls are sized for fingers.
 pub(super) fn is_touch(ui: &Ui) -> bool {
     control_size(ui) > MOUSE_CONTROL
+}
+
+/// A key to show beside what it does: fingers have none.
+pub(super) fn key_hint<'a>(ui: &Ui, key: &'a str) -> &'a str {
+    if is_touch(ui) { "" } else { key }
 }
 
 /// Height of a row of a panel that can be pressed.

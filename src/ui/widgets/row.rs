@@ -4,7 +4,7 @@ use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec2, Widget
 
 use super::super::icons::{self, Icon};
 use super::super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
-use super::{MOUSE_CONTROL, control_size, icon_button, is_touch, pressed_row_height};
+use super::{MOUSE_CONTROL, control_size, icon_button, is_touch, key_hint, pressed_row_height};
 
 /// Height of the name of a part.
 const SECTION_HEIGHT: f32 = 21.0;
@@ -93,7 +93,7 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
         font,
         tokens.muted,
     );
-    let font = theme::mono(11.0);
+    let (font, key) = (theme::mono(11.0), key_hint(ui, key));
     ui.painter()
         .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, key, font, tokens.faint);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));

@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, FontId, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo, lerp, pos2, vec2};
 
 use super::super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::{MOUSE_CONTROL, control_size, focus_ring};
+use super::{MOUSE_CONTROL, control_size, focus_ring, key_hint};
 
 const TRACK_WIDTH: f32 = 26.0;
 const TRACK_HEIGHT: f32 = 15.0;
@@ -27,6 +27,7 @@ pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Respo
     );
     paint_track(ui, track, &response, on);
     let key_at = pos2(track.min.x - 10.0, rect.center().y);
+    let key = key_hint(ui, key);
     ui.painter()
         .text(key_at, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
     response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
