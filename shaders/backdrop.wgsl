@@ -46,11 +46,12 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let from_center = point.xz - frame.grid_center;
         let away = length(from_center) / frame.grid_reach;
         if away < 1.0 {
-            if ray.y < 0.0 {
-                if frame.shadow_strength > 0.0 {
-                    color *= 1.0 - frame.shadow_strength * (1.0 - key_visibility(point, 6.0));
-                }
-                let in_contact_map = ((point.xz - frame.contact_center) / frame.contact_half_width) * vec2<f32>(0.5, -0.5) + 0.5;
+            if ray.y < 0.0 && frame.shadow_strength > 0.0 {
+                let lit = key_visibility(point, 6.0);
+                color *= 1.0 - frame.shadow_strength * (1.0 - lit);
+            }
+            if ray.y < 0.0 && frame.contact_strength > 0.0 {
+                let in_contact_map = (point.xz - frame.contact_center) / frame.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
                 let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).r;
                 color *= 1.0 - frame.contact_strength * contact;
             }

@@ -38,7 +38,9 @@ fn schlick_fresnel(fresnel0: vec3<f32>, cos_angle: f32) -> vec3<f32> {
 fn blinn_phong(surface: BookSurface, to_light: vec3<f32>, strength: vec3<f32>) -> vec3<f32> {
     let lambert = max(dot(to_light, surface.normal), 0.0);
     let power = surface.shininess * 256.0;
-    let halfway = normalize(surface.to_eye + to_light);
+    let sum = surface.to_eye + to_light;
+    // A light straight ahead of the viewer has none; it lights nothing that is seen.
+    let halfway = sum * inverseSqrt(max(dot(sum, sum), 1e-8));
     // WGSL leaves pow(0, 0) open; the books' compiler gives 1.
     let cos_half = max(dot(halfway, surface.normal), 1e-6);
     let lobe = (power + 8.0) / 8.0 * pow(cos_half, power);

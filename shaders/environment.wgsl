@@ -8,7 +8,7 @@ struct Environment {
     turn_sin: f32,
     // Multiplies all its light.
     intensity: f32,
-    // Levels of `environment_specular`.
+    // Levels of `environment_specular`; 0 where it is not to be read.
     specular_level_count: f32,
 }
 
@@ -37,8 +37,11 @@ fn environment_diffuse(normal: vec3<f32>) -> vec3<f32> {
     return max(environment.sh[0].rgb + linear + quadratic, vec3<f32>(0.0)) * environment.intensity;
 }
 
-// What a mirror of this roughness shows in a direction of any length.
+// What a mirror of this roughness shows in a direction of any length: without the cube, the same in all of them.
 fn environment_specular_light(direction: vec3<f32>, roughness: f32) -> vec3<f32> {
+    if environment.specular_level_count < 1.0 {
+        return max(environment.sh[0].rgb, vec3<f32>(0.0)) * environment.intensity;
+    }
     let level = roughness * (environment.specular_level_count - 1.0);
     let towards = environment_from_world(direction);
     return textureSampleLevel(environment_specular, environment_sampler, towards, level).rgb * environment.intensity;

@@ -8,7 +8,7 @@ struct Veil {
 @group(3) @binding(0) var<uniform> veil: Veil;
 
 struct VeilVertex {
-    @builtin(position) clip: vec4<f32>,
+    @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
     @location(1) world_normal: vec3<f32>,
 }

@@ -2,17 +2,25 @@
 //
 // `surface_color` is the part in which the programs differ: the colour of a point as it is to be seen, sRGB-encoded.
 
+// Light is dithered; a property that is read off the picture stays what it is.
+fn stored(color_srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
+    if frame.view_mode != 0u {
+        return linear_from_srgb(color_srgb);
+    }
+    return dithered_linear_from_srgb(color_srgb, pixel);
+}
+
 @fragment
 fn fragment(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
-    return vec4<f32>(dithered_linear_from_srgb(surface_color(point), mesh.clip.xy), 1.0);
+    return vec4<f32>(stored(surface_color(point), mesh.clip.xy), 1.0);
 }
 
 // What alpha cuts, a whole pixel or nothing.
 @fragment
 fn fragment_cut(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
-    let color = dithered_linear_from_srgb(surface_color(point), mesh.clip.xy);
+    let color = stored(surface_color(point), mesh.clip.xy);
     // After the derivatives, which some devices lose with the neighbours that are cut away.
     if point.diffuse_texel.a < material.alpha_clip {
         discard;
@@ -25,7 +33,7 @@ fn fragment_cut(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @lo
 fn fragment_cut_smooth(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let alpha_per_pixel = fwidth(point.diffuse_texel.a);
-    let color = dithered_linear_from_srgb(surface_color(point), mesh.clip.xy);
+    let color = stored(surface_color(point), mesh.clip.xy);
     // The line where alpha passes the limit, one pixel wide whatever the slope of the map.
     let coverage = clamp((point.diffuse_texel.a - material.alpha_clip) / max(alpha_per_pixel, 1e-4) + 0.5, 0.0, 1.0);
     if coverage <= 0.0 {

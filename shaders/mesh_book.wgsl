@@ -1,6 +1,9 @@
 // The model under the light of the books' demos.
 
 fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
+    if frame.reflections < 0.5 {
+        return vec3<f32>(0.0);
+    }
     let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
     return srgb_from_linear(clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0)));
 }
@@ -23,7 +26,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             point.to_eye,
         );
         color = book_light(surface, to_lights, key_visible, point.occlusion)
-            + book_reflectance(surface, mirrored) * sky_srgb(mirrored) * frame.reflections;
+            + book_reflectance(surface, mirrored) * sky_srgb(mirrored);
     } else {
         let surface = PhongSurface(
             texel,
@@ -35,7 +38,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             point.to_eye,
         );
         color = phong_light(surface, to_lights, key_visible, point.occlusion)
-            + material.reflectivity * sky_srgb(mirrored) * frame.reflections;
+            + material.reflectivity * sky_srgb(mirrored);
     }
     return clamp(color, vec3<f32>(0.0), vec3<f32>(1.0));
 }

@@ -11,6 +11,9 @@ const DEPTH: u32 = 8u;
 const AMBIENT_OCCLUSION: u32 = 9u;
 const SHADOW: u32 = 10u;
 
+// What a normal map has where nothing bends, in bytes 128, 128, 255.
+const FLAT: vec3<f32> = vec3<f32>(128.0 / 255.0, 128.0 / 255.0, 1.0);
+
 // A direction as a colour: -1..1 on each axis is 0..1 in each channel.
 fn direction_color(direction: vec3<f32>) -> vec3<f32> {
     return direction * 0.5 + 0.5;
@@ -38,7 +41,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         }
         case NORMAL_MAP: {
             if material.normal_channels == 0u {
-                return vec3<f32>(0.5, 0.5, 1.0);
+                return FLAT;
             }
             let xy = point.normal_texel.rg;
             let away = xy * 2.0 - 1.0;

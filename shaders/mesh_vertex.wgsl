@@ -1,7 +1,8 @@
 // The model's triangles. Drawn from both sides: a file with holes or turned triangles still shows.
 
 struct MeshVertex {
-    @builtin(position) clip: vec4<f32>,
+    // The same bits in every program, so that what is drawn over the model meets its depth.
+    @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
     @location(1) world_normal: vec3<f32>,
     @location(2) world_tangent: vec4<f32>,

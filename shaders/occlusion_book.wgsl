@@ -52,8 +52,11 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let probe_ndc = clip.xy / clip.w;
         let found_along = distance_of(geometry_at(vec2<i32>(floor(pixel_of_ndc(probe_ndc)))));
         let found = world_at(probe_ndc, found_along);
-        let facing = max(dot(normal, normalize(found - point)), 0.0);
-        sum += facing * occlusion_of(along - found_along);
+        let occlusion = occlusion_of(along - found_along);
+        // Only what is well in front has a direction.
+        if occlusion > 0.0 {
+            sum += occlusion * max(dot(normal, normalize(found - point)), 0.0);
+        }
     }
     let access = 1.0 - sum / f32(OFFSET_COUNT);
     return vec4<f32>(clamp(access * access, 0.0, 1.0));

@@ -4,10 +4,10 @@
 //! Environment -> Prefiltered -> textures and coefficients (for the GPU)
 //!    studio, daylight, from_image   levels by roughness, irradiance
 //! ```
-//! [`pbr`], [`studio`] and [`tone_map`] are the twins of the shaders of the same names: same functions, same steps.
+//! [`pbr`], [`studio`], [`book`] and [`tone_map`] are the twins of the shaders of the same names: same functions, same steps.
 //!
 //! Radiance is linear and in units where 1 shows as white. Direct lights are given as what a white surface that faces them
-//! shows, so their Lambert 1/π is in them already.
+//! shows, so their Lambert 1/π is in them already. The books' light alone works with encoded colours.
 //!
 //! ```
 //! use bindpose::light::{Environment, Prefiltered};
@@ -18,6 +18,7 @@
 //! assert!(above.min_element() > 2.0 * below.max_element());
 //! ```
 
+pub mod book;
 mod brdf_table;
 mod cube;
 mod daylight;

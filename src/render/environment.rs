@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use crate::image::{Image, ImageKind};
 use crate::light::{BrdfTable, Environment, Prefiltered};
-use crate::scene::{Light, RenderFrame};
+use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
 /// Entries along each edge of the table of reflectances.
@@ -24,7 +24,8 @@ struct Lighting {
 
 /// Everything of all around.
 pub(super) struct Environments {
-    uniforms: wgpu::Buffer,
+    /// For each light, in the order of [`Light::ALL`].
+    uniforms: [wgpu::Buffer; Light::ALL.len()],
     table: wgpu::TextureView,
     studio: Lighting,
     daylight: wgpu::TextureView,
@@ -35,11 +36,13 @@ impl Environments {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let daylight = Environment::daylight();
         Self {
-            uniforms: device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("environment"),
-                size: size_of::<shaders::Environment>() as u64,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
+            uniforms: Light::ALL.map(|_| {
+                device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("environment"),
+                    size: size_of::<shaders::Environment>() as u64,
+                    usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                })
             }),
             table: table(device, queue),
             studio: Lighting::upload(device, queue, &STUDIO),
@@ -69,26 +72,33 @@ impl Environments {
     }
 
     /// Says how the surroundings of a frame are turned. The studio keeps its place beside the viewer, as if the model stood on a
-    /// turntable; a sky stands in the world.
+    /// turntable; a sky stands in the world, and so does the daylight of the book's light.
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
         let lighting = self.lighting();
-        let studio_yaw = match self.dropped {
-            Some(_) => 0.0,
-            None => frame.camera.yaw_radians,
-        };
-        let turn = frame.options.environment_turn_radians - studio_yaw;
-        let uniform = shaders::Environment {
-            sh: lighting.sh,
-            turn_cos: turn.cos(),
-            turn_sin: turn.sin(),
-            intensity: 1.0,
-            specular_level_count: lighting.level_count as f32,
-        };
-        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniform));
+        for light in Light::ALL {
+            let studio_yaw = match (&self.dropped, light) {
+                (None, Light::Studio) => frame.camera.yaw_radians,
+                _ => 0.0,
+            };
+            // About y by this much, the world's x comes to the environment's.
+            let turn = frame.options.environment_turn_radians + studio_yaw;
+            let uniform = shaders::Environment {
+                sh: lighting.sh,
+                turn_cos: turn.cos(),
+                turn_sin: -turn.sin(),
+                intensity: 1.0,
+                specular_level_count: if frame.options.passes.has(Pass::Environment) {
+                    lighting.level_count as f32
+                } else {
+                    0.0
+                },
+            };
+            queue.write_buffer(self.uniforms(light), 0, bytemuck::bytes_of(&uniform));
+        }
     }
 
-    pub(super) fn uniforms(&self) -> &wgpu::Buffer {
-        &self.uniforms
+    pub(super) fn uniforms(&self, light: Light) -> &wgpu::Buffer {
+        &self.uniforms[light as usize]
     }
 
     pub(super) fn table(&self) -> &wgpu::TextureView {

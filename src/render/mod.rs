@@ -199,9 +199,6 @@ impl Renderer {
             let Some((stage, surroundings)) = stage.and_then(|stage| Some((stage, stage.surroundings()?))) else {
                 continue;
             };
-            if columns.is_empty() {
-                continue;
-            }
             pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
             pass.set_bind_group(0, stage.frame_group(), &[]);
             pass.set_bind_group(2, surroundings, &[]);
@@ -252,11 +249,11 @@ fn posed_model<'a>(
 
 /// Which light shows in which columns of the picture.
 fn parts(frame: &RenderFrame<'_>, [width, _]: [u32; 2]) -> Vec<Columns> {
-    match frame.options.split {
-        None => vec![(frame.options.light, 0..width)],
-        Some(share) => {
-            let at = (share.clamp(0.0, 1.0) * width as f32).round() as u32;
-            vec![(Light::Book, 0..at.min(width)), (Light::Studio, at.min(width)..width)]
-        }
-    }
+    let Some(share) = frame.options.split else {
+        return vec![(frame.options.light, 0..width)];
+    };
+    let at = ((share.clamp(0.0, 1.0) * width as f32).round() as u32).min(width);
+    let mut parts = vec![(Light::Book, 0..at), (Light::Studio, at..width)];
+    parts.retain(|(_, columns)| !columns.is_empty());
+    parts
 }

@@ -155,7 +155,13 @@ impl Stage {
             environments.specular(),
             environments.sky(self.light),
         ];
-        self.surroundings
-            .update(device, &pipelines.layouts, &common.samplers, environments, views);
+        self.surroundings.update(
+            device,
+            &pipelines.layouts,
+            &common.samplers,
+            environments,
+            self.light,
+            views,
+        );
     }
 }

@@ -2,11 +2,12 @@
 
 use super::environment::Environments;
 use super::layouts::Layouts;
+use crate::scene::Light;
 
 /// The textures that differ between lights and frames: shadow map, openness, contact map, mirrored cube, sky.
 pub(super) type Views<'a> = [&'a wgpu::TextureView; 5];
 
-/// The bind group, made anew only when it is of other textures.
+/// The bind group of one light, made anew only when it is of other textures.
 #[derive(Default)]
 pub(super) struct Surroundings {
     bound: Option<([wgpu::TextureView; 5], wgpu::BindGroup)>,
@@ -19,6 +20,7 @@ impl Surroundings {
         layouts: &Layouts,
         samplers: &Samplers,
         environments: &Environments,
+        light: Light,
         views: Views<'_>,
     ) {
         let is_bound = |(bound, _): &([wgpu::TextureView; 5], _)| bound.iter().zip(views).all(|(a, b)| a == b);
@@ -32,7 +34,7 @@ impl Surroundings {
             Resource::Sampler(&samplers.shadow),
             Resource::TextureView(openness),
             Resource::TextureView(contact),
-            environments.uniforms().as_entire_binding(),
+            environments.uniforms(light).as_entire_binding(),
             Resource::TextureView(specular),
             Resource::TextureView(environments.table()),
             Resource::Sampler(&samplers.environment),

@@ -1,5 +1,7 @@
-//! The studio light on the GPU, read back, against its twins on the CPU; and furnaces, with the textures really sampled.
+//! The lights on the GPU, read back, against their twins on the CPU; and furnaces, with the textures really sampled.
 
+mod book;
+mod evaluate;
 mod upload;
 
 use bindpose::light::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};

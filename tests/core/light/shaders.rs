@@ -2,8 +2,9 @@
 
 use std::mem::offset_of;
 
-use bindpose::light::studio::KEY_SIZE;
-use bindpose::shaders::{Environment, STUDIO_LIGHT, TONE_MAP_WGSL};
+use bindpose::light::book::{BOOK_AMBIENT, BOOK_STRENGTHS};
+use bindpose::light::studio::{KEY_COLOR, KEY_SIZE, RIM_COLOR};
+use bindpose::shaders::{BOOK_WGSL, Environment, MESH_STUDIO, STUDIO_LIGHT, TONE_MAP_WGSL};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// Calls everything, so that nothing is left out of the translation.
@@ -79,16 +80,51 @@ fn the_environment_lies_as_its_twin() {
     assert_eq!(*span as usize, size_of::<Environment>());
 }
 
+/// The value of a constant of the module: a number or a vector of literals.
+fn constant(module: &naga::Module, name: &str) -> Vec<f32> {
+    let mut constants = module.constants.iter();
+    let (_, constant) = constants
+        .find(|(_, constant)| constant.name.as_deref() == Some(name))
+        .unwrap_or_else(|| panic!("no shader has a constant {name}"));
+    numbers(module, constant.init)
+}
+
+fn numbers(module: &naga::Module, expression: naga::Handle<naga::Expression>) -> Vec<f32> {
+    match &module.global_expressions[expression] {
+        naga::Expression::Literal(naga::Literal::F32(number)) => vec![*number],
+        naga::Expression::Splat { size, value } => numbers(module, *value).repeat(*size as usize),
+        naga::Expression::Compose { components, .. } => components
+            .iter()
+            .flat_map(|component| numbers(module, *component))
+            .collect(),
+        other => panic!("{other:?} is no number"),
+    }
+}
+
 #[test]
 fn both_sides_spread_the_key_alike() {
-    let module = module();
-    let (_, constant) = module
-        .constants
-        .iter()
-        .find(|(_, constant)| constant.name.as_deref() == Some("KEY_SIZE"))
-        .expect("studio.wgsl names it");
-    let naga::Expression::Literal(literal) = module.global_expressions[constant.init] else {
-        panic!("not a literal");
-    };
-    assert_eq!(literal, naga::Literal::F32(KEY_SIZE));
+    assert_eq!(constant(&module(), "KEY_SIZE"), [KEY_SIZE]);
+}
+
+#[test]
+fn both_sides_have_the_same_studio_lights() {
+    let source = MESH_STUDIO.source();
+    let module =
+        naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
+    assert_eq!(constant(&module, "KEY_COLOR"), KEY_COLOR.to_array());
+    assert_eq!(constant(&module, "RIM_COLOR"), RIM_COLOR.to_array());
+}
+
+#[test]
+fn both_sides_have_the_same_book_lights() {
+    let source = BOOK_WGSL.source;
+    let module =
+        naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
+    for (strength, name) in BOOK_STRENGTHS
+        .into_iter()
+        .zip(["BOOK_STRENGTH_0", "BOOK_STRENGTH_1", "BOOK_STRENGTH_2"])
+    {
+        assert_eq!(constant(&module, name), strength.to_array(), "{name}");
+    }
+    assert_eq!(constant(&module, "BOOK_AMBIENT"), BOOK_AMBIENT.to_array());
 }

@@ -4,8 +4,9 @@ use bindpose::shaders::{self, STUDIO_LIGHT, TONE_MAP_WGSL};
 use glam::Vec3;
 use wgpu::util::DeviceExt as _;
 
+use super::evaluate::evaluate;
 use super::{ANGLES, QUANTITIES, ROUGHNESSES, Room};
-use crate::gpu::{Gpu, read_texture};
+use crate::gpu::Gpu;
 
 impl Room<'_> {
     /// Uploads as a renderer does: uniform, cube with its levels, table, sampler.
@@ -80,7 +81,7 @@ impl Room<'_> {
 
     /// The values of all cases, by the shaders.
     pub(super) fn on_gpu(&self, gpu: &Gpu) -> Vec<Vec3> {
-        let (device, queue) = (&gpu.open.device, &gpu.open.queue);
+        let device = &gpu.open.device;
         let [key_color, rim_color] =
             [self.key_color, self.rim_color].map(|Vec3 { x, y, z }| format!("vec3<f32>({x:?}, {y:?}, {z:?})"));
         let constants = format!(
@@ -89,10 +90,6 @@ impl Room<'_> {
         );
         let files = STUDIO_LIGHT.iter().chain([&TONE_MAP_WGSL]).map(|file| file.source);
         let source: String = files.chain([constants.as_str(), include_str!("probe.wgsl")]).collect();
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("light probe"),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        });
         let nothing = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: None,
             entries: &[],
@@ -104,69 +101,12 @@ impl Room<'_> {
         });
         let environment = environment_layout(device);
         let group = self.bind(gpu, &environment);
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &[Some(&nothing), Some(&nothing), Some(&environment)],
-            immediate_size: 0,
-        });
-        // GL may not draw into floats; every device draws into integers, and bits are bits.
-        let format = wgpu::TextureFormat::Rgba32Uint;
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("light probe"),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vertex"),
-                compilation_options: Default::default(),
-                buffers: &[],
-            },
-            primitive: Default::default(),
-            depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fragment"),
-                compilation_options: Default::default(),
-                targets: &[Some(format.into())],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("light probe"),
-            size: wgpu::Extent3d {
-                width: ANGLES,
-                height: ROUGHNESSES * QUANTITIES,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
-        let view = texture.create_view(&Default::default());
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations::default(),
-                })],
-                ..Default::default()
-            });
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &nothing_group, &[]);
-            pass.set_bind_group(1, &nothing_group, &[]);
-            pass.set_bind_group(2, &group, &[]);
-            pass.draw(0..3, 0..1);
-        }
-        queue.submit([encoder.finish()]);
-        let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&read_texture(gpu, &texture, 16));
-        texels.into_iter().map(|[x, y, z, _]| Vec3::new(x, y, z)).collect()
+        let groups = [
+            (&nothing, &nothing_group),
+            (&nothing, &nothing_group),
+            (&environment, &group),
+        ];
+        evaluate(gpu, source, &groups, [ANGLES, ROUGHNESSES * QUANTITIES])
     }
 }
 
