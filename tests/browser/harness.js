@@ -239,6 +239,17 @@ export function settled(page) {
   return page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 250)));
 }
 
+/** Waits until the camera has come to rest after a drag and nothing more is drawn. The clip must be paused. */
+export async function atRest(page) {
+  let before;
+  let drawn = -1;
+  do {
+    before = drawn;
+    await settled(page);
+    drawn = (await state(page)).framesRendered;
+  } while (drawn !== before);
+}
+
 /** The files directly in a folder whose names end as said; none when there is no such folder. */
 export function filesIn(folder, ending) {
   if (!existsSync(folder)) return [];
