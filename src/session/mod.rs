@@ -251,6 +251,9 @@ impl Session {
             palette: &self.pose.palette,
             hidden_submeshes: self.subsets.left_out(),
             highlighted_submesh: self.subsets.highlighted(),
+            vertex_colors: None,
+            ghosts: &[],
+            over_model: None,
             options,
         }
     }
