@@ -94,7 +94,7 @@ impl GpuModel {
             )?,
             index_count: mesh.indices.len() as u32,
             materials,
-            ranges: draw_ranges(mesh),
+            ranges: draw_ranges(mesh, model.materials.len()),
             triangles: mesh.indices.clone(),
             edges: OnceCell::new(),
             vertex_count: mesh.vertex_count(),
@@ -269,10 +269,11 @@ fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
     }
 }
 
-fn draw_ranges(mesh: &Mesh) -> Vec<DrawRange> {
+/// What has no material is not drawn.
+fn draw_ranges(mesh: &Mesh, material_count: usize) -> Vec<DrawRange> {
     let submeshes = mesh.submeshes.iter().enumerate();
     submeshes
-        .filter(|(_, submesh)| submesh.triangle_count > 0)
+        .filter(|(_, submesh)| submesh.triangle_count > 0 && (submesh.material as usize) < material_count)
         .map(|(index, submesh)| {
             let indices = submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3;
             let used = &mesh.indices[indices.start as usize..indices.end as usize];

@@ -213,22 +213,34 @@ impl Renderer {
             ..
         } = &self.common;
         let mut pass = target.begin_pass(encoder);
-        for (light, columns) in parts {
+        let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
             let stage = self.stages.iter().find(|stage| stage.light() == *light);
             let Some((stage, surroundings)) = stage.and_then(|stage| Some((stage, stage.surroundings()?))) else {
-                continue;
+                return false;
             };
             pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
             pass.set_bind_group(0, stage.frame_group(), &[]);
             pass.set_bind_group(2, surroundings, &[]);
-            if options.background != Background::None {
-                pass.set_pipeline(&pipelines.get(Draw::Backdrop));
-                pass.set_bind_group(1, nothing, &[]);
-                pass.draw(0..3, 0..1);
+            true
+        };
+        // First all that is behind, from the right: Mesa's software rasteriser fills a column too many at the left of a scissor
+        // rectangle, and would wipe the model out there.
+        if options.background != Background::None {
+            for part in parts.iter().rev() {
+                if begin_part(&mut pass, part) {
+                    pass.set_pipeline(&pipelines.get(Draw::Backdrop));
+                    pass.set_bind_group(1, nothing, &[]);
+                    pass.draw(0..3, 0..1);
+                }
+            }
+        }
+        for part in parts {
+            if !begin_part(&mut pass, part) {
+                continue;
             }
             if let Some((model, posed)) = model {
                 let shading = match options.view_mode {
-                    ViewMode::Lit => Shading::Lit(*light),
+                    ViewMode::Lit => Shading::Lit(part.0),
                     _ => Shading::Inspect,
                 };
                 // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
