@@ -24,22 +24,33 @@ fn leaning(material: Material) -> Scene {
     scene
 }
 
-fn phong_material(change: impl Fn(&mut [f32; 3], &mut [f32; 3], &mut f32, &mut [f32; 3])) -> Material {
-    let mut parts = ([0.4; 3], [0.3; 3], 4.0, [0.2; 3]);
-    change(&mut parts.0, &mut parts.1, &mut parts.2, &mut parts.3);
-    let (ambient, specular, spec_power, reflectivity) = parts;
+/// The values in which materials of the first book differ from those of the second.
+#[derive(Clone, Copy)]
+struct Phong {
+    ambient: [f32; 3],
+    specular: [f32; 3],
+    spec_power: f32,
+    reflectivity: [f32; 3],
+}
+
+const PHONG: Phong = Phong {
+    ambient: [0.4; 3],
+    specular: [0.3; 3],
+    spec_power: 4.0,
+    reflectivity: [0.2; 3],
+};
+
+fn phong_material(values: Phong) -> Material {
     Material {
         reflectance: Reflectance::Phong {
-            ambient,
-            specular,
-            spec_power,
-            reflectivity,
+            ambient: values.ambient,
+            specular: values.specular,
+            spec_power: values.spec_power,
+            reflectivity: values.reflectivity,
         },
         ..material("old", [0.5, 0.4, 0.3])
     }
 }
-
-fn unchanged(_: &mut [f32; 3], _: &mut [f32; 3], _: &mut f32, _: &mut [f32; 3]) {}
 
 /// Towards the lights of the demo after they turned about y.
 fn to_lights(turn_radians: f32) -> [Vec3; 3] {
@@ -115,7 +126,7 @@ on_both_backends! {
 
     fn materials_of_the_first_book_are_lit_by_phong(gpu) {
         for turn_radians in [0.0, 1.1, 2.6] {
-            let mut scene = leaning(phong_material(unchanged));
+            let mut scene = leaning(phong_material(PHONG));
             scene.options.book_lights_turn_radians = turn_radians;
             let surface = PhongSurface {
                 texel: Vec3::ONE,
@@ -132,17 +143,17 @@ on_both_backends! {
     }
 
     fn every_value_of_a_phong_material_counts(gpu) {
-        let of = |change: &dyn Fn(&mut [f32; 3], &mut [f32; 3], &mut f32, &mut [f32; 3])| {
-            let mut scene = leaning(phong_material(change));
+        let of = |values: Phong| {
+            let mut scene = leaning(phong_material(values));
             scene.options.passes = Passes::all();
             brightness(gpu, &scene)
         };
-        let base = of(&unchanged);
-        assert!(of(&|ambient, _, _, _| *ambient = [1.0; 3]) > base + 20, "more ambient is brighter");
-        assert!(of(&|_, specular, _, _| *specular = [0.9; 3]) > base + 20, "more specular is brighter");
+        let base = of(PHONG);
+        assert!(of(Phong { ambient: [1.0; 3], ..PHONG }) > base + 20, "more ambient is brighter");
+        assert!(of(Phong { specular: [0.9; 3], ..PHONG }) > base + 20, "more specular is brighter");
         // The eye is beside every mirrored light.
-        assert!(of(&|_, _, power, _| *power = 60.0) + 10 < base, "a narrower lobe passes the eye");
-        assert!(of(&|_, _, _, reflectivity| *reflectivity = [0.6; 3]) > base + 20, "the sky is mirrored");
+        assert!(of(Phong { spec_power: 60.0, ..PHONG }) + 10 < base, "a narrower lobe passes the eye");
+        assert!(of(Phong { reflectivity: [0.6; 3], ..PHONG }) > base + 20, "the sky is mirrored");
     }
 
     /// A smooth card mirrors the sky of the side to which it leans, times shininess and Fresnel share.
@@ -173,7 +184,7 @@ on_both_backends! {
             let before = easel.draw(&scene);
             let reflectance = Reflectance::Fresnel { fresnel0: [0.3; 3], roughness: 0.2 };
             scene.model.materials[0] = Material { reflectance, ..material("blue", [0.1, 0.5, 0.1]) };
-            scene.model.materials[1] = phong_material(unchanged);
+            scene.model.materials[1] = phong_material(PHONG);
             easel.renderer.set_materials(&scene.model.materials);
             let edited = easel.draw(&scene);
             assert!(before.share_that_differs(&edited, 10) > 0.05, "{light:?}");

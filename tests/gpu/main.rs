@@ -40,6 +40,7 @@ mod sets;
 mod skinning;
 mod sky;
 mod still_life;
+mod studio_light;
 mod submeshes;
 mod textures;
 mod view_modes;
