@@ -135,6 +135,22 @@ fn every_size_of_skeleton_has_its_seam() {
 }
 
 #[test]
+fn the_figure_loops_without_a_seam_that_is_seen() {
+    let (model, _) = model_of(&bindpose::sample::figure());
+    let bounds = model.bind_bounds();
+    assert!(model.clips.len() > 1);
+    for clip in &model.clips {
+        let seam = seam(&model.skeleton, clip, bounds.min.distance(bounds.max));
+        assert!(
+            !seam.visible,
+            "{}: {:?}",
+            clip.name,
+            seam.worst.map(|joint| seam.joints[joint.index()])
+        );
+    }
+}
+
+#[test]
 fn seams_of_real_files_are_those_of_their_poses() {
     for name in REAL_FILES {
         let Some(parsed) = real_file(name) else { continue };
