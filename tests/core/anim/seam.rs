@@ -99,8 +99,10 @@ fn lengths_are_those_of_the_model_where_a_parent_scales() {
 #[test]
 fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
     let mut document = arm();
-    let end = turned(key(1.0, [0.0; 3]), std::f32::consts::TAU);
-    document.clips[0].bones[0] = track([key(0.0, [0.0; 3]), turned(key(0.5, [0.0; 3]), 3.0), end]);
+    // Round in steps so small that neighbours stay on one side: the last quaternion is the first one's negative.
+    let around = [0.0, 2.0, 4.0, std::f32::consts::TAU];
+    let keys = around.map(|angle_radians| turned(key(angle_radians, [0.0; 3]), angle_radians));
+    document.clips[0].bones[0] = track(keys);
     document.clips[0].bones[1] = track([
         key(0.0, [0.0, 1.0, 0.0]),
         bindpose::format::Keyframe {
@@ -109,7 +111,9 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
         },
     ]);
     document.clips[0].bones[2] = track([key(0.0, [0.0, 1.0, 0.0])]);
-    let seam = seam_of(&model_of(&document).0, 2.0);
+    let (model, _) = model_of(&document);
+    assert!(model.clips[0].tracks[0].rotations()[3].w < -0.99);
+    let seam = seam_of(&model, 2.0);
     assert!(seam.joints[0].rotation_degrees < 1e-3, "a whole turn is none");
     assert_eq!((seam.joints[1].scale, seam.worst), (0.5, Some(JointIndex(1))));
 }
@@ -127,6 +131,22 @@ fn every_size_of_skeleton_has_its_seam() {
         assert!((even.joints[0].translation - 2.0).abs() < 1e-6);
         assert!(even.joints.iter().skip(1).all(|joint| joint.rotation_degrees < 1e-3));
         assert!(even.joints.iter().all(|joint| (joint.travel - 2.0).abs() < 1e-3));
+    }
+}
+
+#[test]
+fn the_figure_loops_without_a_seam_that_is_seen() {
+    let (model, _) = model_of(&bindpose::sample::figure());
+    let bounds = model.bind_bounds();
+    assert!(model.clips.len() > 1);
+    for clip in &model.clips {
+        let seam = seam(&model.skeleton, clip, bounds.min.distance(bounds.max));
+        assert!(
+            !seam.visible,
+            "{}: {:?}",
+            clip.name,
+            seam.worst.map(|joint| seam.joints[joint.index()])
+        );
     }
 }
 
