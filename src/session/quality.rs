@@ -30,6 +30,17 @@ pub enum PassState {
     TooSlow,
 }
 
+impl PassState {
+    /// Name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drawn => "drawn",
+            Self::Off => "off",
+            Self::TooSlow => "too slow",
+        }
+    }
+}
+
 /// The passes of a session.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Quality {
