@@ -15,9 +15,10 @@ pub(super) struct LookArguments {
     /// What of the surface to show: lit, base-color, normal-map, normal, tangent, uv, roughness, material, depth, ao, shadow.
     #[arg(long, value_name = "MODE", value_parser = view_mode, default_value = "lit")]
     view_mode: ViewMode,
-    /// What is behind the model: backdrop, sky, none, or a colour such as #20262e.
-    #[arg(long, value_name = "BACKGROUND", value_parser = background, default_value = "backdrop")]
-    background: Background,
+    /// What is behind the model: backdrop, sky, none, or a colour such as #20262e [default: the sky when a cube map is among
+    /// the textures, else backdrop].
+    #[arg(long, value_name = "BACKGROUND", value_parser = background)]
+    background: Option<Background>,
     /// Leave out everything behind the model; the same as `--background none`.
     #[arg(long, conflicts_with = "background")]
     transparent: bool,
@@ -43,22 +44,24 @@ pub(super) struct LookArguments {
 
 impl LookArguments {
     pub(super) fn apply(&self, session: &mut Session) {
-        let background = if self.transparent {
-            Background::None
-        } else {
-            self.background
-        };
         for command in [
             LookCommand::SetLight(self.light),
             LookCommand::SetSplit(self.split),
             LookCommand::SetViewMode(self.view_mode),
-            LookCommand::SetBackground(background),
             LookCommand::SetOverlay(Overlay::Grid, !self.no_grid),
             LookCommand::SetExposure(self.exposure),
             LookCommand::SetEnvironmentTurn(self.turn.to_radians()),
             LookCommand::SetNormalGreenFlipped(self.flip_green),
         ] {
             session.apply(command.into());
+        }
+        let background = if self.transparent {
+            Some(Background::None)
+        } else {
+            self.background
+        };
+        if let Some(background) = background {
+            session.apply(LookCommand::SetBackground(background).into());
         }
         for &overlay in &self.overlay {
             session.apply(LookCommand::SetOverlay(overlay, true).into());

@@ -61,7 +61,11 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
             spec_power,
             reflectivity,
         } => shaders::Material {
-            fresnel0: unit(specular).map(|channel| channel * PHONG_TO_FRESNEL),
+            fresnel0: std::array::from_fn(|channel| {
+                let of_lobe = specular[channel].clamp(0.0, 1.0) * PHONG_TO_FRESNEL;
+                // What mirrors the sky in the book mirrors the surroundings here.
+                of_lobe + (1.0 - of_lobe) * reflectivity[channel].clamp(0.0, 1.0)
+            }),
             roughness: roughness_from_power(spec_power).clamp(0.0, 1.0),
             is_phong: 1,
             ambient: unit(ambient),

@@ -25,6 +25,7 @@ mod textures;
 pub mod theme;
 mod thumbnails;
 mod timeline;
+mod timeline_bar;
 mod title_bar;
 mod toolbar;
 mod view_modes;

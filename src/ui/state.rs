@@ -5,7 +5,7 @@ use egui::Ui;
 use super::inspector::VertexCount;
 use super::picture::PictureChoice;
 use super::thumbnails::Thumbnails;
-use super::timeline::KeyTimes;
+use super::timeline_bar::KeyTimes;
 use super::viewport::ViewHold;
 use crate::scene::Theme;
 

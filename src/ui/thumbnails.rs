@@ -24,7 +24,7 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// The thumbnail of a map; none when it has no level small enough.
+    /// The thumbnail of a map; none when its texels cannot be read.
     pub(super) fn of(&mut self, ctx: &Context, session: &Session, map: &UsedMap<'_>) -> Option<TextureId> {
         if self.maps_revision != session.maps_revision() {
             self.maps_revision = session.maps_revision();
@@ -32,7 +32,7 @@ impl Thumbnails {
         }
         let path = &map.file.path;
         if !self.textures.contains_key(path) {
-            let texture = small_level(map.image)
+            let texture = small_picture(map.image)
                 .map(|level| ctx.load_texture(format!("thumbnail {path}"), level, TextureOptions::LINEAR));
             self.textures.insert(path.clone(), texture);
         }
@@ -40,25 +40,48 @@ impl Thumbnails {
     }
 }
 
-/// The largest level that is no larger than a thumbnail needs, without its alpha: a cut-out would hide half of it.
-fn small_level(image: &Image) -> Option<ColorImage> {
+/// The picture no larger than a thumbnail needs, without its alpha: a cut-out would hide half of it.
+fn small_picture(image: &Image) -> Option<ColorImage> {
     let small = |&level: &u32| {
         let (width, height) = image.level_size(level);
         width.max(height) <= MOST_TEXELS
     };
-    let level = (0..image.level_count()).find(small)?;
+    let last = image.level_count().checked_sub(1)?;
+    let level = (0..last).find(small).unwrap_or(last);
     let (width, height) = image.level_size(level);
-    let mut texels = image.to_rgba8(0, level)?;
+    let texels = image.to_rgba8(0, level)?;
+    let (size, mut texels) = shrunk([width as usize, height as usize], &texels);
     for texel in texels.as_chunks_mut::<4>().0 {
         texel[3] = 255;
         if image.channels() == Channels::RedGreen {
             texel[2] = rebuilt_z(texel[0], texel[1]);
         }
     }
-    Some(ColorImage::from_rgba_unmultiplied(
-        [width as usize, height as usize],
-        &texels,
-    ))
+    Some(ColorImage::from_rgba_unmultiplied(size, &texels))
+}
+
+/// Texels of a picture averaged by squares, so that no side is longer than a thumbnail's. As encoded: it is small, and quick.
+fn shrunk([width, height]: [usize; 2], texels: &[u8]) -> ([usize; 2], Vec<u8>) {
+    let square = width.max(height).div_ceil(MOST_TEXELS as usize).max(1);
+    let size = [width.div_ceil(square), height.div_ceil(square)];
+    let mut small = Vec::with_capacity(size[0] * size[1] * 4);
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            let mut sum = [0_u32; 4];
+            let mut count = 0;
+            for row in y * square..((y + 1) * square).min(height) {
+                for column in x * square..((x + 1) * square).min(width) {
+                    let at = (row * width + column) * 4;
+                    for (sum, channel) in sum.iter_mut().zip(&texels[at..at + 4]) {
+                        *sum += u32::from(*channel);
+                    }
+                    count += 1;
+                }
+            }
+            small.extend(sum.map(|sum| (sum / count.max(1)) as u8));
+        }
+    }
+    (size, small)
 }
 
 /// The third part of a direction of which a map holds two: such maps look as people know them.
@@ -80,13 +103,22 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_level_that_is_small_enough_is_shown() {
-        let image = Image::from_rgba8(200, 2, [9, 8, 7, 0].repeat(400), "PNG").expect("a picture");
-        assert!(small_level(&image).is_none(), "200 texels and no other level");
-        let image = Image::from_rgba8(64, 2, [9, 8, 7, 0].repeat(128), "PNG").expect("a picture");
-        let level = small_level(&image).expect("64 texels");
+    fn a_large_picture_without_levels_is_averaged() {
+        let texels = [[0, 8, 7, 0], [10, 8, 7, 255]].concat().repeat(200);
+        let image = Image::from_rgba8(200, 2, texels, "PNG").expect("a picture");
+        let small = small_picture(&image).expect("a thumbnail");
         assert_eq!(
-            (level.size, level.pixels[5]),
+            (small.size, small.pixels[5]),
+            ([50, 1], egui::Color32::from_rgb(5, 8, 7))
+        );
+    }
+
+    #[test]
+    fn a_small_picture_is_shown_as_it_is() {
+        let image = Image::from_rgba8(64, 2, [9, 8, 7, 0].repeat(128), "PNG").expect("a picture");
+        let small = small_picture(&image).expect("64 texels");
+        assert_eq!(
+            (small.size, small.pixels[5]),
             ([64, 2], egui::Color32::from_rgb(9, 8, 7))
         );
     }

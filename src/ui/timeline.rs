@@ -1,56 +1,18 @@
 //! The strip at the bottom: transport, clip, bar with keys, read-outs, speed and loop mode.
 
-use egui::{
-    Align2, CursorIcon, FontId, Popup, Rangef, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, FontId, Popup, Rangef, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
 use super::icons::{self, Icon};
 use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
-use super::widgets::{TextButton, control_size, focus_ring, icon_button, is_touch, menu_item};
+use super::timeline_bar::KeyTimes;
+use super::widgets::{TextButton, control_size, icon_button, menu_item};
 use super::wording::{shortened, trimmed};
 use crate::anim::LoopMode;
-use crate::model::Clip;
 use crate::session::{Command, SPEEDS, Session};
 
-/// Keys closer than this are drawn as ticks, and closer still not at all.
-const DIAMOND_SPACING: f32 = 7.0;
-const TICK_SPACING: f32 = 2.5;
 /// The least width of the clip's name on a phone.
 const CLIP_WIDTH_NARROW: f32 = 84.0;
-
-/// Time stamps of a clip's keys, found once per clip.
-#[derive(Clone, Debug, Default)]
-pub(super) struct KeyTimes {
-    of: Option<(u64, usize)>,
-    times_secs: Vec<f32>,
-}
-
-impl KeyTimes {
-    fn update(&mut self, session: &Session) {
-        let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
-            return;
-        };
-        let of = Some((session.model_revision(), index));
-        if self.of != of {
-            self.of = of;
-            self.times_secs = merged_key_times(clip);
-        }
-    }
-}
-
-/// Times at which any joint has a key, in order; times closer than a twentieth of a frame count once.
-fn merged_key_times(clip: &Clip) -> Vec<f32> {
-    let mut times: Vec<f32> = clip
-        .tracks
-        .iter()
-        .flat_map(|track| track.times_secs().iter().copied())
-        .collect();
-    times.sort_by(f32::total_cmp);
-    let same_secs = 0.05 / clip.keys_per_sec;
-    times.dedup_by(|later, earlier| *later - *earlier < same_secs);
-    times
-}
 
 /// Height of the strip's content.
 pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
@@ -64,7 +26,6 @@ pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
 
 /// The strip in one row, for wide windows.
 pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
-    keys.update(session);
     let height = strip_height(ui, false);
     ui.allocate_ui_with_layout(
         vec2(ui.available_width(), height),
@@ -84,7 +45,7 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands
             // The read-outs have fixed widths, so that nothing moves while values change.
             let right_width = 72.0 + 74.0 + 48.0 + control_size(ui) + 4.0 * 6.0;
             let bar_width = (ui.available_width() - right_width).max(60.0);
-            bar(ui, session, &keys.times_secs, vec2(bar_width, 30.0), commands);
+            keys.bar(ui, session, vec2(bar_width, 30.0), commands);
             time_field(ui, session, 72.0);
             frame_readout(ui, session, 74.0);
             speed_menu(ui, session, 48.0, commands);
@@ -95,17 +56,10 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands
 
 /// The strip in two rows, for phones: the bar above, large targets.
 pub(super) fn narrow(ui: &mut Ui, session: &Session, keys: &mut KeyTimes, commands: &mut Vec<Command>) {
-    keys.update(session);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         play_button(ui, session, 44.0, commands);
-        bar(
-            ui,
-            session,
-            &keys.times_secs,
-            vec2(ui.available_width(), 44.0),
-            commands,
-        );
+        keys.bar(ui, session, vec2(ui.available_width(), 44.0), commands);
     });
     ui.add_space(8.0);
     ui.horizontal(|ui| {
@@ -172,82 +126,6 @@ fn clip_menu(ui: &mut Ui, session: &Session, width: Rangef, commands: &mut Vec<C
             }
         });
     });
-}
-
-/// The bar: every key a diamond, the time a line that follows the pointer.
-fn bar(ui: &mut Ui, session: &Session, key_times: &[f32], size: Vec2, commands: &mut Vec<Command>) -> Response {
-    let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    let response = response.on_hover_cursor(CursorIcon::PointingHand);
-    let Some(clip) = session.clip() else { return response };
-    ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
-    focus_ring(ui, rect, &response);
-
-    let track = rect.shrink2(vec2(8.0, 0.0));
-    let duration_secs = clip.duration_secs();
-    let x_of = |time_secs: f32| {
-        let share = if duration_secs > 0.0 {
-            (time_secs - clip.start_secs) / duration_secs
-        } else {
-            0.0
-        };
-        track.min.x + share.clamp(0.0, 1.0) * track.width()
-    };
-    let middle_y = rect.center().y;
-    let spacing = track.width() / key_times.len().saturating_sub(1).max(1) as f32;
-    for &time_secs in key_times {
-        let x = x_of(time_secs);
-        if spacing >= DIAMOND_SPACING || key_times.len() == 1 {
-            let r = if spacing >= 11.0 { 4.2 } else { 3.2 };
-            let corners = vec![
-                pos2(x, middle_y - r),
-                pos2(x + r, middle_y),
-                pos2(x, middle_y + r),
-                pos2(x - r, middle_y),
-            ];
-            ui.painter()
-                .add(egui::Shape::convex_polygon(corners, tokens.muted, Stroke::NONE));
-        } else if spacing >= TICK_SPACING {
-            ui.painter()
-                .vline(x, middle_y - 4.0..=middle_y + 4.0, Stroke::new(1.0, tokens.faint));
-        }
-    }
-    if spacing < TICK_SPACING {
-        let band = Rect::from_x_y_ranges(track.x_range(), middle_y - 1.5..=middle_y + 1.5);
-        ui.painter().rect_filled(band, 1.5, tokens.faint);
-    }
-
-    let x = x_of(session.playback().time_secs());
-    ui.painter().vline(x, rect.y_range(), Stroke::new(2.0, tokens.accent));
-
-    if response.drag_started() {
-        commands.push(Command::BeginScrub);
-    }
-    if let Some(pointer) = response.interact_pointer_pos()
-        && (response.dragged() || response.clicked())
-    {
-        let share = ((pointer.x - track.min.x) / track.width()).clamp(0.0, 1.0);
-        commands.push(Command::Seek {
-            time_secs: clip.start_secs + share * duration_secs,
-        });
-    }
-    if response.drag_stopped() {
-        commands.push(Command::EndScrub);
-    }
-    if let Some(pointer) = response.hover_pos()
-        && !response.dragged()
-        && !is_touch(ui)
-    {
-        let share = ((pointer.x - track.min.x) / track.width()).clamp(0.0, 1.0);
-        ui.painter().vline(
-            track.min.x + share * track.width(),
-            rect.y_range(),
-            Stroke::new(1.0, tokens.faint),
-        );
-    }
-    let time_secs = f64::from(session.playback().time_secs());
-    response.widget_info(|| WidgetInfo::slider(true, time_secs, "Time in seconds"));
-    response
 }
 
 fn time_field(ui: &mut Ui, session: &Session, width: f32) {

@@ -1,7 +1,8 @@
 // The page itself: it starts, on the backend that was asked for, in any window, and says so when it cannot.
 
 import assert from "node:assert/strict";
-import { LARGE, PAGE, assertDrawn, call, coloursOnScreen, keep, picture, settled, state, test, until } from "./harness.js";
+import { readFileSync } from "node:fs";
+import { CENTRE, LARGE, PAGE, assertDrawn, call, coloursOnScreen, keep, picture, settled, state, test, until } from "./harness.js";
 
 test("the page opens the sample, draws it and logs no error", { viewport: LARGE }, async (page) => {
   const { model, playing, error } = await state(page);
@@ -92,6 +93,17 @@ test("a snapshot is a PNG of the asked size", {}, async (page) => {
   assert.ok(clear.clear > 0.3 && clear.clear < 0.99, `${clear.clear} of the pixels are transparent`);
   const odd = await picture(page, { width: 33, height: 1025 });
   assert.deepEqual([odd.width, odd.height], [33, 1025]);
+});
+
+test("P saves a picture, named after what it shows", {}, async (page) => {
+  await call(page, "pause");
+  await page.mouse.click(...CENTRE);
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("p")]);
+  assert.match(saved.suggestedFilename(), /^figure-\w+-\d+\.png$/);
+  const bytes = readFileSync(await saved.path());
+  assert.deepEqual([...bytes.subarray(1, 4)], [..."PNG"].map((letter) => letter.charCodeAt(0)));
+  const { width, height } = page.viewportSize();
+  assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [width, height]);
 });
 
 test("programs may call before the viewer is there", {

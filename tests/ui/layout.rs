@@ -1,7 +1,6 @@
 //! Where things are: inside the window, off each other, large enough, and still while values change.
 
-use bindpose::scene::ViewMode;
-use bindpose::session::{Command, LookCommand, SubsetCommand};
+use bindpose::session::{Command, SubsetCommand};
 use egui::{Rect, Vec2, vec2};
 
 use crate::models::{self, broken, moving, still};
@@ -18,7 +17,7 @@ fn long_clip() -> Vec<bindpose::session::File> {
 
 /// A panel's clips may cut a widget of a scrolled list; these models are short.
 #[track_caller]
-fn assert_inside(window: &Window, size: Vec2) {
+pub(crate) fn assert_inside(window: &Window, size: Vec2) {
     let page = Rect::from_min_size(egui::Pos2::ZERO, size);
     for (name, rect) in window.widgets() {
         assert!(
@@ -37,7 +36,7 @@ fn show_findings(window: &mut Window) {
 
 /// Lists may go on below, where they can be scrolled to, but not beside.
 #[track_caller]
-fn assert_between_sides(window: &Window, size: Vec2) {
+pub(crate) fn assert_between_sides(window: &Window, size: Vec2) {
     for (name, rect) in window.widgets() {
         assert!(
             rect.min.x >= 0.0 && rect.max.x <= size.x,
@@ -72,13 +71,13 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
 }
 
 #[track_caller]
-fn panel(window: &Window, wanted: &str) -> Rect {
+pub(crate) fn panel(window: &Window, wanted: &str) -> Rect {
     let found = panels(window).into_iter().find(|(name, _)| *name == wanted);
     found.unwrap_or_else(|| panic!("no panel {wanted}")).1
 }
 
 #[track_caller]
-fn assert_apart(window: &Window, expected: &[&str]) {
+pub(crate) fn assert_apart(window: &Window, expected: &[&str]) {
     let panels = panels(window);
     assert_eq!(panels.iter().map(|(name, _)| *name).collect::<Vec<_>>(), expected);
     for (index, (name, rect)) in panels.iter().enumerate() {
@@ -196,64 +195,6 @@ fn the_error_card_and_the_keys_fit_the_window() {
             Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(help),
             "{help}"
         );
-    }
-}
-
-/// What hangs from each button of the toolbar, and something in it.
-const POPOVERS: [(&str, &str); 5] = [
-    ("View mode", "Depth"),
-    ("Lighting", "Ambient occlusion: on"),
-    ("Lines over the model", "Axes"),
-    ("View from", "Isometric"),
-    ("Picture", "Save PNG (P)"),
-];
-
-#[test]
-fn what_hangs_from_the_toolbar_stays_inside_the_window() {
-    for size in [WIDE, vec2(900.0, 700.0), vec2(900.0, 600.0)] {
-        for touch in [false, true] {
-            let open = if touch { touch_window } else { window };
-            let mut window = open(size, vec![moving(LONG)]);
-            window.apply(LookCommand::SetViewMode(ViewMode::TexCoords).into());
-            assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
-            for (button, item) in POPOVERS {
-                window.click(button);
-                assert_between_sides(&window, size);
-                if !touch {
-                    assert_inside(&window, size);
-                }
-                assert!(window.shows(item), "{button}: {item}");
-                window.press(egui::Modifiers::NONE, egui::Key::Escape);
-                assert!(!window.shows(item), "{button} is shut");
-            }
-        }
-    }
-}
-
-#[test]
-fn pages_of_the_sheet_fit_a_phone_and_fingers() {
-    for size in [PHONE, vec2(320.0, 568.0)] {
-        let mut window = touch_window(size, vec![moving("a.m3d")]);
-        for (item, inside) in [
-            ("View mode", "Depth"),
-            ("Light and background", "Light: Book"),
-            ("Lines over", "Wireframe"),
-            ("View from", "Front"),
-            ("Picture", "4K"),
-        ] {
-            window.click("More");
-            window.click(item);
-            assert_between_sides(&window, size);
-            assert_apart(&window, &["title", "sheet"]);
-            let rect = window.rect(inside);
-            assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{inside}: {rect}");
-            window.click("Close the sheet");
-        }
-        window.apply(SubsetCommand::Select(Some(0)).into());
-        window.click("Model facts");
-        assert!(window.shows("Selected: Painted"));
-        assert_between_sides(&window, size);
-        assert_apart(&window, &["title", "sheet"]);
     }
 }
 

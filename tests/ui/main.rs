@@ -1,5 +1,6 @@
 //! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
 
+mod camera_motion;
 mod idle;
 mod keys;
 mod layout;
@@ -11,6 +12,7 @@ mod page;
 mod panels;
 mod picture;
 mod pointer;
+mod popovers;
 mod saving;
 mod split;
 mod subsets;

@@ -1,7 +1,6 @@
 //! Mouse and fingers on the view.
 
 use bindpose::scene::Camera;
-use bindpose::session::{Command, Session};
 use egui::{
     Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2,
 };
@@ -10,9 +9,9 @@ use glam::Vec3;
 use crate::models::moving;
 use crate::page::{WIDE, Window, phone, window};
 
-const START: Pos2 = pos2(800.0, 420.0);
+pub(crate) const START: Pos2 = pos2(800.0, 420.0);
 
-fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, way: Vec2) {
+pub(crate) fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, way: Vec2) {
     let press = |pos, pressed| Event::PointerButton {
         pos,
         button,
@@ -70,78 +69,6 @@ fn with_alt_the_surroundings_turn_and_the_camera_stays() {
     assert_eq!(window.session().camera(), &before);
     let turn = window.session().look().environment_turn_radians;
     assert!((turn - 0.1 * std::f32::consts::PI).abs() < 0.01, "{turn}");
-}
-
-/// A window whose camera may move by itself.
-fn lively() -> Window {
-    let mut window = window(WIDE, vec![]);
-    let session = &mut window.harness.state_mut().session;
-    *session = Session::new(false);
-    session.apply(Command::AddFiles(vec![moving("a.m3d")]));
-    session.apply(Command::Pause);
-    window.pass_on();
-    window
-}
-
-#[test]
-fn a_drag_that_is_let_go_runs_on_and_one_that_was_held_stays() {
-    let mut window = lively();
-    let before = window.session().camera().yaw_radians;
-    drag(&mut window, PointerButton::Primary, Modifiers::NONE, vec2(120.0, 0.0));
-    let released = window.session().camera().yaw_radians;
-    window.wait(1.0);
-    let later = window.session().camera().yaw_radians;
-    assert!(
-        (later - released) * (released - before) > 0.0,
-        "{before} {released} {later}"
-    );
-    assert!(!window.session().is_moving(), "it comes to rest");
-
-    window.harness.hover_at(START);
-    window.harness.drag_at(START);
-    window.harness.hover_at(START + vec2(60.0, 0.0));
-    window.harness.hover_at(START + vec2(120.0, 0.0));
-    window.wait(0.2);
-    let held = *window.session().camera();
-    window.harness.drop_at(START + vec2(120.0, 0.0));
-    window.wait(0.5);
-    assert_eq!(window.session().camera(), &held);
-}
-
-#[test]
-fn the_right_button_and_w_fly_forward_and_the_drag_turns_the_head() {
-    let mut window = lively();
-    let before = *window.session().camera();
-    let press = |pressed, pos| Event::PointerButton {
-        pos,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
-    let key = |pressed| Event::Key {
-        key: egui::Key::W,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    };
-    window.harness.event(Event::PointerMoved(START));
-    window.harness.event(press(true, START));
-    window.harness.event(key(true));
-    window.wait(0.5);
-    let flown = *window.session().camera();
-    assert!((flown.eye() - before.eye()).dot(before.forward()) > 0.1);
-    window.harness.event(key(false));
-    window.wait(0.2);
-    let stopped = *window.session().camera();
-    window.harness.event(Event::PointerMoved(START + vec2(100.0, 0.0)));
-    window.pass_on();
-    let looked = *window.session().camera();
-    assert!(looked.eye().abs_diff_eq(stopped.eye(), 1e-3), "the eye stays");
-    assert!(looked.forward().dot(stopped.right()) > 0.05, "and looks to the right");
-    window.harness.event(press(false, START + vec2(100.0, 0.0)));
-    window.wait(0.5);
-    assert_eq!(window.session().camera(), &looked, "all is quiet");
 }
 
 #[test]

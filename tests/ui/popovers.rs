@@ -1,0 +1,70 @@
+//! What the toolbar opens: inside the window, off the panels, large enough for fingers.
+
+use bindpose::scene::ViewMode;
+use bindpose::session::{LookCommand, SubsetCommand};
+use egui::vec2;
+
+use crate::layout::{assert_apart, assert_between_sides, assert_inside};
+use crate::models::moving;
+use crate::page::{PHONE, WIDE, touch_window, window};
+
+/// What hangs from each button of the toolbar, and something in it.
+const POPOVERS: [(&str, &str); 5] = [
+    ("View mode", "Depth"),
+    ("Lighting", "Ambient occlusion: on"),
+    ("Lines over the model", "Axes"),
+    ("View from", "Isometric"),
+    ("Picture", "Save PNG (P)"),
+];
+
+#[test]
+fn what_hangs_from_the_toolbar_stays_inside_the_window() {
+    for size in [WIDE, vec2(900.0, 700.0), vec2(900.0, 600.0)] {
+        for touch in [false, true] {
+            let open = if touch { touch_window } else { window };
+            let mut window = open(
+                size,
+                vec![moving("a_name_that_needs_all_the_room_that_the_toolbar_leaves.m3d")],
+            );
+            window.apply(LookCommand::SetViewMode(ViewMode::TexCoords).into());
+            assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
+            for (button, item) in POPOVERS {
+                window.click(button);
+                assert_between_sides(&window, size);
+                if !touch {
+                    assert_inside(&window, size);
+                }
+                assert!(window.shows(item), "{button}: {item}");
+                window.press(egui::Modifiers::NONE, egui::Key::Escape);
+                assert!(!window.shows(item), "{button} is shut");
+            }
+        }
+    }
+}
+
+#[test]
+fn pages_of_the_sheet_fit_a_phone_and_fingers() {
+    for size in [PHONE, vec2(320.0, 568.0)] {
+        let mut window = touch_window(size, vec![moving("a.m3d")]);
+        for (item, inside) in [
+            ("View mode", "Depth"),
+            ("Light and background", "Light: Book"),
+            ("Lines over", "Wireframe"),
+            ("View from", "Front"),
+            ("Picture", "4K"),
+        ] {
+            window.click("More");
+            window.click(item);
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+            let rect = window.rect(inside);
+            assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{inside}: {rect}");
+            window.click("Close the sheet");
+        }
+        window.apply(SubsetCommand::Select(Some(0)).into());
+        window.click("Model facts");
+        assert!(window.shows("Selected: Painted"));
+        assert_between_sides(&window, size);
+        assert_apart(&window, &["title", "sheet"]);
+    }
+}
