@@ -1,4 +1,11 @@
-//! Where in a span of time we are, and how time moves on. There is no clock here: the caller says how much time went by.
+//! Where in a clip we are, and how time moves on. There is no clock here: the caller says how much time went by.
+
+use super::span::Span;
+
+/// The slowest speed that can be set.
+pub const MIN_SPEED: f32 = 0.05;
+/// The fastest speed that can be set.
+pub const MAX_SPEED: f32 = 4.0;
 
 /// What happens at the end of the range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -12,13 +19,25 @@ pub enum LoopMode {
     PingPong,
 }
 
-/// A time inside a range, a clip or a part of one, and the way it moves.
+/// How [`LoopMode::Loop`] goes on from the other end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum WrapMode {
+    /// By what was left of the step, so that a loop takes its length whatever the steps are.
+    #[default]
+    Wrap,
+    /// At time 0, as the books' demo does: the rest of the step is lost. Where the range does not hold 0, at its start.
+    BookDemo,
+}
+
+/// A time inside the span of a clip, and the way it moves through the span or through a range of it.
 ///
-/// By default a range of no length at 0, paused, forward at speed 1, looping.
+/// Seeking reaches the whole span. Playing keeps to the range: from outside it begins at the range's first end.
+/// By default a span of no length at 0, paused, forward at speed 1, looping.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Playback {
-    start_secs: f64,
-    end_secs: f64,
+    span: Span,
+    // Inside the span, longer than nothing, and not all of it.
+    range: Option<Span>,
     // In f64, so that thousands of small steps add up to the time that went by.
     time_secs: f64,
     playing: bool,
@@ -27,50 +46,63 @@ pub struct Playback {
     returning: bool,
     speed: f32,
     loop_mode: LoopMode,
+    wrap_mode: WrapMode,
 }
 
 impl Default for Playback {
     fn default() -> Self {
         Self {
-            start_secs: 0.0,
-            end_secs: 0.0,
+            span: Span::default(),
+            range: None,
             time_secs: 0.0,
             playing: false,
             backward: false,
             returning: false,
             speed: 1.0,
             loop_mode: LoopMode::default(),
+            wrap_mode: WrapMode::default(),
         }
     }
 }
 
 impl Playback {
-    /// Paused at the start of a range.
+    /// Paused at the start of a span.
     pub fn new(start_secs: f32, end_secs: f32) -> Self {
         let mut playback = Self::default();
-        playback.set_range(start_secs, end_secs);
+        playback.set_span(start_secs, end_secs);
         playback.seek(f32::NEG_INFINITY);
         playback
     }
 
-    /// Time in seconds, inside the range.
+    /// Time in seconds, inside the span.
     pub fn time_secs(&self) -> f32 {
         self.time_secs as f32
     }
 
-    /// Start of the range.
+    /// Start of the span.
     pub fn start_secs(&self) -> f32 {
-        self.start_secs as f32
+        self.span.start_secs as f32
     }
 
-    /// End of the range.
+    /// End of the span.
     pub fn end_secs(&self) -> f32 {
-        self.end_secs as f32
+        self.span.end_secs as f32
     }
 
-    /// Length of the range, 0 or more.
+    /// Length of the span, 0 or more.
     pub fn duration_secs(&self) -> f32 {
-        (self.end_secs - self.start_secs) as f32
+        self.span.length_secs() as f32
+    }
+
+    /// Start and end of the range that playing keeps to; `None` when it is the whole span.
+    pub fn range_secs(&self) -> Option<[f32; 2]> {
+        self.range
+            .map(|range| [range.start_secs, range.end_secs].map(|secs| secs as f32))
+    }
+
+    /// Start and end of what plays: the range, or the whole span.
+    pub fn played_secs(&self) -> [f32; 2] {
+        self.range_secs().unwrap_or([self.start_secs(), self.end_secs()])
     }
 
     /// Whether it was told to play and has not stopped.
@@ -83,7 +115,7 @@ impl Playback {
         self.backward
     }
 
-    /// Seconds of the range for a second of time, above 0.
+    /// Seconds of the clip for a second of time, [`MIN_SPEED`] to [`MAX_SPEED`].
     pub fn speed(&self) -> f32 {
         self.speed
     }
@@ -93,20 +125,74 @@ impl Playback {
         self.loop_mode
     }
 
-    /// Sets the range, its ends in any order; the time moves into it. A range with an end that is not finite is left out.
-    pub fn set_range(&mut self, start_secs: f32, end_secs: f32) {
-        if !start_secs.is_finite() || !end_secs.is_finite() {
-            return;
-        }
-        self.start_secs = f64::from(start_secs.min(end_secs));
-        self.end_secs = f64::from(start_secs.max(end_secs));
-        self.time_secs = self.time_secs.clamp(self.start_secs, self.end_secs);
+    /// How a loop goes on from the other end.
+    pub fn wrap_mode(&self) -> WrapMode {
+        self.wrap_mode
     }
 
-    /// Sets the speed. A speed that is not above 0, or not finite, is left out; [`Playback::set_backward`] turns time.
+    /// Sets the span, its ends in any order; the time moves into it and the range is the whole of it. A span with an end
+    /// that is not finite is left out.
+    pub fn set_span(&mut self, start_secs: f32, end_secs: f32) {
+        let Some(span) = Span::new(start_secs, end_secs) else {
+            return;
+        };
+        self.span = span;
+        self.range = None;
+        self.time_secs = span.clamp(self.time_secs);
+    }
+
+    /// Lets the range begin at a time, clamped to the span. A range that would end there or before ends with the span; one
+    /// that would have no length even so, and NaN, is left out.
+    pub fn set_range_start(&mut self, start_secs: f32) {
+        let start_secs = f64::from(start_secs);
+        let end_secs = self.played().end_secs;
+        let end_secs = if start_secs < end_secs {
+            end_secs
+        } else {
+            self.span.end_secs
+        };
+        self.set_range(start_secs, end_secs);
+    }
+
+    /// Lets the range end at a time: as [`Playback::set_range_start`], with the span's start.
+    pub fn set_range_end(&mut self, end_secs: f32) {
+        let end_secs = f64::from(end_secs);
+        let start_secs = self.played().start_secs;
+        let start_secs = if end_secs > start_secs {
+            start_secs
+        } else {
+            self.span.start_secs
+        };
+        self.set_range(start_secs, end_secs);
+    }
+
+    /// Lets the whole span play.
+    pub fn clear_range(&mut self) {
+        self.range = None;
+    }
+
+    fn set_range(&mut self, start_secs: f64, end_secs: f64) {
+        if start_secs.is_nan() || end_secs.is_nan() {
+            return;
+        }
+        let range = Span {
+            start_secs: self.span.clamp(start_secs),
+            end_secs: self.span.clamp(end_secs),
+        };
+        if range.length_secs() > 0.0 {
+            self.range = (range != self.span).then_some(range);
+        }
+    }
+
+    fn played(&self) -> Span {
+        self.range.unwrap_or(self.span)
+    }
+
+    /// Sets the speed, clamped to [`MIN_SPEED`] and [`MAX_SPEED`]. One that is not above 0, or not finite, is left out;
+    /// [`Playback::set_backward`] turns time.
     pub fn set_speed(&mut self, speed: f32) {
         if speed.is_finite() && speed > 0.0 {
-            self.speed = speed;
+            self.speed = speed.clamp(MIN_SPEED, MAX_SPEED);
         }
     }
 
@@ -122,17 +208,20 @@ impl Playback {
         self.returning = false;
     }
 
-    /// Begins to play. In [`LoopMode::Once`] a playback that stands at its end begins anew.
+    /// Sets how a loop goes on from the other end.
+    pub fn set_wrap_mode(&mut self, wrap_mode: WrapMode) {
+        self.wrap_mode = wrap_mode;
+    }
+
+    /// Begins to play. Outside the range, and in [`LoopMode::Once`] at its end, it begins anew.
     pub fn play(&mut self) {
         self.playing = true;
-        let (first_secs, last_secs) = if self.backward {
-            (self.end_secs, self.start_secs)
-        } else {
-            (self.start_secs, self.end_secs)
-        };
-        if self.loop_mode == LoopMode::Once && self.time_secs == last_secs {
-            self.time_secs = first_secs;
+        let stands_at_last =
+            self.loop_mode == LoopMode::Once && self.time_secs == self.played().last_secs(self.backward);
+        if stands_at_last {
+            self.time_secs = self.played().first_secs(self.backward);
         }
+        self.enter_range();
     }
 
     /// Stops where it is.
@@ -140,73 +229,46 @@ impl Playback {
         self.playing = false;
     }
 
-    /// Goes to a time, or to the nearer end of the range; whether it plays stays. NaN goes to the start.
+    /// Goes to a time, or to the nearer end of the span; whether it plays stays. NaN goes to the start.
     pub fn seek(&mut self, time_secs: f32) {
-        // The bounds in this order turn NaN into the start.
-        self.time_secs = f64::from(time_secs).max(self.start_secs).min(self.end_secs);
+        self.time_secs = self.span.clamp(f64::from(time_secs));
         self.returning = false;
     }
 
-    /// Lets `dt_secs` of time go by, and tells whether the time in the range, or playing itself, changed by it. Paused, or
+    /// Lets `dt_secs` of time go by, and tells whether the time in the clip, or playing itself, changed by it. Paused, or
     /// for a `dt_secs` that is not above 0, nothing does; over a range of no length only a [`LoopMode::Once`] stops.
     pub fn advance(&mut self, dt_secs: f32) -> bool {
         if !self.playing || dt_secs.is_nan() || dt_secs <= 0.0 {
             return false;
         }
         let before = (self.time_secs, self.playing);
+        self.enter_range();
         // An endless dt is a very long one: its product with a speed stays finite in f64.
         let way_secs = f64::from(dt_secs.min(f32::MAX)) * f64::from(self.speed);
         let step_secs = if self.backward { -way_secs } else { way_secs };
-        match self.loop_mode {
-            LoopMode::Once => self.run_once(step_secs),
-            LoopMode::Loop => self.run_round(step_secs),
-            LoopMode::PingPong => self.run_to_and_fro(step_secs),
+        let played = self.played();
+        match (self.loop_mode, self.wrap_mode) {
+            (LoopMode::Once, _) => {
+                self.time_secs = played.clamp(self.time_secs + step_secs);
+                self.playing = self.time_secs != played.last_secs(self.backward);
+            }
+            (LoopMode::Loop, WrapMode::Wrap) => self.time_secs = played.step_around(self.time_secs, step_secs),
+            (LoopMode::Loop, WrapMode::BookDemo) => {
+                self.time_secs = played.step_as_book_demo(self.time_secs, step_secs);
+            }
+            (LoopMode::PingPong, _) => {
+                (self.time_secs, self.returning) = played.step_to_and_fro(self.time_secs, self.returning, step_secs);
+            }
         }
         before != (self.time_secs, self.playing)
     }
 
-    fn run_once(&mut self, step_secs: f64) {
-        self.time_secs = (self.time_secs + step_secs).clamp(self.start_secs, self.end_secs);
-        let last_secs = if self.backward { self.start_secs } else { self.end_secs };
-        self.playing = self.time_secs != last_secs;
-    }
-
-    /// Both ends of the range can be stood on; only a step beyond one goes round.
-    fn run_round(&mut self, step_secs: f64) {
-        let length_secs = self.end_secs - self.start_secs;
-        let time_secs = self.time_secs + step_secs;
-        self.time_secs = if (self.start_secs..=self.end_secs).contains(&time_secs) {
-            time_secs
-        } else if length_secs <= 0.0 {
-            self.start_secs
-        } else if step_secs > 0.0 {
-            self.start_secs + (time_secs - self.start_secs).rem_euclid(length_secs)
-        } else {
-            self.end_secs - (self.end_secs - time_secs).rem_euclid(length_secs)
-        };
-    }
-
-    /// There and back is one round of twice the length, laid out flat.
-    fn run_to_and_fro(&mut self, step_secs: f64) {
-        let length_secs = self.end_secs - self.start_secs;
-        if length_secs <= 0.0 {
-            return;
+    /// Playing begins in the range wherever the time was sought to.
+    fn enter_range(&mut self) {
+        let played = self.played();
+        if !played.contains(self.time_secs) {
+            self.time_secs = played.first_secs(self.backward);
+            self.returning = false;
         }
-        let round_secs = 2.0 * length_secs;
-        let there_secs = self.time_secs - self.start_secs;
-        let flat_secs = if self.returning {
-            round_secs - there_secs
-        } else {
-            there_secs
-        };
-        let flat_secs = (flat_secs + step_secs).rem_euclid(round_secs);
-        self.returning = flat_secs > length_secs;
-        let there_secs = if self.returning {
-            round_secs - flat_secs
-        } else {
-            flat_secs
-        };
-        // Rounding must not leave the range.
-        self.time_secs = (self.start_secs + there_secs).clamp(self.start_secs, self.end_secs);
     }
 }

@@ -77,6 +77,11 @@ impl PoseBuffers {
     /// the buffers were sized for a smaller skeleton.
     pub fn evaluate(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) {
         sample(clip, time_secs, &mut self.local);
+        self.place(skeleton);
+    }
+
+    /// Model pose and palette of the local pose: `local_to_model` and `palette` in turn.
+    pub fn place(&mut self, skeleton: &Skeleton) {
         local_to_model(skeleton, &self.local, &mut self.model);
         palette(skeleton, &self.model, &mut self.palette);
     }

@@ -5,7 +5,7 @@ use std::array::from_fn;
 use glam::Vec4;
 
 use super::LocalPose;
-use crate::model::{Clip, JointLanes, KeyLanes, TrackGroup};
+use crate::model::{Clip, JointIndex, JointLanes, KeyLanes, LocalJoint, Skeleton, TrackGroup};
 
 /// Each track of a clip at `time_secs`: translation and scale blended in a straight line, rotation along the shorter arc
 /// at even speed. Before its first and after its last key a track holds that key. A time that is no number is the start.
@@ -17,6 +17,15 @@ pub fn sample(clip: &Clip, time_secs: f32, local: &mut LocalPose) {
     let mut guess = 0;
     for (joints, group) in local.groups.iter_mut().zip(clip.tracks.groups()) {
         *joints = sample_group(group, time_secs, &mut guess);
+    }
+}
+
+/// One joint of a clip at `time_secs`, as [`sample`] has it; at rest where the clip lacks it.
+pub fn sample_joint(skeleton: &Skeleton, clip: &Clip, joint: JointIndex, time_secs: f32) -> LocalJoint {
+    let (group, lane) = (joint.index() / JointLanes::COUNT, joint.index() % JointLanes::COUNT);
+    match clip.tracks.groups().get(group) {
+        Some(group) if joint.index() < clip.tracks.len() => sample_group(group, time_secs, &mut 0).joint(lane),
+        _ => skeleton.rest().get(joint.index()).copied().unwrap_or_default(),
     }
 }
 
@@ -71,7 +80,7 @@ fn blend(key: &KeyLanes, to: &JointLanes, fraction: f32) -> JointLanes {
 
 /// sin(x) / x of x², for x in 0…π/2: the Taylor polynomial whose first left-out term is below 4e-8 there.
 #[inline]
-fn sine_over_angle(angle_squared: Vec4) -> Vec4 {
+pub(super) fn sine_over_angle(angle_squared: Vec4) -> Vec4 {
     // From the highest power down.
     const TERMS: [f32; 6] = [
         -1.0 / 39_916_800.0,

@@ -11,7 +11,8 @@ const ON_FRAME: f64 = 0.01;
 /// A named motion: one track per joint, in the skeleton's order.
 ///
 /// Its unit of time is the frame, the usual step between keys. Frames count from 0 at `start_secs` to
-/// [`Clip::last_frame`] at `end_secs`.
+/// [`Clip::last_frame`] at `end_secs`. Where a key stands on a frame, the frame's time is the key's to the bit, so that what
+/// is seen there is the key and no blend.
 #[derive(Clone, Debug, Default)]
 pub struct Clip {
     /// Name to show, unique in the model.
@@ -26,6 +27,8 @@ pub struct Clip {
     pub keys_per_sec: f32,
     /// Number of keys the file has for it.
     pub key_count: usize,
+    /// The track with the most keys, whose keys are the frames; `None` without tracks.
+    pub(super) densest: Option<usize>,
 }
 
 impl Clip {
@@ -38,6 +41,7 @@ impl Clip {
             end_secs,
             keys_per_sec: keys_per_sec(&tracks),
             key_count: tracks.iter().map(Track::key_count).sum(),
+            densest: densest(&tracks),
             tracks: tracks.into(),
         }
     }
@@ -72,8 +76,37 @@ impl Clip {
         if frame >= self.last_frame() {
             return self.end_secs;
         }
-        let since_start_secs = f64::from(frame) / f64::from(self.keys_per_sec);
+        let time_secs = self.time_of_place(f64::from(frame));
+        self.key_on_frame(time_secs).unwrap_or(time_secs)
+    }
+
+    /// The time of a place in frames, inside the clip: 30.5 is half way from frame 30 to frame 31. NaN is the start.
+    pub fn time_at_place(&self, place: f64) -> f32 {
+        // The bounds in this order turn NaN into 0.
+        let place = place.max(0.0).min(f64::from(self.last_frame()));
+        if place.fract() == 0.0 {
+            self.time_of_frame(place as u32)
+        } else {
+            self.time_of_place(place)
+        }
+    }
+
+    fn time_of_place(&self, place: f64) -> f32 {
+        let since_start_secs = place / f64::from(self.keys_per_sec);
         ((f64::from(self.start_secs) + since_start_secs) as f32).clamp(self.start_secs, self.end_secs)
+    }
+
+    /// The key of the densest track that is on the frame of this time, if one is.
+    fn key_on_frame(&self, time_secs: f32) -> Option<f32> {
+        let times_secs = self.tracks.get(self.densest?)?.times_secs();
+        let next = times_secs.partition_point(|&key_secs| key_secs < time_secs);
+        let around = &times_secs[next.saturating_sub(1)..times_secs.len().min(next + 1)];
+        let away_secs = |key_secs: f32| (f64::from(key_secs) - f64::from(time_secs)).abs();
+        let nearest = around
+            .iter()
+            .copied()
+            .min_by(|&a, &b| away_secs(a).total_cmp(&away_secs(b)))?;
+        (away_secs(nearest) * f64::from(self.keys_per_sec) <= ON_FRAME).then_some(nearest)
     }
 
     /// The time `frames` further on, or back when negative: always a whole frame inside the clip. Between two frames the
@@ -89,8 +122,8 @@ impl Clip {
         self.time_of_frame((from + f64::from(frames)) as u32)
     }
 
-    /// Where a time lies, in frames, inside the clip: 30.5 is half way from frame 30 to frame 31.
-    fn place_of(&self, time_secs: f32) -> f64 {
+    /// Where a time lies, in frames, inside the clip: 30.5 is half way from frame 30 to frame 31. NaN is at the start.
+    pub fn place_of(&self, time_secs: f32) -> f64 {
         let since_start_secs = f64::from(time_secs) - f64::from(self.start_secs);
         let place = since_start_secs * f64::from(self.keys_per_sec);
         // The bounds in this order turn NaN into 0.
@@ -110,6 +143,15 @@ pub(super) fn span<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> (f32, f32
     } else {
         (0.0, 0.0)
     }
+}
+
+/// The first of the tracks with the most keys.
+pub(super) fn densest<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> Option<usize> {
+    let tracks = tracks.into_iter().enumerate();
+    // Of equal ones `max_by_key` gives the last.
+    tracks
+        .max_by_key(|(index, track)| (track.key_count(), std::cmp::Reverse(*index)))
+        .map(|(index, _)| index)
 }
 
 /// Keys a second of the track with the most keys: the middle one of its steps, so that a gap or a jump does not count.

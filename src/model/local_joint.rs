@@ -34,7 +34,7 @@ impl LocalJoint {
     }
 
     /// The parts of a matrix. Shear has no part and is left out; a matrix that flattens space keeps only its translation.
-    pub(super) fn from_matrix(parent_from_joint: &DAffine3) -> Self {
+    pub(crate) fn from_matrix(parent_from_joint: &DAffine3) -> Self {
         let translation = parent_from_joint.translation.as_vec3();
         if parent_from_joint.matrix3.determinant() == 0.0 || !parent_from_joint.is_finite() {
             let translation = if translation.is_finite() {

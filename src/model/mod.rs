@@ -83,6 +83,7 @@ pub use joint_lanes::{JointLanes, MatrixLanes};
 pub use local_joint::LocalJoint;
 pub use material::{Material, Reflectance};
 pub use mesh::{Influences, Mesh, Submesh};
+pub(crate) use names::unique as unique_names;
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Handedness, UpAxis, world_from_model};
 pub use track::Track;

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::clip::{keys_per_sec, span};
+use super::clip::{densest, keys_per_sec, span};
 use super::names::unique;
 use super::notes::{Notes, Place, Tally, counted};
 use super::track::unit;
@@ -70,19 +70,17 @@ impl ClipReader<'_> {
     fn read(&self, name: String, bones: &[BoneAnimation], notes: &mut Notes) -> Result<Clip, ModelError> {
         let mut mended = Mended::default();
         let mut tracks = Vec::with_capacity(self.skeleton.joint_count());
-        let mut has_keys = Vec::with_capacity(self.skeleton.joint_count());
         for (&bone, &rest) in self.skeleton.file_bones().iter().zip(self.skeleton.rest()) {
             let keys = bones
                 .get(bone as usize)
                 .map(|bone| bone.keyframes.as_slice())
                 .unwrap_or_default();
             let keys = mended_keys(bone, keys, &mut mended);
-            has_keys.push(!keys.is_empty());
             if keys.is_empty() {
                 if (bone as usize) < bones.len() {
                     mended.empty.add(bone);
                 }
-                tracks.push(Track::constant(0.0, rest));
+                tracks.push(Track::at_rest(rest));
             } else {
                 tracks.push(Track::new(keys)?);
             }
@@ -90,13 +88,7 @@ impl ClipReader<'_> {
         self.note(&mended, bones.len(), notes);
 
         // A bone without keys rests at every time: it takes no part in the span.
-        let keyed = || {
-            tracks
-                .iter()
-                .zip(&has_keys)
-                .filter(|(_, has_keys)| **has_keys)
-                .map(|(track, _)| track)
-        };
+        let keyed = || tracks.iter().filter(|track| track.has_keys());
         let (start_secs, end_secs) = span(keyed());
         let keys_per_sec = keys_per_sec(keyed());
         Ok(Clip {
@@ -105,6 +97,7 @@ impl ClipReader<'_> {
             end_secs,
             keys_per_sec,
             key_count: bones.iter().map(|bone| bone.keyframes.len()).sum(),
+            densest: densest(&tracks),
             tracks: tracks.into(),
         })
     }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 /// One name for each of `names`: itself where it is the first of its kind, with ` (2)`, ` (3)` … otherwise. An empty name
 /// becomes `kind` and its number. `renamed` hears the index and new name of every duplicate.
-pub(super) fn unique<'a>(
+pub(crate) fn unique<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     kind: &str,
     mut renamed: impl FnMut(u32, &str),

@@ -13,12 +13,13 @@ pub struct Track {
     translations: Vec<Vec3>,
     rotations: Vec<Quat>,
     scales: Vec<Vec3>,
+    at_rest: bool,
 }
 
 /// One key at rest on its parent at time 0.
 impl Default for Track {
     fn default() -> Self {
-        Self::constant(0.0, LocalJoint::IDENTITY)
+        Self::at_rest(LocalJoint::IDENTITY)
     }
 }
 
@@ -48,10 +49,11 @@ impl Track {
         Ok(track)
     }
 
-    /// A track of one key, which holds at every time.
-    pub(super) fn constant(time_secs: f32, joint: LocalJoint) -> Self {
+    /// The track of a joint that a clip has no keys for: one key at time 0 stands in, which holds at every time.
+    pub(super) fn at_rest(joint: LocalJoint) -> Self {
         let mut track = Self::with_capacity(1);
-        track.push(time_secs, joint);
+        track.push(0.0, joint);
+        track.at_rest = true;
         track
     }
 
@@ -61,6 +63,7 @@ impl Track {
             translations: Vec::with_capacity(keys),
             rotations: Vec::with_capacity(keys),
             scales: Vec::with_capacity(keys),
+            at_rest: false,
         }
     }
 
@@ -75,6 +78,11 @@ impl Track {
         self.translations.push(joint.translation);
         self.rotations.push(rotation);
         self.scales.push(joint.scale);
+    }
+
+    /// Whether its keys were given; the one key of a joint that a clip leaves at rest was not.
+    pub fn has_keys(&self) -> bool {
+        !self.at_rest
     }
 
     /// Number of keys, 1 or more.

@@ -1,6 +1,6 @@
 //! The one place where things change.
 
-use super::{Command, Effect, Look, Session};
+use super::{Command, Effect, Look, PoseKey, Session};
 use crate::anim::LoopMode;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Camera, Passes, Projection, Theme};
@@ -20,6 +20,7 @@ impl Session {
         let mut effect = Effect::default();
         match command {
             Command::AddFiles(files) => effect.model_replaced = self.add_files(files),
+            Command::AddClips(files) => effect.model_replaced = self.add_clips(files),
             Command::OpenFile(path) => effect.model_replaced = self.open_file(&path),
             Command::ClearSky => self.clear_sky(),
             Command::DismissError => self.error = None,
@@ -38,12 +39,26 @@ impl Session {
             }
             Command::Seek { time_secs } => self.seek(time_secs),
             Command::StepFrames(frames) => self.step_frames(frames),
-            Command::SeekStart => self.seek(f32::NEG_INFINITY),
-            Command::SeekEnd => self.seek(f32::INFINITY),
+            Command::SeekFrame(frame) => self.seek_frame(frame),
+            Command::StepKey { direction, joint } => self.step_key(direction, joint),
+            Command::SeekStart => self.seek(self.playback.played_secs()[0]),
+            Command::SeekEnd => self.seek(self.playback.played_secs()[1]),
+            Command::SetRangeStart(secs) => {
+                let secs = secs.unwrap_or(self.playback.time_secs());
+                self.playback.set_range_start(secs);
+            }
+            Command::SetRangeEnd(secs) => {
+                let secs = secs.unwrap_or(self.playback.time_secs());
+                self.playback.set_range_end(secs);
+            }
+            Command::ClearRange => self.playback.clear_range(),
             Command::BeginScrub => self.scrubbing = true,
             Command::EndScrub => self.scrubbing = false,
             Command::SelectClip(clip) => self.select_clip(clip),
             Command::CycleClip(places) => self.cycle_clip(places),
+            Command::SetCrossfade(secs) => self.set_crossfade(secs),
+            Command::SetBlend { clip, share } => self.set_blend(clip, share),
+            Command::ClearBlend => self.clear_blend(),
             Command::SetSpeed(speed) => self.playback.set_speed(speed),
             Command::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             Command::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
@@ -56,6 +71,7 @@ impl Session {
                 };
                 self.playback.set_loop_mode(next);
             }
+            Command::SetWrapMode(mode) => self.playback.set_wrap_mode(mode),
 
             Command::Orbit {
                 yaw_radians,
@@ -143,8 +159,7 @@ impl Session {
             sky: self.sky.revision(),
             materials: self.materials.revision(),
             subsets: self.subsets.drawn_revision(),
-            clip: self.clip,
-            time_secs: self.playback.time_secs(),
+            pose: self.pose_key(),
             camera: self.camera,
             handedness: self.handedness(),
             up_axis: self.up_axis(),
@@ -163,8 +178,7 @@ struct Shown {
     sky: u64,
     materials: u64,
     subsets: u64,
-    clip: Option<usize>,
-    time_secs: f32,
+    pose: PoseKey,
     camera: Camera,
     handedness: Handedness,
     up_axis: UpAxis,

@@ -6,8 +6,8 @@ use super::files::File;
 use super::look::LookCommand;
 use super::quality::PassChoice;
 use super::subsets::SubsetCommand;
-use crate::anim::LoopMode;
-use crate::model::{Handedness, Material, UpAxis};
+use crate::anim::{Direction, LoopMode, WrapMode};
+use crate::model::{Handedness, JointIndex, Material, UpAxis};
 use crate::scene::{Insets, Pass, Theme, ViewPreset};
 
 /// A wish. [`super::Session::apply`] is the one place where things change.
@@ -15,6 +15,9 @@ use crate::scene::{Insets, Pass, Theme, ViewPreset};
 pub enum Command {
     /// Opens the largest model of a drop; the others are listed, pictures are kept beside it, a cube map becomes the sky.
     AddFiles(Vec<File>),
+    /// Adds the clips of other models with the same bones to the open one; without an open model it opens them. One whose
+    /// bones differ is refused as an error, and the model stays.
+    AddClips(Vec<File>),
     /// Opens another model of the last drop, by its path.
     OpenFile(String),
     /// Takes the sky away that was dropped.
@@ -37,10 +40,26 @@ pub enum Command {
     },
     /// Pauses and goes some frames on (or back), to a whole frame.
     StepFrames(i32),
-    /// First frame.
+    /// Goes to a place in frames of the clip's own key rate, clamped to the clip; between two frames where it has a fraction.
+    SeekFrame(f64),
+    /// Pauses and goes to the next key of a joint, or of any, in a direction; nowhere when there is none.
+    StepKey {
+        /// To later or to earlier keys.
+        direction: Direction,
+        /// Whose keys; `None` is every joint's.
+        joint: Option<JointIndex>,
+    },
+    /// First frame, of the range where there is one.
     SeekStart,
-    /// Last frame.
+    /// Last frame, of the range where there is one.
     SeekEnd,
+    /// Lets playing begin at a time, seconds, or at the present one. A range that would end before then ends with the clip.
+    /// Ranges are forgotten with their clip.
+    SetRangeStart(Option<f32>),
+    /// Lets playing end at a time, seconds, or at the present one. A range that would begin after then begins with the clip.
+    SetRangeEnd(Option<f32>),
+    /// Lets the whole clip play.
+    ClearRange,
     /// The pointer holds the time: playing waits until [`Command::EndScrub`].
     BeginScrub,
     /// The pointer let go: playing goes on if it played before.
@@ -49,7 +68,18 @@ pub enum Command {
     SelectClip(usize),
     /// Shows the clip some places further, around the end.
     CycleClip(i32),
-    /// Speed as a factor of the file's.
+    /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
+    SetCrossfade(f32),
+    /// Blends a second clip into the one on show, at the same share of its length. Nothing for the clip on show itself.
+    SetBlend {
+        /// Index of the clip.
+        clip: usize,
+        /// Its share of the pose, clamped to 0…1.
+        share: f32,
+    },
+    /// Shows the clip on show alone.
+    ClearBlend,
+    /// Speed as a factor of the file's, clamped to [`crate::anim::MIN_SPEED`] and [`crate::anim::MAX_SPEED`].
     SetSpeed(f32),
     /// One of the [`super::SPEEDS`] down.
     Slower,
@@ -59,6 +89,8 @@ pub enum Command {
     SetLoopMode(LoopMode),
     /// Once, loop, ping-pong, in turn.
     CycleLoopMode,
+    /// How a loop begins again.
+    SetWrapMode(WrapMode),
 
     /// Turns the camera about its target.
     Orbit {

@@ -8,6 +8,7 @@ use crate::format::{self, Dialect, Excerpt};
 use crate::model::Model;
 use crate::scene::Aabb;
 
+use super::clips::ClipFacts;
 use super::files::File;
 
 /// A model that is on screen, with the file it came from.
@@ -24,31 +25,20 @@ pub struct OpenModel {
     /// Box of the bind pose, in the file's space.
     pub bind_bounds: Aabb,
     bind_points: Vec<Vec3>,
-    /// Computed when a clip is first shown.
-    clip_extents: Vec<Option<Extent>>,
-}
-
-/// The space that a clip needs, in the file's space.
-#[derive(Clone, Debug)]
-struct Extent {
-    /// Box of all that is reached.
-    bounds: Aabb,
-    /// Points by which it is framed; see [`anim::extreme_points`].
-    points: Vec<Vec3>,
+    /// One for each clip of the model.
+    pub(super) clip_facts: Vec<ClipFacts>,
+    /// Files whose clips joined, in their order.
+    pub(super) joined: Vec<File>,
 }
 
 impl OpenModel {
     /// The space that a clip needs; the bind pose's without a clip.
-    pub fn extent(&mut self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
+    pub fn extent(&self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
         let index = clip.unwrap_or(usize::MAX);
-        let (Some(clip), Some(known)) = (self.model.clips.get(index), self.clip_extents.get_mut(index)) else {
-            return (self.bind_bounds, &self.bind_points);
-        };
-        let extent = known.get_or_insert_with(|| Extent {
-            bounds: anim::animated_bounds(&self.model, clip),
-            points: anim::extreme_points(&self.model, Some(clip)),
-        });
-        (extent.bounds, &extent.points)
+        match (self.model.clips.get(index), self.clip_facts.get(index)) {
+            (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
+            _ => (self.bind_bounds, &self.bind_points),
+        }
     }
 
     /// Lines of the file around a finding.
@@ -137,7 +127,7 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
     notices.sort_by_key(|notice| notice.position);
     let bind_bounds = model.bind_bounds();
     let bind_points = anim::extreme_points(&model, None);
-    let clip_extents = vec![None; model.clips.len()];
+    let clip_facts = vec![ClipFacts::of_file(file.base_name()); model.clips.len()];
     Ok(OpenModel {
         file: file.clone(),
         dialect: parsed.document.dialect,
@@ -145,6 +135,7 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
         notices,
         bind_bounds,
         bind_points,
-        clip_extents,
+        clip_facts,
+        joined: Vec::new(),
     })
 }

@@ -1,13 +1,16 @@
 //! What is open and how it is looked at. Commands change it, time moves it, a [`RenderFrame`] comes out.
 
 mod apply;
+mod clips;
 mod command;
 mod files;
+mod joining;
 mod load;
 mod look;
 mod looking;
 mod maps;
 mod materials;
+mod mixing;
 mod motion;
 mod opening;
 mod picking;
@@ -17,12 +20,14 @@ mod sky;
 mod subsets;
 mod textures;
 
+pub use clips::ClipSummary;
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
 pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
 pub use materials::MAX_SPEC_POWER;
+pub use mixing::{Blend, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality};
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
@@ -30,6 +35,7 @@ pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_m
 use glam::Affine3A;
 
 use materials::Materials;
+use mixing::Mix;
 use motion::Motion;
 use picking::Picker;
 use sky::Sky;
@@ -57,7 +63,8 @@ pub struct Session {
     scrubbing: bool,
     reduced_motion: bool,
     pose: PoseBuffers,
-    posed_at: Option<(Option<usize>, f32)>,
+    posed_at: Option<PoseKey>,
+    mix: Mix,
 
     picker: Picker,
 
@@ -137,7 +144,8 @@ impl Session {
     /// Whether time moves by itself. The camera may move too: [`Session::is_moving`].
     pub fn is_animating(&self) -> bool {
         // A clip of no length would loop on the spot for ever; playing it once still has to end.
-        let has_length = self.playback.duration_secs() > 0.0 || self.playback.loop_mode() == LoopMode::Once;
+        let [start_secs, end_secs] = self.playback.played_secs();
+        let has_length = start_secs < end_secs || self.playback.loop_mode() == LoopMode::Once;
         self.playback.is_playing() && !self.scrubbing && self.clip().is_some() && has_length
     }
 
@@ -214,6 +222,7 @@ impl Session {
         if self.camera != seen_from {
             self.picture_revision += 1;
         }
+        self.advance_fades(dt_secs);
         if !self.is_animating() {
             return;
         }
@@ -242,6 +251,9 @@ impl Session {
             palette: &self.pose.palette,
             hidden_submeshes: self.subsets.left_out(),
             highlighted_submesh: self.subsets.highlighted(),
+            vertex_colors: None,
+            ghosts: &[],
+            over_model: None,
             options,
         }
     }
@@ -249,14 +261,21 @@ impl Session {
     /// Brings the pose to the clip and the time.
     fn pose_now(&mut self) {
         let Some(open) = &self.open else { return };
-        let wanted = (self.clip, self.playback.time_secs());
+        let wanted = self.pose_key();
         if self.posed_at != Some(wanted) {
-            let skeleton = &open.model.skeleton;
             match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                Some(clip) => self.pose.evaluate(skeleton, clip, wanted.1),
-                None => self.pose.set_bind_pose(skeleton),
+                Some(clip) => self.mix.pose(open, clip, wanted.time_secs, &mut self.pose),
+                None => self.pose.set_bind_pose(&open.model.skeleton),
             }
             self.posed_at = Some(wanted);
+        }
+    }
+
+    fn pose_key(&self) -> PoseKey {
+        PoseKey {
+            clip: self.clip,
+            time_secs: self.playback.time_secs(),
+            mix: self.mix.revision(),
         }
     }
 
@@ -265,12 +284,10 @@ impl Session {
         model::world_from_model(self.handedness(), self.up_axis())
     }
 
-    /// Box of all that the clip reaches, world space.
+    /// Box of all that the clips in the pose reach, world space.
     pub fn world_bounds(&mut self) -> Aabb {
         let world_from_model = self.world_from_model();
-        let clip = self.clip;
-        let bounds = self.open.as_mut().map(|open| open.extent(clip).0);
-        bounds.unwrap_or_default().transformed(world_from_model)
+        self.reach().transformed(world_from_model)
     }
 
     fn note(&mut self, event: Event) {
@@ -278,4 +295,12 @@ impl Session {
             self.events.push(event);
         }
     }
+}
+
+/// What a pose of one model depends on: the same key, the same pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PoseKey {
+    clip: Option<usize>,
+    time_secs: f32,
+    mix: u64,
 }

@@ -134,9 +134,9 @@ impl Session {
         self.motion.turntable
     }
 
-    /// Whether something on screen moves by itself, be it the clip or the camera: then another frame is due.
+    /// Whether something on screen moves by itself, be it the clip, a fade between clips or the camera: then another frame is due.
     pub fn is_moving(&self) -> bool {
-        self.is_animating() || self.is_camera_moving()
+        self.is_animating() || self.is_fading() || self.is_camera_moving()
     }
 
     fn is_camera_moving(&self) -> bool {

@@ -60,17 +60,22 @@ impl Session {
     }
 
     /// Shows another model. The same file again keeps camera, clip, time and choices.
-    pub(super) fn replace_model(&mut self, open: OpenModel) {
+    pub(super) fn replace_model(&mut self, mut open: OpenModel) {
         let again = self
             .open
             .as_ref()
             .filter(|old| old.file.base_name() == open.file.base_name());
         let kept_clip = again.and_then(|_| Some(self.clip()?.name.clone()));
+        if let Some(old) = again {
+            open.join_again(&old.joined);
+        }
         let again = again.is_some();
+        let range_secs = self.playback.range_secs();
         let was_playing = self.playback.is_playing();
 
         self.pose = PoseBuffers::for_skeleton(&open.model.skeleton);
         self.posed_at = None;
+        self.mix.take_up_model();
         self.error = None;
         // The bar that was held may be gone, and nothing would let go of the time.
         self.scrubbing = false;
@@ -99,11 +104,13 @@ impl Session {
                 .as_ref()
                 .map(|open| open.model.clips.as_slice())
                 .unwrap_or_default();
-            let clip = kept_clip
-                .and_then(|name| clips.iter().position(|clip| clip.name == name))
-                .unwrap_or(0);
+            let clip = kept_clip.and_then(|name| clips.iter().position(|clip| clip.name == name));
             self.clip = None;
-            if self.show_clip(clip) {
+            if self.show_clip(clip.unwrap_or(0)) {
+                if let (Some(_), Some([start_secs, end_secs])) = (clip, range_secs) {
+                    self.playback.set_range_end(end_secs);
+                    self.playback.set_range_start(start_secs);
+                }
                 self.playback.seek(time_secs);
             } else {
                 self.playback = Playback::default();

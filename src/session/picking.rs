@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3};
 
-use super::{MapSlot, Maps, Session};
+use super::{MapSlot, Maps, PoseKey, Session};
 use crate::anim;
 use crate::image::Image;
 use crate::model::Material;
@@ -14,8 +14,8 @@ use crate::scene::{Hit, pick, tex_coord_at};
 /// Buffers that are kept from pick to pick.
 #[derive(Debug, Default)]
 pub(super) struct Picker {
-    /// Model, clip and time of the positions.
-    posed: Option<(u64, Option<usize>, f32)>,
+    /// Model and pose of the positions.
+    posed: Option<(u64, PoseKey)>,
     positions: Vec<Vec3>,
     in_ray: Vec<Vec3>,
     cutouts: Cutouts,
@@ -32,7 +32,7 @@ impl Session {
         let ray = self.camera.ray(pointer, self.aspect, &world_bounds);
         let world_from_model = self.world_from_model();
         self.pose_now();
-        let on_show = (self.model_revision, self.clip, self.playback.time_secs());
+        let on_show = (self.model_revision, self.pose_key());
         self.picker.cutouts.take_up(self.maps_revision);
         let Self {
             open,

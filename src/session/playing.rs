@@ -1,6 +1,8 @@
 //! Time: playing, seeking, stepping, clips and speeds.
 
 use super::{Event, SPEEDS, Session};
+use crate::anim::{Direction, next_key, previous_key};
+use crate::model::JointIndex;
 
 impl Session {
     pub(super) fn set_playing(&mut self, playing: bool) {
@@ -24,6 +26,8 @@ impl Session {
         if self.clip().is_none() || time_secs.is_nan() {
             return;
         }
+        // Who asks for a time wants to see the pose of that time.
+        self.mix.end_fades();
         let was_at = self.playback.time_secs();
         self.playback.seek(time_secs);
         if self.playback.time_secs() != was_at {
@@ -38,8 +42,33 @@ impl Session {
         self.seek(time_secs);
     }
 
+    pub(super) fn seek_frame(&mut self, frame: f64) {
+        let Some(clip) = self.clip() else { return };
+        if !frame.is_nan() {
+            self.seek(clip.time_at_place(frame));
+        }
+    }
+
+    pub(super) fn step_key(&mut self, direction: Direction, joint: Option<JointIndex>) {
+        let Some(clip) = self.clip() else { return };
+        let (key_times, time_secs) = (self.key_times(joint), self.playback.time_secs());
+        let key_secs = match direction {
+            Direction::Forward => next_key(clip, key_times, time_secs),
+            Direction::Backward => previous_key(clip, key_times, time_secs),
+        };
+        self.set_playing(false);
+        if let Some(key_secs) = key_secs {
+            self.seek(key_secs);
+        }
+    }
+
     pub(super) fn select_clip(&mut self, index: usize) {
-        if self.clip != Some(index) && self.show_clip(index) {
+        let count = self.open.as_ref().map_or(0, |open| open.model.clips.len());
+        if self.clip == Some(index) || index >= count {
+            return;
+        }
+        self.fade_to(index);
+        if self.show_clip(index) {
             self.note(Event::TimeUpdate);
         }
     }
@@ -49,7 +78,7 @@ impl Session {
         let Some(clip) = self.open.as_ref().and_then(|open| open.model.clips.get(index)) else {
             return false;
         };
-        self.playback.set_range(clip.start_secs, clip.end_secs);
+        self.playback.set_span(clip.start_secs, clip.end_secs);
         self.playback.seek(if self.playback.is_backward() {
             clip.end_secs
         } else {

@@ -7,7 +7,7 @@ const SLOW_FRAME_SECS: f32 = 1.0 / 24.0;
 /// Slow frames in a row after which the costliest pass is given up. A few are forgiven: shaders compile, files load.
 const SLOW_FRAMES: u32 = 12;
 /// Nobody waits for twelve frames of a second each: so few are enough when they take as long as the next constant says.
-const LEAST_SLOW_FRAMES: u32 = 4;
+const LEAST_SLOW_FRAMES: u32 = 6;
 const SLOW_SECS: f32 = 1.5;
 
 /// Whether a pass is drawn.

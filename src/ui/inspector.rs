@@ -95,9 +95,9 @@ fn heading(ui: &mut Ui, name: &str, color: [f32; 3]) -> bool {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Selected: {name}")));
     // The cross stands where the edges of the rows below end, and its field around it.
     let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
-    let builder = egui::UiBuilder::new().max_rect(place);
-    let close = |ui: &mut Ui| icon_button(ui, Icon::Close, "Clear the selection (Esc)", false);
-    ui.scope_builder(builder, close).inner.clicked()
+    // Apart from the rows, which it must not make wider.
+    let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
+    icon_button(&mut corner, Icon::Close, "Clear the selection (Esc)", false).clicked()
 }
 
 /// A map that the material names: the picture, or that it is missing.

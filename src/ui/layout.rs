@@ -14,7 +14,7 @@ use crate::session::{Command, Session};
 /// Width of the panel on the left.
 pub(super) const SIDE_WIDTH: f32 = 246.0;
 /// Width of the inspector on the right.
-const INSPECTOR_WIDTH: f32 = 292.0;
+const INSPECTOR_WIDTH: f32 = 288.0;
 /// Margin around the controls of the bars at the top.
 const BAR_MARGIN: f32 = 4.0;
 

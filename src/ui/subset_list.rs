@@ -133,9 +133,6 @@ impl<'a> Subset<'a> {
             };
             commands.push(asked.into());
         }
-        if !touch {
-            response.on_hover_text(format!("{}\nAlt click: show alone", self.name));
-        }
         over
     }
 
@@ -161,7 +158,7 @@ impl<'a> Subset<'a> {
             (
                 all || self.alone,
                 Icon::Solo,
-                format!("Show {} alone", self.name),
+                format!("Show {} alone (Alt click)", self.name),
                 self.alone,
                 alone,
             ),

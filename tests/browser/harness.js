@@ -138,7 +138,7 @@ export async function until(page, predicate) {
   for (;;) {
     // Between two pages, after a reload, there is nothing to ask.
     const now = await state(page).catch(() => null);
-    if (now && (await predicate(now))) return now;
+    if (now && predicate(now)) return now;
     if (Date.now() > deadline) throw new Error(`waited in vain for ${predicate}: ${JSON.stringify(now)}`);
     await new Promise((done) => setTimeout(done, 30));
   }
@@ -172,17 +172,6 @@ export async function keep(page, name) {
   await page.screenshot({ path: `${OUT}${BACKEND}-${name}.png` });
 }
 
-/** Waits until no picture was drawn for a second, and gives the state of then. */
-export async function atRest(page) {
-  let drawn = -1;
-  return until(page, async ({ framesRendered }) => {
-    await page.waitForTimeout(1000);
-    const rests = framesRendered === drawn && (await state(page)).framesRendered === drawn;
-    drawn = framesRendered;
-    return rests;
-  });
-}
-
 /** Drags with the mouse from one place to another and lets go. */
 export async function drag(page, [fromX, fromY], [toX, toY]) {
   await page.mouse.move(fromX, fromY);
@@ -194,6 +183,18 @@ export async function drag(page, [fromX, fromY], [toX, toY]) {
 /** Waits for the next frames to be on screen. */
 export function settled(page) {
   return page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 250)));
+}
+
+/** Waits until the camera has come to rest after a drag and nothing more is drawn. The clip must be paused. */
+export async function atRest(page) {
+  let before;
+  let drawn = -1;
+  do {
+    before = drawn;
+    await settled(page);
+    drawn = (await state(page)).framesRendered;
+  } while (drawn !== before);
+  return state(page);
 }
 
 /** The files directly in a folder whose names end as said; none when there is no such folder. */

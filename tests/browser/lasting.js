@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
-import { BACKEND, CENTRE, SAMPLE, SHARED, call, dropAndWait, keep, settled, state, test, until } from "./harness.js";
+import { BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until } from "./harness.js";
 import { coloursOnScreen, difference, picture } from "./picture.js";
 
 /** Keeps what the page asks the browser for, so that a test can take it away again. */
@@ -44,7 +44,7 @@ test("after the GPU was lost the model, the time and the camera are there again"
   await page.mouse.down();
   await page.mouse.move(CENTRE[0] - 80, CENTRE[1] + 40, { steps: 5 });
   await page.mouse.up();
-  await settled(page);
+  await atRest(page);
   const before = await picture(page);
   for (const round of [1, 2]) {
     await loseGpu(page);

@@ -1,7 +1,7 @@
 // Time: it advances, it can be scrubbed, and the same time is the same picture. Keys, and the transport in the DOM.
 
 import assert from "node:assert/strict";
-import { CENTRE, call, keep, settled, state, test, until } from "./harness.js";
+import { CENTRE, atRest, call, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
 
 test("time advances, with events, and pauses", {}, async (page) => {
@@ -120,7 +120,7 @@ test("the mouse orbits, the wheel zooms and F frames the model again", {}, async
   await page.mouse.down();
   await page.mouse.move(CENTRE[0] + 120, CENTRE[1] + 30, { steps: 6 });
   await page.mouse.up();
-  await settled(page);
+  await atRest(page);
   const orbited = await picture(page);
   assert.ok(difference(before, orbited) > 0.01, "a drag turns the view");
   for (let turn = 0; turn < 5; turn += 1) await page.mouse.wheel(0, -240);

@@ -6,6 +6,7 @@ mod format;
 mod image;
 mod light;
 mod model;
+mod rigs;
 mod sample;
 mod session;
 mod shaders;

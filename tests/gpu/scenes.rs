@@ -72,6 +72,9 @@ impl Scene {
             palette: &self.palette,
             hidden_submeshes: &[],
             highlighted_submesh: None,
+            vertex_colors: None,
+            ghosts: &[],
+            over_model: None,
             options: self.options,
         }
     }

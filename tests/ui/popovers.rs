@@ -64,6 +64,8 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
         window.apply(SubsetCommand::Select(Some(0)).into());
         window.click("Model facts");
         assert!(window.shows("Selected: Painted"));
+        let last = window.rect("Fresnel R0: blue");
+        assert!(last.max.x <= size.x - 14.0, "{last} leaves the sheet's margin");
         assert_between_sides(&window, size);
         assert_apart(&window, &["title", "sheet"]);
     }

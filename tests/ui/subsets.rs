@@ -47,7 +47,7 @@ fn a_row_under_the_pointer_stands_out_in_the_view_and_offers_its_icons() {
     assert!(!window.shows("Hide Bare"));
     hover(&mut window, "Bare, 6 triangles");
     assert_eq!(window.session().subsets().highlighted(), Some(1));
-    assert!(window.shows("Hide Bare") && window.shows("Show Bare alone"));
+    assert!(window.shows("Hide Bare") && window.shows("Show Bare alone (Alt click)"));
     window.harness.event(Event::PointerGone);
     window.pass_on();
     assert_eq!(window.session().subsets().highlighted(), None);

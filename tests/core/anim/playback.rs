@@ -155,7 +155,7 @@ fn the_longest_steps_stay_inside() {
 }
 
 #[test]
-fn a_range_without_length_never_changes() {
+fn a_span_without_length_never_changes() {
     for loop_mode in [LoopMode::Loop, LoopMode::PingPong] {
         let mut playback = playing(loop_mode, 3.0, 3.0);
         assert!(!playback.advance(0.1));
@@ -184,21 +184,21 @@ fn seeking_stays_inside_and_keeps_playing() {
 }
 
 #[test]
-fn a_new_range_takes_the_time_with_it() {
+fn a_new_span_takes_the_time_with_it() {
     let mut playback = playing(LoopMode::Loop, 0.0, 10.0);
     playback.seek(8.0);
-    playback.set_range(2.0, 5.0);
+    playback.set_span(2.0, 5.0);
     assert_eq!(
         (playback.time_secs(), playback.start_secs(), playback.end_secs()),
         (5.0, 2.0, 5.0)
     );
-    playback.set_range(7.0, 6.0);
+    playback.set_span(7.0, 6.0);
     assert_eq!(
         (playback.time_secs(), playback.start_secs(), playback.end_secs()),
         (6.0, 6.0, 7.0)
     );
-    playback.set_range(f32::NAN, 1.0);
-    playback.set_range(0.0, f32::INFINITY);
+    playback.set_span(f32::NAN, 1.0);
+    playback.set_span(0.0, f32::INFINITY);
     assert_eq!((playback.start_secs(), playback.end_secs()), (6.0, 7.0));
 }
 

@@ -1,7 +1,9 @@
 //! Whatever a person does, in whatever order, the session stays in order.
 
-use bindpose::anim::LoopMode;
-use bindpose::model::{Handedness, Material, Reflectance, UpAxis};
+use std::collections::BTreeSet;
+
+use bindpose::anim::{Direction, LoopMode, MAX_SPEED, MIN_SPEED, WrapMode};
+use bindpose::model::{Handedness, JointIndex, Material, Reflectance, UpAxis};
 use bindpose::scene::{Insets, Overlay, Theme, ViewPreset};
 use bindpose::session::{Command, Event, File, LookCommand, Session, SubsetCommand};
 use glam::{Vec2, Vec3};
@@ -12,7 +14,7 @@ use super::sky::cube;
 use super::subsets::parted;
 
 /// Numbers as pointers and programs give them, and those that they should not.
-fn number() -> impl Strategy<Value = f32> {
+pub(super) fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         6 => -3.0f32..3.0,
         1 => prop::sample::select(vec![0.0, -0.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e-40, 1e12]),
@@ -96,8 +98,25 @@ fn material_command() -> impl Strategy<Value = Command> {
     ]
 }
 
+fn timeline() -> impl Strategy<Value = Command> {
+    let direction = prop::sample::select(vec![Direction::Forward, Direction::Backward]);
+    let joint = prop::option::of((0u32..4).prop_map(JointIndex));
+    prop_oneof![
+        (-20.0f64..90.0).prop_map(Command::SeekFrame),
+        prop::sample::select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300]).prop_map(Command::SeekFrame),
+        (direction, joint).prop_map(|(direction, joint)| Command::StepKey { direction, joint }),
+        prop::option::of(number()).prop_map(Command::SetRangeStart),
+        prop::option::of(number()).prop_map(Command::SetRangeEnd),
+        Just(Command::ClearRange),
+        prop::sample::select(vec![WrapMode::Wrap, WrapMode::BookDemo]).prop_map(Command::SetWrapMode),
+        number().prop_map(Command::SetCrossfade),
+        (0usize..5, number()).prop_map(|(clip, share)| Command::SetBlend { clip, share }),
+        Just(Command::ClearBlend),
+    ]
+}
+
 /// Any command, and any as a glide.
-fn command() -> impl Strategy<Value = Command> {
+pub(super) fn command() -> impl Strategy<Value = Command> {
     (plain_command(), prop::bool::weighted(0.2)).prop_map(|(command, glides)| match glides {
         true => Command::Glide(Box::new(command)),
         false => command,
@@ -153,12 +172,14 @@ fn plain_command() -> impl Strategy<Value = Command> {
     ];
     prop_oneof![
         6 => playing,
+        4 => timeline(),
         6 => looking,
         4 => moving_camera(),
         4 => subset_command().prop_map(Command::Subset),
         2 => material_command(),
         1 => Just(Command::ClearSky),
         1 => files().prop_map(Command::AddFiles),
+        1 => files().prop_map(Command::AddClips),
         1 => prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| Command::OpenFile(path.to_owned())),
         1 => Just(Command::DismissError),
     ]
@@ -176,7 +197,11 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     let playback = session.playback();
     let span = playback.start_secs()..=playback.end_secs();
     prop_assert!(span.contains(&playback.time_secs()), "{playback:?}");
-    prop_assert!(playback.speed().is_finite() && playback.speed() > 0.0);
+    prop_assert!((MIN_SPEED..=MAX_SPEED).contains(&playback.speed()));
+    if let Some([start_secs, end_secs]) = playback.range_secs() {
+        prop_assert!(start_secs < end_secs && span.contains(&start_secs) && span.contains(&end_secs));
+        prop_assert!([start_secs, end_secs] != [*span.start(), *span.end()]);
+    }
 
     let clips = session.open_model().map_or(0, |open| open.model.clips.len());
     prop_assert_eq!(
@@ -189,6 +214,13 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
         prop_assert_eq!(span, clip.start_secs..=clip.end_secs);
     } else {
         prop_assert!(!playback.is_playing() && !session.is_animating());
+    }
+
+    let blended = session.blend().map(|blend| blend.clip);
+    prop_assert!(blended.is_none_or(|clip| clip < clips && blended != session.clip_index()));
+    if let Some(open) = session.open_model() {
+        let names: BTreeSet<&str> = open.clip_list().map(|clip| clip.name).collect();
+        prop_assert_eq!((names.len(), open.clip_list().len()), (clips, clips));
     }
 
     let of_file: &[Material] = session.open_model().map_or(&[], |open| &open.model.materials);

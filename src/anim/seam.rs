@@ -1,0 +1,74 @@
+//! What is seen where a loop begins again: the last pose of a clip beside the first.
+
+use super::joint_change::JointChange;
+use super::{PoseBuffers, sample_joint};
+use crate::model::{Clip, JointIndex, Skeleton};
+
+/// A jump of the surface by less than this share of the model's size is not seen: two pixels where the model fills a
+/// picture a thousand pixels high, which is what a moving edge is blurred by.
+pub const VISIBLE_SHARE: f32 = 1.0 / 500.0;
+
+/// The jump of one joint from the last pose of a clip to the first, relative to its parent.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointSeam {
+    /// Distance of the joint's place, in model units.
+    pub translation: f32,
+    /// Angle of its turn, degrees, 0…180.
+    pub rotation_degrees: f32,
+    /// Greatest change of scale along an axis, as a share of the greater one.
+    pub scale: f32,
+    /// How far the joint itself jumps in the model, all that its ancestors do included, in model units.
+    pub travel: f32,
+    /// How many times the jump of its surface is what can just be seen ([`VISIBLE_SHARE`]). The surface is taken to reach a
+    /// tenth of the model's size from its joint, so that a turn by 1.15° and a scale by 2 % can just be seen too.
+    pub visibility: f32,
+}
+
+/// The seam of a clip.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Seam {
+    /// In the skeleton's order.
+    pub joints: Vec<JointSeam>,
+    /// The joint whose own keys jump most; `None` when none jumps.
+    pub worst: Option<JointIndex>,
+    /// Whether it is seen: a joint's own jump is, or what the jumps of its ancestors add up to.
+    pub visible: bool,
+}
+
+/// The seam of a clip of a skeleton; `size` is the length of the model's diagonal in its own units. A clip without length
+/// has none.
+pub fn seam(skeleton: &Skeleton, clip: &Clip, size: f32) -> Seam {
+    let mut pose = PoseBuffers::default();
+    let mut places = |time_secs| {
+        pose.evaluate(skeleton, clip, time_secs);
+        pose.model.0.iter().map(|joint| joint.translation).collect::<Vec<_>>()
+    };
+    let (last, first) = (places(clip.end_secs), places(clip.start_secs));
+    let visible_way = VISIBLE_SHARE * size.max(f32::MIN_POSITIVE);
+    let joints: Vec<JointSeam> = (0u32..)
+        .map(JointIndex)
+        .zip(last.into_iter().zip(first))
+        .map(|(joint, (last, first))| {
+            let [from, to] = [clip.end_secs, clip.start_secs].map(|secs| sample_joint(skeleton, clip, joint, secs));
+            let change = JointChange::between(skeleton, joint, &from, &to);
+            JointSeam {
+                translation: change.translation,
+                rotation_degrees: change.rotation_radians.to_degrees(),
+                scale: change.scale,
+                travel: last.distance(first),
+                visibility: change.surface_way(size) / visible_way,
+            }
+        })
+        .collect();
+    let worst = joints
+        .iter()
+        .enumerate()
+        .filter(|(_, joint)| joint.visibility > 0.0)
+        // Of equal ones `max_by` gives the last, and ancestors come first.
+        .max_by(|(a_index, a), (b_index, b)| a.visibility.total_cmp(&b.visibility).then(b_index.cmp(a_index)))
+        .map(|(index, _)| JointIndex(index as u32));
+    let visible = joints
+        .iter()
+        .any(|joint| joint.visibility >= 1.0 || joint.travel >= visible_way);
+    Seam { joints, worst, visible }
+}

@@ -1,0 +1,151 @@
+//! What panels show of clips: the list, keys, seams, what moves. Computed when it is first asked for.
+
+use std::sync::OnceLock;
+
+use glam::Vec3;
+
+use super::{OpenModel, Session};
+use crate::anim::{self, JointActivity, Seam};
+use crate::model::{Clip, JointIndex, Model};
+use crate::scene::Aabb;
+
+/// One row of the list of clips.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClipSummary<'a> {
+    /// Name to show, unique in the list.
+    pub name: &'a str,
+    /// Base name of the file that it came from.
+    pub file_name: &'a str,
+    /// First key time, seconds.
+    pub start_secs: f32,
+    /// Last key time, seconds.
+    pub end_secs: f32,
+    /// Number of keys that the file has for it.
+    pub key_count: usize,
+    /// Keys a second: the unit of a frame.
+    pub keys_per_sec: f32,
+    /// Number of its last frame, counted from 0.
+    pub last_frame: u32,
+}
+
+/// What is known of one clip beside its keys.
+#[derive(Clone, Debug)]
+pub(super) struct ClipFacts {
+    file_name: String,
+    extent: OnceLock<Extent>,
+    key_times: OnceLock<Vec<f32>>,
+    seam: OnceLock<Seam>,
+    activity: OnceLock<Vec<JointActivity>>,
+}
+
+/// The space that a clip needs, in the file's space.
+#[derive(Clone, Debug)]
+struct Extent {
+    /// Box of all that is reached.
+    bounds: Aabb,
+    /// Points by which it is framed; see [`anim::extreme_points`].
+    points: Vec<Vec3>,
+}
+
+impl ClipFacts {
+    /// A clip of a file, of which nothing else was asked yet.
+    pub(super) fn of_file(file_name: &str) -> Self {
+        Self {
+            file_name: file_name.to_owned(),
+            extent: OnceLock::new(),
+            key_times: OnceLock::new(),
+            seam: OnceLock::new(),
+            activity: OnceLock::new(),
+        }
+    }
+
+    /// Box and extreme points of all that the clip reaches.
+    pub(super) fn extent(&self, model: &Model, clip: &Clip) -> (Aabb, &[Vec3]) {
+        let extent = self.extent.get_or_init(|| Extent {
+            bounds: anim::animated_bounds(model, clip),
+            points: anim::extreme_points(model, Some(clip)),
+        });
+        (extent.bounds, &extent.points)
+    }
+}
+
+impl OpenModel {
+    /// The list of clips, in the order of their indices.
+    pub fn clip_list(&self) -> impl ExactSizeIterator<Item = ClipSummary<'_>> {
+        self.model
+            .clips
+            .iter()
+            .zip(&self.clip_facts)
+            .map(|(clip, facts)| ClipSummary {
+                name: &clip.name,
+                file_name: &facts.file_name,
+                start_secs: clip.start_secs,
+                end_secs: clip.end_secs,
+                key_count: clip.key_count,
+                keys_per_sec: clip.keys_per_sec,
+                last_frame: clip.last_frame(),
+            })
+    }
+
+    /// Length of the model's diagonal in the bind pose, in its own units: a mesh's, or else that of its joints; 1 where both
+    /// are a point.
+    pub fn size(&self) -> f32 {
+        let joints = self.model.skeleton.bind_model_from_joint();
+        let of_joints = || Aabb::from_points(joints.iter().map(|joint| joint.translation.into()));
+        let diagonal = |bounds: Aabb| {
+            if bounds.is_empty() {
+                0.0
+            } else {
+                bounds.min.distance(bounds.max)
+            }
+        };
+        let sizes = [diagonal(self.bind_bounds), diagonal(of_joints()), 1.0];
+        sizes
+            .into_iter()
+            .find(|&size| size > 0.0 && size.is_finite())
+            .unwrap_or(1.0)
+    }
+
+    /// How the last pose of a clip differs from the first; `None` without such a clip.
+    pub fn seam(&self, clip: usize) -> Option<&Seam> {
+        let (clip, facts) = (self.model.clips.get(clip)?, self.clip_facts.get(clip)?);
+        Some(
+            facts
+                .seam
+                .get_or_init(|| anim::seam(&self.model.skeleton, clip, self.size())),
+        )
+    }
+
+    /// How much each joint moves in a clip, in the skeleton's order; `None` without such a clip.
+    pub fn activity(&self, clip: usize) -> Option<&[JointActivity]> {
+        let (clip, facts) = (self.model.clips.get(clip)?, self.clip_facts.get(clip)?);
+        let activity = || anim::activity(&self.model.skeleton, clip, self.size());
+        Some(facts.activity.get_or_init(activity))
+    }
+
+    /// Key times of a clip, in order: of one joint, or of all. Empty without such a clip or joint.
+    pub fn key_times(&self, clip: usize, joint: Option<JointIndex>) -> &[f32] {
+        let (Some(clip), Some(facts)) = (self.model.clips.get(clip), self.clip_facts.get(clip)) else {
+            return &[];
+        };
+        match joint {
+            Some(joint) => anim::key_times(clip, joint),
+            None => facts.key_times.get_or_init(|| anim::merged_key_times(clip)),
+        }
+    }
+}
+
+impl Session {
+    /// Key times of the clip on show, in order: of one joint, or of all.
+    pub fn key_times(&self, joint: Option<JointIndex>) -> &[f32] {
+        match (&self.open, self.clip) {
+            (Some(open), Some(clip)) => open.key_times(clip, joint),
+            _ => &[],
+        }
+    }
+
+    /// Where the time is in frames of the clip on show, counted from 0: 30.5 is half way from frame 30 to frame 31.
+    pub fn frame_place(&self) -> Option<f64> {
+        Some(self.clip()?.place_of(self.playback.time_secs()))
+    }
+}

@@ -1,0 +1,207 @@
+//! Clips of other files with the same bones join those of the open model.
+
+use glam::Affine3A;
+
+use super::clips::ClipFacts;
+use super::{Event, File, FileSet, LoadError, OpenModel, Session, load};
+use crate::diagnostic::{Diagnostic, Severity, Subject};
+use crate::model::{Skeleton, unique_names};
+
+/// Numbers of two bone offsets that differ by less are the same: lengths as shares of the model's size, axes as they are.
+/// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
+const OFFSET_TOLERANCE: f32 = 1e-3;
+
+impl Session {
+    /// Adds the clips of every model of a drop; true when there was no model to join and the drop was opened.
+    pub(super) fn add_clips(&mut self, files: Vec<File>) -> bool {
+        let Some(open) = &mut self.open else {
+            return self.add_files(files);
+        };
+        let had_clips = !open.model.clips.is_empty();
+        let set = FileSet::new(files);
+        let models = set.models();
+        let mut refused = models
+            .is_empty()
+            .then(|| Box::new(LoadError::no_model(set.files().len())));
+        // In the order of the drop, which the list of the largest first has lost.
+        for file in set.files().iter().filter(|file| models.contains(file)) {
+            if let Err(error) = open.join_clips(file) {
+                refused = refused.or(Some(error));
+            }
+        }
+        match refused {
+            Some(error) => self.fail(*error),
+            None => self.error = None,
+        }
+        if !had_clips && self.show_clip(0) {
+            if !self.reduced_motion {
+                self.playback.play();
+                self.note(Event::Play);
+            }
+            self.note(Event::TimeUpdate);
+        }
+        false
+    }
+}
+
+impl OpenModel {
+    /// Adds the clips of a file to the list, under names that are free.
+    ///
+    /// # Errors
+    /// When the file makes no model, has no clips, or its bones are not those of this model; then nothing is added.
+    pub(super) fn join_clips(&mut self, file: &File) -> Result<(), Box<LoadError>> {
+        let other = load(file)?;
+        let refuse = |code, message| Err(Box::new(LoadError::refused(file, code, message)));
+        let (ours, theirs) = (self.file.base_name(), file.base_name());
+        if let Some(difference) = difference(&self.model.skeleton, ours, &other.model.skeleton, theirs) {
+            return refuse("clips-bones-differ", difference);
+        }
+        if other.model.clips.is_empty() {
+            return refuse("clips-none", format!("{theirs} has no clips to add."));
+        }
+        let first = self.model.clips.len();
+        let all = self.model.clips.iter().chain(&other.model.clips);
+        let names = unique_names(all.map(|clip| clip.name.as_str()), "clip", |_, _| {});
+        self.notices.extend(self.offsets_notice(&other));
+        self.notices.extend(
+            other
+                .notices
+                .into_iter()
+                .filter_map(|notice| joined_notice(notice, theirs, first)),
+        );
+        let mut clips = other.model.clips;
+        for (clip, name) in clips.iter_mut().zip(names.into_iter().skip(first)) {
+            clip.name = name;
+        }
+        self.clip_facts.extend(clips.iter().map(|_| ClipFacts::of_file(theirs)));
+        self.model.clips.extend(clips);
+        self.joined.push(file.clone());
+        Ok(())
+    }
+
+    /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a notice.
+    pub(super) fn join_again(&mut self, files: &[File]) {
+        for file in files {
+            if let Err(error) = self.join_clips(file) {
+                self.notices.push(Diagnostic {
+                    severity: Severity::Warning,
+                    position: None,
+                    length: 0,
+                    subject: None,
+                    ..error.diagnostic
+                });
+            }
+        }
+    }
+
+    /// A note when the other model was skinned in another pose, or in other proportions.
+    fn offsets_notice(&self, other: &Self) -> Option<Diagnostic> {
+        let size = self.size();
+        let (ours, theirs) = (&self.model.skeleton, &other.model.skeleton);
+        let pairs = ours.joint_from_bind().iter().zip(theirs.joint_from_bind());
+        let mut differing: Vec<u32> = pairs
+            .zip(ours.file_bones())
+            .filter(|((ours, theirs), _)| !are_same(ours, theirs, size))
+            .map(|(_, &bone)| bone)
+            .collect();
+        differing.sort_unstable();
+        let &first = differing.first()?;
+        let message = format!(
+            "{} of the {} bone offsets of {} differ from those of {}, the first that of bone {first}: its clips were made \
+             for other proportions.",
+            differing.len(),
+            ours.joint_count(),
+            other.file.base_name(),
+            self.file.base_name(),
+        );
+        Some(Diagnostic {
+            severity: Severity::Note,
+            code: "clips-offsets-differ",
+            message,
+            expected: None,
+            found: None,
+            position: None,
+            length: 0,
+            subject: Some(Subject::Bone(first)),
+        })
+    }
+}
+
+impl LoadError {
+    /// A file that is sound, but not for what it was wanted for.
+    fn refused(file: &File, code: &'static str, message: String) -> Self {
+        Self {
+            file_name: file.base_name().to_owned(),
+            diagnostic: Diagnostic {
+                severity: Severity::Error,
+                code,
+                message,
+                expected: None,
+                found: None,
+                position: None,
+                length: 0,
+                subject: None,
+            },
+            excerpt: None,
+        }
+    }
+}
+
+/// The first difference of two hierarchies in words, by the files' numbers; `None` when they are the same.
+fn difference(ours: &Skeleton, our_file: &str, theirs: &Skeleton, their_file: &str) -> Option<String> {
+    let (our_count, their_count) = (ours.joint_count(), theirs.joint_count());
+    if our_count != their_count {
+        let bones = |count| if count == 1 { "bone" } else { "bones" };
+        return Some(format!(
+            "{their_file} has {their_count} {} and {our_file} has {our_count}; clips can only be added from a file with the \
+             same bones.",
+            bones(their_count),
+        ));
+    }
+    (0..our_count).find_map(|bone| {
+        let (our_parent, their_parent) = (parent_of_bone(ours, bone), parent_of_bone(theirs, bone));
+        let parent = |parent: Option<u32>| parent.map_or("no parent".to_owned(), |parent| format!("bone {parent} as its parent"));
+        (our_parent != their_parent).then(|| {
+            format!(
+                "Bone {bone} has {} in {their_file} and {} in {our_file}; clips can only be added from a file with the same \
+                 bones.",
+                parent(their_parent),
+                parent(our_parent),
+            )
+        })
+    })
+}
+
+/// The parent of a bone of the file, as a bone of the file.
+fn parent_of_bone(skeleton: &Skeleton, bone: usize) -> Option<u32> {
+    let joint = skeleton.joint_of_bone()[bone];
+    let parent = skeleton.parents()[joint.index()]?;
+    Some(skeleton.file_bones()[parent.index()])
+}
+
+fn are_same(ours: &Affine3A, theirs: &Affine3A, size: f32) -> bool {
+    // The columns of a matrix in a file of other units are of other lengths.
+    let unit = ours.matrix3.x_axis.abs().max_element().max(f32::MIN_POSITIVE);
+    let tolerance = OFFSET_TOLERANCE * unit;
+    ours.matrix3.abs_diff_eq(theirs.matrix3, tolerance)
+        && ours.translation.abs_diff_eq(theirs.translation, tolerance * size)
+}
+
+/// What a finding about a clip of another file says in the list of this one. Findings about the rest of that file are of
+/// no interest here.
+fn joined_notice(notice: Diagnostic, file_name: &str, first: usize) -> Option<Diagnostic> {
+    let Some(Subject::Clip(clip)) = notice.subject else {
+        return None;
+    };
+    // Names were made free anew for this list.
+    if notice.code == "duplicate-clip-name" {
+        return None;
+    }
+    Some(Diagnostic {
+        message: format!("{file_name}: {}", notice.message),
+        position: None,
+        length: 0,
+        subject: Some(Subject::Clip(clip.saturating_add(first as u32))),
+        ..notice
+    })
+}

@@ -1,0 +1,245 @@
+//! More than one clip in a pose: a crossfade from clip to clip, and two clips that a slider blends.
+
+use super::{OpenModel, Session};
+use crate::anim::{LocalPose, Playback, PoseBuffers, blend, sample};
+use crate::model::Clip;
+use crate::scene::Aabb;
+
+/// The longest crossfade, in seconds: a longer one is a blend.
+pub const MAX_CROSSFADE_SECS: f32 = 10.0;
+
+/// Fades at one time. Who changes clips more often within one fade sees the oldest of them leave early.
+const MOST_FADES: usize = 4;
+
+/// A second clip in the pose, at the same share of its length as the clip on show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend {
+    /// Index of the clip.
+    pub clip: usize,
+    /// Its share of the pose, 0…1; the rest is the clip on show.
+    pub share: f32,
+}
+
+/// What is posed beside the clip on show.
+#[derive(Debug, Default)]
+pub(super) struct Mix {
+    crossfade_secs: f32,
+    blend: Option<Blend>,
+    /// What was on show before, the oldest first; each fades into the next, the last into the clip on show.
+    fades: Vec<Fade>,
+    revision: u64,
+    pose: LocalPose,
+    scratch: Scratch,
+}
+
+#[derive(Debug)]
+struct Fade {
+    clip: usize,
+    blend: Option<Blend>,
+    playback: Playback,
+    elapsed_secs: f32,
+    duration_secs: f32,
+}
+
+impl Fade {
+    /// How much of what comes next is seen: slow at both ends, so that neither shows a jolt.
+    fn share_of_next(&self) -> f32 {
+        let part = (self.elapsed_secs / self.duration_secs).clamp(0.0, 1.0);
+        part * part * (3.0 - 2.0 * part)
+    }
+}
+
+/// Buffers that are kept from pose to pose.
+#[derive(Debug, Default)]
+struct Scratch {
+    layer: LocalPose,
+    second: LocalPose,
+    out: LocalPose,
+}
+
+impl Mix {
+    /// Changes with everything that the pose depends on.
+    pub(super) fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Another model: only how long fades take stays.
+    pub(super) fn take_up_model(&mut self) {
+        self.end_fades();
+        self.set_blend(None);
+    }
+
+    /// Shows the clip on show alone, but for a blend.
+    pub(super) fn end_fades(&mut self) {
+        if !self.fades.is_empty() {
+            self.fades.clear();
+            self.revision += 1;
+        }
+    }
+
+    fn set_blend(&mut self, blend: Option<Blend>) {
+        if self.blend != blend {
+            self.blend = blend;
+            self.revision += 1;
+        }
+    }
+
+    /// The clips in the pose beside the one on show.
+    fn clips(&self) -> impl Iterator<Item = usize> {
+        let of_fades = self
+            .fades
+            .iter()
+            .flat_map(|fade| [Some(fade.clip), fade.blend.map(|blend| blend.clip)]);
+        of_fades.chain([self.blend.map(|blend| blend.clip)]).flatten()
+    }
+
+    /// The pose of all that is mixed, in `buffers`.
+    pub(super) fn pose(&mut self, open: &OpenModel, shown: &Clip, time_secs: f32, buffers: &mut PoseBuffers) {
+        let clips = &open.model.clips;
+        let Self { scratch, pose, .. } = self;
+        let mut next_share = None;
+        for fade in &self.fades {
+            if let Some(clip) = clips.get(fade.clip) {
+                scratch.pose_layer(clips, clip, fade.blend, fade.playback.time_secs());
+                scratch.put_over(pose, next_share);
+                next_share = Some(fade.share_of_next());
+            }
+        }
+        scratch.pose_layer(clips, shown, self.blend, time_secs);
+        scratch.put_over(pose, next_share);
+        std::mem::swap(pose, &mut buffers.local);
+        buffers.place(&open.model.skeleton);
+    }
+}
+
+impl Scratch {
+    /// A clip and what is blended into it, in `layer`.
+    fn pose_layer(&mut self, clips: &[Clip], clip: &Clip, with: Option<Blend>, time_secs: f32) {
+        sample(clip, time_secs, &mut self.layer);
+        if let Some(Blend { clip: index, share }) = with
+            && let Some(other) = clips.get(index)
+        {
+            sample(other, time_in_step(clip, time_secs, other), &mut self.second);
+            blend(&self.layer, &self.second, share, &mut self.out);
+            std::mem::swap(&mut self.layer, &mut self.out);
+        }
+    }
+
+    /// The layer over a pose with a share, or in its place.
+    fn put_over(&mut self, pose: &mut LocalPose, share: Option<f32>) {
+        if let Some(share) = share {
+            blend(pose, &self.layer, share, &mut self.out);
+            std::mem::swap(pose, &mut self.out);
+        } else {
+            std::mem::swap(pose, &mut self.layer);
+        }
+    }
+}
+
+/// The time of `other` at the share of its length that `time_secs` is of `clip`'s; its start when `clip` has no length.
+fn time_in_step(clip: &Clip, time_secs: f32, other: &Clip) -> f32 {
+    let start_secs = f64::from(clip.start_secs);
+    let length_secs = f64::from(clip.end_secs) - start_secs;
+    if length_secs <= 0.0 {
+        return other.start_secs;
+    }
+    let phase = (f64::from(time_secs) - start_secs) / length_secs;
+    let other_start_secs = f64::from(other.start_secs);
+    (other_start_secs + phase * (f64::from(other.end_secs) - other_start_secs)) as f32
+}
+
+impl Session {
+    /// How long the pose takes from one clip to the next while it plays, in seconds; 0 is at once.
+    pub fn crossfade_secs(&self) -> f32 {
+        self.mix.crossfade_secs
+    }
+
+    /// The clip that is blended into the one on show.
+    pub fn blend(&self) -> Option<Blend> {
+        self.mix.blend
+    }
+
+    /// Whether a clip that was on show before is still seen. A fade goes on to its end when playing is paused, so that a
+    /// picture that stands still is a pose of its clip and time.
+    pub fn is_fading(&self) -> bool {
+        !self.mix.fades.is_empty() && !self.scrubbing
+    }
+
+    pub(super) fn set_crossfade(&mut self, secs: f32) {
+        if secs.is_finite() && secs >= 0.0 {
+            self.mix.crossfade_secs = secs.min(MAX_CROSSFADE_SECS);
+        }
+    }
+
+    pub(super) fn set_blend(&mut self, clip: usize, share: f32) {
+        let clips = self.open.as_ref().map_or(0, |open| open.model.clips.len());
+        if clip < clips && Some(clip) != self.clip && !share.is_nan() {
+            let share = share.clamp(0.0, 1.0);
+            self.mix.set_blend(Some(Blend { clip, share }));
+        }
+    }
+
+    pub(super) fn clear_blend(&mut self) {
+        self.mix.set_blend(None);
+    }
+
+    /// What is on show becomes what it was, and is seen a little longer while time moves. A blend goes on with the next
+    /// clip, unless it was with that one.
+    pub(super) fn fade_to(&mut self, next: usize) {
+        let duration_secs = self.mix.crossfade_secs;
+        if let Some(clip) = self.clip
+            && self.playback.is_playing()
+            && !self.scrubbing
+            && duration_secs > 0.0
+        {
+            if self.mix.fades.len() == MOST_FADES {
+                self.mix.fades.remove(0);
+            }
+            self.mix.fades.push(Fade {
+                clip,
+                blend: self.mix.blend,
+                playback: self.playback.clone(),
+                elapsed_secs: 0.0,
+                duration_secs,
+            });
+            self.mix.revision += 1;
+        } else {
+            self.mix.end_fades();
+        }
+        if self.mix.blend.is_some_and(|blend| blend.clip == next) {
+            self.mix.set_blend(None);
+        }
+    }
+
+    /// Lets time pass for what fades.
+    pub(super) fn advance_fades(&mut self, dt_secs: f32) {
+        if !self.is_fading() || dt_secs.is_nan() || dt_secs <= 0.0 {
+            return;
+        }
+        let (playing, speed) = (self.playback.is_playing(), self.playback.speed());
+        let fades = &mut self.mix.fades;
+        for fade in fades.iter_mut() {
+            fade.elapsed_secs += dt_secs;
+            if playing {
+                fade.playback.set_speed(speed);
+                fade.playback.advance(dt_secs);
+            }
+        }
+        // What is behind a fade that has ended is not seen either.
+        let ended = fades.iter().rposition(|fade| fade.elapsed_secs >= fade.duration_secs);
+        fades.drain(..ended.map_or(0, |last| last + 1));
+        self.mix.revision += 1;
+        self.picture_revision += 1;
+    }
+
+    /// Box of all that the clips in the pose reach, in the file's space.
+    pub(super) fn reach(&mut self) -> Aabb {
+        let Some(open) = &mut self.open else {
+            return Aabb::default();
+        };
+        let of_clip = open.extent(self.clip).0;
+        self.mix
+            .clips()
+            .fold(of_clip, |reach, clip| reach.union(open.extent(Some(clip)).0))
+    }
+}
