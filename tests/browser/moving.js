@@ -74,7 +74,11 @@ test("with the right button held W flies forward, and letting go ends it", {}, a
   await page.mouse.up({ button: "right" });
   const after = (await atRest(page)).camera;
   assert.deepEqual([after.yawRadians, after.distance], [before.yawRadians, before.distance]);
-  assert.ok(way(after) > 0.05);
+  const { yawRadians: yaw, pitchRadians: pitch } = before;
+  const ahead = [Math.sin(yaw) * Math.cos(pitch), -Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
+  const flown = after.target.map((at, axis) => at - before.target[axis]);
+  const forward = flown.reduce((sum, at, axis) => sum + at * ahead[axis], 0);
+  assert.ok(forward > 0.99 * Math.hypot(...flown), `${flown} is straight ahead, ${ahead}`);
 });
 
 test("passes are given up while frames are slow, and pictures have all of them", {
