@@ -1,7 +1,8 @@
 // Time: it advances, it can be scrubbed, and the same time is the same picture. Keys, and the transport in the DOM.
 
 import assert from "node:assert/strict";
-import { CENTRE, atRest, call, difference, keep, picture, settled, state, test, until } from "./harness.js";
+import { CENTRE, atRest, call, keep, settled, state, test, until } from "./harness.js";
+import { difference, picture } from "./picture.js";
 
 test("time advances, with events, and pauses", {}, async (page) => {
   await page.evaluate(() => {
