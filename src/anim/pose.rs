@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{local_to_model, palette, sample};
+use super::{blend_to_rest, local_to_model, palette, sample};
 use crate::model::{Clip, JointLanes, LocalJoint, Skeleton};
 
 /// Each joint relative to its parent: `parent_from_joint`, kept in parts, four joints side by side.
@@ -77,6 +77,19 @@ impl PoseBuffers {
     /// the buffers were sized for a smaller skeleton.
     pub fn evaluate(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) {
         sample(clip, time_secs, &mut self.local);
+        local_to_model(skeleton, &self.local, &mut self.model);
+        palette(skeleton, &self.model, &mut self.palette);
+    }
+
+    /// The pose of a clip at a time, brought `bind_share` of the way to the bind pose; see [`blend_to_rest`]. From 1 on it is
+    /// the bind pose of [`PoseBuffers::set_bind_pose`], with the shear that rest has no part for.
+    pub fn evaluate_toward_bind(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32, bind_share: f32) {
+        if bind_share >= 1.0 {
+            self.set_bind_pose(skeleton);
+            return;
+        }
+        sample(clip, time_secs, &mut self.local);
+        blend_to_rest(skeleton, bind_share, &mut self.local);
         local_to_model(skeleton, &self.local, &mut self.model);
         palette(skeleton, &self.model, &mut self.palette);
     }
