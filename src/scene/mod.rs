@@ -1,5 +1,8 @@
 //! What is looked at, and from where: plain data for a renderer.
 
+mod bone_picking;
+mod bone_shapes;
+mod bones;
 mod camera;
 mod flight;
 mod frame;
@@ -8,10 +11,14 @@ mod ground;
 mod look;
 mod pick;
 mod ray;
+mod skin_colors;
 mod tint;
 mod view_preset;
 
 pub use crate::model::Aabb;
+pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
+pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, OverlayGeometry, OverlayVertex, draw_bones};
+pub use bones::{Bone, Bones};
 pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Projection};
 pub use frame::{FrameOptions, RenderFrame, Theme};
 pub use framing::Insets;
@@ -19,5 +26,6 @@ pub use ground::Ground;
 pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
 pub use pick::{Hit, pick, tex_coord_at};
 pub use ray::Ray;
+pub use skin_colors::{LegendStop, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear, stand_in_color};
 pub use view_preset::ViewPreset;

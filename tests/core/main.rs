@@ -8,6 +8,7 @@ mod image;
 mod light;
 mod model;
 mod sample;
+mod scene;
 mod session;
 mod shaders;
 mod textbook;
