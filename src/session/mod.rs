@@ -3,6 +3,8 @@
 mod apply;
 mod command;
 mod files;
+mod joint_rows;
+mod joints;
 mod load;
 mod look;
 mod looking;
@@ -12,18 +14,23 @@ mod motion;
 mod opening;
 mod picking;
 mod playing;
+mod pose;
 mod quality;
+mod skeleton_view;
 mod sky;
 mod subsets;
 mod textures;
 
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
+pub use joint_rows::JointRow;
+pub use joints::{JointCommand, Joints, SelectedVertex};
 pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
 pub use materials::MAX_SPEC_POWER;
 pub use quality::{PassChoice, PassState, Quality};
+pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
@@ -32,6 +39,8 @@ use glam::Affine3A;
 use materials::Materials;
 use motion::Motion;
 use picking::Picker;
+use pose::OnShow;
+use skeleton_view::SkeletonView;
 use sky::Sky;
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
@@ -50,6 +59,7 @@ pub struct Session {
     sky: Sky,
     materials: Materials,
     subsets: Subsets,
+    joints: Joints,
     error: Option<LoadError>,
 
     clip: Option<usize>,
@@ -57,9 +67,11 @@ pub struct Session {
     scrubbing: bool,
     reduced_motion: bool,
     pose: PoseBuffers,
-    posed_at: Option<(Option<usize>, f32)>,
+    posed: Option<OnShow>,
+    bind_share: f32,
 
     picker: Picker,
+    skeleton_view: SkeletonView,
 
     camera: Camera,
     motion: Motion,
@@ -246,30 +258,23 @@ impl Session {
         }
     }
 
-    /// Brings the pose to the clip and the time.
-    fn pose_now(&mut self) {
-        let Some(open) = &self.open else { return };
-        let wanted = (self.clip, self.playback.time_secs());
-        if self.posed_at != Some(wanted) {
-            let skeleton = &open.model.skeleton;
-            match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                Some(clip) => self.pose.evaluate(skeleton, clip, wanted.1),
-                None => self.pose.set_bind_pose(skeleton),
-            }
-            self.posed_at = Some(wanted);
-        }
-    }
-
     /// The file's space -> the world.
     fn world_from_model(&self) -> Affine3A {
         model::world_from_model(self.handedness(), self.up_axis())
     }
 
-    /// Box of all that the clip reaches, world space.
+    /// Box of all that the clip reaches, world space; with the bind pose in it while the pose is brought there.
     pub fn world_bounds(&mut self) -> Aabb {
         let world_from_model = self.world_from_model();
-        let clip = self.clip;
-        let bounds = self.open.as_mut().map(|open| open.extent(clip).0);
+        let (clip, bind_share) = (self.clip, self.bind_share);
+        let bounds = self.open.as_mut().map(|open| {
+            let reached = open.extent(clip).0;
+            if bind_share > 0.0 {
+                reached.union(open.bind_bounds)
+            } else {
+                reached
+            }
+        });
         bounds.unwrap_or_default().transformed(world_from_model)
     }
 
