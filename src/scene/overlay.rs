@@ -36,6 +36,14 @@ impl OverlayGeometry {
             color_srgb,
         }));
     }
+
+    /// Adds a triangle, world space.
+    pub fn triangle(&mut self, corners: [Vec3; 3], color_srgb: [u8; 4]) {
+        self.triangles.extend(corners.map(|position| OverlayVertex {
+            position: position.to_array(),
+            color_srgb,
+        }));
+    }
 }
 
 /// A colour for each vertex of the mesh, in its order.

@@ -1,6 +1,7 @@
 //! The one place where things change.
 
-use super::{Command, Effect, Look, PoseKey, Session};
+use super::pose::OnShow;
+use super::{Command, Effect, Look, Session};
 use crate::anim::LoopMode;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Camera, Passes, Projection, Theme};
@@ -143,6 +144,9 @@ impl Session {
                 self.change_goal(Self::frame_model);
             }
             Command::Subset(command) => self.apply_to_subsets(command),
+            Command::Joint(command) => self.apply_to_joints(command),
+            Command::SetBindShare(share) => self.set_bind_share(share),
+            Command::ToggleBindPose => self.set_bind_share(if self.bind_share < 0.5 { 1.0 } else { 0.0 }),
             Command::EditMaterial { index, material } => self.materials.edit(index, &material),
             Command::ResetMaterial(material) => self.reset_material(material),
             Command::Look(command) => self.look.apply(command),
@@ -159,7 +163,8 @@ impl Session {
             sky: self.sky.revision(),
             materials: self.materials.revision(),
             subsets: self.subsets.drawn_revision(),
-            pose: self.pose_key(),
+            joints: self.joints.drawn_revision(),
+            pose: self.on_show(),
             camera: self.camera,
             handedness: self.handedness(),
             up_axis: self.up_axis(),
@@ -178,7 +183,8 @@ struct Shown {
     sky: u64,
     materials: u64,
     subsets: u64,
-    pose: PoseKey,
+    joints: u64,
+    pose: OnShow,
     camera: Camera,
     handedness: Handedness,
     up_axis: UpAxis,

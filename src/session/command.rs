@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::files::File;
+use super::joints::JointCommand;
 use super::look::LookCommand;
 use super::quality::PassChoice;
 use super::subsets::SubsetCommand;
@@ -165,6 +166,12 @@ pub enum Command {
     SetUpAxis(Option<UpAxis>),
     /// Which subsets are drawn, selected, hovered.
     Subset(SubsetCommand),
+    /// Which joints are selected, hovered, how they are called and shown.
+    Joint(JointCommand),
+    /// Brings the pose a share of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
+    SetBindShare(f32),
+    /// The bind pose, or the clip's, in turn.
+    ToggleBindPose,
     /// Draws a material with the values of another. Its names, the names of its maps and its book stay; numbers are brought
     /// into their range.
     EditMaterial {
@@ -186,6 +193,12 @@ pub enum Command {
 impl From<LookCommand> for Command {
     fn from(command: LookCommand) -> Self {
         Self::Look(command)
+    }
+}
+
+impl From<JointCommand> for Command {
+    fn from(command: JointCommand) -> Self {
+        Self::Joint(command)
     }
 }
 

@@ -5,6 +5,8 @@ mod clips;
 mod command;
 mod files;
 mod joining;
+mod joint_rows;
+mod joints;
 mod load;
 mod look;
 mod looking;
@@ -15,7 +17,9 @@ mod motion;
 mod opening;
 mod picking;
 mod playing;
+mod pose;
 mod quality;
+mod skeleton_view;
 mod sky;
 mod subsets;
 mod textures;
@@ -23,12 +27,15 @@ mod textures;
 pub use clips::ClipSummary;
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
+pub use joint_rows::JointRow;
+pub use joints::{JointCommand, Joints, SelectedVertex};
 pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
 pub use materials::MAX_SPEC_POWER;
 pub use mixing::{Blend, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality};
+pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
@@ -38,6 +45,8 @@ use materials::Materials;
 use mixing::Mix;
 use motion::Motion;
 use picking::Picker;
+use pose::OnShow;
+use skeleton_view::SkeletonView;
 use sky::Sky;
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
@@ -56,6 +65,7 @@ pub struct Session {
     sky: Sky,
     materials: Materials,
     subsets: Subsets,
+    joints: Joints,
     error: Option<LoadError>,
 
     clip: Option<usize>,
@@ -63,10 +73,12 @@ pub struct Session {
     scrubbing: bool,
     reduced_motion: bool,
     pose: PoseBuffers,
-    posed_at: Option<PoseKey>,
+    posed: Option<OnShow>,
+    bind_share: f32,
     mix: Mix,
 
     picker: Picker,
+    skeleton_view: SkeletonView,
 
     camera: Camera,
     motion: Motion,
@@ -258,36 +270,20 @@ impl Session {
         }
     }
 
-    /// Brings the pose to the clip and the time.
-    fn pose_now(&mut self) {
-        let Some(open) = &self.open else { return };
-        let wanted = self.pose_key();
-        if self.posed_at != Some(wanted) {
-            match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                Some(clip) => self.mix.pose(open, clip, wanted.time_secs, &mut self.pose),
-                None => self.pose.set_bind_pose(&open.model.skeleton),
-            }
-            self.posed_at = Some(wanted);
-        }
-    }
-
-    fn pose_key(&self) -> PoseKey {
-        PoseKey {
-            clip: self.clip,
-            time_secs: self.playback.time_secs(),
-            mix: self.mix.revision(),
-        }
-    }
-
     /// The file's space -> the world.
     fn world_from_model(&self) -> Affine3A {
         model::world_from_model(self.handedness(), self.up_axis())
     }
 
-    /// Box of all that the clips in the pose reach, world space.
+    /// Box of all that the clips in the pose reach, world space; with the bind pose in it while the pose is brought there.
     pub fn world_bounds(&mut self) -> Aabb {
         let world_from_model = self.world_from_model();
-        self.reach().transformed(world_from_model)
+        let reached = self.reach();
+        let bounds = match &self.open {
+            Some(open) if self.bind_share > 0.0 => reached.union(open.bind_bounds),
+            _ => reached,
+        };
+        bounds.transformed(world_from_model)
     }
 
     fn note(&mut self, event: Event) {
@@ -295,12 +291,4 @@ impl Session {
             self.events.push(event);
         }
     }
-}
-
-/// What a pose of one model depends on: the same key, the same pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PoseKey {
-    clip: Option<usize>,
-    time_secs: f32,
-    mix: u64,
 }

@@ -1,11 +1,14 @@
 //! Tests of `anim`.
 
 mod activity;
+mod bind_share;
 mod blend;
 mod bounds;
 mod curve;
 mod drift;
+mod explain;
 mod files;
+mod inspect;
 mod keys;
 mod palette;
 mod playback;
@@ -15,3 +18,5 @@ mod range;
 mod sample;
 mod seam;
 mod skin;
+mod skin_view;
+mod trails;

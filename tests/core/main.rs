@@ -1,6 +1,7 @@
 //! Tests of the core: they need neither GPU nor UI.
 
 mod anim;
+mod chains;
 mod documents;
 mod format;
 mod image;
@@ -8,6 +9,7 @@ mod light;
 mod model;
 mod rigs;
 mod sample;
+mod scene;
 mod session;
 mod shaders;
 mod textbook;

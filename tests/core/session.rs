@@ -2,6 +2,7 @@
 
 mod clips;
 mod joining;
+mod joints;
 mod looking;
 mod maps;
 mod materials;

@@ -2,16 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use bindpose::anim::{Direction, LoopMode, MAX_SPEED, MIN_SPEED, WrapMode};
-use bindpose::model::{Handedness, JointIndex, Material, Reflectance, UpAxis};
-use bindpose::scene::{Insets, Overlay, Theme, ViewPreset};
-use bindpose::session::{Command, Event, File, LookCommand, Session, SubsetCommand};
+use bindpose::anim::{Direction, LoopMode, MAX_SPEED, MIN_SPEED, SkinView, WrapMode};
+use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
+use bindpose::scene::{BoneStyle, Insets, Overlay, OverlayGeometry, Theme, ViewPreset};
+use bindpose::session::{Command, Event, File, JointCommand, LookCommand, Session, SubsetCommand};
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
 use super::models::{self, broken, jointed, moving, still};
 use super::sky::cube;
 use super::subsets::parted;
+use crate::chains::mirrored;
 
 /// Numbers as pointers and programs give them, and those that they should not.
 pub(super) fn number() -> impl Strategy<Value = f32> {
@@ -31,6 +32,7 @@ fn files() -> impl Strategy<Value = Vec<File>> {
         moving("b.m3d"),
         jointed("a.m3d"),
         still("c.m3d"),
+        models::file("d.m3d", &mirrored(7)),
         broken("a.m3d"),
         models::file("a.m3d", &parted(models::document())),
         File::new("skin.dds", *b"not looked at"),
@@ -70,6 +72,39 @@ fn subset_command() -> impl Strategy<Value = SubsetCommand> {
         vector().prop_map(SubsetCommand::SelectAt),
         prop::option::of(0usize..4).prop_map(SubsetCommand::Hover),
         prop::option::of(vector()).prop_map(SubsetCommand::HoverAt),
+    ]
+}
+
+fn joint_command() -> impl Strategy<Value = JointCommand> {
+    let any_joint = || (0u32..9).prop_map(JointIndex);
+    let name = prop::sample::select(vec!["", " ", "L arm", "hand", "R_leg", "\u{7}"]);
+    let saved = |bones: usize| {
+        let (model, _) = crate::documents::model_of(&mirrored(bones));
+        let names = [(1, "kept".to_owned()), (99, "none".to_owned())].into();
+        let fingerprint = hierarchy_fingerprint(&model.skeleton);
+        JointCommand::ImportNames(SavedNames { fingerprint, names })
+    };
+    prop_oneof![
+        4 => prop::option::of(any_joint()).prop_map(JointCommand::Select),
+        2 => vector().prop_map(JointCommand::SelectAt),
+        1 => Just(JointCommand::SelectParent),
+        1 => Just(JointCommand::SelectChild),
+        1 => prop::option::of(any_joint()).prop_map(JointCommand::Hover),
+        1 => prop::option::of(vector()).prop_map(JointCommand::HoverAt),
+        2 => vector().prop_map(JointCommand::SelectVertexAt),
+        1 => prop::option::of(0u32..40).prop_map(JointCommand::SelectVertex),
+        1 => (any_joint(), any::<bool>()).prop_map(|(joint, folded)| JointCommand::SetFolded { joint, folded }),
+        1 => any::<bool>().prop_map(JointCommand::SetAllFolded),
+        2 => (any_joint(), name).prop_map(|(joint, name)| JointCommand::Rename { joint, name: name.to_owned() }),
+        1 => Just(JointCommand::AcceptMirrorNames),
+        1 => prop::sample::select(vec![2, 7]).prop_map(saved),
+        1 => Just(JointCommand::ClearNames),
+        1 => prop::sample::select(BoneStyle::ALL.to_vec()).prop_map(JointCommand::SetBoneStyle),
+        1 => any::<bool>().prop_map(JointCommand::SetBonesVisible),
+        1 => any::<bool>().prop_map(JointCommand::SetLabelsVisible),
+        1 => prop::option::of(prop::sample::select(SkinView::ALL.to_vec())).prop_map(JointCommand::SetSkinView),
+        1 => any_joint().prop_map(JointCommand::ToggleTrail),
+        1 => Just(JointCommand::ClearTrails),
     ]
 }
 
@@ -176,6 +211,9 @@ fn plain_command() -> impl Strategy<Value = Command> {
         6 => looking,
         4 => moving_camera(),
         4 => subset_command().prop_map(Command::Subset),
+        5 => joint_command().prop_map(Command::Joint),
+        1 => number().prop_map(Command::SetBindShare),
+        1 => Just(Command::ToggleBindPose),
         2 => material_command(),
         1 => Just(Command::ClearSky),
         1 => files().prop_map(Command::AddFiles),
@@ -254,6 +292,53 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     let frame = session.frame();
     prop_assert_eq!(frame.palette.0.len(), joints);
     prop_assert!(frame.palette.0.iter().all(|matrix| matrix.is_finite()));
+    check_joints(session, joints)
+}
+
+fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError> {
+    prop_assert!((0.0..=1.0).contains(&session.bind_share()));
+    let joints = session.joints().clone();
+    prop_assert_eq!(joints.count(), count);
+    let marked = [joints.selected(), joints.hovered()].into_iter().flatten();
+    prop_assert!(
+        marked
+            .chain(joints.trails().iter().copied())
+            .all(|joint| joint.index() < count)
+    );
+    prop_assert!(session.joint_names().all().keys().all(|&bone| bone < count));
+    prop_assert!(session.joint_names().all().values().all(|name| !name.trim().is_empty()));
+
+    let mut rows = Vec::new();
+    session.joint_rows("", &mut rows);
+    prop_assert!(rows.len() <= count && (rows.is_empty() == (count == 0)));
+    if let Some(selected) = joints.selected() {
+        let readout = session.inspect_joint(selected).expect("it is there");
+        prop_assert!(readout.model.position.is_finite() && readout.model.rotation.is_normalized());
+    }
+
+    let vertices = session.open_model().map_or(0, |open| open.model.mesh.vertex_count());
+    prop_assert!(
+        joints
+            .selected_vertex()
+            .is_none_or(|selected| (selected.vertex as usize) < vertices)
+    );
+    prop_assert_eq!(session.explain_vertex().is_some(), joints.selected_vertex().is_some());
+    let mut colors = Vec::new();
+    session.skin_colors(&mut colors);
+    prop_assert_eq!(
+        colors.len(),
+        if session.skin_colors_key().is_some() {
+            vertices
+        } else {
+            0
+        }
+    );
+
+    let mut overlay = OverlayGeometry::default();
+    session.draw_bones(&mut overlay);
+    let mut corners = overlay.lines.iter().chain(&overlay.triangles);
+    prop_assert_eq!(corners.clone().count() > 0, joints.bones_visible() && count > 0);
+    prop_assert!(corners.all(|corner| Vec3::from(corner.position).is_finite()));
     Ok(())
 }
 
