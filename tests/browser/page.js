@@ -12,6 +12,8 @@ test("the page opens the sample, draws it and logs no error", { viewport: LARGE 
   assert.equal(playing, true);
   assert.equal(error, null);
   assert.match(await page.title(), /^figure\.m3d · Bindpose$/);
+  // A screenshot of what moves waits for many frames.
+  await call(page, "pause");
   assertDrawn(await picture(page));
   await settled(page);
   await keep(page, "sample-dark");
@@ -33,12 +35,14 @@ test("the sample opens although one of its maps does not arrive", {
 });
 
 test("the light scheme is followed", { colorScheme: "light", viewport: LARGE }, async (page) => {
+  await call(page, "pause");
   await settled(page);
   await keep(page, "sample-light");
   assert.ok((await coloursOnScreen(page)) > 200);
 });
 
 test("a phone's screen works", { phone: true }, async (page) => {
+  await call(page, "pause");
   await settled(page);
   await keep(page, "phone-dark");
   assert.ok((await coloursOnScreen(page)) > 200);
@@ -52,6 +56,7 @@ test("a phone's screen works", { phone: true }, async (page) => {
 });
 
 test("the canvas follows the window", {}, async (page) => {
+  await call(page, "pause");
   await page.setViewportSize({ width: 700, height: 500 });
   await page.waitForFunction(() => document.querySelector("canvas").width === 700);
   await settled(page);

@@ -16,10 +16,10 @@ export const TRIM_ROW = [100, 388];
 export const TRIM_EYE = [238, 388];
 
 /** The inspector on the right, as large as it is for a subset with maps. */
-export const INSPECTOR = { x: 652, y: 62, width: 294, height: 394 };
-export const ROUGHNESS_KNOB = [829, 288];
-export const ROUGHNESS_LEAST = [756, 288];
-export const RESET_MATERIAL = [918, 206];
+export const INSPECTOR = { x: 662, y: 62, width: 284, height: 386 };
+export const ROUGHNESS_KNOB = [834, 285];
+export const ROUGHNESS_LEAST = [766, 285];
+export const RESET_MATERIAL = [918, 204];
 
 /** The divided picture's handle, in the middle of the window. */
 export const SPLIT_HANDLE = [480, 300];
