@@ -4,7 +4,7 @@ use super::bones::BoneTexture;
 use super::gpu_model::{GpuModel, Posed};
 use super::overlay::Style;
 use super::pipelines::{ModelDraw, Pipelines};
-use crate::scene::{Ghost, RenderFrame};
+use crate::scene::RenderFrame;
 use crate::shaders::Veil;
 
 /// One pose in GPU memory.
@@ -30,19 +30,21 @@ impl Ghosts {
         pipelines: &Pipelines,
         frame: &RenderFrame<'_>,
     ) {
-        let joint_count = frame.ghosts.first().map_or(0, |ghost| ghost.palette.0.len());
+        let palettes = frame.ghosts.palettes;
+        let joint_count = palettes.first().map_or(0, |palette| palette.0.len());
         if joint_count != self.joint_count {
             self.ghosts.clear();
             self.joint_count = joint_count;
         }
         let layouts = &pipelines.layouts;
         self.ghosts
-            .resize_with(self.ghosts.len().max(frame.ghosts.len()), || GpuGhost {
+            .resize_with(self.ghosts.len().max(palettes.len()), || GpuGhost {
                 bones: BoneTexture::new(device, &layouts.bones, joint_count),
                 style: Style::new(device, layouts),
             });
-        self.shown = frame.ghosts.len();
-        for (ghost, Ghost { palette, color_srgb }) in self.ghosts.iter_mut().zip(frame.ghosts) {
+        self.shown = palettes.len();
+        let given = palettes.iter().zip(frame.ghosts.colors_srgb);
+        for (ghost, (palette, color_srgb)) in self.ghosts.iter_mut().zip(given) {
             ghost.bones.write(queue, palette);
             let veil = Veil {
                 color_srgb: color_srgb.map(|channel| f32::from(channel) / 255.0),

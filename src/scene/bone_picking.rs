@@ -78,9 +78,12 @@ fn near_segment(screen: &Screen, joint: JointIndex, from: Vec4, to: Vec4, pointe
     let (from, to) = before_eye(from, to)?;
     let [start, end] = [from, to].map(|clip| screen.in_heights(clip.xy() / clip.w));
     let way = end - start;
-    let share = (pointer - start).dot(way) / way.length_squared();
-    // A segment of no length has no share, which is NaN.
-    let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+    let length_squared = way.length_squared();
+    let share = if length_squared > 0.0 {
+        ((pointer - start).dot(way) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let distance = (start + way * share).distance(pointer);
     // z / w is straight along a segment on screen.
     let depth = (from.z / from.w) * (1.0 - share) + (to.z / to.w) * share;

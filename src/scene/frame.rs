@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{Aabb, Background, Camera, Ghost, Light, OverlayGeometry, Overlays, Passes, VertexColors, ViewMode};
+use super::{Aabb, Background, Camera, Ghosts, Light, OverlayGeometry, Overlays, Passes, VertexColors, ViewMode};
 use crate::anim::Palette;
 
 /// Dark or light surroundings.
@@ -62,7 +62,7 @@ pub struct RenderFrame<'a> {
     /// Colours that are shown instead of the view mode's.
     pub vertex_colors: Option<VertexColors<'a>>,
     /// Poses beside that of now.
-    pub ghosts: &'a [Ghost<'a>],
+    pub ghosts: Ghosts<'a>,
     /// Lines and triangles that are seen through the model; none where there is nothing.
     pub over_model: Option<&'a OverlayGeometry>,
     /// What is drawn beside the model and how.

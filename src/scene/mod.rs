@@ -25,7 +25,7 @@ pub use frame::{FrameOptions, RenderFrame, Theme};
 pub use framing::Insets;
 pub use ground::Ground;
 pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
-pub use overlay::{Ghost, OverlayGeometry, OverlayVertex, VertexColors};
+pub use overlay::{Ghosts, OverlayGeometry, OverlayVertex, VertexColors};
 pub use pick::{Hit, pick, tex_coord_at};
 pub use ray::Ray;
 pub use skin_colors::{LegendStop, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};

@@ -55,11 +55,11 @@ pub struct VertexColors<'a> {
     pub revision: u64,
 }
 
-/// The model in another pose, as a veil of one colour.
-#[derive(Clone, Copy, Debug)]
-pub struct Ghost<'a> {
-    /// Its joint matrices.
-    pub palette: &'a crate::anim::Palette,
-    /// sRGB, straight alpha.
-    pub color_srgb: [u8; 4],
+/// The model in other poses, each a veil of one colour.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ghosts<'a> {
+    /// Joint matrices of each.
+    pub palettes: &'a [crate::anim::Palette],
+    /// sRGB, straight alpha; as many as palettes.
+    pub colors_srgb: &'a [[u8; 4]],
 }

@@ -2,7 +2,7 @@
 
 use super::pose::OnShow;
 use super::{Command, Effect, Look, Session};
-use crate::anim::LoopMode;
+use crate::anim::{GhostPlan, LoopMode};
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Camera, Passes, Projection, Theme};
 
@@ -149,6 +149,8 @@ impl Session {
             Command::ToggleBindPose => self.set_bind_share(if self.bind_share < 0.5 { 1.0 } else { 0.0 }),
             Command::EditMaterial { index, material } => self.materials.edit(index, &material),
             Command::ResetMaterial(material) => self.reset_material(material),
+            Command::SetGhosts(plan) => self.overlaid.set_ghosts(plan),
+            Command::SetBindGhost(visible) => self.overlaid.set_bind_ghost(visible),
             Command::Look(command) => self.look.apply(command),
             Command::SetPass(pass, choice) => self.quality.choose(pass, choice),
             Command::SetTheme(theme) => self.theme = theme,
@@ -164,6 +166,7 @@ impl Session {
             materials: self.materials.revision(),
             subsets: self.subsets.drawn_revision(),
             joints: self.joints.drawn_revision(),
+            ghosts: (self.ghost_plan(), self.bind_ghost()),
             pose: self.on_show(),
             camera: self.camera,
             handedness: self.handedness(),
@@ -184,6 +187,7 @@ struct Shown {
     materials: u64,
     subsets: u64,
     joints: u64,
+    ghosts: (Option<GhostPlan>, bool),
     pose: OnShow,
     camera: Camera,
     handedness: Handedness,

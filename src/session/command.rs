@@ -7,7 +7,7 @@ use super::joints::JointCommand;
 use super::look::LookCommand;
 use super::quality::PassChoice;
 use super::subsets::SubsetCommand;
-use crate::anim::{Direction, LoopMode, WrapMode};
+use crate::anim::{Direction, GhostPlan, LoopMode, WrapMode};
 use crate::model::{Handedness, JointIndex, Material, UpAxis};
 use crate::scene::{Insets, Pass, Theme, ViewPreset};
 
@@ -182,6 +182,10 @@ pub enum Command {
     },
     /// Draws a material as the file has it.
     ResetMaterial(usize),
+    /// Shows poses before and after that of now as veils, or none.
+    SetGhosts(Option<GhostPlan>),
+    /// Shows the bind pose as a veil, or not.
+    SetBindGhost(bool),
     /// Light, view mode, background, lines.
     Look(LookCommand),
     /// Whether a costly pass is drawn.

@@ -170,10 +170,13 @@ impl Joints {
         self.drawn_revision
     }
 
-    fn names_mut(&mut self) -> &mut JointNames {
-        self.names_revision += 1;
-        self.drawn_revision += 1;
-        &mut self.names
+    fn change_names(&mut self, change: impl FnOnce(&mut JointNames)) {
+        let before = self.names.clone();
+        change(&mut self.names);
+        if self.names != before {
+            self.names_revision += 1;
+            self.drawn_revision += 1;
+        }
     }
 
     fn has(&self, joint: JointIndex) -> bool {
@@ -375,17 +378,20 @@ impl Session {
             JointCommand::SetAllFolded(folded) => self.joints.folded.fill(folded),
             JointCommand::Rename { joint, name } => self.rename_joint(joint, &name),
             JointCommand::AcceptMirrorNames => {
-                for (bone, name) in self.proposed_names() {
-                    self.joints.names_mut().set(bone as u32, &name);
-                }
+                let proposed = self.proposed_names();
+                self.joints.change_names(|names| {
+                    for (bone, name) in proposed {
+                        names.set(bone as u32, &name);
+                    }
+                });
             }
             JointCommand::ImportNames(saved) => {
                 let skeleton = self.open.as_ref().map(|open| &open.model.skeleton);
-                if let Some(names) = skeleton.and_then(|skeleton| JointNames::from_saved(&saved, skeleton)) {
-                    *self.joints.names_mut() = names;
+                if let Some(kept) = skeleton.and_then(|skeleton| JointNames::from_saved(&saved, skeleton)) {
+                    self.joints.change_names(|names| *names = kept);
                 }
             }
-            JointCommand::ClearNames => *self.joints.names_mut() = JointNames::default(),
+            JointCommand::ClearNames => self.joints.change_names(|names| *names = JointNames::default()),
             JointCommand::SetBoneStyle(style) => self.joints.show(style, |joints| &mut joints.bone_style),
             JointCommand::SetBonesVisible(visible) => self.joints.show(visible, |joints| &mut joints.bones_visible),
             JointCommand::SetLabelsVisible(visible) => self.joints.show(visible, |joints| &mut joints.labels_visible),
@@ -398,7 +404,7 @@ impl Session {
     fn rename_joint(&mut self, joint: JointIndex, name: &str) {
         let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
         if let Some(&bone) = bones.and_then(|bones| bones.get(joint.index())) {
-            self.joints.names_mut().set(bone, name);
+            self.joints.change_names(|names| names.set(bone, name));
         }
     }
 }

@@ -15,6 +15,7 @@ mod materials;
 mod mixing;
 mod motion;
 mod opening;
+mod overlaid;
 mod picking;
 mod playing;
 mod pose;
@@ -44,6 +45,7 @@ use glam::Affine3A;
 use materials::Materials;
 use mixing::Mix;
 use motion::Motion;
+use overlaid::Overlaid;
 use picking::Picker;
 use pose::OnShow;
 use skeleton_view::SkeletonView;
@@ -79,6 +81,7 @@ pub struct Session {
 
     picker: Picker,
     skeleton_view: SkeletonView,
+    overlaid: Overlaid,
 
     camera: Camera,
     motion: Motion,
@@ -255,6 +258,7 @@ impl Session {
         let world_from_model = self.world_from_model();
         let world_bounds = self.world_bounds();
         self.pose_now();
+        self.fill_overlaid();
         let options = self.frame_options();
         RenderFrame {
             camera: self.camera,
@@ -263,9 +267,9 @@ impl Session {
             palette: &self.pose.palette,
             hidden_submeshes: self.subsets.left_out(),
             highlighted_submesh: self.subsets.highlighted(),
-            vertex_colors: None,
-            ghosts: &[],
-            over_model: None,
+            vertex_colors: self.overlaid.vertex_colors(),
+            ghosts: self.overlaid.ghosts(),
+            over_model: Some(self.overlaid.geometry()),
             options,
         }
     }

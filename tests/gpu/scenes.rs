@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
-use bindpose::scene::{Aabb, Camera, FrameOptions, Overlay, Overlays, Projection, RenderFrame, Theme};
+use bindpose::scene::{Aabb, Camera, FrameOptions, Ghosts, Overlay, Overlays, Projection, RenderFrame, Theme};
 use glam::{Affine3A, Quat, Vec2, Vec3};
 
 /// All that a frame needs.
@@ -77,7 +77,7 @@ impl Scene {
             hidden_submeshes: &self.hidden,
             highlighted_submesh: self.highlighted,
             vertex_colors: None,
-            ghosts: &[],
+            ghosts: Ghosts::default(),
             over_model: None,
             options: self.options,
         }

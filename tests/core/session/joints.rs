@@ -117,6 +117,11 @@ fn the_picture_is_another_one_exactly_when_what_stands_out_or_is_shown_changed()
     assert!(changes(SetLabelsVisible(true)) && !changes(SetLabelsVisible(true)));
     assert!(changes(SetSkinView(Some(SkinView::Stretch))) && !changes(SetSkinView(Some(SkinView::Stretch))));
     assert!(changes(ToggleTrail(JointIndex(1))) && changes(ClearTrails) && !changes(ClearTrails));
+    let named = || Rename {
+        joint: JointIndex(1),
+        name: "arm".to_owned(),
+    };
+    assert!(changes(named()) && !changes(named()) && changes(ClearNames) && !changes(ClearNames));
     assert!(!changes(SetAllFolded(true)), "the tree is beside the picture");
 }
 
