@@ -25,7 +25,6 @@ mod textures;
 pub mod theme;
 mod thumbnails;
 mod timeline;
-mod timeline_bar;
 mod title_bar;
 mod toolbar;
 mod view_modes;
@@ -59,7 +58,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     }
 
     commands.push(set_theme(ui));
-    commands.push(set_viewport(ui, session, window, narrow));
+    commands.push(set_viewport(ui, session, state, window, narrow));
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
@@ -102,9 +101,9 @@ fn set_theme(ui: &Ui) -> Command {
 }
 
 /// What the panels leave free is where the model is framed.
-fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Command {
+fn set_viewport(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> Command {
     let top = (bar_height(ui) + MARGIN) / window.height();
-    let bottom = timeline::covered_height(ui, session, narrow) / window.height();
+    let bottom = timeline::covered_height(ui, session, &state.timeline, narrow) / window.height();
     let left = if narrow {
         0.0
     } else {
@@ -113,7 +112,7 @@ fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Comma
     let insets = Insets {
         left,
         top: top.clamp(0.0, 0.3),
-        bottom: bottom.clamp(0.0, 0.4),
+        bottom: bottom.clamp(0.0, 0.6),
         ..Insets::default()
     };
     Command::SetViewport {

@@ -34,3 +34,22 @@ pub(super) fn show(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce
 pub(super) fn gap(ui: &mut Ui) {
     rule(ui, POPOVER_MARGIN);
 }
+
+/// Hangs over a button at the window's lower edge.
+pub(super) fn show_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
+    let tokens = Tokens::of(ui);
+    let window = ui.ctx().content_rect();
+    let gap = MARGIN + 4.0;
+    let room = button.rect.min.y - gap - window.min.y - MARGIN - 2.0 * POPOVER_MARGIN;
+    let width = width.min(window.width() - 2.0 * (MARGIN + POPOVER_MARGIN + 1.0));
+    Popup::from_toggle_button_response(button)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .align(RectAlign::TOP_START)
+        .align_alternatives(&[RectAlign::TOP_END, RectAlign::TOP])
+        .gap(gap)
+        .frame(theme::panel_frame(&tokens).inner_margin(POPOVER_MARGIN))
+        .show(|ui| {
+            ui.set_width(width);
+            scrolled("popover", room.max(120.0)).show(ui, contents);
+        });
+}

@@ -21,7 +21,7 @@ function copyOfSample(...parts) {
 test("a dropped file opens, and the page says before release what it will do", {}, async (page) => {
   const { path } = copyOfSample("hero.m3d");
   const look = async () => {
-    assert.match(await page.innerText("#drop-overlay"), /^Drop to open\s+1 item · figure\.m3d stays until it is read$/);
+    assert.match(await page.innerText("#drop-overlay"), /^Drop to open\s+1 item · figure\.m3d stays until it is read · Shift adds its clips$/);
     await keep(page, "drop-overlay");
   };
   const { outcome, model, error } = await dropAndWait(page, [path], { look });
