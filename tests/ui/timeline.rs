@@ -89,13 +89,13 @@ fn the_clip_menu_lists_all_clips_and_shows_one() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
         window.click("Clip Bend");
         for item in [
-            "Bend, 1.00 s · 62 keys · 30 a second · a.m3d",
-            "Turn, 2.00 s · 122 keys · 30 a second · a.m3d",
-            "Still, 0.00 s · 2 keys · 30 a second · a.m3d",
+            "Bend, 0.00–1.00 s · 62 keys · 30 a second · a.m3d",
+            "Turn, 0.50–2.50 s · 122 keys · 30 a second · a.m3d",
+            "Still, 0.25–0.25 s · 2 keys · 30 a second · a.m3d",
         ] {
             assert!(window.shows(item), "{item}");
         }
-        window.click("Turn, 2.00 s");
+        window.click("Turn, 0.50");
         assert_eq!(window.session().clip_index(), Some(1));
         assert!(
             window.shows("Clip Turn") && window.named(|name| name.starts_with("Turn, ")).is_empty(),

@@ -82,8 +82,9 @@ fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, com
     }
     focus_ring(ui, rect, &response);
     let facts = format!(
-        "{:.2} s · {} · {} a second · {}",
-        clip.end_secs - clip.start_secs,
+        "{:.2}–{:.2} s · {} · {} a second · {}",
+        clip.start_secs,
+        clip.end_secs,
         counted(clip.key_count, "key"),
         trimmed(clip.keys_per_sec),
         clip.file_name,

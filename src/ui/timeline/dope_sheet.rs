@@ -24,8 +24,10 @@ const REACH: f32 = 6.0;
 const TOUCH_REACH: f32 = 16.0;
 /// Room that a branch begins further to the right than its parent.
 const INDENT: f32 = 11.0;
+/// A column of names slimmer than this has little room for a tree.
+const SLIM_NAMES: f32 = 150.0;
 /// Opacity of the tint of the row that moves most.
-const MOST_TINT: f32 = 0.2;
+const MOST_TINT: f32 = 0.17;
 
 /// What the rows have in common.
 struct Sheet<'a> {
@@ -136,7 +138,7 @@ impl Sheet<'_> {
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
         let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
-        let tint = MOST_TINT * activity.share.sqrt();
+        let tint = MOST_TINT * activity.share;
         if tint > 0.0 {
             ui.painter()
                 .rect_filled(time_rect, 0.0, tokens.warning.gamma_multiply(tint));
@@ -168,8 +170,10 @@ impl Sheet<'_> {
             state.select((!selected).then_some(row.joint));
         }
 
-        let deepest = 0.4 * rect.width();
-        let left = rect.min.x + 4.0 + (row.depth as f32 * INDENT).min(deepest);
+        // Deep joints of a slim column keep room for their names.
+        let slim = rect.width() < SLIM_NAMES;
+        let (indent, deepest) = if slim { (0.5 * INDENT, 0.2) } else { (INDENT, 0.4) };
+        let left = rect.min.x + 4.0 + (row.depth as f32 * indent).min(deepest * rect.width());
         let chevron_width = if state.arrangement.by_motion { 4.0 } else { 16.0 };
         let mut right = rect.max.x - 6.0;
         if row.folded {
@@ -200,7 +204,8 @@ impl Sheet<'_> {
     fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, state: &mut TimelineState) {
         let tokens = Tokens::of(ui);
         let target = if is_touch(ui) {
-            Rect::from_x_y_ranges(place.center().x - 22.0..=place.center().x + 22.0, place.y_range())
+            let right = place.max.x.max(self.area.min.x + 44.0);
+            Rect::from_x_y_ranges(self.area.min.x..=right, place.y_range())
         } else {
             place
         };

@@ -11,7 +11,7 @@ use crate::anim::{LoopMode, WrapMode};
 use crate::session::{Command, SPEEDS, Session};
 
 /// Width of the popover.
-pub(super) const WIDTH: f32 = 268.0;
+pub(super) const WIDTH: f32 = 300.0;
 /// Speeds in a row.
 const IN_A_ROW: usize = 5;
 const FIELD_WIDTH: f32 = 78.0;

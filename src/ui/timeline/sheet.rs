@@ -132,6 +132,6 @@ pub(super) fn segmented_of_width<T: Copy + PartialEq>(
 
 /// Where names end and time begins.
 pub(super) fn split_x(area: Rect) -> f32 {
-    let names = if area.width() < 600.0 { 104.0 } else { 196.0 };
+    let names = if area.width() < 600.0 { 124.0 } else { 196.0 };
     area.min.x + names
 }
