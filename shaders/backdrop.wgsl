@@ -40,6 +40,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     if frame.background == 1u {
         color = sky_color(normalize(ray));
     }
+    let behind = color;
     let along = (frame.ground_height - eye.y) / ray.y;
     if ray.y != 0.0 && along > 0.0 {
         let point = eye + ray * along;
@@ -74,6 +75,10 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             color = mix(color, frame.grid_minor.rgb, minor * strength);
             color = mix(color, frame.grid_major.rgb, major * strength);
         }
+    }
+    // One colour that was asked for is not dithered but given.
+    if frame.background == 2u && all(color == behind) {
+        return vec4<f32>(behind, 1.0);
     }
     return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), view.clip.xy), 1.0);
 }

@@ -90,9 +90,9 @@ fn tangent_skinned(
     return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
 }
 
-// Lines that stand in the world already.
+// What stands in the world already.
 @vertex
-fn world_line(@location(0) position: vec3<f32>, @location(1) color_srgb: vec4<f32>) -> LineVertex {
+fn world_vertex(@location(0) position: vec3<f32>, @location(1) color_srgb: vec4<f32>) -> LineVertex {
     return line_vertex(position, color_srgb);
 }
 

@@ -4,6 +4,7 @@
 
 const SLICES: i32 = 3;
 const STEPS: i32 = 5;
+const DEEPENING: f32 = 1.6;
 const HALF_PI: f32 = 1.5707963;
 // Farther pixels cost more than they show.
 const MAX_REACH_PIXELS: f32 = 128.0;
@@ -75,5 +76,6 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
-    return vec4<f32>(clamp(open / f32(SLICES), 0.0, 1.0));
+    // Occluders farther than the radius are not seen: what is found is deepened for them.
+    return vec4<f32>(pow(clamp(open / f32(SLICES), 0.0, 1.0), DEEPENING));
 }

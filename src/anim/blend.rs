@@ -12,8 +12,7 @@ use crate::model::JointLanes;
 /// along the shorter arc at even speed, whatever the signs of the quaternions. `share` is that of `to`, clamped to 0…1; at
 /// its ends `out` is one of the poses. NaN is 0. Joints that one pose lacks are left out.
 pub fn blend(from: &LocalPose, to: &LocalPose, share: f32, out: &mut LocalPose) {
-    // The bounds in this order turn NaN into 0.
-    let share = share.max(0.0).min(1.0);
+    let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
     out.resize(from.joint_count().min(to.joint_count()));
     for (out, (from, to)) in out.groups.iter_mut().zip(from.groups.iter().zip(&to.groups)) {
         *out = blend_lanes(from, to, share);

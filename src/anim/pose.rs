@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{local_to_model, palette, sample};
+use super::{blend_to_rest, local_to_model, palette, sample};
 use crate::model::{Clip, JointLanes, LocalJoint, Skeleton};
 
 /// Each joint relative to its parent: `parent_from_joint`, kept in parts, four joints side by side.
@@ -84,6 +84,24 @@ impl PoseBuffers {
     pub fn place(&mut self, skeleton: &Skeleton) {
         local_to_model(skeleton, &self.local, &mut self.model);
         palette(skeleton, &self.model, &mut self.palette);
+    }
+
+    /// The pose of a clip at a time, brought `bind_share` of the way to the bind pose; see
+    /// [`PoseBuffers::bring_toward_bind`].
+    pub fn evaluate_toward_bind(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32, bind_share: f32) {
+        self.evaluate(skeleton, clip, time_secs);
+        self.bring_toward_bind(skeleton, bind_share);
+    }
+
+    /// Brings the pose `bind_share` of the way to the bind pose; see [`blend_to_rest`]. From 1 on it is
+    /// the bind pose of [`PoseBuffers::set_bind_pose`], with the shear that rest has no part for.
+    pub fn bring_toward_bind(&mut self, skeleton: &Skeleton, bind_share: f32) {
+        if bind_share >= 1.0 {
+            self.set_bind_pose(skeleton);
+        } else if bind_share > 0.0 {
+            blend_to_rest(skeleton, bind_share, &mut self.local);
+            self.place(skeleton);
+        }
     }
 
     /// The pose in which the mesh was skinned. Its palette is the identity by meaning, so it is set and not computed.

@@ -17,7 +17,7 @@ const BOOK_HEIGHT: f32 = 3.6;
 /// A flat model is as large as a figure of this share of its diagonal.
 const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// How far occluders reach under the studio light, in units of the books' demo.
-const STUDIO_OCCLUSION_RADIUS: f32 = 0.42;
+const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
 /// What a frame uniform depends on beside the frame.
 #[derive(Clone, Copy, Debug)]

@@ -10,6 +10,7 @@ use super::materials::{GpuMaterials, MaterialImages};
 use super::pipelines::{Cut, Draw, ModelDraw, Pipelines};
 use super::upload::{UploadError, Uploader};
 use crate::model::{Material, Mesh, Model};
+use crate::scene::VertexColors;
 use crate::shaders;
 
 /// How a model is drawn in a pass.
@@ -43,6 +44,8 @@ pub(super) struct GpuModel {
     /// The indices again, for edges.
     triangles: Vec<u32>,
     edges: OnceCell<Edges>,
+    vertex_count: usize,
+    colors: Option<(u64, wgpu::Buffer)>,
     /// Not there for a static model.
     pub(super) bones: Option<BoneTexture>,
     /// +1 when triangles are clockwise from the side their normals point to (left-handed view), else −1.
@@ -91,9 +94,11 @@ impl GpuModel {
             )?,
             index_count: mesh.indices.len() as u32,
             materials,
-            ranges: draw_ranges(mesh),
+            ranges: draw_ranges(mesh, model.materials.len()),
             triangles: mesh.indices.clone(),
             edges: OnceCell::new(),
+            vertex_count: mesh.vertex_count(),
+            colors: None,
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
             winding: winding(mesh),
         })
@@ -113,6 +118,28 @@ impl GpuModel {
     /// Takes other values for the materials; their maps stay.
     pub(super) fn set_materials(&mut self, queue: &wgpu::Queue, materials: &[Material]) {
         self.materials.set_values(queue, materials);
+    }
+
+    /// Takes up colours of the vertices, if they are others than those it has.
+    pub(super) fn set_colors(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, colors: &VertexColors<'_>) {
+        if self
+            .colors
+            .as_ref()
+            .is_some_and(|(revision, _)| *revision == colors.revision)
+        {
+            return;
+        }
+        let buffer = self.colors.take().map(|(_, buffer)| buffer).unwrap_or_else(|| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("vertex colours"),
+                size: (self.vertex_count.max(1) * size_of::<[u8; 4]>()) as u64,
+                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        });
+        let given = &colors.colors_srgb[..colors.colors_srgb.len().min(self.vertex_count)];
+        queue.write_buffer(&buffer, 0, bytemuck::cast_slice(given));
+        self.colors = Some((colors.revision, buffer));
     }
 
     /// Every submesh in view with its material; `draw` says what to draw where alpha cuts in a way. Group 0 is set, and group 2
@@ -222,6 +249,9 @@ impl GpuModel {
         if let (true, Some(influences)) = (skinned, &self.influences) {
             pass.set_vertex_buffer(1, influences.slice(..));
         }
+        if let (ModelDraw::SkinView(_), Some((_, colors))) = (draw, &self.colors) {
+            pass.set_vertex_buffer(2, colors.slice(..));
+        }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 }
@@ -239,10 +269,11 @@ fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
     }
 }
 
-fn draw_ranges(mesh: &Mesh) -> Vec<DrawRange> {
+/// What has no material is not drawn.
+fn draw_ranges(mesh: &Mesh, material_count: usize) -> Vec<DrawRange> {
     let submeshes = mesh.submeshes.iter().enumerate();
     submeshes
-        .filter(|(_, submesh)| submesh.triangle_count > 0)
+        .filter(|(_, submesh)| submesh.triangle_count > 0 && (submesh.material as usize) < material_count)
         .map(|(index, submesh)| {
             let indices = submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3;
             let used = &mesh.indices[indices.start as usize..indices.end as usize];

@@ -16,6 +16,7 @@ pub mod device;
 mod edges;
 mod environment;
 mod frame_uniform;
+mod ghosts;
 mod gpu_model;
 mod layouts;
 mod look;
@@ -32,6 +33,7 @@ mod stage;
 mod surroundings;
 mod target;
 mod upload;
+mod world_shapes;
 
 pub use bones::BoneTexture;
 pub use composite::Compositor;
@@ -45,12 +47,14 @@ use crate::image::Image;
 use crate::model::{Material, Model};
 use crate::scene::{Background, Light, RenderFrame, ViewMode};
 use environment::Environments;
+use ghosts::Ghosts;
 use gpu_model::{GpuModel, Posed};
 use map::one_texel;
 use overlay::Overlays;
 use pipelines::{Cut, Draw, ModelDraw, Pipelines, Shading};
 use stage::{Common, Stage};
 use surroundings::Samplers;
+use world_shapes::WorldShapes;
 
 /// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
 pub struct Renderer {
@@ -58,6 +62,8 @@ pub struct Renderer {
     /// The lights that were shown so far.
     stages: Vec<Stage>,
     overlays: Overlays,
+    world_shapes: WorldShapes,
+    ghosts: Ghosts,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
     model: Option<GpuModel>,
@@ -83,6 +89,8 @@ impl Renderer {
         Self {
             stages: Vec::new(),
             overlays: Overlays::new(device, &pipelines.layouts),
+            world_shapes: WorldShapes::new(device),
+            ghosts: Ghosts::default(),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
             common: Common {
                 device: device.clone(),
@@ -155,7 +163,18 @@ impl Renderer {
             bones.write(&self.common.queue, frame.palette);
         }
         self.common.environments.write(&self.common.queue, frame);
-        self.overlays.write(&self.common.queue, frame);
+        let Common {
+            device,
+            queue,
+            pipelines,
+            ..
+        } = &self.common;
+        if let (Some(model), Some(colors)) = (&mut self.model, &frame.vertex_colors) {
+            model.set_colors(device, queue, colors);
+        }
+        self.overlays.write(queue, frame);
+        self.world_shapes.write(device, queue, frame);
+        self.ghosts.write(device, queue, pipelines, frame);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.stages.iter().all(|stage| stage.light() != *light) {
@@ -194,22 +213,34 @@ impl Renderer {
             ..
         } = &self.common;
         let mut pass = target.begin_pass(encoder);
-        for (light, columns) in parts {
+        let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
             let stage = self.stages.iter().find(|stage| stage.light() == *light);
             let Some((stage, surroundings)) = stage.and_then(|stage| Some((stage, stage.surroundings()?))) else {
-                continue;
+                return false;
             };
             pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
             pass.set_bind_group(0, stage.frame_group(), &[]);
             pass.set_bind_group(2, surroundings, &[]);
-            if options.background != Background::None {
-                pass.set_pipeline(&pipelines.get(Draw::Backdrop));
-                pass.set_bind_group(1, nothing, &[]);
-                pass.draw(0..3, 0..1);
+            true
+        };
+        // First all that is behind, from the right: Mesa's software rasteriser fills a column too many at the left of a scissor
+        // rectangle, and would wipe the model out there.
+        if options.background != Background::None {
+            for part in parts.iter().rev() {
+                if begin_part(&mut pass, part) {
+                    pass.set_pipeline(&pipelines.get(Draw::Backdrop));
+                    pass.set_bind_group(1, nothing, &[]);
+                    pass.draw(0..3, 0..1);
+                }
+            }
+        }
+        for part in parts {
+            if !begin_part(&mut pass, part) {
+                continue;
             }
             if let Some((model, posed)) = model {
                 let shading = match options.view_mode {
-                    ViewMode::Lit => Shading::Lit(*light),
+                    ViewMode::Lit => Shading::Lit(part.0),
                     _ => Shading::Inspect,
                 };
                 // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
@@ -217,11 +248,18 @@ impl Renderer {
                     Background::None => Cut::Hard,
                     _ => Cut::Smooth,
                 };
-                model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                if frame.vertex_colors.is_some() {
+                    pass.set_bind_group(2, nothing, &[]);
+                    model.draw(&mut pass, posed, Cut::Hard, ModelDraw::SkinView);
+                } else {
+                    model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                }
                 pass.set_bind_group(2, nothing, &[]);
+                self.ghosts.draw(&mut pass, model, posed);
                 self.overlays.draw_model(device, &mut pass, frame, model, posed);
             }
-            self.overlays.draw_world(&mut pass, pipelines, nothing);
+            self.world_shapes
+                .draw(&mut pass, pipelines, nothing, self.overlays.any_line(), target.size());
         }
         // GL resolves the samples by a copy, which the scissor would cut.
         let [width, height] = target.size();

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 
 use super::layouts::Layouts;
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount};
-use crate::scene::Light;
-use crate::shaders::{self, GeometryVertex, InfluenceVertex, LineVertex, Program};
+use crate::scene::{Light, OverlayVertex};
+use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
 
 /// Normals and depth in view; see `geometry.wgsl`.
 pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -36,6 +36,8 @@ pub(super) enum Cut {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ModelDraw {
     Mesh(Shading, Cut),
+    /// In colours of its vertices.
+    SkinView(Cut),
     Caster(Cut),
     Geometry(Cut),
     Contact,
@@ -53,8 +55,9 @@ pub(super) enum Draw {
         skinned: bool,
     },
     Backdrop,
-    /// Hidden by what is nearer, or seen through everything.
-    WorldLines {
+    /// Hidden by the model, or before everything else.
+    World {
+        shape: WorldShape,
         through: bool,
     },
     Occlusion(Light),
@@ -62,6 +65,13 @@ pub(super) enum Draw {
     OcclusionBlurColumns,
     ContactBlurRows,
     ContactBlurColumns,
+}
+
+/// What stands in the world beside the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum WorldShape {
+    Lines,
+    Triangles,
 }
 
 pub(super) struct Pipelines {
@@ -75,7 +85,8 @@ pub(super) struct Pipelines {
 const GEOMETRY: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
-const LINE_ENDS: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x4];
+const WORLD_VERTEX: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
+const VERTEX_COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Unorm8x4];
 
 /// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal.
 const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
@@ -161,10 +172,15 @@ impl Pipelines {
         };
         let geometry = buffer(size_of::<GeometryVertex>(), &GEOMETRY);
         let influences = buffer(size_of::<InfluenceVertex>(), &INFLUENCES);
+        let colors = buffer(size_of::<[u8; 4]>(), &VERTEX_COLOR);
         let buffers = match draw {
+            Draw::Model {
+                draw: ModelDraw::SkinView(_),
+                skinned,
+            } => vec![geometry, influences.filter(|_| skinned), colors],
             Draw::Model { skinned: true, .. } => vec![geometry, influences],
             Draw::Model { skinned: false, .. } => vec![geometry],
-            Draw::WorldLines { .. } => vec![buffer(size_of::<LineVertex>(), &LINE_ENDS)],
+            Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), &WORLD_VERTEX)],
             _ => Vec::new(),
         };
         let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
@@ -215,13 +231,15 @@ impl Pipelines {
             Draw::Model { draw, .. } => match draw {
                 ModelDraw::Mesh(..) => vec![frame, bones, surroundings, material],
                 ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact => vec![frame, bones],
-                ModelDraw::Caster(_) | ModelDraw::Geometry(_) => vec![frame, bones, nothing, material],
+                ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::SkinView(_) => {
+                    vec![frame, bones, nothing, material]
+                }
                 ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents | ModelDraw::Highlight => {
                     vec![frame, bones, nothing, line]
                 }
             },
             Draw::Backdrop => vec![frame, nothing, surroundings],
-            Draw::WorldLines { .. } => vec![frame, nothing, nothing, line],
+            Draw::World { .. } => vec![frame, nothing, nothing, line],
             Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, around],
             Draw::ContactBlurRows | Draw::ContactBlurColumns => vec![texels],
         }
@@ -247,18 +265,18 @@ impl Pipelines {
                 samples: self.samples.count(),
                 ..fullscreen(shaders::BACKDROP, "fragment")
             },
-            Draw::WorldLines { through } => Recipe {
-                vertex: "world_line".into(),
-                depth: Some(depth(
-                    false,
-                    if through {
-                        wgpu::CompareFunction::Always
-                    } else {
-                        wgpu::CompareFunction::LessEqual
-                    },
-                )),
-                ..self.over_model(shaders::LINES, wgpu::PrimitiveTopology::LineList)
-            },
+            Draw::World { shape, through } => {
+                let topology = match shape {
+                    WorldShape::Lines => wgpu::PrimitiveTopology::LineList,
+                    WorldShape::Triangles => wgpu::PrimitiveTopology::TriangleList,
+                };
+                Recipe {
+                    vertex: "world_vertex".into(),
+                    // Before everything else there is a depth of its own, in which shapes hide each other.
+                    depth: Some(depth(through, wgpu::CompareFunction::LessEqual)),
+                    ..self.over_model(shaders::LINES, topology)
+                }
+            }
             Draw::Occlusion(Light::Book) => fullscreen(shaders::OCCLUSION_BOOK, "fragment"),
             Draw::Occlusion(Light::Studio) => fullscreen(shaders::OCCLUSION_STUDIO, "fragment"),
             Draw::OcclusionBlurRows => fullscreen(shaders::OCCLUSION_BLUR, "fragment_rows"),
@@ -325,6 +343,18 @@ impl Pipelines {
                     Cut::Hard | Cut::Smooth => "fragment_cut",
                 };
                 solid(shaders::MESH_GEOMETRY, Some(fragment), Some(GEOMETRY_FORMAT.into()), 1)
+            }
+            ModelDraw::SkinView(cut) => {
+                let fragment = match cut {
+                    Cut::Whole => "fragment",
+                    Cut::Hard | Cut::Smooth => "fragment_cut",
+                };
+                solid(
+                    shaders::SKIN_VIEW,
+                    Some(fragment),
+                    Some(COLOR_FORMAT.into()),
+                    self.samples.count(),
+                )
             }
             ModelDraw::Contact => {
                 let color = wgpu::ColorTargetState {

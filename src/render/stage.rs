@@ -8,7 +8,7 @@ use super::occlusion::Occlusion;
 use super::pipelines::Pipelines;
 use super::shadow::ShadowMap;
 use super::surroundings::{Samplers, Surroundings};
-use crate::scene::{Background, Light, Pass, RenderFrame, ViewMode};
+use crate::scene::{Light, Pass, RenderFrame, ViewMode};
 use crate::shaders;
 
 /// What all stages use.
@@ -49,9 +49,8 @@ impl Needed {
     fn by(frame: &RenderFrame<'_>, light: Light) -> Self {
         let options = &frame.options;
         let lit = options.view_mode == ViewMode::Lit;
-        let on_ground = lit && options.background != Background::None;
         Self {
-            shadow: options.passes.has(Pass::Shadow) && (lit || on_ground || options.view_mode == ViewMode::Shadow),
+            shadow: options.passes.has(Pass::Shadow) && (lit || options.view_mode == ViewMode::Shadow),
             occlusion: options.passes.has(Pass::AmbientOcclusion)
                 && (lit || options.view_mode == ViewMode::AmbientOcclusion),
             contact: has_contact_shadow(frame, light),

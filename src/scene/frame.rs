@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{Aabb, Background, Camera, Light, Overlays, Passes, ViewMode};
+use super::{Aabb, Background, Camera, Ghosts, Light, OverlayGeometry, Overlays, Passes, VertexColors, ViewMode};
 use crate::anim::Palette;
 
 /// Dark or light surroundings.
@@ -59,6 +59,12 @@ pub struct RenderFrame<'a> {
     pub hidden_submeshes: &'a [bool],
     /// A submesh that stands out.
     pub highlighted_submesh: Option<usize>,
+    /// Colours that are shown instead of the view mode's.
+    pub vertex_colors: Option<VertexColors<'a>>,
+    /// Poses beside that of now.
+    pub ghosts: Ghosts<'a>,
+    /// Lines and triangles that are seen through the model; none where there is nothing.
+    pub over_model: Option<&'a OverlayGeometry>,
     /// What is drawn beside the model and how.
     pub options: FrameOptions,
 }

@@ -281,7 +281,7 @@ pub enum Pass {
     AmbientOcclusion,
     /// The soft dark where the model is near the ground.
     ContactShadow,
-    /// Light from the surroundings by its directions; without it, one light for all directions.
+    /// The surroundings as they are mirrored; without them, one mean light is.
     Environment,
 }
 

@@ -1,23 +1,33 @@
 //! What is looked at, and from where: plain data for a renderer.
 
+mod bone_picking;
+mod bone_shapes;
+mod bones;
 mod camera;
 mod flight;
 mod frame;
 mod framing;
 mod ground;
 mod look;
+mod overlay;
 mod pick;
 mod ray;
+mod skin_colors;
 mod tint;
 mod view_preset;
 
 pub use crate::model::Aabb;
+pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
+pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones};
+pub use bones::{Bone, Bones};
 pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Projection};
 pub use frame::{FrameOptions, RenderFrame, Theme};
 pub use framing::Insets;
 pub use ground::Ground;
 pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
+pub use overlay::{Ghosts, OverlayGeometry, OverlayVertex, VertexColors};
 pub use pick::{Hit, pick, tex_coord_at};
 pub use ray::Ray;
+pub use skin_colors::{LegendStop, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear, stand_in_color};
 pub use view_preset::ViewPreset;

@@ -1,7 +1,8 @@
 //! The one place where things change.
 
-use super::{Command, Effect, Look, PoseKey, Session};
-use crate::anim::LoopMode;
+use super::pose::OnShow;
+use super::{Command, Effect, Look, Session};
+use crate::anim::{GhostPlan, LoopMode};
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Camera, Passes, Projection, Theme};
 
@@ -143,8 +144,13 @@ impl Session {
                 self.change_goal(Self::frame_model);
             }
             Command::Subset(command) => self.apply_to_subsets(command),
+            Command::Joint(command) => self.apply_to_joints(command),
+            Command::SetBindShare(share) => self.set_bind_share(share),
+            Command::ToggleBindPose => self.set_bind_share(if self.bind_share < 0.5 { 1.0 } else { 0.0 }),
             Command::EditMaterial { index, material } => self.materials.edit(index, &material),
             Command::ResetMaterial(material) => self.reset_material(material),
+            Command::SetGhosts(plan) => self.overlaid.set_ghosts(plan),
+            Command::SetBindGhost(visible) => self.overlaid.set_bind_ghost(visible),
             Command::Look(command) => self.look.apply(command),
             Command::SetPass(pass, choice) => self.quality.choose(pass, choice),
             Command::SetTheme(theme) => self.theme = theme,
@@ -159,7 +165,9 @@ impl Session {
             sky: self.sky.revision(),
             materials: self.materials.revision(),
             subsets: self.subsets.drawn_revision(),
-            pose: self.pose_key(),
+            joints: self.joints.drawn_revision(),
+            ghosts: (self.ghost_plan(), self.bind_ghost()),
+            pose: self.on_show(),
             camera: self.camera,
             handedness: self.handedness(),
             up_axis: self.up_axis(),
@@ -178,7 +186,9 @@ struct Shown {
     sky: u64,
     materials: u64,
     subsets: u64,
-    pose: PoseKey,
+    joints: u64,
+    ghosts: (Option<GhostPlan>, bool),
+    pose: OnShow,
     camera: Camera,
     handedness: Handedness,
     up_axis: UpAxis,

@@ -3,10 +3,11 @@
 use glam::{Vec2, Vec3};
 
 use super::files::File;
+use super::joints::JointCommand;
 use super::look::LookCommand;
 use super::quality::PassChoice;
 use super::subsets::SubsetCommand;
-use crate::anim::{Direction, LoopMode, WrapMode};
+use crate::anim::{Direction, GhostPlan, LoopMode, WrapMode};
 use crate::model::{Handedness, JointIndex, Material, UpAxis};
 use crate::scene::{Insets, Pass, Theme, ViewPreset};
 
@@ -165,6 +166,12 @@ pub enum Command {
     SetUpAxis(Option<UpAxis>),
     /// Which subsets are drawn, selected, hovered.
     Subset(SubsetCommand),
+    /// Which joints are selected, hovered, how they are called and shown.
+    Joint(JointCommand),
+    /// Brings the pose a share of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
+    SetBindShare(f32),
+    /// The bind pose, or the clip's, in turn.
+    ToggleBindPose,
     /// Draws a material with the values of another. Its names, the names of its maps and its book stay; numbers are brought
     /// into their range.
     EditMaterial {
@@ -175,6 +182,10 @@ pub enum Command {
     },
     /// Draws a material as the file has it.
     ResetMaterial(usize),
+    /// Shows poses before and after that of now as veils, or none.
+    SetGhosts(Option<GhostPlan>),
+    /// Shows the bind pose as a veil, or not.
+    SetBindGhost(bool),
     /// Light, view mode, background, lines.
     Look(LookCommand),
     /// Whether a costly pass is drawn.
@@ -186,6 +197,12 @@ pub enum Command {
 impl From<LookCommand> for Command {
     fn from(command: LookCommand) -> Self {
         Self::Look(command)
+    }
+}
+
+impl From<JointCommand> for Command {
+    fn from(command: JointCommand) -> Self {
+        Self::Joint(command)
     }
 }
 

@@ -5,6 +5,8 @@ mod clips;
 mod command;
 mod files;
 mod joining;
+mod joint_rows;
+mod joints;
 mod load;
 mod look;
 mod looking;
@@ -13,9 +15,12 @@ mod materials;
 mod mixing;
 mod motion;
 mod opening;
+mod overlaid;
 mod picking;
 mod playing;
+mod pose;
 mod quality;
+mod skeleton_view;
 mod sky;
 mod subsets;
 mod textures;
@@ -23,12 +28,15 @@ mod textures;
 pub use clips::ClipSummary;
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
+pub use joint_rows::JointRow;
+pub use joints::{JointCommand, Joints, SelectedVertex};
 pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
 pub use materials::MAX_SPEC_POWER;
 pub use mixing::{Blend, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality};
+pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
@@ -37,7 +45,10 @@ use glam::Affine3A;
 use materials::Materials;
 use mixing::Mix;
 use motion::Motion;
+use overlaid::Overlaid;
 use picking::Picker;
+use pose::OnShow;
+use skeleton_view::SkeletonView;
 use sky::Sky;
 
 use crate::anim::{LoopMode, Playback, PoseBuffers};
@@ -56,6 +67,7 @@ pub struct Session {
     sky: Sky,
     materials: Materials,
     subsets: Subsets,
+    joints: Joints,
     error: Option<LoadError>,
 
     clip: Option<usize>,
@@ -63,10 +75,13 @@ pub struct Session {
     scrubbing: bool,
     reduced_motion: bool,
     pose: PoseBuffers,
-    posed_at: Option<PoseKey>,
+    posed: Option<OnShow>,
+    bind_share: f32,
     mix: Mix,
 
     picker: Picker,
+    skeleton_view: SkeletonView,
+    overlaid: Overlaid,
 
     camera: Camera,
     motion: Motion,
@@ -243,6 +258,7 @@ impl Session {
         let world_from_model = self.world_from_model();
         let world_bounds = self.world_bounds();
         self.pose_now();
+        self.fill_overlaid();
         let options = self.frame_options();
         RenderFrame {
             camera: self.camera,
@@ -251,28 +267,10 @@ impl Session {
             palette: &self.pose.palette,
             hidden_submeshes: self.subsets.left_out(),
             highlighted_submesh: self.subsets.highlighted(),
+            vertex_colors: self.overlaid.vertex_colors(),
+            ghosts: self.overlaid.ghosts(),
+            over_model: Some(self.overlaid.geometry()),
             options,
-        }
-    }
-
-    /// Brings the pose to the clip and the time.
-    fn pose_now(&mut self) {
-        let Some(open) = &self.open else { return };
-        let wanted = self.pose_key();
-        if self.posed_at != Some(wanted) {
-            match self.clip.and_then(|clip| open.model.clips.get(clip)) {
-                Some(clip) => self.mix.pose(open, clip, wanted.time_secs, &mut self.pose),
-                None => self.pose.set_bind_pose(&open.model.skeleton),
-            }
-            self.posed_at = Some(wanted);
-        }
-    }
-
-    fn pose_key(&self) -> PoseKey {
-        PoseKey {
-            clip: self.clip,
-            time_secs: self.playback.time_secs(),
-            mix: self.mix.revision(),
         }
     }
 
@@ -281,10 +279,15 @@ impl Session {
         model::world_from_model(self.handedness(), self.up_axis())
     }
 
-    /// Box of all that the clips in the pose reach, world space.
+    /// Box of all that the clips in the pose reach, world space; with the bind pose in it while the pose is brought there.
     pub fn world_bounds(&mut self) -> Aabb {
         let world_from_model = self.world_from_model();
-        self.reach().transformed(world_from_model)
+        let reached = self.reach();
+        let bounds = match &self.open {
+            Some(open) if self.bind_share > 0.0 => reached.union(open.bind_bounds),
+            _ => reached,
+        };
+        bounds.transformed(world_from_model)
     }
 
     fn note(&mut self, event: Event) {
@@ -292,12 +295,4 @@ impl Session {
             self.events.push(event);
         }
     }
-}
-
-/// What a pose of one model depends on: the same key, the same pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PoseKey {
-    clip: Option<usize>,
-    time_secs: f32,
-    mix: u64,
 }

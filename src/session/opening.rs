@@ -74,7 +74,7 @@ impl Session {
         let was_playing = self.playback.is_playing();
 
         self.pose = PoseBuffers::for_skeleton(&open.model.skeleton);
-        self.posed_at = None;
+        self.posed = None;
         self.mix.take_up_model();
         self.error = None;
         // The bar that was held may be gone, and nothing would let go of the time.
@@ -90,6 +90,7 @@ impl Session {
         self.maps = Maps::new(&open.model.materials, kept);
         self.maps.add(&open.model.materials, self.files.images().cloned());
         self.subsets.take_up(open.model.mesh.submeshes.len(), again);
+        self.joints.take_up(&open.model, again);
         match &self.open {
             Some(before) if again => self
                 .materials
@@ -117,6 +118,7 @@ impl Session {
             }
         } else {
             self.motion.take_up_model();
+            self.bind_share = 0.0;
             self.handedness_override = None;
             self.up_axis_override = None;
             self.clip = None;

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3};
 
-use super::{MapSlot, Maps, PoseKey, Session};
+use super::pose::OnShow;
+use super::{MapSlot, Maps, Session};
 use crate::anim;
 use crate::image::Image;
 use crate::model::Material;
@@ -14,14 +15,33 @@ use crate::scene::{Hit, pick, tex_coord_at};
 /// Buffers that are kept from pick to pick.
 #[derive(Debug, Default)]
 pub(super) struct Picker {
-    /// Model and pose of the positions.
-    posed: Option<(u64, PoseKey)>,
+    /// The pose of the positions.
+    posed: Option<OnShow>,
     positions: Vec<Vec3>,
     in_ray: Vec<Vec3>,
     cutouts: Cutouts,
 }
 
+impl Picker {
+    /// The vertices as they were posed last, model space.
+    pub(super) fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+}
+
 impl Session {
+    /// Brings the picker's vertices to the pose on show.
+    pub(super) fn pose_vertices(&mut self) {
+        self.pose_now();
+        let on_show = self.on_show();
+        if let Some(open) = &self.open
+            && self.picker.posed != Some(on_show)
+        {
+            anim::skin_positions(&open.model.mesh, &self.pose.palette, &mut self.picker.positions);
+            self.picker.posed = Some(on_show);
+        }
+    }
+
     /// What is at a point of the picture: x right, y up, −1…1. Subsets that are left out are looked through, and what alpha
     /// cuts away too. Skins the mesh once a pose.
     pub fn pick(&mut self, pointer: Vec2) -> Option<Hit> {
@@ -31,12 +51,10 @@ impl Session {
         let world_bounds = self.world_bounds();
         let ray = self.camera.ray(pointer, self.aspect, &world_bounds);
         let world_from_model = self.world_from_model();
-        self.pose_now();
-        let on_show = (self.model_revision, self.pose_key());
+        self.pose_vertices();
         self.picker.cutouts.take_up(self.maps_revision);
         let Self {
             open,
-            pose,
             picker,
             subsets,
             materials,
@@ -44,10 +62,6 @@ impl Session {
             ..
         } = self;
         let mesh = &open.as_ref()?.model.mesh;
-        if picker.posed != Some(on_show) {
-            anim::skin_positions(mesh, &pose.palette, &mut picker.positions);
-            picker.posed = Some(on_show);
-        }
         let alpha_clips = |material: usize| materials.get(material).is_some_and(|material| material.alpha_clip);
         // Before the search, which asks them in the midst of its triangles.
         for submesh in &mesh.submeshes {

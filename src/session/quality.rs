@@ -6,6 +6,9 @@ use crate::scene::{Pass, Passes};
 const SLOW_FRAME_SECS: f32 = 1.0 / 24.0;
 /// Slow frames in a row after which the costliest pass is given up. A few are forgiven: shaders compile, files load.
 const SLOW_FRAMES: u32 = 12;
+/// Nobody waits for twelve frames of a second each: so few are enough when they take as long as the next constant says.
+const LEAST_SLOW_FRAMES: u32 = 6;
+const SLOW_SECS: f32 = 1.5;
 
 /// Whether a pass is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -30,12 +33,25 @@ pub enum PassState {
     TooSlow,
 }
 
+impl PassState {
+    /// Name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drawn => "drawn",
+            Self::Off => "off",
+            Self::TooSlow => "too slow",
+        }
+    }
+}
+
 /// The passes of a session.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Quality {
     choices: [PassChoice; Pass::ALL.len()],
     given_up: Vec<Pass>,
     slow_frames: u32,
+    /// What the slow frames took together.
+    slow_secs: f32,
 }
 
 impl Quality {
@@ -72,25 +88,33 @@ impl Quality {
     pub(super) fn choose(&mut self, pass: Pass, choice: PassChoice) {
         self.choices[pass as usize] = choice;
         self.given_up.retain(|&given_up| given_up != pass);
-        self.slow_frames = 0;
+        self.forgive();
     }
 
     /// Learns how long a frame took while the picture moved. Gives up one pass at a time, and waits to see what that brought.
     pub(super) fn note_frame(&mut self, frame_secs: f32) {
         if frame_secs <= SLOW_FRAME_SECS || frame_secs.is_nan() {
-            self.slow_frames = 0;
+            self.forgive();
             return;
         }
         self.slow_frames += 1;
-        if self.slow_frames < SLOW_FRAMES {
+        self.slow_secs += frame_secs;
+        let very_slow = self.slow_frames >= LEAST_SLOW_FRAMES && self.slow_secs >= SLOW_SECS;
+        if self.slow_frames < SLOW_FRAMES && !very_slow {
             return;
         }
-        self.slow_frames = 0;
+        self.forgive();
         let costliest = Pass::ALL
             .into_iter()
             .rev()
             .find(|&pass| self.choice(pass) == PassChoice::Auto && !self.given_up.contains(&pass));
         self.given_up.extend(costliest);
+    }
+
+    /// Counts slow frames from here on.
+    fn forgive(&mut self) {
+        self.slow_frames = 0;
+        self.slow_secs = 0.0;
     }
 }
 
@@ -135,6 +159,20 @@ mod tests {
             quality.note_frame(0.01);
         }
         assert_eq!(quality.passes(), Passes::all());
+    }
+
+    #[test]
+    fn very_slow_frames_are_not_waited_for() {
+        let mut quality = Quality::default();
+        // A tab that was out of sight, then shaders that compile.
+        for secs in [60.0, 1.0, 1.0, 0.01] {
+            quality.note_frame(secs);
+        }
+        assert_eq!(quality.passes(), Passes::all());
+        for frame in 1..=2 * LEAST_SLOW_FRAMES {
+            quality.note_frame(0.5);
+            assert_eq!(quality.given_up.len() as u32, frame / LEAST_SLOW_FRAMES);
+        }
     }
 
     #[test]

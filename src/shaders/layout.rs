@@ -94,16 +94,6 @@ pub struct Veil {
     pub unused: [f32; 4],
 }
 
-/// The end of a line that stands in the world: shader locations 0 and 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-#[repr(C)]
-pub struct LineVertex {
-    /// Location 0, world space.
-    pub position: [f32; 3],
-    /// Location 1, sRGB, straight alpha.
-    pub color_srgb: [f32; 4],
-}
-
 /// What every vertex has: shader locations 0–3, bind space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]

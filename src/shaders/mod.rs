@@ -6,7 +6,7 @@
 mod layout;
 mod light_layout;
 
-pub use layout::{Frame, GeometryVertex, InfluenceVertex, Line, LineVertex, Material, Veil};
+pub use layout::{Frame, GeometryVertex, InfluenceVertex, Line, Material, Veil};
 pub use light_layout::Environment;
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
@@ -75,6 +75,7 @@ const OCCLUSION_STUDIO_WGSL: ShaderFile = shader_file!("occlusion_studio.wgsl");
 const PBR_WGSL: ShaderFile = shader_file!("pbr.wgsl");
 const STUDIO_WGSL: ShaderFile = shader_file!("studio.wgsl");
 const PROBE_WGSL: ShaderFile = shader_file!("probe.wgsl");
+const SKIN_VIEW_WGSL: ShaderFile = shader_file!("skin_view.wgsl");
 const SHADOW_WGSL: ShaderFile = shader_file!("shadow.wgsl");
 const SURFACE_WGSL: ShaderFile = shader_file!("surface.wgsl");
 const SURROUNDINGS_WGSL: ShaderFile = shader_file!("surroundings.wgsl");
@@ -150,6 +151,12 @@ pub const MESH_INSPECT: Program = Program {
         MESH_INSPECT_WGSL,
         MESH_WGSL,
     ],
+};
+
+/// The model in colours of its vertices.
+pub const SKIN_VIEW: Program = Program {
+    name: "skin-view",
+    files: &[FRAME_WGSL, SKINNING_WGSL, COLOR_WGSL, MATERIAL_WGSL, SKIN_VIEW_WGSL],
 };
 
 /// The model's depth from the first light.
@@ -264,10 +271,11 @@ pub const PROBE: Program = Program {
 };
 
 /// Every program there is.
-pub const PROGRAMS: [Program; 16] = [
+pub const PROGRAMS: [Program; 17] = [
     MESH_STUDIO,
     MESH_BOOK,
     MESH_INSPECT,
+    SKIN_VIEW,
     CASTER,
     CASTER_CUT,
     MESH_GEOMETRY,

@@ -5,7 +5,7 @@ use wasm_bindgen::JsValue;
 
 use crate::anim::LoopMode;
 use crate::diagnostic::Diagnostic;
-use crate::scene::{Aabb, Projection};
+use crate::scene::{Aabb, Overlay, Pass, Projection};
 use crate::session::{Event, OpenModel, Session};
 
 /// An object built field by field.
@@ -69,6 +69,7 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
                 .done(),
         )
         .with("gridVisible", session.grid_visible())
+        .with("look", look(session))
         .with("framesRendered", view.frames_rendered as f64)
         .with(
             "notices",
@@ -113,6 +114,28 @@ fn model(session: &Session, open: &OpenModel) -> JsValue {
         .with("materials", materials.collect::<Array>())
         .with("clips", clips.collect::<Array>())
         .with("bindBounds", bounds(&open.bind_bounds))
+        .done()
+}
+
+/// How the model is looked at, with the names that `snapshot` takes, and what became of each pass.
+fn look(session: &Session) -> JsValue {
+    let look = session.look();
+    let overlays = Overlay::ALL.into_iter().filter(|&overlay| look.overlays.has(overlay));
+    let quality = session.quality();
+    let passes = Pass::ALL.into_iter().fold(Fields::new(), |passes, pass| {
+        passes.with(pass.name(), quality.state(pass).name())
+    });
+    Fields::new()
+        .with("light", look.light.name())
+        .with("split", look.split.map_or(JsValue::NULL, JsValue::from))
+        .with("viewMode", look.view_mode.name())
+        .with("background", look.background.name())
+        .with(
+            "overlays",
+            overlays.map(|overlay| JsValue::from(overlay.name())).collect::<Array>(),
+        )
+        .with("exposure", look.exposure_stops)
+        .with("passes", passes.done())
         .done()
 }
 

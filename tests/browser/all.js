@@ -2,4 +2,8 @@
 import "./page.js";
 import "./opening.js";
 import "./playing.js";
+import "./pictures.js";
+import "./looking.js";
+import "./subsets.js";
+import "./moving.js";
 import "./lasting.js";

@@ -19,7 +19,8 @@ export const SAMPLE = path("../../web/sample/figure.m3d");
 export const FIXTURES = path("../fixtures/");
 /** Real files beside the checkout; not every machine has them. */
 export const SHARED = path("../../../shared/");
-const OUT = path("out/");
+/** Pictures for people to look at. */
+export const OUT = path("out/");
 
 // Software drawing that gives real pixels, in screenshots too. Other sets start the page but leave it blank.
 const GPU_FLAGS = {
@@ -166,72 +167,17 @@ export async function dropAndWait(page, paths, options) {
   return { outcome, ...(await state(page)) };
 }
 
-/** A picture of the view without the interface: its PNG as a hex digest, and its pixels' statistics. */
-export function picture(page, { width = 320, height = 200, transparent = false } = {}) {
-  return page.evaluate(
-    async (options) => {
-      const png = await globalThis.bindpose.snapshot(options);
-      const hex = (buffer) => Array.from(new Uint8Array(buffer), (byte) => byte.toString(16).padStart(2, "0")).join("");
-      const digest = hex(await crypto.subtle.digest("SHA-256", await png.arrayBuffer()));
-      const bitmap = await createImageBitmap(png);
-      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-      const context = canvas.getContext("2d", { willReadFrequently: true });
-      context.drawImage(bitmap, 0, 0);
-      const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-      const colours = new Set();
-      let clear = 0;
-      for (let at = 0; at < data.length; at += 4) {
-        colours.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
-        clear += data[at + 3] === 0;
-      }
-      return {
-        digest,
-        type: png.type,
-        width: bitmap.width,
-        height: bitmap.height,
-        colours: colours.size,
-        clear: clear / (data.length / 4),
-        pixels: Array.from(data),
-      };
-    },
-    { width, height, transparent },
-  );
-}
-
-/** The part of the pixels, from 0 to 1, that differ by more than `tolerance` of 255 in any channel. */
-export function difference(one, other, tolerance = 8) {
-  assert.equal(one.pixels.length, other.pixels.length);
-  let differing = 0;
-  for (let at = 0; at < one.pixels.length; at += 4) {
-    const far = (channel) => Math.abs(one.pixels[at + channel] - other.pixels[at + channel]) > tolerance;
-    differing += far(0) || far(1) || far(2) || far(3);
-  }
-  return differing / (one.pixels.length / 4);
-}
-
-/** A model in front of a backdrop has hundreds of colours; a blank picture has one. */
-export function assertDrawn(drawn) {
-  assert.ok(drawn.colours > 200, `the picture has ${drawn.colours} colours`);
-}
-
-/** The number of distinct colours in a screenshot of the page, for what `picture` cannot see: the canvas itself. */
-export async function coloursOnScreen(page) {
-  const png = (await page.screenshot()).toString("base64");
-  return page.evaluate(async (png) => {
-    const bytes = Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0));
-    const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
-    context.drawImage(bitmap, 0, 0);
-    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    const colours = new Set();
-    for (let at = 0; at < data.length; at += 4) colours.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
-    return colours.size;
-  }, png);
-}
-
 /** Keeps a screenshot for people to look at. */
 export async function keep(page, name) {
   await page.screenshot({ path: `${OUT}${BACKEND}-${name}.png` });
+}
+
+/** Drags with the mouse from one place to another and lets go. */
+export async function drag(page, [fromX, fromY], [toX, toY]) {
+  await page.mouse.move(fromX, fromY);
+  await page.mouse.down();
+  await page.mouse.move(toX, toY, { steps: 5 });
+  await page.mouse.up();
 }
 
 /** Waits for the next frames to be on screen. */
@@ -248,6 +194,7 @@ export async function atRest(page) {
     await settled(page);
     drawn = (await state(page)).framesRendered;
   } while (drawn !== before);
+  return state(page);
 }
 
 /** The files directly in a folder whose names end as said; none when there is no such folder. */

@@ -2,10 +2,8 @@
 
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
-import {
-  BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, coloursOnScreen, difference, dropAndWait, keep, picture, settled, state,
-  test, until,
-} from "./harness.js";
+import { BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until } from "./harness.js";
+import { coloursOnScreen, difference, picture } from "./picture.js";
 
 /** Keeps what the page asks the browser for, so that a test can take it away again. */
 function watchGpu(page) {

@@ -5,9 +5,9 @@ import { mkdtempSync, mkdirSync, copyFileSync, readFileSync, writeFileSync } fro
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import {
-  FIXTURES, LARGE, SAMPLE, SHARED, assertDrawn, call, difference, drop, dropAndWait, filesIn, keep, picture, settled, state,
-  test, unless, until,
+  FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
+import { assertDrawn, difference, picture } from "./picture.js";
 
 /** A copy of the sample under another name, in a folder of its own. */
 function copyOfSample(...parts) {

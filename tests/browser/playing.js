@@ -1,7 +1,8 @@
 // Time: it advances, it can be scrubbed, and the same time is the same picture. Keys, and the transport in the DOM.
 
 import assert from "node:assert/strict";
-import { CENTRE, atRest, call, difference, keep, picture, settled, state, test, until } from "./harness.js";
+import { CENTRE, atRest, call, keep, settled, state, test, until } from "./harness.js";
+import { difference, picture } from "./picture.js";
 
 test("time advances, with events, and pauses", {}, async (page) => {
   await page.evaluate(() => {
@@ -135,10 +136,10 @@ test("the mouse orbits, the wheel zooms and F frames the model again", {}, async
 
 test("the transport is there for screen readers and moves with the viewer", {}, async (page) => {
   await page.focus("#transport-play");
-  await settled(page);
-  await keep(page, "transport-focused");
   await page.keyboard.press("Space");
   await until(page, ({ playing }) => !playing);
+  await settled(page);
+  await keep(page, "transport-focused");
   assert.equal(await page.textContent("#transport-play"), "Play");
   const { model } = await state(page);
   await page.selectOption("#transport-clip", model.clips[1].name);

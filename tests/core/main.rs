@@ -1,12 +1,15 @@
 //! Tests of the core: they need neither GPU nor UI.
 
 mod anim;
+mod chains;
 mod documents;
 mod format;
 mod image;
 mod light;
 mod model;
+mod rigs;
 mod sample;
+mod scene;
 mod session;
 mod shaders;
 mod textbook;

@@ -6,5 +6,7 @@ mod errors;
 mod geometry;
 mod influences;
 mod materials;
+mod names;
 mod real_files;
 mod skeleton;
+mod tree;

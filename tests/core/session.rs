@@ -1,16 +1,22 @@
 //! Tests of `session`: what is open and how it is looked at, without a window.
 
+mod clips;
+mod joining;
+mod joints;
 mod looking;
 mod maps;
 mod materials;
+mod mixing;
 mod models;
 mod motion;
 mod opening;
 mod picking;
 mod playing;
 mod random;
+mod replay;
 mod sky;
 mod subsets;
+mod transport;
 
 use bindpose::session::{Command, File, Session};
 

@@ -85,11 +85,38 @@ impl Gpu {
         self.read(&target)
     }
 
+    /// Keeps a scene's model and maps on the GPU, to draw it many times.
+    pub(crate) fn easel(&self, scene: &Scene, maps: &[MaterialImages<'_>], [width, height]: [u32; 2]) -> Easel<'_> {
+        let mut renderer = self.renderer();
+        renderer.set_model(&scene.model).expect("test models are small");
+        renderer.set_maps(maps);
+        Easel {
+            gpu: self,
+            renderer,
+            target: self.target(width, height),
+        }
+    }
+
     pub(crate) fn read(&self, target: &Target) -> Picture {
         let [width, height] = target.size();
         let rgba = read_back_blocking(&self.open.device, &self.open.queue, target).expect("reads back");
         assert_eq!(rgba.len(), (width * height * 4) as usize);
         Picture { width, height, rgba }
+    }
+}
+
+/// A renderer that has a model already.
+pub(crate) struct Easel<'a> {
+    gpu: &'a Gpu,
+    pub(crate) renderer: Renderer,
+    target: Target,
+}
+
+impl Easel<'_> {
+    /// All of the scene is as it says, but for its model, which is the easel's.
+    pub(crate) fn draw(&mut self, scene: &Scene) -> Picture {
+        self.renderer.render(&scene.frame(), &mut self.target);
+        self.gpu.read(&self.target)
     }
 }
 
@@ -106,6 +133,10 @@ impl Picture {
         assert!(x < self.width && y < self.height);
         let start = ((y * self.width + x) * 4) as usize;
         self.rgba[start..start + 4].try_into().expect("four channels")
+    }
+
+    pub(crate) fn at(&self, [x, y]: [u32; 2]) -> [u8; 4] {
+        self.pixel(x, y)
     }
 
     pub(crate) fn middle(&self) -> [u8; 4] {

@@ -25,12 +25,22 @@ macro_rules! on_both_backends {
 }
 
 mod alpha_clip;
+mod book_light;
 mod golden;
 mod gpu;
 mod light;
+mod lines;
 mod maps;
 mod normal_maps;
+mod passes;
 mod picture;
+mod robust;
 mod scenes;
+mod sets;
 mod skinning;
+mod sky;
+mod still_life;
+mod studio_light;
+mod submeshes;
 mod textures;
+mod view_modes;

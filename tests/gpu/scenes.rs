@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
-use bindpose::scene::{Aabb, Camera, FrameOptions, Overlay, Overlays, Projection, RenderFrame, Theme};
+use bindpose::scene::{Aabb, Camera, FrameOptions, Ghosts, Overlay, Overlays, Projection, RenderFrame, Theme};
 use glam::{Affine3A, Quat, Vec2, Vec3};
 
 /// All that a frame needs.
@@ -13,6 +13,8 @@ pub(crate) struct Scene {
     pub(crate) world_bounds: Aabb,
     pub(crate) camera: Camera,
     pub(crate) options: FrameOptions,
+    pub(crate) hidden: Vec<bool>,
+    pub(crate) highlighted: Option<usize>,
 }
 
 impl Scene {
@@ -36,6 +38,8 @@ impl Scene {
             },
             world_bounds,
             model,
+            hidden: Vec::new(),
+            highlighted: None,
         }
     }
 
@@ -70,10 +74,22 @@ impl Scene {
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
             palette: &self.palette,
-            hidden_submeshes: &[],
-            highlighted_submesh: None,
+            hidden_submeshes: &self.hidden,
+            highlighted_submesh: self.highlighted,
+            vertex_colors: None,
+            ghosts: Ghosts::default(),
+            over_model: None,
             options: self.options,
         }
+    }
+
+    /// The pixel in which a point of the world lies in a picture of this size.
+    pub(crate) fn pixel_of(&self, world: Vec3, [width, height]: [u32; 2]) -> [u32; 2] {
+        let aspect = width as f32 / height as f32;
+        let clip_from_world = self.camera.clip_from_view(aspect, &self.world_bounds) * self.camera.view_from_world();
+        let ndc = clip_from_world.project_point3(world);
+        assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0, "{world} is out of view");
+        [(ndc.x + 1.0) * width as f32, (1.0 - ndc.y) * height as f32].map(|place| (place * 0.5) as u32)
     }
 }
 

@@ -39,6 +39,21 @@ pub(crate) fn dds(code: &[u8; 4], [dxgi, alpha_mode]: [u32; 2], side: u32, block
     decode(&file, "test.dds").unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// A cube map whose faces have one colour each, +x −x +y −y +z −z.
+pub(crate) fn cube(side: u32, faces: [[u8; 3]; 6]) -> Image {
+    let mut words = [0; 31];
+    words[..4].copy_from_slice(&[124, 0x1007, side, side]);
+    words[18..26].copy_from_slice(&[32, 0x41, 0, 32, 0xff, 0xff00, 0xff_0000, 0xff00_0000]);
+    // Complex; a cube with all of its faces.
+    words[26..28].copy_from_slice(&[0x1008, 0xfe00]);
+    let mut file = b"DDS ".to_vec();
+    file.extend(words.iter().flat_map(|word: &u32| word.to_le_bytes()));
+    for [red, green, blue] in faces {
+        file.extend([red, green, blue, 255].repeat((side * side) as usize));
+    }
+    decode(&file, "cube.dds").unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// An sRGB colour as a material's diffuse colour.
 pub(crate) fn linear(srgb: [u8; 3]) -> [f32; 3] {
     srgb.map(linear_from_srgb8)

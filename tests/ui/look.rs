@@ -170,7 +170,7 @@ fn what_was_given_up_is_said_and_can_be_insisted_on() {
     let mut window = open();
     let slow_frames = |window: &mut Window| {
         for _ in 0..12 {
-            window.harness.state_mut().session.note_frame(0.2);
+            window.harness.state_mut().session.note_frame(0.1);
         }
     };
     slow_frames(&mut window);

@@ -1,18 +1,21 @@
 //! Whatever a person does, in whatever order, the session stays in order.
 
-use bindpose::anim::LoopMode;
-use bindpose::model::{Handedness, Material, Reflectance, UpAxis};
-use bindpose::scene::{Insets, Overlay, Theme, ViewPreset};
-use bindpose::session::{Command, Event, File, LookCommand, Session, SubsetCommand};
+use std::collections::BTreeSet;
+
+use bindpose::anim::{Direction, LoopMode, MAX_SPEED, MIN_SPEED, SkinView, WrapMode};
+use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
+use bindpose::scene::{BoneStyle, Insets, Overlay, OverlayGeometry, Theme, ViewPreset};
+use bindpose::session::{Command, Event, File, JointCommand, LookCommand, Session, SubsetCommand};
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
 use super::models::{self, broken, jointed, moving, still};
 use super::sky::cube;
 use super::subsets::parted;
+use crate::chains::mirrored;
 
 /// Numbers as pointers and programs give them, and those that they should not.
-fn number() -> impl Strategy<Value = f32> {
+pub(super) fn number() -> impl Strategy<Value = f32> {
     prop_oneof![
         6 => -3.0f32..3.0,
         1 => prop::sample::select(vec![0.0, -0.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, 1e-40, 1e12]),
@@ -29,6 +32,7 @@ fn files() -> impl Strategy<Value = Vec<File>> {
         moving("b.m3d"),
         jointed("a.m3d"),
         still("c.m3d"),
+        models::file("d.m3d", &mirrored(7)),
         broken("a.m3d"),
         models::file("a.m3d", &parted(models::document())),
         File::new("skin.dds", *b"not looked at"),
@@ -71,6 +75,39 @@ fn subset_command() -> impl Strategy<Value = SubsetCommand> {
     ]
 }
 
+fn joint_command() -> impl Strategy<Value = JointCommand> {
+    let any_joint = || (0u32..9).prop_map(JointIndex);
+    let name = prop::sample::select(vec!["", " ", "L arm", "hand", "R_leg", "\u{7}"]);
+    let saved = |bones: usize| {
+        let (model, _) = crate::documents::model_of(&mirrored(bones));
+        let names = [(1, "kept".to_owned()), (99, "none".to_owned())].into();
+        let fingerprint = hierarchy_fingerprint(&model.skeleton);
+        JointCommand::ImportNames(SavedNames { fingerprint, names })
+    };
+    prop_oneof![
+        4 => prop::option::of(any_joint()).prop_map(JointCommand::Select),
+        2 => vector().prop_map(JointCommand::SelectAt),
+        1 => Just(JointCommand::SelectParent),
+        1 => Just(JointCommand::SelectChild),
+        1 => prop::option::of(any_joint()).prop_map(JointCommand::Hover),
+        1 => prop::option::of(vector()).prop_map(JointCommand::HoverAt),
+        2 => vector().prop_map(JointCommand::SelectVertexAt),
+        1 => prop::option::of(0u32..40).prop_map(JointCommand::SelectVertex),
+        1 => (any_joint(), any::<bool>()).prop_map(|(joint, folded)| JointCommand::SetFolded { joint, folded }),
+        1 => any::<bool>().prop_map(JointCommand::SetAllFolded),
+        2 => (any_joint(), name).prop_map(|(joint, name)| JointCommand::Rename { joint, name: name.to_owned() }),
+        1 => Just(JointCommand::AcceptMirrorNames),
+        1 => prop::sample::select(vec![2, 7]).prop_map(saved),
+        1 => Just(JointCommand::ClearNames),
+        1 => prop::sample::select(BoneStyle::ALL.to_vec()).prop_map(JointCommand::SetBoneStyle),
+        1 => any::<bool>().prop_map(JointCommand::SetBonesVisible),
+        1 => any::<bool>().prop_map(JointCommand::SetLabelsVisible),
+        1 => prop::option::of(prop::sample::select(SkinView::ALL.to_vec())).prop_map(JointCommand::SetSkinView),
+        1 => any_joint().prop_map(JointCommand::ToggleTrail),
+        1 => Just(JointCommand::ClearTrails),
+    ]
+}
+
 fn material_command() -> impl Strategy<Value = Command> {
     let color = || (number(), number(), number()).prop_map(<[f32; 3]>::from);
     let reflectance = prop_oneof![
@@ -96,8 +133,25 @@ fn material_command() -> impl Strategy<Value = Command> {
     ]
 }
 
+fn timeline() -> impl Strategy<Value = Command> {
+    let direction = prop::sample::select(vec![Direction::Forward, Direction::Backward]);
+    let joint = prop::option::of((0u32..4).prop_map(JointIndex));
+    prop_oneof![
+        (-20.0f64..90.0).prop_map(Command::SeekFrame),
+        prop::sample::select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300]).prop_map(Command::SeekFrame),
+        (direction, joint).prop_map(|(direction, joint)| Command::StepKey { direction, joint }),
+        prop::option::of(number()).prop_map(Command::SetRangeStart),
+        prop::option::of(number()).prop_map(Command::SetRangeEnd),
+        Just(Command::ClearRange),
+        prop::sample::select(vec![WrapMode::Wrap, WrapMode::BookDemo]).prop_map(Command::SetWrapMode),
+        number().prop_map(Command::SetCrossfade),
+        (0usize..5, number()).prop_map(|(clip, share)| Command::SetBlend { clip, share }),
+        Just(Command::ClearBlend),
+    ]
+}
+
 /// Any command, and any as a glide.
-fn command() -> impl Strategy<Value = Command> {
+pub(super) fn command() -> impl Strategy<Value = Command> {
     (plain_command(), prop::bool::weighted(0.2)).prop_map(|(command, glides)| match glides {
         true => Command::Glide(Box::new(command)),
         false => command,
@@ -153,12 +207,17 @@ fn plain_command() -> impl Strategy<Value = Command> {
     ];
     prop_oneof![
         6 => playing,
+        4 => timeline(),
         6 => looking,
         4 => moving_camera(),
         4 => subset_command().prop_map(Command::Subset),
+        5 => joint_command().prop_map(Command::Joint),
+        1 => number().prop_map(Command::SetBindShare),
+        1 => Just(Command::ToggleBindPose),
         2 => material_command(),
         1 => Just(Command::ClearSky),
         1 => files().prop_map(Command::AddFiles),
+        1 => files().prop_map(Command::AddClips),
         1 => prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| Command::OpenFile(path.to_owned())),
         1 => Just(Command::DismissError),
     ]
@@ -176,7 +235,11 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     let playback = session.playback();
     let span = playback.start_secs()..=playback.end_secs();
     prop_assert!(span.contains(&playback.time_secs()), "{playback:?}");
-    prop_assert!(playback.speed().is_finite() && playback.speed() > 0.0);
+    prop_assert!((MIN_SPEED..=MAX_SPEED).contains(&playback.speed()));
+    if let Some([start_secs, end_secs]) = playback.range_secs() {
+        prop_assert!(start_secs < end_secs && span.contains(&start_secs) && span.contains(&end_secs));
+        prop_assert!([start_secs, end_secs] != [*span.start(), *span.end()]);
+    }
 
     let clips = session.open_model().map_or(0, |open| open.model.clips.len());
     prop_assert_eq!(
@@ -189,6 +252,13 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
         prop_assert_eq!(span, clip.start_secs..=clip.end_secs);
     } else {
         prop_assert!(!playback.is_playing() && !session.is_animating());
+    }
+
+    let blended = session.blend().map(|blend| blend.clip);
+    prop_assert!(blended.is_none_or(|clip| clip < clips && blended != session.clip_index()));
+    if let Some(open) = session.open_model() {
+        let names: BTreeSet<&str> = open.clip_list().map(|clip| clip.name).collect();
+        prop_assert_eq!((names.len(), open.clip_list().len()), (clips, clips));
     }
 
     let of_file: &[Material] = session.open_model().map_or(&[], |open| &open.model.materials);
@@ -222,6 +292,53 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     let frame = session.frame();
     prop_assert_eq!(frame.palette.0.len(), joints);
     prop_assert!(frame.palette.0.iter().all(|matrix| matrix.is_finite()));
+    check_joints(session, joints)
+}
+
+fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError> {
+    prop_assert!((0.0..=1.0).contains(&session.bind_share()));
+    let joints = session.joints().clone();
+    prop_assert_eq!(joints.count(), count);
+    let marked = [joints.selected(), joints.hovered()].into_iter().flatten();
+    prop_assert!(
+        marked
+            .chain(joints.trails().iter().copied())
+            .all(|joint| joint.index() < count)
+    );
+    prop_assert!(session.joint_names().all().keys().all(|&bone| bone < count));
+    prop_assert!(session.joint_names().all().values().all(|name| !name.trim().is_empty()));
+
+    let mut rows = Vec::new();
+    session.joint_rows("", &mut rows);
+    prop_assert!(rows.len() <= count && (rows.is_empty() == (count == 0)));
+    if let Some(selected) = joints.selected() {
+        let readout = session.inspect_joint(selected).expect("it is there");
+        prop_assert!(readout.model.position.is_finite() && readout.model.rotation.is_normalized());
+    }
+
+    let vertices = session.open_model().map_or(0, |open| open.model.mesh.vertex_count());
+    prop_assert!(
+        joints
+            .selected_vertex()
+            .is_none_or(|selected| (selected.vertex as usize) < vertices)
+    );
+    prop_assert_eq!(session.explain_vertex().is_some(), joints.selected_vertex().is_some());
+    let mut colors = Vec::new();
+    session.skin_colors(&mut colors);
+    prop_assert_eq!(
+        colors.len(),
+        if session.skin_colors_key().is_some() {
+            vertices
+        } else {
+            0
+        }
+    );
+
+    let mut overlay = OverlayGeometry::default();
+    session.draw_bones(&mut overlay);
+    let mut corners = overlay.lines.iter().chain(&overlay.triangles);
+    prop_assert_eq!(corners.clone().count() > 0, joints.bones_visible() && count > 0);
+    prop_assert!(corners.all(|corner| Vec3::from(corner.position).is_finite()));
     Ok(())
 }
 

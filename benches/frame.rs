@@ -1,0 +1,117 @@
+//! Frame time of the renderer on a software GPU: with everything, with one pass left out at a time, under each light, split, and as
+//! a property. A software GPU draws with the CPU, so only the ratios of one run tell something.
+//!
+//! criterion repeats too often for frames of a tenth of a second; this takes the ways in turn, so that what else the machine does
+//! falls on all of them, and shows the least time of each, which it disturbed least, beside the median.
+
+use std::time::Instant;
+
+use bindpose::render::device::{self, Backend};
+use bindpose::render::{MaterialImages, Renderer, Target};
+use bindpose::scene::{FrameOptions, Light, Pass, Passes, ViewMode};
+use bindpose::session::{Command, File, Session};
+
+const SIZE: [u32; 2] = [1280, 720];
+const ROUNDS: usize = 9;
+
+/// One way to draw the frame.
+struct Way {
+    name: String,
+    options: FrameOptions,
+    millis: Vec<f64>,
+}
+
+fn ways(options: FrameOptions) -> Vec<Way> {
+    let way = |name: &str, change: &dyn Fn(&mut FrameOptions)| {
+        let mut options = options;
+        change(&mut options);
+        Way {
+            name: name.to_owned(),
+            options,
+            millis: Vec::new(),
+        }
+    };
+    let mut ways = vec![
+        way("studio, all passes off", &|options| options.passes = Passes::none()),
+        way("studio", &|_| ()),
+    ];
+    for pass in Pass::ALL {
+        ways.push(way(&format!("studio without {}", pass.name()), &|options| {
+            options.passes = Passes::all().with(pass, false);
+        }));
+    }
+    ways.push(way("book", &|options| options.light = Light::Book));
+    ways.push(way("book, all passes off", &|options| {
+        options.light = Light::Book;
+        options.passes = Passes::none();
+    }));
+    ways.push(way("split in the middle", &|options| options.split = Some(0.5)));
+    for mode in [ViewMode::BaseColor, ViewMode::AmbientOcclusion] {
+        ways.push(way(&format!("property {}", mode.name()), &|options| {
+            options.view_mode = mode;
+        }));
+    }
+    ways
+}
+
+/// The soldier where it is at hand, else the sample figure, a second into its first clip.
+fn session() -> (&'static str, Session) {
+    let mut session = Session::new(true);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models/d3d12/soldier.m3d");
+    let (name, file) = match std::fs::read(path) {
+        Ok(bytes) => ("soldier", File::new("soldier.m3d", bytes)),
+        Err(_) => {
+            let figure = bindpose::format::write(&bindpose::sample::figure());
+            ("sample figure", File::new("figure.m3d", figure.into_bytes()))
+        }
+    };
+    session.apply(Command::AddFiles(vec![file]));
+    session.apply(Command::Seek { time_secs: 1.0 });
+    (name, session)
+}
+
+#[expect(clippy::print_stdout, reason = "the times are what the benchmark is for")]
+fn main() {
+    let (name, mut session) = session();
+    let gpu = pollster::block_on(device::headless(Backend::Vulkan)).unwrap_or_else(|error| panic!("{error}"));
+    let mut renderer = Renderer::with_samples(&gpu.device, &gpu.queue, gpu.samples);
+    let open = session.open_model().expect("the input is sound");
+    renderer.set_model(&open.model).expect("it is small");
+    let images = session.maps().images();
+    let images: Vec<_> = images
+        .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+        .collect();
+    renderer.set_maps(&images);
+    let [width, height] = SIZE;
+    let mut target = Target::with_samples(&gpu.device, width, height, gpu.samples);
+
+    let frame = session.frame();
+    let mut ways = ways(frame.options);
+    // The first round makes pipelines and textures.
+    for round in 0..=ROUNDS {
+        for way in &mut ways {
+            let mut frame = frame.clone();
+            frame.options = way.options;
+            let start = Instant::now();
+            renderer.render(&frame, &mut target);
+            let done = gpu.device.poll(wgpu::PollType::wait_indefinitely());
+            done.expect("the device is there");
+            if round > 0 {
+                way.millis.push(start.elapsed().as_secs_f64() * 1e3);
+            }
+        }
+    }
+
+    println!(
+        "frame/{name}, {width} x {height}, {}: least and median of {ROUNDS}, least in relation to the first",
+        gpu.info.name
+    );
+    for way in &mut ways {
+        way.millis.sort_by(f64::total_cmp);
+    }
+    let all_off = ways[0].millis[0];
+    for Way { name, millis, .. } in &ways {
+        let (least, median) = (millis[0], millis[ROUNDS / 2]);
+        println!("{name:28} {least:8.1} ms {median:8.1} ms  {:5.2}", least / all_off);
+    }
+}

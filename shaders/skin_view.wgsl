@@ -1,0 +1,63 @@
+// The model in colours that were made for its vertices: what its skin is like.
+
+struct SkinViewVertex {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world_position: vec3<f32>,
+    @location(1) world_normal: vec3<f32>,
+    @location(2) tex_coord: vec2<f32>,
+    @location(3) color_srgb: vec3<f32>,
+}
+
+fn skin_view_vertex(vertex: Skinned, tex_coord: vec2<f32>, color_srgb: vec4<f32>) -> SkinViewVertex {
+    let rows = transpose(frame.world_from_model);
+    let world = transform(rows[0], rows[1], rows[2], vertex);
+    let clip = frame.clip_from_world * vec4<f32>(world.position, 1.0);
+    return SkinViewVertex(clip, world.position, world.normal, tex_coord, color_srgb.rgb);
+}
+
+@vertex
+fn vertex_static(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(3) tex_coord: vec2<f32>,
+    @location(6) color_srgb: vec4<f32>,
+) -> SkinViewVertex {
+    return skin_view_vertex(Skinned(position, normal, vec4<f32>(0.0)), tex_coord, color_srgb);
+}
+
+@vertex
+fn vertex_skinned(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(3) tex_coord: vec2<f32>,
+    @location(4) joints: vec4<u32>,
+    @location(5) weights: vec4<f32>,
+    @location(6) color_srgb: vec4<f32>,
+) -> SkinViewVertex {
+    return skin_view_vertex(skin(Skinned(position, normal, vec4<f32>(0.0)), joints, weights), tex_coord, color_srgb);
+}
+
+// The colour itself where the surface faces the viewer, so that a legend can be read; darker where it turns away, for its shape.
+fn seen_color(vertex: SkinViewVertex) -> vec4<f32> {
+    var to_eye = -frame.forward;
+    if frame.is_perspective > 0.5 {
+        to_eye = normalize(frame.eye - vertex.world_position);
+    }
+    let facing = abs(dot(normalize_or(vertex.world_normal, to_eye), to_eye));
+    let shade = mix(0.45, 1.0, smoothstep(0.0, 0.8, facing));
+    return vec4<f32>(linear_from_srgb(vertex.color_srgb * shade), 1.0);
+}
+
+@fragment
+fn fragment(vertex: SkinViewVertex) -> @location(0) vec4<f32> {
+    return seen_color(vertex);
+}
+
+@fragment
+fn fragment_cut(vertex: SkinViewVertex) -> @location(0) vec4<f32> {
+    let alpha = textureSample(diffuse_map, map_sampler, vertex.tex_coord).a;
+    if alpha < material.alpha_clip {
+        discard;
+    }
+    return seen_color(vertex);
+}

@@ -1,0 +1,43 @@
+//! Numbers in columns, for text that a person copies.
+
+/// A number with six decimals, or with an exponent where it would be too long; never a negative zero.
+pub(super) fn number(value: f32) -> String {
+    if value.is_finite() && value.abs() >= 1e7 {
+        return format!("{value:e}");
+    }
+    let text = format!("{value:.6}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
+        _ => text,
+    }
+}
+
+/// One line for each row, its cells to the right of columns as wide as their widest cell.
+pub(super) fn aligned<const N: usize>(rows: &[[String; N]]) -> Vec<String> {
+    let widths: [usize; N] = std::array::from_fn(|column| rows.iter().map(|row| row[column].len()).max().unwrap_or(0));
+    let line = |row: &[String; N]| {
+        let cells = row.iter().zip(widths).map(|(cell, width)| format!("{cell:>width$}"));
+        cells.collect::<Vec<_>>().join("  ")
+    };
+    rows.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_zero_has_no_sign() {
+        assert_eq!(number(-0.0), "0.000000");
+        assert_eq!(number(-1e-9), "0.000000");
+        assert_eq!(number(-1.5), "-1.500000");
+        assert_eq!(number(2.5e9), "2.5e9");
+        assert_eq!(number(f32::NAN), "NaN");
+    }
+
+    #[test]
+    fn cells_stand_to_the_right() {
+        let rows = [["1", "-20"], ["300", "4"]].map(|row| row.map(str::to_owned));
+        assert_eq!(aligned(&rows), ["  1  -20", "300    4"]);
+    }
+}

@@ -1,0 +1,97 @@
+//! The ways of joints through a clip, and the times of its ghosts.
+
+use glam::Vec3;
+
+use super::{Palette, PoseBuffers};
+use crate::model::{Clip, JointIndex, Skeleton};
+
+/// Points of a trail at most: a clip of more frames is looked at evenly over its span instead.
+const MOST_POINTS: u32 = 2_000;
+
+/// Ways of joints' origins through a clip, model space: one point a frame, from the first to the last.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trails {
+    points: Vec<Vec3>,
+    point_count: usize,
+}
+
+impl Trails {
+    /// Number of points of each trail.
+    pub fn point_count(&self) -> usize {
+        self.point_count
+    }
+
+    /// One polyline for each joint, in the order in which the joints were given.
+    pub fn polylines(&self) -> impl ExactSizeIterator<Item = &[Vec3]> {
+        self.points.chunks_exact(self.point_count.max(1))
+    }
+
+    /// Follows joints through a clip. `pose` is a buffer to keep; it is left at the end of the clip. A joint that the skeleton
+    /// has not stays at the origin.
+    pub fn follow(&mut self, skeleton: &Skeleton, clip: &Clip, joints: &[JointIndex], pose: &mut PoseBuffers) {
+        let last = clip.last_frame();
+        let steps = last.min(MOST_POINTS - 1);
+        self.point_count = steps as usize + 1;
+        self.points.clear();
+        self.points.resize(self.point_count * joints.len(), Vec3::ZERO);
+        if joints.is_empty() {
+            return;
+        }
+        for step in 0..=steps {
+            let time_secs = if steps == last {
+                clip.time_of_frame(step)
+            } else {
+                clip.start_secs + clip.duration_secs() * (step as f32 / steps as f32)
+            };
+            pose.evaluate(skeleton, clip, time_secs);
+            for (trail, joint) in joints.iter().enumerate() {
+                if let Some(model_from_joint) = pose.model.0.get(joint.index()) {
+                    self.points[trail * self.point_count + step as usize] = model_from_joint.translation.into();
+                }
+            }
+        }
+    }
+}
+
+/// Which poses are shown beside that of now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GhostPlan {
+    /// How many before.
+    pub before: u32,
+    /// How many after.
+    pub after: u32,
+    /// Frames from one to the next, 1 or more.
+    pub step_frames: u32,
+}
+
+/// Ghosts on either side at most.
+const MOST_GHOSTS: u32 = 32;
+
+/// Times of ghosts, in order: those before `time_secs` and those after, without `time_secs` itself and without what lies
+/// outside the clip. At most 32 on either side.
+pub fn ghost_times(clip: &Clip, time_secs: f32, plan: GhostPlan, times_secs: &mut Vec<f32>) {
+    times_secs.clear();
+    let step_secs = f64::from(plan.step_frames.max(1)) / f64::from(clip.keys_per_sec);
+    let (before, after) = (plan.before.min(MOST_GHOSTS), plan.after.min(MOST_GHOSTS));
+    let steps = (1..=before)
+        .rev()
+        .map(|step| -f64::from(step))
+        .chain((1..=after).map(f64::from));
+    let times = steps.map(|step| (f64::from(time_secs) + step * step_secs) as f32);
+    times_secs.extend(times.filter(|time| (clip.start_secs..=clip.end_secs).contains(time)));
+}
+
+/// A palette for each time, in the caller's buffers: palettes that are there are written over, those beyond the times go.
+pub fn palettes_at(
+    skeleton: &Skeleton,
+    clip: &Clip,
+    times_secs: &[f32],
+    pose: &mut PoseBuffers,
+    palettes: &mut Vec<Palette>,
+) {
+    palettes.resize_with(times_secs.len(), Palette::default);
+    for (&time_secs, palette) in times_secs.iter().zip(palettes) {
+        pose.evaluate(skeleton, clip, time_secs);
+        palette.0.clone_from(&pose.palette.0);
+    }
+}

@@ -1,0 +1,410 @@
+//! Which joint and which vertex the pointer or a choice is about, how the skeleton and the skin are shown, and what joints are
+//! called.
+
+use glam::Vec2;
+
+use super::Session;
+use crate::anim::SkinView;
+use crate::model::{
+    JointIndex, JointNames, JointTree, MirrorPair, Model, SavedNames, VertexCounts, hierarchy_fingerprint, mirror_pairs,
+};
+use crate::scene::{BoneStyle, Hit, MarkedJoints};
+
+/// A wish about joints. One that the model has not is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointCommand {
+    /// Selects one, and unfolds what it hangs from, or none.
+    Select(Option<JointIndex>),
+    /// Selects the bone that is drawn at a point of the picture: x right, y up, −1…1. Beside all bones none.
+    SelectAt(Vec2),
+    /// Selects the parent of the selected one, if it has one.
+    SelectParent,
+    /// Selects the first child of the selected one, if it has one; the first root when none is selected.
+    SelectChild,
+    /// Lets one stand out, or none.
+    Hover(Option<JointIndex>),
+    /// Lets the bone that is drawn at a point of the picture stand out: x right, y up, −1…1.
+    HoverAt(Option<Vec2>),
+    /// Selects the vertex nearest to what is drawn of the skin at a point of the picture: x right, y up, −1…1. Beside the skin
+    /// none.
+    SelectVertexAt(Vec2),
+    /// Selects a vertex by its number, or none.
+    SelectVertex(Option<u32>),
+    /// Folds or unfolds a branch of the tree.
+    SetFolded {
+        /// Its topmost joint.
+        joint: JointIndex,
+        /// Whether what hangs from it is left out.
+        folded: bool,
+    },
+    /// Folds or unfolds all branches.
+    SetAllFolded(bool),
+    /// Names a joint; an empty name takes it away.
+    Rename {
+        /// Which.
+        joint: JointIndex,
+        /// What it is called.
+        name: String,
+    },
+    /// Takes the names of [`Session::proposed_names`].
+    AcceptMirrorNames,
+    /// Takes names that were kept, if they belong to a hierarchy like this one. They replace those that are there.
+    ImportNames(SavedNames),
+    /// Takes all names away.
+    ClearNames,
+    /// Draws bones in a style.
+    SetBoneStyle(BoneStyle),
+    /// Shows or hides bones.
+    SetBonesVisible(bool),
+    /// Shows or hides names at the joints.
+    SetLabelsVisible(bool),
+    /// Shows a number of the skin as colours, or the skin as it is.
+    SetSkinView(Option<SkinView>),
+    /// Draws the way of a joint through the clip, or leaves it, in turn.
+    ToggleTrail(JointIndex),
+    /// Leaves all ways.
+    ClearTrails,
+}
+
+/// A vertex that was selected. It stays the same vertex in another pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SelectedVertex {
+    /// Its number in the mesh, which is the file's.
+    pub vertex: u32,
+    /// Where the pointer met the skin, when it selected it. The place is that of the pose of then.
+    pub hit: Option<Hit>,
+}
+
+/// The joints of the open model, as they are looked at.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Joints {
+    tree: JointTree,
+    counts: VertexCounts,
+    fingerprint: u64,
+    parents: Vec<Option<JointIndex>>,
+    vertex_count: usize,
+    names: JointNames,
+
+    marked: MarkedJoints,
+    vertex: Option<SelectedVertex>,
+    folded: Vec<bool>,
+    trails: Vec<JointIndex>,
+
+    bone_style: BoneStyle,
+    bones_visible: bool,
+    labels_visible: bool,
+    skin_view: Option<SkinView>,
+
+    drawn_revision: u64,
+    names_revision: u64,
+}
+
+impl Joints {
+    /// How many the model has.
+    pub fn count(&self) -> usize {
+        self.parents.len()
+    }
+
+    /// Order and branches.
+    pub fn tree(&self) -> &JointTree {
+        &self.tree
+    }
+
+    /// How many vertices they move.
+    pub fn vertex_counts(&self) -> &VertexCounts {
+        &self.counts
+    }
+
+    /// The one that was selected.
+    pub fn selected(&self) -> Option<JointIndex> {
+        self.marked.selected
+    }
+
+    /// The one that the pointer is over, in the picture, the tree or the timeline.
+    pub fn hovered(&self) -> Option<JointIndex> {
+        self.marked.hovered
+    }
+
+    /// Both.
+    pub fn marked(&self) -> MarkedJoints {
+        self.marked
+    }
+
+    /// The vertex that was selected.
+    pub fn selected_vertex(&self) -> Option<&SelectedVertex> {
+        self.vertex.as_ref()
+    }
+
+    /// Whether the branch of a joint is folded.
+    pub fn is_folded(&self, joint: JointIndex) -> bool {
+        self.folded.get(joint.index()) == Some(&true)
+    }
+
+    /// Those whose way through the clip is drawn, in the order in which they were chosen.
+    pub fn trails(&self) -> &[JointIndex] {
+        &self.trails
+    }
+
+    /// How bones are drawn when they are.
+    pub fn bone_style(&self) -> BoneStyle {
+        self.bone_style
+    }
+
+    /// Whether bones are drawn.
+    pub fn bones_visible(&self) -> bool {
+        self.bones_visible
+    }
+
+    /// Whether names stand at the joints.
+    pub fn labels_visible(&self) -> bool {
+        self.labels_visible
+    }
+
+    /// The number of the skin that is shown as colours.
+    pub fn skin_view(&self) -> Option<SkinView> {
+        self.skin_view
+    }
+
+    /// Counts changes of what is drawn.
+    pub(super) fn drawn_revision(&self) -> u64 {
+        self.drawn_revision
+    }
+
+    fn change_names(&mut self, change: impl FnOnce(&mut JointNames)) {
+        let before = self.names.clone();
+        change(&mut self.names);
+        if self.names != before {
+            self.names_revision += 1;
+            self.drawn_revision += 1;
+        }
+    }
+
+    fn has(&self, joint: JointIndex) -> bool {
+        joint.index() < self.count()
+    }
+
+    /// Takes up another model. With `keeps` set and a hierarchy like before, choices and names stay; how things are shown stays
+    /// in any case.
+    pub(super) fn take_up(&mut self, model: &Model, keeps: bool) {
+        let fingerprint = hierarchy_fingerprint(&model.skeleton);
+        let joint_count = model.skeleton.joint_count();
+        let before = std::mem::take(self);
+        let keeps = keeps && fingerprint == before.fingerprint && joint_count == before.count();
+        let tree = JointTree::new(&model.skeleton);
+        let shown = Self {
+            counts: tree.vertex_counts(&model.skeleton, &model.mesh),
+            tree,
+            fingerprint,
+            parents: model.skeleton.parents().to_vec(),
+            vertex_count: model.mesh.vertex_count(),
+            folded: vec![false; joint_count],
+            bone_style: before.bone_style,
+            bones_visible: before.bones_visible,
+            labels_visible: before.labels_visible,
+            skin_view: before.skin_view,
+            drawn_revision: before.drawn_revision + 1,
+            names_revision: before.names_revision,
+            ..Self::default()
+        };
+        *self = if keeps {
+            // The vertex goes: it belongs to the old file's mesh.
+            Self {
+                names: before.names,
+                marked: before.marked,
+                folded: before.folded,
+                trails: before.trails,
+                ..shown
+            }
+        } else {
+            Self {
+                names_revision: before.names_revision + 1,
+                ..shown
+            }
+        };
+    }
+
+    fn select(&mut self, joint: Option<JointIndex>) {
+        if joint.is_some_and(|joint| !self.has(joint)) {
+            return;
+        }
+        if self.marked.selected != joint {
+            self.marked.selected = joint;
+            self.drawn_revision += 1;
+        }
+        let mut above = joint.and_then(|joint| self.parents[joint.index()]);
+        while let Some(joint) = above {
+            self.folded[joint.index()] = false;
+            above = self.parents[joint.index()];
+        }
+    }
+
+    fn hover(&mut self, joint: Option<JointIndex>) {
+        if joint.is_none_or(|joint| self.has(joint)) && self.marked.hovered != joint {
+            self.marked.hovered = joint;
+            self.drawn_revision += 1;
+        }
+    }
+
+    fn select_parent(&mut self) {
+        let parent = self.selected().and_then(|joint| self.parents[joint.index()]);
+        if parent.is_some() {
+            self.select(parent);
+        }
+    }
+
+    fn select_child(&mut self) {
+        let child = match self.selected() {
+            Some(joint) => self.tree.children(joint).next(),
+            None => self.tree.order().first().copied(),
+        };
+        if child.is_some() {
+            self.select(child);
+        }
+    }
+
+    fn select_vertex(&mut self, vertex: Option<SelectedVertex>) {
+        let known = vertex.is_none_or(|vertex| (vertex.vertex as usize) < self.vertex_count);
+        if known && self.vertex != vertex {
+            self.vertex = vertex;
+            self.drawn_revision += 1;
+        }
+    }
+
+    fn toggle_trail(&mut self, joint: JointIndex) {
+        if !self.has(joint) {
+            return;
+        }
+        match self.trails.iter().position(|&other| other == joint) {
+            Some(place) => drop(self.trails.remove(place)),
+            None => self.trails.push(joint),
+        }
+        self.drawn_revision += 1;
+    }
+
+    /// Sets what is shown, and counts it if it changed.
+    fn show<T: PartialEq>(&mut self, value: T, place: impl FnOnce(&mut Self) -> &mut T) {
+        let place = place(self);
+        if *place != value {
+            *place = value;
+            self.drawn_revision += 1;
+        }
+    }
+}
+
+impl Session {
+    /// Which joints are selected, hovered, folded, and how they are shown.
+    pub fn joints(&self) -> &Joints {
+        &self.joints
+    }
+
+    /// What joints are called.
+    pub fn joint_names(&self) -> &JointNames {
+        &self.joints.names
+    }
+
+    /// Counts changes of the names: another number, other names to keep.
+    pub fn joint_names_revision(&self) -> u64 {
+        self.joints.names_revision
+    }
+
+    /// The names as plain data, to keep; nothing without a model.
+    pub fn saved_joint_names(&self) -> Option<SavedNames> {
+        let open = self.open_model()?;
+        Some(self.joints.names.saved(&open.model.skeleton))
+    }
+
+    /// What a joint is called: its name, or `Bone 12` by its number in the file.
+    pub fn joint_label(&self, joint: JointIndex) -> String {
+        let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
+        let bone = bones
+            .and_then(|bones| bones.get(joint.index()))
+            .copied()
+            .unwrap_or(joint.0);
+        match self.joints.names.get(bone) {
+            Some(name) => name.to_owned(),
+            None => format!("Bone {bone}"),
+        }
+    }
+
+    /// Joints that mirror each other in the bind pose.
+    pub fn mirror_pairs(&self) -> Vec<MirrorPair> {
+        let Some(open) = self.open_model() else {
+            return Vec::new();
+        };
+        mirror_pairs(&open.model.skeleton, &self.joints.tree, self.world_from_model())
+    }
+
+    /// Names for the other sides of mirrored joints of which one has a name, by the joint's number in the file.
+    pub fn proposed_names(&self) -> std::collections::BTreeMap<usize, String> {
+        match self.open_model() {
+            // Without a name there is nothing to mirror, and no need to search.
+            Some(open) if !self.joints.names.is_empty() => {
+                self.joints.names.mirrored(&open.model.skeleton, &self.mirror_pairs())
+            }
+            _ => std::collections::BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn apply_to_joints(&mut self, command: JointCommand) {
+        match command {
+            JointCommand::Select(joint) => self.joints.select(joint),
+            JointCommand::SelectAt(pointer) => {
+                let joint = self.joint_at(pointer);
+                self.joints.select(joint);
+            }
+            JointCommand::SelectParent => self.joints.select_parent(),
+            JointCommand::SelectChild => self.joints.select_child(),
+            JointCommand::Hover(joint) => self.joints.hover(joint),
+            JointCommand::HoverAt(pointer) => {
+                let joint = pointer.and_then(|pointer| self.joint_at(pointer));
+                self.joints.hover(joint);
+            }
+            JointCommand::SelectVertexAt(pointer) => {
+                let hit = self.pick(pointer);
+                self.joints.select_vertex(hit.map(|hit| SelectedVertex {
+                    vertex: hit.vertex,
+                    hit: Some(hit),
+                }));
+            }
+            JointCommand::SelectVertex(vertex) => {
+                self.joints
+                    .select_vertex(vertex.map(|vertex| SelectedVertex { vertex, hit: None }));
+            }
+            JointCommand::SetFolded { joint, folded } => {
+                if let Some(place) = self.joints.folded.get_mut(joint.index()) {
+                    *place = folded;
+                }
+            }
+            JointCommand::SetAllFolded(folded) => self.joints.folded.fill(folded),
+            JointCommand::Rename { joint, name } => self.rename_joint(joint, &name),
+            JointCommand::AcceptMirrorNames => {
+                let proposed = self.proposed_names();
+                self.joints.change_names(|names| {
+                    for (bone, name) in proposed {
+                        names.set(bone as u32, &name);
+                    }
+                });
+            }
+            JointCommand::ImportNames(saved) => {
+                let skeleton = self.open.as_ref().map(|open| &open.model.skeleton);
+                if let Some(kept) = skeleton.and_then(|skeleton| JointNames::from_saved(&saved, skeleton)) {
+                    self.joints.change_names(|names| *names = kept);
+                }
+            }
+            JointCommand::ClearNames => self.joints.change_names(|names| *names = JointNames::default()),
+            JointCommand::SetBoneStyle(style) => self.joints.show(style, |joints| &mut joints.bone_style),
+            JointCommand::SetBonesVisible(visible) => self.joints.show(visible, |joints| &mut joints.bones_visible),
+            JointCommand::SetLabelsVisible(visible) => self.joints.show(visible, |joints| &mut joints.labels_visible),
+            JointCommand::SetSkinView(view) => self.joints.show(view, |joints| &mut joints.skin_view),
+            JointCommand::ToggleTrail(joint) => self.joints.toggle_trail(joint),
+            JointCommand::ClearTrails => self.joints.show(Vec::new(), |joints| &mut joints.trails),
+        }
+    }
+
+    fn rename_joint(&mut self, joint: JointIndex, name: &str) {
+        let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
+        if let Some(&bone) = bones.and_then(|bones| bones.get(joint.index())) {
+            self.joints.change_names(|names| names.set(bone, name));
+        }
+    }
+}

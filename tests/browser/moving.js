@@ -1,0 +1,111 @@
+// What moves by itself: the camera after a drag, on the turntable, in flight; and what is given up when that is too slow.
+
+import assert from "node:assert/strict";
+import { atRest, call, settled, state, test, until } from "./harness.js";
+import { assertGolden, picture } from "./picture.js";
+import { GROUND, TURNTABLE_BUTTON } from "./widgets.js";
+
+/** A window so small that this GPU of software draws several frames a second. */
+const SMALL = { viewport: { width: 360, height: 300 } };
+
+/**
+ * Lets the page's clock run so much slower than real time that its frames look quick to it: a drag that is let go is
+ * judged by its last 80 ms, and no frame of this GPU is that short.
+ */
+function slowClock(page) {
+  return page.addInitScript(() => {
+    const now = performance.now.bind(performance);
+    performance.now = () => now() / 16;
+  });
+}
+
+/** Throws the view round, and gives the camera at the moment when the mouse had let go, and at rest. */
+async function flick(page) {
+  await call(page, "pause");
+  await atRest(page);
+  await page.mouse.move(150, 150);
+  await page.mouse.down();
+  for (let x = 160; x <= 230; x += 10) {
+    await page.mouse.move(x, 150);
+    await settled(page);
+  }
+  await page.mouse.up();
+  await settled(page);
+  const { camera } = await state(page);
+  return { released: camera.yawRadians, rested: (await atRest(page)).camera.yawRadians };
+}
+
+test("a view that is let go in a drag turns on and comes to rest", { ...SMALL, prepare: slowClock }, async (page) => {
+  const { released, rested } = await flick(page);
+  assert.ok(Math.abs(rested - released) > 0.01, `from ${released} to ${rested} radians`);
+});
+
+test("under reduced motion it stays where it was let go", {
+  ...SMALL,
+  reducedMotion: "reduce",
+  prepare: slowClock,
+}, async (page) => {
+  const { released, rested } = await flick(page);
+  assert.equal(rested, released);
+});
+
+test("the turntable turns the view until it is stopped", {}, async (page) => {
+  await call(page, "pause");
+  const { camera } = await atRest(page);
+  await page.mouse.click(...TURNTABLE_BUTTON);
+  const turned = ({ yawRadians }) => Math.abs(Math.sin((yawRadians - camera.yawRadians) / 2));
+  await until(page, (now) => turned(now.camera) > 0.05);
+  await page.mouse.click(...TURNTABLE_BUTTON);
+  const stopped = await atRest(page);
+  assert.equal(stopped.camera.pitchRadians, camera.pitchRadians);
+  assert.equal(stopped.camera.distance, camera.distance);
+  assert.equal(stopped.playing, false);
+});
+
+test("with the right button held W flies forward, and letting go ends it", {}, async (page) => {
+  await call(page, "pause");
+  const before = (await atRest(page)).camera;
+  await page.mouse.move(...GROUND);
+  await page.mouse.down({ button: "right" });
+  await page.keyboard.down("w");
+  const way = ({ target }) => Math.hypot(...target.map((at, axis) => at - before.target[axis]));
+  await until(page, ({ camera }) => way(camera) > 0.05);
+  await page.keyboard.up("w");
+  await page.mouse.up({ button: "right" });
+  const after = (await atRest(page)).camera;
+  assert.deepEqual([after.yawRadians, after.distance], [before.yawRadians, before.distance]);
+  const { yawRadians: yaw, pitchRadians: pitch } = before;
+  const ahead = [Math.sin(yaw) * Math.cos(pitch), -Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
+  const flown = after.target.map((at, axis) => at - before.target[axis]);
+  const forward = flown.reduce((sum, at, axis) => sum + at * ahead[axis], 0);
+  assert.ok(forward > 0.99 * Math.hypot(...flown), `${flown} is straight ahead, ${ahead}`);
+});
+
+test("passes are given up while frames are slow, and pictures have all of them", {
+  // From the first frame on.
+  prepare: (page) =>
+    page.addInitScript(() => {
+      globalThis.frames = [];
+      const watch = () => bindpose.addEventListener("timeupdate", () => frames.push(performance.now()));
+      addEventListener("DOMContentLoaded", watch);
+    }),
+}, async (page) => {
+  const givenUp = ({ look }) => Object.values(look.passes).filter((state) => state === "too slow").length;
+  const deadline = Date.now() + 30_000;
+  const { look } = await until(page, (now) => givenUp(now) > 0 || Date.now() > deadline);
+  const times = await page.evaluate(() => frames);
+  let [slowRun, longestRun] = [0, 0];
+  for (let frame = 1; frame < times.length; frame += 1) {
+    slowRun = times[frame] - times[frame - 1] > 1000 / 24 ? slowRun + 1 : 0;
+    longestRun = Math.max(longestRun, slowRun);
+  }
+  const words = `of ${times.length} frames ${longestRun} in a row were slow: ${JSON.stringify(look.passes)}`;
+  if (look.passes.ao === "too slow") assert.ok(longestRun >= 5, words);
+  else assert.ok(longestRun < 13, words);
+  assert.equal(look.passes.shadow, "drawn", "the last one to go");
+
+  await call(page, "pause");
+  await call(page, "seek", 0.25);
+  await atRest(page);
+  await assertGolden(page, "studio", await picture(page, { width: 192, height: 144, light: "studio" }));
+});

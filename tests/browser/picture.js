@@ -1,0 +1,109 @@
+// Pictures of the view: drawn by the page, decoded by it, compared with each other and with those that are committed.
+
+import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { BACKEND, OUT } from "./harness.js";
+
+/** What both backends must come to. */
+const GOLDEN = fileURLToPath(new URL("golden/", import.meta.url));
+
+/** A picture of the view without the interface, with the options of `bindpose.snapshot`: the PNG's bytes. */
+async function png(page, options) {
+  const { type, base64 } = await page.evaluate(async (options) => {
+    const png = await globalThis.bindpose.snapshot(options);
+    const reader = new FileReader();
+    const address = await new Promise((done) => {
+      reader.onload = () => done(reader.result);
+      reader.readAsDataURL(png);
+    });
+    return { type: png.type, base64: address.split(",")[1] };
+  }, options);
+  assert.equal(type, "image/png");
+  return Buffer.from(base64, "base64");
+}
+
+/** The pixels of a PNG, and what can be said of them. */
+export async function decoded(page, png) {
+  const { pixels, ...rest } = await page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    const colours = new Set();
+    let [clear, letters] = [0, ""];
+    for (let at = 0; at < data.length; at += 4) {
+      colours.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
+      clear += data[at + 3] === 0;
+      letters += String.fromCharCode(data[at], data[at + 1], data[at + 2], data[at + 3]);
+    }
+    return {
+      width: bitmap.width,
+      height: bitmap.height,
+      colours: colours.size,
+      clear: clear / (data.length / 4),
+      pixels: btoa(letters),
+    };
+  }, png.toString("base64"));
+  return { ...rest, pixels: Buffer.from(pixels, "base64") };
+}
+
+/** A picture of the view without the interface: its PNG and the hash of that, and its pixels. */
+export async function picture(page, options = {}) {
+  const bytes = await png(page, { width: 320, height: 200, ...options });
+  const digest = createHash("sha256").update(bytes).digest("hex");
+  return { png: bytes, digest, ...(await decoded(page, bytes)) };
+}
+
+/**
+ * The part of the pixels, from 0 to 1, that differ by more than `tolerance` of 255 in any channel. Of the columns between
+ * two shares of the width only, when they are given.
+ */
+export function difference(one, other, { tolerance = 8, columns = [0, 1] } = {}) {
+  assert.deepEqual([one.width, one.height], [other.width, other.height]);
+  const [from, to] = columns.map((share) => Math.round(share * one.width));
+  let differing = 0;
+  for (let y = 0; y < one.height; y += 1) {
+    for (let x = from; x < to; x += 1) {
+      const at = 4 * (y * one.width + x);
+      const far = (channel) => Math.abs(one.pixels[at + channel] - other.pixels[at + channel]) > tolerance;
+      differing += far(0) || far(1) || far(2) || far(3);
+    }
+  }
+  return differing / ((to - from) * one.height);
+}
+
+/**
+ * Compares with the committed picture of this name. With `BLESS=1` in the environment that picture is written first: look
+ * at it before it is committed.
+ *
+ * Both backends draw with SwiftShader here, but through other translators that order sums and round in their own ways. So a
+ * channel may be 4 of 255 off anywhere, and more than that in one pixel of 500: those at an edge of the model or of a
+ * shadow, where a sample falls to one side or the other. What was seen is a fifth of that.
+ */
+export async function assertGolden(page, name, drawn) {
+  const file = `${GOLDEN}${name}.png`;
+  if (process.env.BLESS) {
+    mkdirSync(GOLDEN, { recursive: true });
+    writeFileSync(file, drawn.png);
+  }
+  assert.ok(existsSync(file), `${file} is not there; BLESS=1 cargo xtask test --browser ${BACKEND} writes it`);
+  const differing = difference(drawn, await decoded(page, readFileSync(file)), { tolerance: 4 });
+  if (differing <= 0.002) return;
+  const seen = `${OUT}${BACKEND}-DIFFERS-${name}.png`;
+  writeFileSync(seen, drawn.png);
+  assert.fail(`${(100 * differing).toFixed(1)} % of the pixels of ${seen} differ from ${file}`);
+}
+
+/** A model in front of a backdrop has hundreds of colours; a blank picture has one. */
+export function assertDrawn(drawn) {
+  assert.ok(drawn.colours > 200, `the picture has ${drawn.colours} colours`);
+}
+
+/** The number of distinct colours in a screenshot of the page, for what `picture` cannot see: the canvas itself. */
+export async function coloursOnScreen(page) {
+  return (await decoded(page, await page.screenshot())).colours;
+}

@@ -1,0 +1,30 @@
+// Where the interface is on the page. It is drawn on a canvas and has no elements to ask, so the places that the tests use
+// are all here: points of a window of 960 × 600, with the sample open.
+
+/** Bar at the top right. */
+export const LIGHT_BUTTON = [636, 30];
+export const TURNTABLE_BUTTON = [802, 30];
+
+/** What hangs from the light's button. */
+export const LIGHT_POPOVER = {
+  split: [922, 140],
+  passes: { shadow: [700, 386], reflections: [700, 409], contact: [700, 432], ao: [700, 455] },
+};
+
+/** Subsets in the panel on the left: the row of the orange parts, and its eye, which is there under the pointer. */
+export const TRIM_ROW = [100, 388];
+export const TRIM_EYE = [238, 388];
+
+/** The inspector on the right, as large as it is for a subset with maps. */
+export const INSPECTOR = { x: 662, y: 62, width: 284, height: 386 };
+export const ROUGHNESS_KNOB = [834, 285];
+export const ROUGHNESS_LEAST = [766, 285];
+export const RESET_MATERIAL = [918, 204];
+
+/** The divided picture's handle, in the middle of the window. */
+export const SPLIT_HANDLE = [480, 300];
+
+/** The figure's chest, on its first frame: a part of its suit. */
+export const CHEST = [500, 240];
+/** Ground beside the figure that no panel covers. */
+export const GROUND = [600, 510];

@@ -1,0 +1,67 @@
+//! What panels show of clips.
+
+use bindpose::format::Document;
+use bindpose::model::JointIndex;
+
+use super::{models, opened};
+use crate::rigs;
+
+#[test]
+fn a_row_of_the_list_says_span_keys_rate_and_file() {
+    let clips = vec![rigs::even("late", 3, 3.0, 9, 4.0), rigs::single("one", 3)];
+    let session = opened(models::file("in/hero.m3d", &rigs::rig(3, clips)));
+    let open = session.open_model().expect("open");
+    let rows: Vec<_> = open.clip_list().collect();
+    let [late, one] = &rows[..] else { panic!("two clips") };
+    assert_eq!((late.name, late.file_name), ("late", "hero.m3d"));
+    assert_eq!((late.start_secs, late.end_secs, late.keys_per_sec), (3.0, 5.0, 4.0));
+    assert_eq!((late.key_count, late.last_frame), (27, 8));
+    assert_eq!(
+        (one.start_secs, one.end_secs, one.key_count, one.last_frame),
+        (1.5, 1.5, 3, 0)
+    );
+    assert_eq!(
+        (open.seam(2), open.activity(2), open.key_times(2, None)),
+        (None, None, &[][..])
+    );
+}
+
+#[test]
+fn read_outs_are_found_once_and_lent_from_then_on() {
+    let session = opened(models::file("a.m3d", &rigs::rig(300, vec![rigs::ragged("a", 300)])));
+    let open = session.open_model().expect("open");
+    let same = |a: Option<*const ()>, b: Option<*const ()>| a.is_some() && a == b;
+    let seam = || open.seam(0).map(|seam| std::ptr::from_ref(seam).cast());
+    let activity = || open.activity(0).map(|joints| joints.as_ptr().cast());
+    let all_keys = || Some(session.key_times(None).as_ptr().cast());
+    assert!(same(seam(), seam()) && same(activity(), activity()) && same(all_keys(), all_keys()));
+    // The keys of a joint are those of its track.
+    let track = open.model.clips[0].tracks[1].times_secs();
+    assert!(std::ptr::eq(session.key_times(Some(JointIndex(1))), track));
+    assert!(std::ptr::eq(open.key_times(0, Some(JointIndex(1))), track));
+}
+
+#[test]
+fn a_model_has_a_size_with_a_mesh_and_without() {
+    let size = |document: &Document| {
+        opened(models::file("a.m3d", document))
+            .open_model()
+            .expect("open")
+            .size()
+    };
+    let quad = rigs::rig(3, vec![]);
+    assert!((size(&quad) - 2.0_f32.sqrt()).abs() < 1e-6);
+    let bones = Document {
+        vertices: vec![],
+        triangles: vec![],
+        subsets: vec![],
+        ..quad.clone()
+    };
+    assert!((size(&bones) - 1.0).abs() < 1e-6, "three joints half a unit apart");
+    let point = Document {
+        bone_offsets: bones.bone_offsets[..1].to_vec(),
+        bone_parents: vec![-1],
+        ..bones
+    };
+    assert_eq!(size(&point), 1.0);
+}

@@ -1,0 +1,469 @@
+//! Joints and vertices selected, hovered, named; the skeleton and the skin as they are shown.
+
+use std::collections::BTreeMap;
+
+use bindpose::anim::{SkinView, Trails, skin_positions};
+use bindpose::model::{JointIndex, SavedNames};
+use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
+use bindpose::session::{Command, File, JointCommand, JointRow, Session};
+use glam::{Affine3A, Vec2, Vec3};
+
+use super::models::{self, jointed, moving, still};
+use super::opened;
+use crate::chains::mirrored;
+use crate::documents::shared_bytes;
+
+use JointCommand::{
+    AcceptMirrorNames, ClearNames, ClearTrails, Hover, HoverAt, ImportNames, Rename, Select, SelectAt, SelectChild,
+    SelectParent, SelectVertex, SelectVertexAt, SetAllFolded, SetBoneStyle, SetBonesVisible, SetFolded,
+    SetLabelsVisible, SetSkinView, ToggleTrail,
+};
+
+fn chains(count: usize) -> Session {
+    opened(models::file("chains.m3d", &mirrored(count)))
+}
+
+fn joint(command: JointCommand) -> Command {
+    Command::Joint(command)
+}
+
+fn rename(session: &mut Session, joint: u32, name: &str) {
+    session.apply(Command::Joint(Rename {
+        joint: JointIndex(joint),
+        name: name.to_owned(),
+    }));
+}
+
+fn rows(session: &Session, query: &str) -> Vec<JointRow> {
+    let mut rows = Vec::new();
+    session.joint_rows(query, &mut rows);
+    rows
+}
+
+fn bones(rows: &[JointRow]) -> Vec<u32> {
+    rows.iter().map(|row| row.bone).collect()
+}
+
+/// Where a world point is drawn.
+fn on_screen(session: &mut Session, point: Vec3) -> Vec2 {
+    let frame = session.frame();
+    let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
+    clip_from_world.project_point3(point).truncate()
+}
+
+#[test]
+fn a_bone_is_selected_and_hovered_where_it_is_drawn() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::LookFrom(ViewPreset::Front));
+    session.apply(Command::Seek { time_secs: 0.0 });
+    let points: Vec<Vec3> = session
+        .bones()
+        .bones()
+        .iter()
+        .map(|bone| bone.from.midpoint(bone.to))
+        .collect();
+    for (index, point) in (0..).zip(points) {
+        let pointer = on_screen(&mut session, point);
+        session.apply(joint(SelectAt(pointer)));
+        session.apply(joint(HoverAt(Some(pointer))));
+        let expected = Some(JointIndex(index));
+        assert_eq!(
+            (session.joints().selected(), session.joints().hovered()),
+            (expected, expected)
+        );
+    }
+    for nowhere in [Vec2::splat(0.99), Vec2::NAN] {
+        session.apply(joint(Select(Some(JointIndex(0)))));
+        session.apply(joint(SelectAt(nowhere)));
+        assert_eq!(session.joints().selected(), None);
+    }
+    session.apply(joint(HoverAt(None)));
+    assert_eq!(session.joints().hovered(), None);
+}
+
+#[test]
+fn up_and_down_the_chain() {
+    let mut session = chains(9);
+    let mut after = |command| {
+        session.apply(joint(command));
+        session.joints().selected().map(|joint| joint.0)
+    };
+    assert_eq!(after(SelectParent), None);
+    assert_eq!(after(SelectChild), Some(0));
+    assert_eq!(after(SelectParent), Some(0), "a root has no parent");
+    assert_eq!(after(SelectChild), Some(1));
+    assert_eq!(after(SelectChild), Some(3));
+    assert_eq!(after(Select(Some(JointIndex(7)))), Some(7));
+    assert_eq!(after(SelectChild), Some(7), "a leaf has no child");
+    assert_eq!(after(SelectParent), Some(5));
+    assert_eq!(after(Select(None)), None);
+}
+
+#[test]
+fn the_picture_is_another_one_exactly_when_what_stands_out_or_is_shown_changed() {
+    let mut session = chains(5);
+    session.apply(Command::Pause);
+    let mut changes = |command: JointCommand| {
+        let before = session.picture_revision();
+        session.apply(joint(command));
+        session.picture_revision() != before
+    };
+    let (first, none) = (Some(JointIndex(1)), None);
+    assert!(changes(Hover(first)) && !changes(Hover(first)) && changes(Hover(none)) && !changes(Hover(none)));
+    assert!(changes(Select(first)) && !changes(Select(first)) && changes(SelectParent) && !changes(SelectParent));
+    assert!(changes(SelectVertex(Some(2))) && !changes(SelectVertex(Some(2))));
+    assert!(changes(SetBonesVisible(true)) && !changes(SetBonesVisible(true)));
+    assert!(changes(SetBoneStyle(BoneStyle::Axes)) && !changes(SetBoneStyle(BoneStyle::Axes)));
+    assert!(changes(SetLabelsVisible(true)) && !changes(SetLabelsVisible(true)));
+    assert!(changes(SetSkinView(Some(SkinView::Stretch))) && !changes(SetSkinView(Some(SkinView::Stretch))));
+    assert!(changes(ToggleTrail(JointIndex(1))) && changes(ClearTrails) && !changes(ClearTrails));
+    let named = || Rename {
+        joint: JointIndex(1),
+        name: "arm".to_owned(),
+    };
+    assert!(changes(named()) && !changes(named()) && changes(ClearNames) && !changes(ClearNames));
+    assert!(!changes(SetAllFolded(true)), "the tree is beside the picture");
+}
+
+#[test]
+fn what_the_model_has_not_is_left_alone() {
+    for mut session in [opened(moving("a.m3d")), opened(still("a.m3d")), Session::new(false)] {
+        let before = session.joints().clone();
+        let none = JointIndex(u32::MAX);
+        for command in [
+            Select(Some(none)),
+            Hover(Some(none)),
+            SelectVertex(Some(u32::MAX)),
+            SetFolded {
+                joint: none,
+                folded: true,
+            },
+            Rename {
+                joint: none,
+                name: "x".to_owned(),
+            },
+            ToggleTrail(none),
+            ImportNames(SavedNames {
+                fingerprint: 1,
+                names: BTreeMap::from([(0, "x".to_owned())]),
+            }),
+        ] {
+            session.apply(joint(command.clone()));
+            assert_eq!(session.joints(), &before, "{command:?}");
+        }
+        assert_eq!(session.inspect_joint(none), None);
+        assert_eq!(session.explain_vertex(), None);
+    }
+}
+
+#[test]
+fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_is() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::LookFrom(ViewPreset::Front));
+    session.apply(Command::Seek { time_secs: 0.0 });
+    session.apply(joint(SelectVertexAt(Vec2::new(0.02, 0.05))));
+    let selected = *session.joints().selected_vertex().expect("the front is there");
+    assert_eq!(selected.hit.map(|hit| hit.vertex), Some(selected.vertex));
+    let mut places = Vec::new();
+    for time_secs in [0.0, 0.3, 0.9] {
+        session.apply(Command::Seek { time_secs });
+        assert_eq!(session.joints().selected_vertex(), Some(&selected), "the same vertex");
+        let explained = session.explain_vertex().expect("selected");
+        let palette = session.frame().palette.clone();
+        let mut positions = Vec::new();
+        skin_positions(
+            &session.open_model().expect("open").model.mesh,
+            &palette,
+            &mut positions,
+        );
+        assert!(explained.position.distance(positions[selected.vertex as usize]) < 1e-5);
+        places.push(explained.position);
+    }
+    assert_ne!(places[0], places[1], "in another pose");
+    rename(&mut session, 1, "upper");
+    assert!(
+        session
+            .explain_vertex_text()
+            .expect("selected")
+            .contains("bone 1 \"upper\", weight")
+    );
+    session.apply(joint(SelectVertexAt(Vec2::splat(0.999))));
+    assert_eq!(session.joints().selected_vertex(), None, "beside the skin");
+}
+
+#[test]
+fn rows_fold_and_a_selection_unfolds_what_it_hangs_from() {
+    let mut session = chains(5);
+    let all = [0, 1, 3, 2, 4];
+    assert_eq!(bones(&rows(&session, "")), all);
+    session.apply(joint(SetFolded {
+        joint: JointIndex(1),
+        folded: true,
+    }));
+    assert_eq!(bones(&rows(&session, " ")), [0, 1, 2, 4]);
+    assert!(rows(&session, "")[1].folded && rows(&session, "")[1].has_children);
+    session.apply(joint(SetAllFolded(true)));
+    let row = rows(&session, "");
+    assert_eq!((bones(&row), row[0].branch_vertices), (vec![0], 15));
+    session.apply(joint(Select(Some(JointIndex(3)))));
+    assert_eq!(bones(&rows(&session, "")), [0, 1, 3, 2], "bone 2 stays folded");
+    session.apply(joint(SetAllFolded(false)));
+    let row = rows(&session, "");
+    assert_eq!(bones(&row), all);
+    assert!(row.iter().all(|row| !row.folded && !row.found));
+    let depths: Vec<_> = row.iter().map(|row| row.depth).collect();
+    assert_eq!(depths, [0, 1, 2, 1, 2]);
+    // Each bone's three vertices are its own and its parent's.
+    assert_eq!(
+        (row[2].own_vertices, row[1].own_vertices, row[1].branch_vertices),
+        (3, 6, 6)
+    );
+}
+
+#[test]
+fn a_search_finds_numbers_and_names_with_what_they_hang_from_even_when_folded() {
+    let mut session = chains(41);
+    rename(&mut session, 3, "Left Elbow");
+    rename(&mut session, 12, "Toe 7");
+    session.apply(joint(SetAllFolded(true)));
+    for query in ["3", "#3", "bone 3", " BONE 3 ", "elbow", "LEFT e"] {
+        let rows = rows(&session, query);
+        assert_eq!(bones(&rows), [0, 1, 3], "{query}");
+        let found: Vec<_> = rows.iter().map(|row| row.found).collect();
+        assert_eq!(found, [false, false, true]);
+    }
+    let seven = rows(&session, "7");
+    let found: Vec<_> = seven.iter().filter(|row| row.found).map(|row| row.bone).collect();
+    assert_eq!(found, [7, 12], "a number and a name");
+    assert!(rows(&session, "nobody").is_empty() && rows(&session, "41").is_empty());
+    assert!(rows(&Session::new(false), "").is_empty());
+}
+
+#[test]
+fn names_are_given_shown_proposed_for_the_other_side_and_accepted() {
+    let mut session = chains(5);
+    assert_eq!(session.joint_label(JointIndex(3)), "Bone 3");
+    assert!(session.proposed_names().is_empty());
+    let revision = session.joint_names_revision();
+    rename(&mut session, 3, "L hand");
+    assert_eq!(session.joint_label(JointIndex(3)), "L hand");
+    assert!(session.joint_names_revision() > revision);
+    let expected = BTreeMap::from([(4, "R hand".to_owned())]);
+    assert_eq!(session.proposed_names(), expected);
+    session.apply(joint(AcceptMirrorNames));
+    assert_eq!(session.joint_names().get(4), Some("R hand"));
+    assert!(session.proposed_names().is_empty());
+
+    let saved = session.saved_joint_names().expect("a model is open");
+    session.apply(joint(ClearNames));
+    assert!(session.joint_names().is_empty());
+    session.apply(joint(ImportNames(saved.clone())));
+    assert_eq!(session.saved_joint_names(), Some(saved.clone()));
+
+    let mut other = chains(7);
+    other.apply(joint(ImportNames(saved)));
+    assert!(other.joint_names().is_empty(), "another hierarchy");
+    assert_eq!(Session::new(false).saved_joint_names(), None);
+}
+
+#[test]
+fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
+    let mut session = chains(5);
+    rename(&mut session, 1, "arm");
+    for command in [
+        Select(Some(JointIndex(3))),
+        SelectVertex(Some(1)),
+        ToggleTrail(JointIndex(2)),
+        SetFolded {
+            joint: JointIndex(2),
+            folded: true,
+        },
+        SetBonesVisible(true),
+        SetSkinView(Some(SkinView::Weight)),
+    ] {
+        session.apply(joint(command));
+    }
+    session.apply(Command::SetBindShare(0.5));
+    let again = |session: &mut Session, path: &str, count| {
+        session.apply(Command::AddFiles(vec![models::file(path, &mirrored(count))]));
+    };
+    again(&mut session, "chains.m3d", 5);
+    assert_eq!(session.joint_names().get(1), Some("arm"));
+    assert_eq!(
+        (session.joints().selected(), session.joints().trails()),
+        (Some(JointIndex(3)), [JointIndex(2)].as_slice())
+    );
+    assert!(session.joints().is_folded(JointIndex(2)));
+    assert_eq!(session.joints().selected_vertex(), None, "of the old mesh");
+    assert_eq!(session.bind_share(), 0.5);
+
+    again(&mut session, "chains.m3d", 7);
+    assert!(session.joint_names().is_empty(), "another hierarchy");
+    assert_eq!((session.joints().count(), session.joints().selected()), (7, None));
+
+    rename(&mut session, 1, "arm");
+    again(&mut session, "other.m3d", 7);
+    assert!(session.joint_names().is_empty() && session.joints().trails().is_empty());
+    assert_eq!(session.bind_share(), 0.0);
+    assert!(session.joints().bones_visible(), "how it is shown stays");
+    assert_eq!(session.joints().skin_view(), Some(SkinView::Weight));
+}
+
+#[test]
+fn the_bind_share_goes_from_the_clip_to_the_bind_pose_and_back() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::Pause);
+    session.apply(Command::Seek { time_secs: 0.3 });
+    let animated = session.frame().palette.0.clone();
+    let revision = session.picture_revision();
+    session.apply(Command::SetBindShare(0.25));
+    assert!(session.picture_revision() > revision);
+    assert_ne!(session.frame().palette.0, animated);
+    session.apply(Command::SetBindShare(f32::NAN));
+    assert_eq!(session.bind_share(), 0.25);
+    session.apply(Command::ToggleBindPose);
+    assert_eq!(session.bind_share(), 1.0);
+    assert_eq!(session.frame().palette.0, [Affine3A::IDENTITY; 2]);
+    let hit = session.pick(Vec2::ZERO).expect("the model is in the middle");
+    session.apply(Command::ToggleBindPose);
+    assert_eq!(session.frame().palette.0, animated);
+    assert_ne!(session.pick(Vec2::ZERO), Some(hit), "what is picked is what is seen");
+    session.apply(Command::SetBindShare(7.0));
+    assert_eq!(session.bind_share(), 1.0);
+}
+
+#[test]
+fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::Seek { time_secs: 0.0 });
+    let mut out = OverlayGeometry::default();
+    session.draw_bones(&mut out);
+    assert_eq!(out, OverlayGeometry::default(), "hidden");
+    session.apply(joint(SetBonesVisible(true)));
+    let mut drawn = Vec::new();
+    for command in [
+        joint(SetBoneStyle(BoneStyle::Lines)),
+        joint(SetBoneStyle(BoneStyle::Axes)),
+        Command::Seek { time_secs: 0.3 },
+        joint(Select(Some(JointIndex(1)))),
+        joint(Hover(Some(JointIndex(0)))),
+        Command::SetHandedness(Some(bindpose::model::Handedness::Right)),
+        Command::SetUpAxis(Some(bindpose::model::UpAxis::Z)),
+        Command::SetTheme(bindpose::scene::Theme::Light),
+        Command::AddFiles(vec![jointed("b.m3d")]),
+        Command::AddFiles(vec![still("c.m3d")]),
+    ] {
+        session.apply(command.clone());
+        session.draw_bones(&mut out);
+        assert!(!drawn.contains(&out), "{command:?} is seen");
+        drawn.push(out.clone());
+    }
+    assert_eq!(out, OverlayGeometry::default(), "no bones");
+}
+
+#[test]
+fn labels_are_those_in_view_and_the_selected_comes_first() {
+    let mut session = chains(41);
+    let mut places = Vec::new();
+    session.joint_labels(0.0, &mut places);
+    assert!(places.is_empty(), "hidden");
+    session.apply(joint(SetLabelsVisible(true)));
+    session.apply(joint(Select(Some(JointIndex(20)))));
+    session.apply(joint(Hover(Some(JointIndex(7)))));
+    session.joint_labels(0.0, &mut places);
+    assert_eq!(
+        (places.len(), places[0].joint, places[1].joint),
+        (41, JointIndex(20), JointIndex(7))
+    );
+}
+
+#[test]
+fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::Pause);
+    let vertices = session.open_model().expect("open").model.mesh.vertex_count();
+    let mut colors = vec![[0; 4]];
+    session.skin_colors(&mut colors);
+    assert!(
+        colors.is_empty() && session.skin_colors_key().is_none(),
+        "the skin as it is"
+    );
+
+    let mut seen = Vec::new();
+    for view in SkinView::ALL {
+        session.apply(joint(SetSkinView(Some(view))));
+        session.skin_colors(&mut colors);
+        assert_eq!(colors.len(), vertices);
+        let key = session.skin_colors_key().expect("shown");
+        assert!(!seen.contains(&key));
+        seen.push(key);
+        session.apply(Command::Seek {
+            time_secs: 0.1 + seen.len() as f32 * 0.2,
+        });
+        assert_eq!(
+            session.skin_colors_key() != Some(key),
+            view == SkinView::Stretch,
+            "only stretch is of a pose"
+        );
+    }
+    session.apply(joint(SetSkinView(Some(SkinView::Weight))));
+    session.skin_colors(&mut colors);
+    assert!(
+        colors
+            .iter()
+            .all(|color| *color == legend(SkinView::Weight)[0].color_srgb),
+        "no joint, no weight"
+    );
+    let key = session.skin_colors_key();
+    session.apply(joint(Select(Some(JointIndex(1)))));
+    assert_ne!(session.skin_colors_key(), key);
+    session.skin_colors(&mut colors);
+    let mesh = &session.open_model().expect("open").model.mesh;
+    let heights: Vec<f32> = mesh.positions.iter().map(|position| position.y / 4.0).collect();
+    let mut expected = Vec::new();
+    colors_of_values(legend(SkinView::Weight), &heights, &mut expected);
+    assert_eq!(colors, expected, "the upper joint's weight grows with height");
+    assert_eq!(Session::new(false).skin_colors_key(), None);
+}
+
+#[test]
+fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
+    let mut session = opened(moving("a.m3d"));
+    let (mut trails, mut pose) = (Trails::default(), bindpose::anim::PoseBuffers::default());
+    session.apply(joint(ToggleTrail(JointIndex(1))));
+    session.follow_trails(&mut trails, &mut pose);
+    assert_eq!((trails.polylines().count(), trails.point_count()), (1, 31));
+    session.apply(Command::SelectClip(1));
+    session.follow_trails(&mut trails, &mut pose);
+    assert_eq!(trails.point_count(), 61);
+    session.apply(joint(ToggleTrail(JointIndex(1))));
+    session.follow_trails(&mut trails, &mut pose);
+    assert_eq!(trails.polylines().count(), 0);
+    Session::new(false).follow_trails(&mut trails, &mut pose);
+    assert_eq!(trails, Trails::default());
+}
+
+#[test]
+fn the_soldier_is_inspected_explained_and_coloured() {
+    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
+        return;
+    };
+    let mut session = opened(File::new("soldier.m3d", bytes));
+    session.apply(Command::Seek { time_secs: 0.517 });
+    session.apply(joint(SelectVertexAt(Vec2::ZERO)));
+    assert!(
+        session
+            .explain_vertex()
+            .is_some_and(|explained| !explained.influences.is_empty())
+    );
+    let readout = session.inspect_joint(JointIndex(10)).expect("58 joints");
+    assert!(!readout.model.is_mirrored() && readout.to_text().contains("finalTransform"));
+    let mut colors = Vec::new();
+    for view in SkinView::ALL {
+        session.apply(joint(SetSkinView(Some(view))));
+        session.skin_colors(&mut colors);
+        assert_eq!(colors.len(), 13_748);
+    }
+    let pairs = session.mirror_pairs();
+    assert!(pairs.len() >= 20, "{}", pairs.len());
+}

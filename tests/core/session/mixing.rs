@@ -1,0 +1,280 @@
+//! Crossfades from clip to clip, and two clips blended.
+
+use bindpose::anim::{LocalPose, LoopMode, Playback, PoseBuffers, blend, sample};
+use bindpose::session::{Blend, Command, MAX_CROSSFADE_SECS, Session};
+use glam::Affine3A;
+
+use super::{models, opened};
+use crate::rigs::{self, JOINT_COUNTS};
+
+/// A rig that plays the first of its clips: ragged keys; one key; nine keys from 3 s on.
+fn playing(bones: u32) -> Session {
+    let clips = vec![
+        rigs::ragged("ragged", bones),
+        rigs::single("single", bones),
+        rigs::even("even", bones, 3.0, 9, 4.0),
+    ];
+    opened(models::file("rig.m3d", &rigs::rig(bones, clips)))
+}
+
+fn pose(session: &Session, clip: usize, time_secs: f32) -> LocalPose {
+    let mut pose = LocalPose::default();
+    sample(
+        &session.open_model().expect("open").model.clips[clip],
+        time_secs,
+        &mut pose,
+    );
+    pose
+}
+
+fn mixed(from: &LocalPose, to: &LocalPose, share: f32) -> LocalPose {
+    let mut out = LocalPose::default();
+    blend(from, to, share, &mut out);
+    out
+}
+
+fn palette(session: &Session, local: LocalPose) -> Vec<Affine3A> {
+    let mut buffers = PoseBuffers {
+        local,
+        ..PoseBuffers::default()
+    };
+    buffers.place(&session.open_model().expect("open").model.skeleton);
+    buffers.palette.0
+}
+
+#[track_caller]
+fn assert_shows(session: &mut Session, local: LocalPose) {
+    let expected = palette(session, local);
+    assert!(session.frame().palette.0 == expected, "another pose is on show");
+}
+
+/// Slow at both ends.
+fn smooth(part: f32) -> f32 {
+    part * part * (3.0 - 2.0 * part)
+}
+
+#[test]
+fn without_a_crossfade_clips_change_at_once() {
+    let mut session = playing(3);
+    assert_eq!(session.crossfade_secs(), 0.0);
+    session.advance(0.2);
+    session.apply(Command::SelectClip(2));
+    assert!(!session.is_fading());
+    let expected = pose(&session, 2, 3.0);
+    assert_shows(&mut session, expected);
+}
+
+#[test]
+fn a_crossfade_goes_from_the_old_clip_to_the_new_one_while_both_go_on() {
+    for bones in JOINT_COUNTS {
+        let mut session = playing(bones);
+        session.apply(Command::SetCrossfade(0.5));
+        session.apply(Command::Seek { time_secs: 0.5 });
+        let picture = session.picture_revision();
+        session.apply(Command::SelectClip(2));
+        assert!(session.is_fading() && session.picture_revision() > picture);
+        // The clip that was, looping on its own.
+        let ragged = &session.open_model().expect("open").model.clips[0];
+        let mut old = Playback::new(ragged.start_secs, ragged.end_secs);
+        old.seek(0.5);
+        old.play();
+        let before = pose(&session, 0, old.time_secs());
+        assert_shows(&mut session, before);
+        for step in 1..4 {
+            old.advance(0.125);
+            let gone_secs = step as f32 * 0.125;
+            let picture = session.picture_revision();
+            session.advance(0.125);
+            assert!(session.picture_revision() > picture && session.is_moving());
+            let (from, to) = (pose(&session, 0, old.time_secs()), pose(&session, 2, 3.0 + gone_secs));
+            assert_shows(&mut session, mixed(&from, &to, smooth(gone_secs / 0.5)));
+        }
+        session.advance(0.125);
+        assert!(!session.is_fading());
+        let after = pose(&session, 2, 3.5);
+        assert_shows(&mut session, after);
+    }
+}
+
+#[test]
+fn a_clip_that_stands_still_is_faded_to_as_well() {
+    let mut session = playing(3);
+    session.apply(Command::SetCrossfade(0.5));
+    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(Command::SelectClip(1));
+    assert!(!session.is_animating() && session.is_moving(), "only the fade moves");
+    session.advance(0.25);
+    let (old, new) = (pose(&session, 0, 0.75), pose(&session, 1, 1.5));
+    assert_shows(&mut session, mixed(&old, &new, 0.5));
+    session.advance(1.0);
+    assert!(!session.is_moving());
+    assert_shows(&mut session, new);
+}
+
+#[test]
+fn paused_a_fade_ends_and_the_time_stands() {
+    let mut session = playing(3);
+    session.apply(Command::SetCrossfade(0.5));
+    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(Command::SelectClip(2));
+    session.advance(0.125);
+    session.apply(Command::Pause);
+    session.advance(0.125);
+    let (old, new) = (pose(&session, 0, 0.625), pose(&session, 2, 3.125));
+    assert_shows(&mut session, mixed(&old, &new, 0.5));
+    session.advance(0.25);
+    assert!(!session.is_moving());
+    assert_shows(&mut session, new);
+    // What is paused changes at once.
+    session.apply(Command::SelectClip(0));
+    assert!(!session.is_fading());
+}
+
+#[test]
+fn a_clip_that_ends_before_its_fade_is_seen_to_the_end_of_it() {
+    let mut session = playing(3);
+    session.apply(Command::SetLoopMode(LoopMode::Once));
+    session.apply(Command::SetCrossfade(4.0));
+    session.apply(Command::SelectClip(2));
+    session.advance(2.5);
+    assert!(!session.playback().is_playing() && session.is_fading());
+    session.advance(1.5);
+    assert!(!session.is_moving());
+    let end = pose(&session, 2, 5.0);
+    assert_shows(&mut session, end);
+}
+
+#[test]
+fn who_asks_for_a_time_sees_that_time() {
+    for command in [
+        Command::Seek { time_secs: 3.25 },
+        Command::SeekFrame(1.0),
+        Command::StepFrames(1),
+        Command::SeekStart,
+    ] {
+        let mut session = playing(3);
+        session.apply(Command::SetCrossfade(0.5));
+        session.apply(Command::SelectClip(2));
+        session.advance(0.125);
+        session.apply(command);
+        assert!(!session.is_fading());
+        let there = pose(&session, 2, session.playback().time_secs());
+        assert_shows(&mut session, there);
+    }
+}
+
+#[test]
+fn fades_follow_each_other_without_a_jump() {
+    let mut session = playing(3);
+    session.apply(Command::SetCrossfade(0.5));
+    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(Command::SelectClip(2));
+    session.advance(0.125);
+    let before = session.frame().palette.0.clone();
+    session.apply(Command::SelectClip(1));
+    assert!(
+        session.frame().palette.0 == before,
+        "the next fade begins where the last one is"
+    );
+    session.advance(0.125);
+    let first = mixed(&pose(&session, 0, 0.75), &pose(&session, 2, 3.25), smooth(0.5));
+    let both = mixed(&first, &pose(&session, 1, 1.5), smooth(0.25));
+    assert_shows(&mut session, both);
+    // Any number of them in a moment, and all of them end.
+    for turn in 0..20 {
+        session.apply(Command::SelectClip(turn % 3));
+        session.advance(0.01);
+    }
+    session.advance(0.5);
+    assert!(!session.is_fading());
+}
+
+#[test]
+fn odd_lengths_of_fades_are_left_out() {
+    let mut session = playing(1);
+    session.apply(Command::SetCrossfade(0.25));
+    for odd in [-1.0, f32::NAN, f32::INFINITY] {
+        session.apply(Command::SetCrossfade(odd));
+        assert_eq!(session.crossfade_secs(), 0.25, "{odd}");
+    }
+    session.apply(Command::SetCrossfade(1e9));
+    assert_eq!(session.crossfade_secs(), MAX_CROSSFADE_SECS);
+}
+
+#[test]
+fn two_clips_blend_at_the_same_share_of_their_lengths() {
+    for bones in JOINT_COUNTS {
+        let mut session = playing(bones);
+        session.apply(Command::SelectClip(2));
+        session.apply(Command::Pause);
+        let [start_secs, end_secs] = {
+            let ragged = &session.open_model().expect("open").model.clips[0];
+            [ragged.start_secs, ragged.end_secs]
+        };
+        session.apply(Command::SetBlend { clip: 0, share: 0.3 });
+        assert_eq!(session.blend(), Some(Blend { clip: 0, share: 0.3 }));
+        for phase in [0.0_f32, 0.25, 0.5, 1.0] {
+            session.apply(Command::Seek {
+                time_secs: 3.0 + 2.0 * phase,
+            });
+            let other_secs = start_secs + (end_secs - start_secs) * phase;
+            let (shown, other) = (pose(&session, 2, 3.0 + 2.0 * phase), pose(&session, 0, other_secs));
+            let expected = palette(&session, mixed(&shown, &other, 0.3));
+            let near = |(a, b): (&Affine3A, &Affine3A)| a.abs_diff_eq(*b, 1e-3);
+            // The other clip's time is rounded once more here.
+            assert!(
+                session.frame().palette.0.iter().zip(&expected).all(near),
+                "{bones} {phase}"
+            );
+        }
+        session.apply(Command::SetBlend { clip: 0, share: 0.0 });
+        let shown = pose(&session, 2, 5.0);
+        assert_shows(&mut session, shown.clone());
+        session.apply(Command::SetBlend { clip: 0, share: 7.0 });
+        assert_eq!(session.blend().map(|blend| blend.share), Some(1.0));
+        session.apply(Command::ClearBlend);
+        assert_eq!(session.blend(), None);
+        assert_shows(&mut session, shown);
+    }
+}
+
+#[test]
+fn a_blend_needs_another_clip_that_is_there() {
+    let mut session = playing(1);
+    let picture = session.picture_revision();
+    for (clip, share) in [(0, 0.5), (3, 0.5), (1, f32::NAN)] {
+        session.apply(Command::SetBlend { clip, share });
+        assert_eq!((session.blend(), session.picture_revision()), (None, picture));
+    }
+    session.apply(Command::SetBlend { clip: 2, share: 0.5 });
+    assert!(session.picture_revision() > picture);
+    session.apply(Command::SelectClip(1));
+    assert_eq!(
+        session.blend().map(|blend| blend.clip),
+        Some(2),
+        "it goes on with another clip"
+    );
+    session.apply(Command::SelectClip(2));
+    assert_eq!(session.blend(), None, "but not with itself");
+    session.apply(Command::SetBlend { clip: 0, share: 0.5 });
+    let file = session.open_model().expect("open").file.clone();
+    session.apply(Command::AddFiles(vec![file]));
+    assert_eq!(session.blend(), None);
+}
+
+#[test]
+fn the_box_holds_all_clips_in_the_pose() {
+    let mut session = playing(2);
+    session.apply(Command::SelectClip(1));
+    session.apply(Command::Pause);
+    let still = session.world_bounds();
+    session.apply(Command::SetBlend { clip: 2, share: 0.5 });
+    let both = session.world_bounds();
+    // The first bone of the third clip wanders two units along x.
+    assert!(
+        both.max.x - both.min.x > still.max.x - still.min.x + 1.5,
+        "{still:?} {both:?}"
+    );
+    session.apply(Command::ClearBlend);
+    assert_eq!(session.world_bounds(), still);
+}

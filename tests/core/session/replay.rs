@@ -1,0 +1,117 @@
+//! What was recorded plays again: the same commands and times give the same state, to the bit.
+
+use bindpose::session::{Command, File, Session};
+use proptest::prelude::*;
+
+use super::models::{moving, still};
+use super::random::{command, number};
+use crate::documents::shared_bytes;
+
+/// A command, or time that goes by.
+#[derive(Clone, Debug, PartialEq)]
+enum Step {
+    Apply(Command),
+    Advance(f32),
+}
+
+/// All that a session shows, numbers to the bit: the shortest digits of a float name it alone.
+fn snapshot(session: &mut Session) -> String {
+    let pose: Vec<[u32; 12]> = {
+        let frame = session.frame();
+        frame
+            .palette
+            .0
+            .iter()
+            .map(|matrix| matrix.to_cols_array().map(f32::to_bits))
+            .collect()
+    };
+    let events = session.take_events();
+    let session = &*session;
+    let time = (
+        session.playback(),
+        session.frame_place(),
+        session.is_scrubbing(),
+        session.blend(),
+    );
+    let view = (
+        session.camera(),
+        session.handedness(),
+        session.up_axis(),
+        session.subsets(),
+        session.quality(),
+    );
+    let revisions = (
+        session.model_revision(),
+        session.maps_revision(),
+        session.picture_revision(),
+    );
+    let clips: Vec<_> = session.open_model().iter().flat_map(|open| open.clip_list()).collect();
+    let notices: Vec<_> = session.notices().collect();
+    format!(
+        "{pose:?} {events:?} {time:?} {:?} {:?} {view:?} {revisions:?} {clips:?} {notices:?} {:?} {:?}",
+        session.clip_index(),
+        (session.crossfade_secs(), session.is_fading(), session.is_moving()),
+        session.error(),
+        session.materials(),
+    )
+}
+
+fn run(start: &[File], steps: &[Step]) -> Vec<String> {
+    let mut session = Session::new(false);
+    session.apply(Command::AddFiles(start.to_vec()));
+    steps
+        .iter()
+        .map(|step| {
+            match step.clone() {
+                Step::Apply(command) => drop(session.apply(command)),
+                Step::Advance(dt_secs) => session.advance(dt_secs),
+            }
+            snapshot(&mut session)
+        })
+        .collect()
+}
+
+fn steps(most: usize) -> impl Strategy<Value = Vec<Step>> {
+    let step = prop_oneof![2 => command().prop_map(Step::Apply), 1 => number().prop_map(Step::Advance)];
+    prop::collection::vec(step, 1..most)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_recorded_list_gives_the_same_state_again(steps in steps(40)) {
+        let start = [moving("a.m3d"), still("c.m3d")];
+        // A recording is kept apart from what it was made of.
+        let recorded: Vec<Step> = steps.clone();
+        let (first, again) = (run(&start, &steps), run(&start, &recorded));
+        for (step, (first, again)) in steps.iter().zip(first.iter().zip(&again)) {
+            prop_assert_eq!(first, again, "{:?}", step);
+        }
+    }
+}
+
+#[test]
+fn a_session_with_a_real_file_plays_again() {
+    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
+        return;
+    };
+    let soldier = File::new("soldier.m3d", bytes);
+    let mut steps = vec![
+        Step::Apply(Command::AddClips(vec![soldier.clone()])),
+        Step::Apply(Command::SetCrossfade(0.2)),
+        Step::Apply(Command::SetSpeed(0.37)),
+        Step::Apply(Command::SetRangeStart(Some(0.3))),
+    ];
+    for turn in 0..60 {
+        steps.push(Step::Advance(0.016_683_351));
+        if turn % 10 == 9 {
+            steps.push(Step::Apply(Command::CycleClip(1)));
+        }
+    }
+    let (first, again) = (
+        run(std::slice::from_ref(&soldier), &steps),
+        run(std::slice::from_ref(&soldier), &steps),
+    );
+    assert!(first == again && first.first() != first.last());
+}
