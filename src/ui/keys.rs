@@ -6,7 +6,7 @@ use super::UiState;
 use super::flight::FLIGHT_KEYS;
 use crate::anim::Direction;
 use crate::scene::{Overlay, ViewPreset};
-use crate::session::{Command, LookCommand, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, LookCommand, Session, SubsetCommand};
 
 /// Reads the keys of this frame. Nothing while words are typed. `popover_open`: Esc has shut something that hung from a button.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
@@ -27,7 +27,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 if control_focused && matches!(key, Key::Space | Key::Enter) {
                     continue;
                 }
-                commands.extend(command_for(key, modifiers).map(|command| of_selection(command, state)));
+                commands.extend(command_for(key, modifiers).map(|command| of_selection(command, session)));
                 match key {
                     Key::Escape if !popover_open => escape(session, state, commands),
                     Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
@@ -42,11 +42,11 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
 }
 
 /// Steps from key to key are of the joint that was chosen.
-fn of_selection(command: Command, state: &UiState) -> Command {
+fn of_selection(command: Command, session: &Session) -> Command {
     match command {
         Command::StepKey { direction, joint: None } => Command::StepKey {
             direction,
-            joint: state.timeline.selected(),
+            joint: session.joints().selected(),
         },
         command => command,
     }
@@ -60,8 +60,18 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         state.help_open = false;
     } else if state.diagnostics_open {
         state.diagnostics_open = false;
-    } else if !state.timeline.clear_selection() && session.subsets().selected().is_some() {
-        commands.push(SubsetCommand::Select(None).into());
+    } else if !state.timeline.let_go_of_keys() {
+        commands.extend(let_go(session));
+    }
+}
+
+/// Takes the selection away.
+fn let_go(session: &Session) -> Option<Command> {
+    if session.joints().selected().is_some() {
+        Some(JointCommand::Select(None).into())
+    } else {
+        let subset = session.subsets().selected();
+        subset.map(|_| SubsetCommand::Select(None).into())
     }
 }
 

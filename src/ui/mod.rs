@@ -35,7 +35,7 @@ mod wording;
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
 use crate::scene::{Insets, Theme};
-use crate::session::{Command, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 pub use state::{Request, SheetPage, UiState};
@@ -64,6 +64,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
     split::show(ui, session, window, &mut commands);
     state.hovered_subset = None;
+    state.timeline.update(session);
 
     if narrow {
         layout::narrow(ui, session, state, window, &mut commands);
@@ -72,6 +73,9 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     }
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
+    }
+    if session.joints().hovered() != state.timeline.hovered() {
+        commands.push(JointCommand::Hover(state.timeline.hovered()).into());
     }
     if state.help_open {
         let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));

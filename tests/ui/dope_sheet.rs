@@ -1,6 +1,7 @@
 //! The sheet above the strip: rows, keys, boxes, zoom; and how little of it is drawn.
 
-use bindpose::session::Command;
+use bindpose::model::JointIndex;
+use bindpose::session::{Command, JointCommand};
 use egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
 };
@@ -98,6 +99,7 @@ fn a_click_on_a_key_goes_there_and_chooses_its_bone() {
     press(&mut window, at + vec2(3.0, 0.0));
     let key_secs = 20.0 / 30.0;
     assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
+    assert_eq!(window.session().joints().selected(), Some(JointIndex(3)));
     // Up and down go from key to key of that bone.
     window.press(Modifiers::NONE, Key::ArrowUp);
     assert!((window.time_secs() - 21.0 / 30.0).abs() < 1e-6);
@@ -123,6 +125,9 @@ fn a_drag_draws_a_box_counts_its_keys_and_makes_a_range_of_it() {
     assert!((start - 9.5 / 30.0).abs() < 0.002 && (end - 14.5 / 30.0).abs() < 0.002);
     window.press(Modifiers::NONE, Key::Escape);
     assert!(!window.shows("As range"), "Esc lets go of the keys");
+    window.click("Bone 2, ");
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(window.session().joints().selected(), None, "and then of the bone");
 }
 
 #[test]
@@ -176,6 +181,44 @@ fn ctrl_and_wheel_zoom_at_the_pointer_and_shift_and_wheel_pans() {
     assert!(window.time_secs() > before + 0.05, "{}", window.time_secs());
     window.click("All of the time");
     assert!(!window.shows("All of the time"));
+}
+
+#[test]
+fn rows_light_up_with_their_bones_and_come_into_sight_when_one_is_selected() {
+    let mut window = sheet(300, 31);
+    let at = place(&window, "Bone 4, ", 0.4);
+    window.harness.hover_at(at);
+    window.pass_on();
+    let row = |window: &Window| window.session().joints().hovered();
+    assert_eq!(row(&window), Some(JointIndex(4)));
+    window.harness.hover_at(window.rect("Bone 1, ").center());
+    window.pass_on();
+    assert_eq!(row(&window), Some(JointIndex(1)));
+    window.harness.hover_at(pos2(720.0, 300.0));
+    window.pass_on();
+    assert_eq!(row(&window), None);
+    assert!(!rows(&window).contains(&"Bone 299, 31 keys".to_owned()));
+    window.apply(JointCommand::Select(Some(JointIndex(299))).into());
+    window.wait(0.5);
+    assert!(
+        rows(&window).contains(&"Bone 299, 31 keys".to_owned()),
+        "{:?}",
+        rows(&window)
+    );
+    let first = rows(&window)[0].clone();
+    wheel(&mut window, at, vec2(0.0, 300.0), Modifiers::NONE);
+    assert_ne!(rows(&window)[0], first, "it is not held there");
+}
+
+#[test]
+fn bones_go_by_their_names() {
+    let mut window = sheet(5, 31);
+    let name = "Tail".to_owned();
+    let joint = JointIndex(2);
+    window.apply(JointCommand::Rename { joint, name }.into());
+    window.click("Tail, 31 keys");
+    window.click("Sheet: Curves");
+    assert!(window.shows("Curves of Tail"));
 }
 
 #[test]

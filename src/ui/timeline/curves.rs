@@ -8,7 +8,7 @@ use super::marks::MERGE_POINTS;
 use super::plot::ValueAxis;
 use super::ruler::{self, RULER_HEIGHT};
 use super::sheet::{segmented_of_width, split_x};
-use super::state::{TimelineState, joint_label};
+use super::state::TimelineState;
 use super::time_area;
 use crate::anim::{CurvePoint, CurveSpace, curve};
 use crate::model::{Clip, JointIndex};
@@ -151,7 +151,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     let split = split_x(area);
     let plot = Rect::from_min_max(pos2(split, area.min.y), area.max);
     ui.painter().rect_filled(plot, CONTROL_RADIUS, Tokens::of(ui).field);
-    let Some(joint) = state.selected() else {
+    let Some(joint) = session.joints().selected() else {
         paint_hint(ui, plot);
         return;
     };
@@ -182,7 +182,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     );
 
     let response = ui.interact(lines_rect, ui.scope_id().with("curves"), Sense::click_and_drag());
-    let label = format!("Curves of {}", joint_label(session, joint));
+    let label = format!("Curves of {}", session.joint_label(joint));
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
     time_area::scrub(&response, &axis, commands);
     let ruler = time_area::ruler(ui, session, &axis, ruler_rect, commands);
@@ -280,7 +280,7 @@ fn paint_legend(
     let painter = ui.painter();
     let left = area.min.x + 6.0;
     let middle = area.min.y + 0.5 * RULER_HEIGHT;
-    let name = joint_label(session, joint);
+    let name = session.joint_label(joint);
     painter.text(
         pos2(left, middle),
         Align2::LEFT_CENTER,

@@ -13,11 +13,11 @@ use super::marks::{MarkShape, mark_radius};
 use super::rows::Row;
 use super::ruler::{self, RULER_HEIGHT};
 use super::sheet::split_x;
-use super::state::{TimelineState, joint_label};
+use super::state::TimelineState;
 use super::time_area;
 use crate::anim::JointActivity;
 use crate::model::{Clip, JointIndex};
-use crate::session::{Command, OpenModel, Session};
+use crate::session::{Command, JointCommand, OpenModel, Session};
 
 /// How far from a key a click still means it.
 const REACH: f32 = 6.0;
@@ -95,8 +95,8 @@ impl Sheet<'_> {
 
     fn show_rows(&self, ui: &mut Ui, body: Rect, state: &mut TimelineState, commands: &mut Vec<Command>) {
         let mut rows = std::mem::take(&mut state.rows);
-        let of = (self.session.model_revision(), self.clip_index);
-        let shown = rows.update(of, &self.open.model.skeleton, self.activity, &state.arrangement);
+        let by_motion = rows.by_motion;
+        let shown = rows.update(self.session, self.open, self.clip_index);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(body).id_salt("rows"));
         ui.set_clip_rect(ui.clip_rect().intersect(body));
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -111,8 +111,9 @@ impl Sheet<'_> {
                 let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
                 response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Keys of all bones"));
                 let mut shape = MarkShape::new(ui);
+                self.reveal(ui, shown, top, state);
                 for row in &shown[seen] {
-                    self.show_row(ui, row, &response, state, &mut shape);
+                    self.show_row(ui, row, by_motion, &response, state, &mut shape, commands);
                 }
                 shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
                 self.press_keys(ui, &response, shown, top, state, commands);
@@ -131,7 +132,34 @@ impl Sheet<'_> {
         self.open.key_times(self.clip_index, Some(joint))
     }
 
-    fn show_row(&self, ui: &mut Ui, row: &Row, keys: &Response, state: &mut TimelineState, shape: &mut MarkShape) {
+    /// Brings the row of a joint that was selected elsewhere into sight.
+    fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
+        let selected = self.session.joints().selected();
+        if state.revealed == selected {
+            return;
+        }
+        state.revealed = selected;
+        if let Some(index) = rows.iter().position(|row| Some(row.joint) == selected) {
+            let y = top + index as f32 * self.row_height;
+            let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
+            ui.scroll_to_rect(row, None);
+        }
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a row reads and tells what a sheet reads and tells"
+    )]
+    fn show_row(
+        &self,
+        ui: &mut Ui,
+        row: &Row,
+        by_motion: bool,
+        keys: &Response,
+        state: &mut TimelineState,
+        shape: &mut MarkShape,
+        commands: &mut Vec<Command>,
+    ) {
         let tokens = Tokens::of(ui);
         let size = vec2(self.area.width(), self.row_height);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -140,68 +168,76 @@ impl Sheet<'_> {
         let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
         let tint = MOST_TINT * activity.share;
         if tint > 0.0 {
-            ui.painter()
-                .rect_filled(time_rect, 0.0, tokens.warning.gamma_multiply(tint));
+            let tint = tokens.warning.gamma_multiply(tint);
+            ui.painter().rect_filled(time_rect, 0.0, tint);
         }
         let pointed = keys.hover_pos().is_some_and(|at| rect.y_range().contains(at.y));
         if pointed {
+            state.hovered = Some(row.joint);
+        }
+        if self.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
-        self.name_cell(ui, row, name_rect, pointed, state);
+        self.name_cell(ui, row, by_motion, name_rect, state, commands);
         self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
     }
 
-    /// The name of a joint, which chooses it, and what folds its branch.
-    fn name_cell(&self, ui: &Ui, row: &Row, rect: Rect, pointed: bool, state: &mut TimelineState) {
+    /// The name of a joint, which selects it, and what folds its branch.
+    fn name_cell(
+        &self,
+        ui: &Ui,
+        row: &Row,
+        by_motion: bool,
+        rect: Rect,
+        state: &mut TimelineState,
+        commands: &mut Vec<Command>,
+    ) {
         let tokens = Tokens::of(ui);
         let id = ui.scope_id().with(("row", row.joint.0));
         let response = ui.interact(rect, id, Sense::click());
-        let selected = state.selected() == Some(row.joint);
+        let joints = self.session.joints();
+        let selected = joints.selected() == Some(row.joint);
+        if response.contains_pointer() && !is_touch(ui) {
+            state.hovered = Some(row.joint);
+        }
         if selected {
             ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-        } else if pointed || response.contains_pointer() {
+        } else if joints.hovered() == Some(row.joint) {
             ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
         }
         focus_ring(ui, rect, &response);
-        let name = joint_label(self.session, row.joint);
+        let name = self.session.joint_label(row.joint);
         let key_count = counted(self.key_times(row.joint).len(), "key");
         response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("{name}, {key_count}")));
         if response.clicked() {
-            state.select((!selected).then_some(row.joint));
+            let joint = (!selected).then_some(row.joint);
+            state.revealed = joint;
+            commands.push(JointCommand::Select(joint).into());
         }
 
         // Deep joints of a slim column keep room for their names.
         let slim = rect.width() < SLIM_NAMES;
         let (indent, deepest) = if slim { (0.5 * INDENT, 0.2) } else { (INDENT, 0.4) };
         let left = rect.min.x + 4.0 + (row.depth as f32 * indent).min(deepest * rect.width());
-        let chevron_width = if state.arrangement.by_motion { 4.0 } else { 16.0 };
+        let chevron_width = if by_motion { 4.0 } else { 16.0 };
         let mut right = rect.max.x - 6.0;
         if row.folded {
             let at = pos2(right, rect.center().y);
             let count = format!("+{}", row.below);
             let font = FontId::proportional(11.0);
-            right = ui
-                .painter()
-                .text(at, Align2::RIGHT_CENTER, count, font, tokens.faint)
-                .min
-                .x
-                - 4.0;
+            let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, count, font, tokens.faint);
+            right = drawn.min.x - 4.0;
         }
         let color = if selected { tokens.accent } else { tokens.text };
         let at = pos2(left + chevron_width, rect.center().y);
         paint_elided(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
         if row.below > 0 {
-            self.fold(
-                ui,
-                row,
-                &name,
-                Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range()),
-                state,
-            );
+            let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
+            self.fold(ui, row, &name, place, commands);
         }
     }
 
-    fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, state: &mut TimelineState) {
+    fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
         let tokens = Tokens::of(ui);
         let target = if is_touch(ui) {
             let right = place.max.x.max(self.area.min.x + 44.0);
@@ -218,8 +254,9 @@ impl Sheet<'_> {
         icons::paint(ui.painter(), place, icon, tokens.muted_to_text(response.hovered()));
         let verb = if row.folded { "Unfold" } else { "Fold" };
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
-        if response.clicked() && !state.arrangement.folded.remove(&row.joint) {
-            state.arrangement.folded.insert(row.joint);
+        if response.clicked() {
+            let (joint, folded) = (row.joint, !row.folded);
+            commands.push(JointCommand::SetFolded { joint, folded }.into());
         }
     }
 
@@ -294,7 +331,8 @@ impl Sheet<'_> {
         if let Some((joint, time_secs)) = key {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
             if response.clicked() {
-                state.select(Some(joint));
+                state.revealed = Some(joint);
+                commands.push(JointCommand::Select(Some(joint)).into());
                 commands.push(Command::Seek { time_secs });
             }
         }

@@ -48,7 +48,6 @@ pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
 
 /// The panel's contents in a wide window.
 pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    state.timeline.update(session);
     edge::show(ui, &mut state.timeline);
     if let Some(height) = state.timeline.sheet_height(ui) {
         sheet::show(ui, session, &mut state.timeline, height, commands);

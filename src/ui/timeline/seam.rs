@@ -1,7 +1,6 @@
 //! What is seen where a loop begins again, in words.
 
 use super::super::wording::measured;
-use super::state::joint_label;
 use crate::anim::LoopMode;
 use crate::session::Session;
 
@@ -22,7 +21,7 @@ pub(super) fn words(session: &Session) -> Option<String> {
     let numbers: Vec<String> = numbers.into_iter().flatten().collect();
     Some(format!(
         "The loop's seam is seen: {} {} from the last pose to the first",
-        joint_label(session, worst),
+        session.joint_label(worst),
         numbers.join(", "),
     ))
 }

@@ -10,7 +10,7 @@ use super::super::wording::counted;
 use super::state::{SheetTab, TimelineState};
 use super::{controls, curves, dope_sheet};
 use crate::anim::Direction;
-use crate::session::{Command, Session};
+use crate::session::{Command, JointCommand, Session};
 
 /// Room between the controls and what they control.
 const GAP: f32 = 6.0;
@@ -35,15 +35,15 @@ pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, r
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), room), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
     if room >= WITH_TRANSPORT {
-        page_transport(&mut child, session, &state.timeline, commands);
+        page_transport(&mut child, session, commands);
         child.add_space(GAP);
     }
     contents(&mut child, session, &mut state.timeline, commands);
 }
 
 /// The buttons for which the strip of a narrow window has no room, spread over the width.
-fn page_transport(ui: &mut Ui, session: &Session, state: &TimelineState, commands: &mut Vec<Command>) {
-    let joint = state.selected();
+fn page_transport(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let joint = session.joints().selected();
     ui.horizontal(|ui| {
         let free = ui.available_width() - 7.0 * control_size(ui);
         ui.spacing_mut().item_spacing.x = (free / 6.0).clamp(0.0, 24.0);
@@ -80,20 +80,16 @@ fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands:
 }
 
 fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
-    let by_motion = state.arrangement.by_motion;
+    let by_motion = state.rows.by_motion;
     if icon_button(ui, Icon::Sort, "Sort by motion", by_motion).clicked() {
-        state.arrangement.by_motion = !by_motion;
+        state.rows.by_motion = !by_motion;
     }
-    if !by_motion && let Some(open) = session.open_model() {
-        let parents = open.model.skeleton.parents();
-        let any_folded = !state.arrangement.folded.is_empty();
+    if !by_motion {
+        let joints = session.joints();
+        let any_folded = joints.tree().order().iter().any(|&joint| joints.is_folded(joint));
         let label = if any_folded { "Unfold all" } else { "Fold all" };
         if icon_button(ui, Icon::Fold, label, any_folded).clicked() {
-            state.arrangement.folded = if any_folded {
-                Default::default()
-            } else {
-                parents.iter().flatten().copied().collect()
-            };
+            commands.push(JointCommand::SetAllFolded(!any_folded).into());
         }
     }
     let Some(key_box) = &state.key_box else { return };

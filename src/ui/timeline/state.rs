@@ -5,7 +5,7 @@ use egui::Ui;
 use super::axis::TimeWindow;
 use super::curves::Curves;
 use super::key_box::KeyBox;
-use super::rows::{Arrangement, Rows};
+use super::rows::Rows;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
 
@@ -33,28 +33,26 @@ pub(in crate::ui) struct TimelineState {
     pub(super) dragged_height: Option<f32>,
     pub(super) tab: SheetTab,
     pub(super) window: TimeWindow,
-    pub(super) arrangement: Arrangement,
     pub(super) rows: Rows,
     pub(super) curves: Curves,
     pub(super) key_box: Option<KeyBox>,
-    selected: Option<JointIndex>,
+    /// The joint whose row is under the pointer in this pass.
+    pub(super) hovered: Option<JointIndex>,
+    /// The selected joint whose row was brought into sight.
+    pub(super) revealed: Option<JointIndex>,
     of: Option<(u64, usize)>,
     head_was_seen: bool,
 }
 
 impl TimelineState {
     /// Forgets what belonged to another clip, or to another model, and turns the page when the time leaves it.
-    pub(super) fn update(&mut self, session: &Session) {
+    pub(in crate::ui) fn update(&mut self, session: &Session) {
+        self.hovered = None;
         let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
             return;
         };
         let of = Some((session.model_revision(), index));
         if self.of != of {
-            let same_model = matches!((self.of, of), (Some(before), Some(now)) if before.0 == now.0);
-            if !same_model {
-                self.selected = None;
-                self.arrangement = Arrangement::default();
-            }
             self.window.show_all();
             self.key_box = None;
             self.of = of;
@@ -83,19 +81,14 @@ impl TimelineState {
         }
     }
 
-    /// The joint whose keys and curves are meant, if one was chosen.
-    pub(in crate::ui) fn selected(&self) -> Option<JointIndex> {
-        self.selected
+    /// The joint whose row is under the pointer.
+    pub(in crate::ui) fn hovered(&self) -> Option<JointIndex> {
+        self.hovered
     }
 
-    /// Chooses a joint, or none.
-    pub(super) fn select(&mut self, joint: Option<JointIndex>) {
-        self.selected = joint;
-    }
-
-    /// Lets go of what was chosen in it, the keys before the joint. Whether there was anything.
-    pub(in crate::ui) fn clear_selection(&mut self) -> bool {
-        self.key_box.take().is_some() || self.selected.take().is_some()
+    /// Lets go of the keys that were chosen. Whether there were any.
+    pub(in crate::ui) fn let_go_of_keys(&mut self) -> bool {
+        self.key_box.take().is_some()
     }
 
     /// Height of the sheet in a wide window, while it is open.
@@ -115,14 +108,4 @@ impl TimelineState {
     pub(super) fn settle_height(&mut self, ui: &Ui) {
         self.dragged_height = self.sheet_height(ui);
     }
-}
-
-/// What a joint is called.
-pub(super) fn joint_label(session: &Session, joint: JointIndex) -> String {
-    let bone = session
-        .open_model()
-        .and_then(|open| open.model.skeleton.file_bones().get(joint.index()))
-        .copied()
-        .unwrap_or(joint.0);
-    format!("Bone {bone}")
 }

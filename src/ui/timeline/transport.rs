@@ -27,7 +27,7 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     let row = vec2(ui.available_width(), height);
     ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
-        let joint = state.timeline.selected();
+        let joint = session.joints().selected();
         ui.spacing_mut().item_spacing.x = 2.0;
         controls::end_button(ui, Direction::Backward, commands);
         if with_keys {
@@ -71,7 +71,6 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 /// The strip in two rows, for phones: the bar above, large targets.
 pub(in crate::ui) fn narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(clip) = session.clip() else { return };
-    state.timeline.update(session);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         controls::play_button(ui, session, 44.0, commands);
