@@ -35,18 +35,22 @@ pub(super) fn gap(ui: &mut Ui) {
     rule(ui, POPOVER_MARGIN);
 }
 
-/// Hangs over a button at the window's lower edge.
+/// Stands over a button at the window's lower edge, as far from the window's sides as the panels are.
 pub(super) fn show_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
     let tokens = Tokens::of(ui);
-    let window = ui.ctx().content_rect();
-    let gap = MARGIN + 4.0;
-    let room = button.rect.min.y - gap - window.min.y - MARGIN - 2.0 * POPOVER_MARGIN;
-    let width = width.min(window.width() - 2.0 * (MARGIN + POPOVER_MARGIN + 1.0));
+    let window = ui.ctx().content_rect().shrink(MARGIN);
+    let bottom = button.rect.min.y - MARGIN - 4.0;
+    let room = bottom - window.min.y - 2.0 * POPOVER_MARGIN;
+    // Margins and border.
+    let around = 2.0 * (POPOVER_MARGIN + 1.0);
+    let width = width.min(window.width() - around);
+    let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);
     Popup::from_toggle_button_response(button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .at_position(pos2(left, bottom))
         .align(RectAlign::TOP_START)
-        .align_alternatives(&[RectAlign::TOP_END, RectAlign::TOP])
-        .gap(gap)
+        .align_alternatives(&[])
+        .gap(0.0)
         .frame(theme::panel_frame(&tokens).inner_margin(POPOVER_MARGIN))
         .show(|ui| {
             ui.set_width(width);

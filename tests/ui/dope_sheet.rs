@@ -8,7 +8,7 @@ use egui::{
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside};
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, Window, phone, window};
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
 use crate::rigs::rig;
 
 /// Room between the ends of the time and the ends of the sheet.
@@ -267,6 +267,29 @@ fn rigs_of_any_size_have_their_rows() {
         assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
         window.apply(Command::SelectClip(1));
         assert_eq!(rows(&window).len(), shown, "a clip of one key has rows too");
+    }
+}
+
+#[test]
+fn it_fits_windows_of_any_size() {
+    for size in [WIDE, vec2(900.0, 700.0), vec2(900.0, 600.0), vec2(1200.0, 480.0)] {
+        let mut window = window(size, vec![rig(30, 31)]);
+        open(&mut window);
+        for tab in ["Sheet: Curves", "Sheet: Dope sheet"] {
+            window.click(tab);
+            assert_inside(&window, size);
+            assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
+        }
+    }
+    for size in [PHONE, vec2(320.0, 568.0), vec2(844.0, 390.0), vec2(899.0, 700.0)] {
+        let mut window = touch_window(size, vec![rig(30, 31)]);
+        open(&mut window);
+        window.click("Bone 1, ");
+        for tab in ["Sheet: Curves", "Sheet: Dope sheet"] {
+            window.click(tab);
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+        }
     }
 }
 

@@ -242,9 +242,11 @@ fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_lef
 
 /// A dot at each key, where there is room for dots.
 fn paint_keys(ui: &Ui, curves: &Curves, clip: &Clip, times_secs: &[f32], axis: &TimeAxis, values: &ValueAxis) {
-    if axis.points_per_sec() / clip.keys_per_sec < 2.0 * MERGE_POINTS {
+    let spacing = axis.points_per_sec() / clip.keys_per_sec;
+    if spacing < 2.0 * MERGE_POINTS {
         return;
     }
+    let radius = (0.2 * spacing).clamp(1.4, 2.4);
     let seen = axis.points().expand(1.0);
     let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
     let mut before = f32::NEG_INFINITY;
@@ -260,7 +262,7 @@ fn paint_keys(ui: &Ui, curves: &Curves, clip: &Clip, times_secs: &[f32], axis: &
         for channel in (0..curves.channels().len()).rev() {
             if let Some(value) = curves.value_at(channel, time_secs) {
                 let at = pos2(x, values.y_of(value));
-                ui.painter().circle_filled(at, 2.4, channel_color(ui, channel));
+                ui.painter().circle_filled(at, radius, channel_color(ui, channel));
             }
         }
     }
