@@ -98,7 +98,9 @@ impl Sheet<'_> {
         let by_motion = rows.by_motion;
         let shown = rows.update(self.session, self.open, self.clip_index);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(body).id_salt("rows"));
-        ui.set_clip_rect(ui.clip_rect().intersect(body));
+        // The scroll bar stands in the panel's margin.
+        let with_bar = Rect::from_min_max(body.min, pos2(ui.clip_rect().max.x, body.max.y));
+        ui.set_clip_rect(ui.clip_rect().intersect(with_bar));
         ui.spacing_mut().item_spacing.y = 0.0;
         ScrollArea::vertical()
             .id_salt("dope sheet")

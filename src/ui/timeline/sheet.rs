@@ -44,16 +44,23 @@ pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, r
 /// The buttons for which the strip of a narrow window has no room, spread over the width.
 fn page_transport(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let joint = session.joints().selected();
+    // The slimmest phones reach the ends on the bar alone.
+    let with_ends = ui.available_width() >= 7.0 * control_size(ui);
+    let count = if with_ends { 7.0 } else { 5.0 };
     ui.horizontal(|ui| {
-        let free = ui.available_width() - 7.0 * control_size(ui);
-        ui.spacing_mut().item_spacing.x = (free / 6.0).clamp(0.0, 24.0);
-        controls::end_button(ui, Direction::Backward, commands);
+        let free = ui.available_width() - count * control_size(ui);
+        ui.spacing_mut().item_spacing.x = (free / (count - 1.0)).clamp(0.0, 24.0);
+        if with_ends {
+            controls::end_button(ui, Direction::Backward, commands);
+        }
         controls::key_button(ui, Direction::Backward, joint, commands);
         controls::frame_button(ui, Direction::Backward, commands);
         controls::backward_button(ui, session, commands);
         controls::frame_button(ui, Direction::Forward, commands);
         controls::key_button(ui, Direction::Forward, joint, commands);
-        controls::end_button(ui, Direction::Forward, commands);
+        if with_ends {
+            controls::end_button(ui, Direction::Forward, commands);
+        }
     });
 }
 
