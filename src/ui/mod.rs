@@ -25,7 +25,6 @@ mod textures;
 pub mod theme;
 mod thumbnails;
 mod timeline;
-mod timeline_bar;
 mod title_bar;
 mod toolbar;
 mod view_modes;
@@ -36,7 +35,7 @@ mod wording;
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
 use crate::scene::{Insets, Theme};
-use crate::session::{Command, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 pub use state::{Request, SheetPage, UiState};
@@ -59,12 +58,13 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     }
 
     commands.push(set_theme(ui));
-    commands.push(set_viewport(ui, session, window, narrow));
+    commands.push(set_viewport(ui, session, state, window, narrow));
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
     split::show(ui, session, window, &mut commands);
     state.hovered_subset = None;
+    state.timeline.update(session);
 
     if narrow {
         layout::narrow(ui, session, state, window, &mut commands);
@@ -73,6 +73,9 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     }
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
+    }
+    if session.joints().hovered() != state.timeline.hovered() {
+        commands.push(JointCommand::Hover(state.timeline.hovered()).into());
     }
     if state.help_open {
         let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
@@ -102,9 +105,9 @@ fn set_theme(ui: &Ui) -> Command {
 }
 
 /// What the panels leave free is where the model is framed.
-fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Command {
+fn set_viewport(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> Command {
     let top = (bar_height(ui) + MARGIN) / window.height();
-    let bottom = timeline::covered_height(ui, session, narrow) / window.height();
+    let bottom = timeline::covered_height(ui, session, &state.timeline, narrow) / window.height();
     let left = if narrow {
         0.0
     } else {
@@ -113,7 +116,7 @@ fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Comma
     let insets = Insets {
         left,
         top: top.clamp(0.0, 0.3),
-        bottom: bottom.clamp(0.0, 0.4),
+        bottom: bottom.clamp(0.0, 0.6),
         ..Insets::default()
     };
     Command::SetViewport {

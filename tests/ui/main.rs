@@ -1,6 +1,7 @@
 //! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
 
 mod camera_motion;
+mod dope_sheet;
 mod idle;
 mod keys;
 mod layout;
@@ -13,6 +14,7 @@ mod panels;
 mod picture;
 mod pointer;
 mod popovers;
+mod rigs;
 mod saving;
 mod split;
 mod subsets;
