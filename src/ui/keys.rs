@@ -4,6 +4,7 @@ use egui::{Event, Key, Modifiers, Ui};
 
 use super::UiState;
 use super::flight::FLIGHT_KEYS;
+use super::skeleton;
 use crate::scene::{Overlay, ViewPreset};
 use crate::session::{Command, LookCommand, Session, SubsetCommand};
 
@@ -27,7 +28,13 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                     continue;
                 }
                 commands.extend(command_for(key, modifiers));
+                // The key that flies forward while the view is held.
+                let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
+                if !flies {
+                    commands.extend(skeleton::keys::command_for(session, key, modifiers));
+                }
                 match key {
+                    Key::F2 => state.skeleton.rename_selected(session),
                     Key::Escape if !popover_open => escape(session, state, commands),
                     Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
                     _ => {}
@@ -48,6 +55,8 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         state.help_open = false;
     } else if state.diagnostics_open {
         state.diagnostics_open = false;
+    } else if let Some(command) = skeleton::keys::escape(session) {
+        commands.push(command);
     } else if session.subsets().selected().is_some() {
         commands.push(SubsetCommand::Select(None).into());
     }
@@ -101,7 +110,10 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     let plain = !modifiers.command && !modifiers.alt;
     let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);
-    key == Key::Escape || (plain && (flies || key == Key::P)) || command_for(key, modifiers).is_some()
+    key == Key::Escape
+        || skeleton::keys::owns(key, modifiers)
+        || (plain && (flies || key == Key::P))
+        || command_for(key, modifiers).is_some()
 }
 
 #[cfg(test)]

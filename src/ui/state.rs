@@ -4,6 +4,7 @@ use egui::Ui;
 
 use super::inspector::VertexCount;
 use super::picture::PictureChoice;
+use super::skeleton::SkeletonState;
 use super::thumbnails::Thumbnails;
 use super::timeline_bar::KeyTimes;
 use super::viewport::ViewHold;
@@ -60,6 +61,7 @@ pub struct UiState {
     pub(super) view_hold: ViewHold,
     pub(super) hovered_subset: Option<usize>,
     pub(super) vertex_count: VertexCount,
+    pub(super) skeleton: SkeletonState,
     pub(super) requests: Vec<Request>,
 }
 
