@@ -10,9 +10,9 @@ impl Session {
     pub(super) fn select_at(&mut self, pointer: Vec2) {
         let bone = self.joints.bones_visible().then(|| self.joint_at(pointer)).flatten();
         if bone.is_some() {
-            self.apply_to_joints(JointCommand::Select(bone));
+            self.perform(JointCommand::Select(bone).into());
         } else if self.joints.skin_view().is_some() {
-            self.apply_to_joints(JointCommand::SelectVertexAt(pointer));
+            self.perform(JointCommand::SelectVertexAt(pointer).into());
         } else {
             self.apply_to_subsets(SubsetCommand::SelectAt(pointer));
             self.joints.let_go();

@@ -53,7 +53,7 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
     }
     // Beside the panel on the left, which may be as high as the window.
     let legend_at = pos2(left_top.x + SIDE_WIDTH + MARGIN, window.max.y - covered.max(MARGIN));
-    skeleton::show_legend(ui, session, legend_at);
+    skeleton::show_legend(ui, session, legend_at, true);
     let inspects_joint = skeleton::is_inspected(session);
     let inspects = session.subsets().selected().is_some() || inspects_joint;
     if state.diagnostics_open {
@@ -131,7 +131,7 @@ pub(super) fn narrow(ui: &Ui, session: &Session, state: &mut UiState, window: Re
         sheet(ui, session, state, window, commands);
     }
     let sheet_top = shown_rect(ui, "sheet").map_or(window.max.y, |sheet| sheet.min.y);
-    skeleton::show_legend(ui, session, pos2(left_top.x, sheet_top - MARGIN));
+    skeleton::show_legend(ui, session, pos2(left_top.x, sheet_top - MARGIN), false);
 }
 
 /// The timeline, and below it what was opened.

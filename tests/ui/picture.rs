@@ -190,7 +190,7 @@ fn the_tree_and_a_joint_on_dark_and_light() {
 fn a_vertex_explained_in_a_small_window() {
     let mut then = inspected();
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
-    then.push(JointCommand::SelectVertex(Some(2_000)).into());
+    then.push(JointCommand::SelectVertex(Some(4_962)).into());
     let clicks = ["Panel: Skeleton", "Explain"];
     compare(
         "small-light-vertex",

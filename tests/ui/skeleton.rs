@@ -39,7 +39,8 @@ fn hover(window: &mut Window, start: &str) {
 fn double_click(window: &mut Window, start: &str) {
     let at = window.rect(start).center();
     window.harness.hover_at(at);
-    window.pass_on();
+    // A click just before would make it a triple click.
+    window.wait(1.0);
     for pressed in [true, false, true, false] {
         window.harness.event(Event::PointerButton {
             pos: at,

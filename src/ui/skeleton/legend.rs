@@ -13,8 +13,9 @@ use crate::ui::wording::{shortened, trimmed};
 const WIDTH: f32 = 208.0;
 const BAR_HEIGHT: f32 = 8.0;
 
-/// A panel whose lower left corner is at a point. Nothing while the skin is shown as it is.
-pub(in crate::ui) fn show(ui: &Ui, session: &Session, at: Pos2) {
+/// A panel whose lower left corner is at a point. Nothing while the skin is shown as it is. `explained`: with a sentence
+/// where the colours alone do not say all.
+pub(in crate::ui) fn show(ui: &Ui, session: &Session, at: Pos2, explained: bool) {
     let Some(view) = session.joints().skin_view().filter(|_| session.open_model().is_some()) else {
         return;
     };
@@ -33,7 +34,7 @@ pub(in crate::ui) fn show(ui: &Ui, session: &Session, at: Pos2) {
             SkinView::Weight | SkinView::Stretch => gradient(ui, stops),
             SkinView::DominantJoint => {}
         }
-        if let Some(hint) = hint {
+        if let Some(hint) = hint.filter(|_| explained) {
             ui.add_space(2.0);
             ui.label(egui::RichText::new(hint).color(tokens.muted).size(12.0));
         }

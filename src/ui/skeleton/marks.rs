@@ -1,6 +1,8 @@
 //! What stands over the view: names at the joints, a ring round the selected vertex.
 
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Ui, vec2};
+use std::sync::Arc;
+
+use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, Ui, vec2};
 use glam::Vec2;
 
 use super::SkeletonState;
@@ -26,6 +28,8 @@ const HALO: [(f32, f32); 8] = [
 pub(in crate::ui) fn show(ui: &Ui, session: &Session, state: &SkeletonState, window: Rect) {
     let tokens = Tokens::of(ui);
     let (painter, joints) = (ui.painter(), session.joints());
+    // The first ones are the selected and the hovered, then the nearest.
+    let mut taken: Vec<Rect> = Vec::new();
     for label in &state.reading.labels {
         let marked = joints.selected() == Some(label.joint) || joints.hovered() == Some(label.joint);
         let color = if marked { tokens.accent } else { tokens.text };
@@ -36,7 +40,12 @@ pub(in crate::ui) fn show(ui: &Ui, session: &Session, state: &SkeletonState, win
             FontId::proportional(11.5)
         };
         let at = in_window(window, label.position) + vec2(7.0, 0.0);
-        paint_with_halo(painter, at, &name, font, color, tokens.panel);
+        let galley = painter.layout_no_wrap(name, font, color);
+        let place = Align2::LEFT_CENTER.anchor_size(at, galley.size());
+        if !taken.iter().any(|other| other.intersects(place)) {
+            paint_with_halo(painter, place.min, &galley, color, tokens.panel);
+            taken.push(place);
+        }
     }
     if let Some(at) = state.reading.vertex_at {
         let at = in_window(window, at);
@@ -53,11 +62,10 @@ fn in_window(window: Rect, at: Vec2) -> Pos2 {
     window.min + share * window.size()
 }
 
-fn paint_with_halo(painter: &Painter, at: Pos2, text: &str, font: FontId, color: Color32, halo: Color32) {
-    let galley = painter.layout_no_wrap(text.to_owned(), font, color);
-    let at = Align2::LEFT_CENTER.anchor_size(at, galley.size()).min;
+fn paint_with_halo(painter: &Painter, at: Pos2, galley: &Arc<Galley>, color: Color32, halo: Color32) {
     for (x, y) in HALO {
-        painter.galley_with_override_text_color(at + vec2(x, y), galley.clone(), halo.gamma_multiply(0.7));
+        let around = at + vec2(x, y);
+        painter.galley_with_override_text_color(around, Arc::clone(galley), halo.gamma_multiply(0.7));
     }
-    painter.galley(at, galley, color);
+    painter.galley(at, Arc::clone(galley), color);
 }

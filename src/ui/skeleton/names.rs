@@ -1,6 +1,6 @@
 //! Naming joints: a field in the row, and names proposed for the other side.
 
-use egui::{Align2, FontId, Key, Modifiers, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Id, Key, Modifiers, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, Session};
@@ -37,7 +37,7 @@ impl Naming {
 pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands: &mut Vec<Command>) {
     let Some(joint) = naming.of else { return };
     let field = TextEdit::singleline(&mut naming.text)
-        .id_salt("joint name")
+        .id(Id::unique("joint name"))
         .char_limit(64)
         .hint_text("Name")
         .margin(vec2(4.0, 2.0))

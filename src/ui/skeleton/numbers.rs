@@ -54,10 +54,10 @@ pub(super) fn show_parts(ui: &mut Ui, parts: &TransformParts) {
 pub(super) fn row(ui: &mut Ui, label: &str, numbers: &[String]) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let (font, left) = (FontId::proportional(12.5), rect.left_center());
+    let (font, left) = (FontId::proportional(12.0), rect.left_center());
     ui.painter().text(left, Align2::LEFT_CENTER, label, font, tokens.muted);
     // Four numbers are those of a unit quaternion, which are short.
-    let column = if numbers.len() > 3 { 50.0 } else { 63.0 };
+    let column = if numbers.len() > 3 { 48.0 } else { 63.0 };
     for (place, number) in numbers.iter().rev().enumerate() {
         let at = pos2(rect.max.x - place as f32 * column, rect.center().y);
         let font = theme::mono(FONT_SIZE);

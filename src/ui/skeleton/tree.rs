@@ -107,7 +107,7 @@ fn search(ui: &mut Ui, query: &mut String) {
         .margin(vec2(8.0, 6.0))
         .min_size(vec2(0.0, control_size(ui)))
         .align(egui::Align2::LEFT_CENTER)
-        .desired_width(width - 16.0);
+        .desired_width(width);
     let response = ui.add(field);
     response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Search bones"));
     // Esc takes the words away, and nothing else.

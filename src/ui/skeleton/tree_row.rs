@@ -9,8 +9,8 @@ use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{focus_ring, is_touch, paint_elided, pressed_row_height};
 use crate::ui::wording::grouped;
 
-/// Width of the column of numbers: four digits.
-const NUMBER_WIDTH: f32 = 27.0;
+/// Width of a digit of the column of numbers.
+const DIGIT_WIDTH: f32 = 6.7;
 /// Each branch begins this much further right …
 const INDENT: f32 = 9.0;
 /// … down to this depth: what hangs deeper stands below each other, so that names keep their room.
@@ -71,7 +71,8 @@ impl<'a> TreeRow<'a> {
             state.hovered = Some(joint);
         }
 
-        let number_at = pos2(rect.min.x + NUMBER_WIDTH, rect.center().y);
+        let digits = session.joints().count().to_string().len() as f32;
+        let number_at = pos2(rect.min.x + digits * DIGIT_WIDTH, rect.center().y);
         let number = self.row.bone.to_string();
         ui.painter()
             .text(number_at, Align2::RIGHT_CENTER, number, theme::mono(11.0), tokens.faint);
