@@ -1,17 +1,42 @@
 //! The colour that stands for a material while its maps are not there.
 
+use crate::image::srgb;
 use crate::model::Material;
 
-/// Quiet colours that can be told apart, sRGB: skin, olive, sand, grey-green, slate, clay, steel, moss.
-const TINTS_SRGB: [[u8; 3]; 8] = [
-    [0xC9, 0xA9, 0x8F],
+/// Quiet colours that can be told apart, sRGB.
+const SKIN: [u8; 3] = [0xC9, 0xA9, 0x8F];
+const SAND: [u8; 3] = [0x8A, 0x84, 0x68];
+const CLAY: [u8; 3] = [0x93, 0x76, 0x68];
+const MOSS: [u8; 3] = [0x6A, 0x7A, 0x4C];
+/// Steel, olive, sand, grey-green, slate, clay, heather: for materials whose names say nothing, in turn.
+const TINTS_SRGB: [[u8; 3]; 7] = [
+    [0x6B, 0x78, 0x86],
     [0x6F, 0x7A, 0x60],
-    [0x8A, 0x84, 0x68],
+    SAND,
     [0x55, 0x5A, 0x52],
     [0x3A, 0x3D, 0x42],
-    [0x93, 0x76, 0x68],
-    [0x6B, 0x78, 0x86],
-    [0x7C, 0x86, 0x58],
+    CLAY,
+    [0x7A, 0x6C, 0x80],
+];
+
+/// Words in the name of a material or its map, and what they look like.
+const HINTS: [(&str, [u8; 3]); 16] = [
+    ("head", SKIN),
+    ("face", SKIN),
+    ("skin", SKIN),
+    ("hand", SKIN),
+    ("leaf", MOSS),
+    ("leaves", MOSS),
+    ("grass", MOSS),
+    ("plant", MOSS),
+    ("bark", CLAY),
+    ("wood", CLAY),
+    ("brick", CLAY),
+    ("rock", SAND),
+    ("stone", SAND),
+    ("temple", SAND),
+    ("column", SAND),
+    ("ground", SAND),
 ];
 
 /// A channel above this counts as part of a white, which books use to say "the map has the colour".
@@ -31,28 +56,26 @@ pub fn stand_in_color(material_index: usize, material: &Material) -> Option<[f32
     let least = red.min(green).min(blue);
     let greatest = red.max(green).max(blue);
     let is_placeholder = material.diffuse_map.is_some() && least >= WHITE_FROM && greatest - least <= WHITE_SPREAD;
-    is_placeholder.then(|| TINTS_SRGB[material_index % TINTS_SRGB.len()].map(linear_from_srgb8))
+    is_placeholder.then(|| tint_srgb(material_index, material).map(linear_from_srgb8))
+}
+
+fn tint_srgb(material_index: usize, material: &Material) -> [u8; 3] {
+    let names = [Some(&material.name), material.diffuse_map.as_ref()];
+    let names: Vec<_> = names.into_iter().flatten().map(|name| name.to_lowercase()).collect();
+    let hinted = HINTS
+        .iter()
+        .find(|(word, _)| names.iter().any(|name| name.contains(word)));
+    hinted.map_or(TINTS_SRGB[material_index % TINTS_SRGB.len()], |&(_, tint)| tint)
 }
 
 /// Decodes an sRGB channel: 0…255 -> linear 0…1.
 pub fn linear_from_srgb8(encoded: u8) -> f32 {
-    let encoded = f32::from(encoded) / 255.0;
-    if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    srgb::linear_from_srgb(encoded)
 }
 
-/// Encodes a linear channel, clamped to 0…1, as sRGB.
+/// Encodes a linear channel, clamped to 0…1, as the nearest sRGB.
 pub fn srgb8_from_linear(linear: f32) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let encoded = if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    };
-    (encoded * 255.0).round() as u8
+    srgb::srgb_from_linear(linear)
 }
 
 #[cfg(test)]
@@ -76,7 +99,7 @@ mod tests {
 
     #[test]
     fn a_white_that_waits_for_its_map_gets_a_tint_and_neighbours_differ() {
-        let waiting = material([1.0; 3], Some("head.dds"));
+        let waiting = material([1.0; 3], Some("a.dds"));
         for index in 0..TINTS_SRGB.len() {
             let color = display_color(index, &waiting);
             assert_ne!(color, [1.0; 3]);
@@ -86,6 +109,14 @@ mod tests {
             display_color(3, &waiting),
             display_color(3 + TINTS_SRGB.len(), &waiting)
         );
+    }
+
+    #[test]
+    fn a_name_says_what_a_material_looks_like() {
+        let tint = |map| stand_in_color(0, &material([1.0; 3], Some(map)));
+        assert_eq!(tint("Head_diff.dds"), Some(SKIN.map(linear_from_srgb8)));
+        assert_eq!(tint("tree01-leaves_diffuse.dds"), Some(MOSS.map(linear_from_srgb8)));
+        assert_eq!(tint("a.dds"), Some(TINTS_SRGB[0].map(linear_from_srgb8)));
     }
 
     #[test]

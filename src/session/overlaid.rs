@@ -47,7 +47,7 @@ impl Overlaid {
     }
 
     pub(super) fn set_ghosts(&mut self, plan: Option<GhostPlan>) {
-        self.ghost_plan = plan.filter(|plan| plan.before + plan.after > 0);
+        self.ghost_plan = plan.filter(|plan| plan.before > 0 || plan.after > 0);
     }
 
     pub(super) fn bind_ghost(&self) -> bool {

@@ -226,8 +226,9 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     style.spacing.interact_size = vec2(28.0, 28.0);
     style.spacing.menu_margin = Margin::same(6);
     style.spacing.tooltip_width = 320.0;
-    // It lies over what is listed: a wider one would take the clicks on icons at the end of a row.
+    // It stands in the margin of the panel: over what is listed it would take the clicks on icons at the end of a row.
     style.spacing.scroll.bar_width = 6.0;
+    style.spacing.scroll.bar_outer_margin = -9.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.35;
     style

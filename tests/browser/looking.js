@@ -130,6 +130,7 @@ function cubeMap(faces, side = 8) {
 }
 
 test("a dropped cube map becomes the sky and lights the model", STILL, async (page) => {
+  await atRest(page);
   const before = await picture(page, { background: "none" });
   const file = join(mkdtempSync(join(tmpdir(), "bindpose-")), "evening.dds");
   const [red, grey] = [[0, 0, 255, 255], [128, 128, 128, 255]];

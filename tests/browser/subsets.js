@@ -34,6 +34,7 @@ test("a click in the view selects what is there, and the inspector comes and goe
 });
 
 test("the eye of a subset hides it and shows it again", STILL, async (page) => {
+  await atRest(page);
   const all = await picture(page);
   const clickEye = async () => {
     // The eye is only there under the pointer.
@@ -60,6 +61,7 @@ test("the eye of a subset hides it and shows it again", STILL, async (page) => {
 });
 
 test("roughness is edited in the inspector, and Reset brings the very same picture back", STILL, async (page) => {
+  await atRest(page);
   const before = await picture(page);
   await page.mouse.click(...CHEST);
   await atRest(page);

@@ -32,6 +32,7 @@ mod light;
 mod lines;
 mod maps;
 mod normal_maps;
+mod over_model;
 mod passes;
 mod picture;
 mod robust;

@@ -2,8 +2,14 @@
 
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
-use bindpose::scene::{Aabb, Camera, FrameOptions, Ghosts, Overlay, Overlays, Projection, RenderFrame, Theme};
+use bindpose::scene::{
+    Aabb, Camera, FrameOptions, Ghosts, Overlay, OverlayGeometry, Overlays, Projection, RenderFrame, Theme,
+    VertexColors,
+};
 use glam::{Affine3A, Quat, Vec2, Vec3};
+
+/// Of as many ghosts as a scene has.
+pub(crate) const GHOST_SRGB: [[u8; 4]; 2] = [[255, 0, 0, 255], [0, 255, 0, 255]];
 
 /// All that a frame needs.
 pub(crate) struct Scene {
@@ -15,6 +21,10 @@ pub(crate) struct Scene {
     pub(crate) options: FrameOptions,
     pub(crate) hidden: Vec<bool>,
     pub(crate) highlighted: Option<usize>,
+    /// Colours of vertices, none for the view mode's.
+    pub(crate) colors_srgb: Vec<[u8; 4]>,
+    pub(crate) ghosts: Vec<Palette>,
+    pub(crate) over_model: OverlayGeometry,
 }
 
 impl Scene {
@@ -40,6 +50,9 @@ impl Scene {
             model,
             hidden: Vec::new(),
             highlighted: None,
+            colors_srgb: Vec::new(),
+            ghosts: Vec::new(),
+            over_model: OverlayGeometry::default(),
         }
     }
 
@@ -76,9 +89,20 @@ impl Scene {
             palette: &self.palette,
             hidden_submeshes: &self.hidden,
             highlighted_submesh: self.highlighted,
-            vertex_colors: None,
-            ghosts: Ghosts::default(),
-            over_model: None,
+            vertex_colors: (!self.colors_srgb.is_empty()).then_some(VertexColors {
+                colors_srgb: &self.colors_srgb,
+                revision: self
+                    .colors_srgb
+                    .iter()
+                    .flatten()
+                    .map(|&channel| u64::from(channel))
+                    .sum(),
+            }),
+            ghosts: Ghosts {
+                palettes: &self.ghosts,
+                colors_srgb: &GHOST_SRGB[..self.ghosts.len()],
+            },
+            over_model: Some(&self.over_model),
             options: self.options,
         }
     }

@@ -24,6 +24,21 @@ const TOLERANCE: u8 = 10;
 /// … and by more in this share of the pixels, those on edges. The smallest panel, the title, covers 0.7 % of the window.
 const SHARE: f64 = 0.001;
 
+/// The figure as the page opens it.
+fn sample_with_its_maps() -> Vec<File> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/sample");
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    paths.sort();
+    paths
+        .iter()
+        .map(|path| {
+            let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            File::new(&path.file_name().expect("a file").to_string_lossy(), bytes)
+        })
+        .collect()
+}
+
 /// The window as it looks once it has settled, with the sample at a moment of its walk.
 fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> RgbaImage {
     draw_after(size, theme, coarse_pointer, then, &[])
@@ -33,11 +48,7 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
 fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>, clicks: &[&str]) -> RgbaImage {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
-    let figure = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/sample/figure.m3d");
-    let bytes = std::fs::read(&figure).unwrap_or_else(|error| panic!("{}: {error}", figure.display()));
-    session
-        .borrow_mut()
-        .apply(Command::AddFiles(vec![File::new("figure.m3d", bytes)]));
+    session.borrow_mut().apply(Command::AddFiles(sample_with_its_maps()));
     session.borrow_mut().apply(Command::Seek { time_secs: 0.4 });
     for command in then {
         session.borrow_mut().apply(command);

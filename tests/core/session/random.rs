@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use bindpose::anim::{Direction, LoopMode, MAX_SPEED, MIN_SPEED, SkinView, WrapMode};
+use bindpose::anim::{Direction, GhostPlan, LoopMode, MAX_SPEED, MIN_SPEED, SkinView, WrapMode};
 use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
 use bindpose::scene::{BoneStyle, Insets, Overlay, OverlayGeometry, Theme, ViewPreset};
 use bindpose::session::{Command, Event, File, JointCommand, LookCommand, Session, SubsetCommand};
@@ -214,6 +214,10 @@ fn plain_command() -> impl Strategy<Value = Command> {
         5 => joint_command().prop_map(Command::Joint),
         1 => number().prop_map(Command::SetBindShare),
         1 => Just(Command::ToggleBindPose),
+        1 => any::<bool>().prop_map(Command::SetBindGhost),
+        1 => prop::option::of((0u32..40, 0u32..40, 0u32..3)).prop_map(|plan| {
+            Command::SetGhosts(plan.map(|(before, after, step_frames)| GhostPlan { before, after, step_frames }))
+        }),
         2 => material_command(),
         1 => Just(Command::ClearSky),
         1 => files().prop_map(Command::AddFiles),
