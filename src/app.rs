@@ -51,7 +51,7 @@ impl App {
         let window = ui.max_rect();
         ui.painter()
             .add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
-        for command in ui::show(ui, &session, &mut self.state) {
+        for command in ui::show(ui, &mut session, &mut self.state) {
             session.apply(command);
         }
 

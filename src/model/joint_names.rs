@@ -22,6 +22,29 @@ pub struct SavedNames {
     pub names: BTreeMap<usize, String>,
 }
 
+impl SavedNames {
+    /// One line a name: the joint's number in the file, a space, the name.
+    pub fn to_text(&self) -> String {
+        // Names have no line ends: they are control characters.
+        self.names
+            .iter()
+            .map(|(bone, name)| format!("{bone} {name}\n"))
+            .collect()
+    }
+
+    /// Reads what [`SavedNames::to_text`] wrote for the hierarchy with a fingerprint. Lines that are none are left out.
+    pub fn from_text(fingerprint: u64, text: &str) -> Self {
+        let name = |line: &str| {
+            let (bone, name) = line.split_once(' ')?;
+            Some((bone.parse().ok()?, name.to_owned()))
+        };
+        Self {
+            fingerprint,
+            names: text.lines().filter_map(name).collect(),
+        }
+    }
+}
+
 /// A number for the hierarchy of a file: the same parents in the same order give the same number, today and later. FNV-1a with
 /// 64 bits over each bone's parent as four bytes, lowest first, −1 for a root.
 pub fn hierarchy_fingerprint(skeleton: &Skeleton) -> u64 {

@@ -143,8 +143,19 @@ impl Session {
                 self.up_axis_override = up_axis;
                 self.change_goal(Self::frame_model);
             }
-            Command::Subset(command) => self.apply_to_subsets(command),
-            Command::Joint(command) => self.apply_to_joints(command),
+            Command::Subset(command) => {
+                self.apply_to_subsets(command);
+                if self.subsets.selected().is_some() {
+                    self.joints.let_go();
+                }
+            }
+            Command::Joint(command) => {
+                self.apply_to_joints(command);
+                if self.joints.selected().is_some() || self.joints.selected_vertex().is_some() {
+                    self.subsets.select(None, None);
+                }
+            }
+            Command::SelectAt(pointer) => self.select_at(pointer),
             Command::SetBindShare(share) => self.set_bind_share(share),
             Command::ToggleBindPose => self.set_bind_share(if self.bind_share < 0.5 { 1.0 } else { 0.0 }),
             Command::EditMaterial { index, material } => self.materials.edit(index, &material),

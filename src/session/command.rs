@@ -166,6 +166,9 @@ pub enum Command {
     SetUpAxis(Option<UpAxis>),
     /// Which subsets are drawn, selected, hovered.
     Subset(SubsetCommand),
+    /// Selects the bone, the vertex or the subset that is shown at a point of the picture: x right, y up, −1…1. What is selected
+    /// is a subset, or a joint and a vertex: one lets the other go.
+    SelectAt(Vec2),
     /// Which joints are selected, hovered, how they are called and shown.
     Joint(JointCommand),
     /// Brings the pose a share of the way to the bind pose: 0 as the clip has it … 1 the bind pose.

@@ -270,6 +270,12 @@ impl Joints {
         }
     }
 
+    /// Selects neither joint nor vertex.
+    pub(super) fn let_go(&mut self) {
+        self.select(None);
+        self.select_vertex(None);
+    }
+
     fn toggle_trail(&mut self, joint: JointIndex) {
         if !self.has(joint) {
             return;

@@ -18,6 +18,7 @@ mod opening;
 mod overlaid;
 mod picking;
 mod playing;
+mod pointing;
 mod pose;
 mod quality;
 mod skeleton_view;

@@ -93,7 +93,7 @@ impl Session {
         }
     }
 
-    fn screen(&mut self) -> Screen {
+    pub(super) fn screen(&mut self) -> Screen {
         let world_bounds = self.world_bounds();
         Screen {
             clip_from_world: self.camera.clip_from_view(self.aspect, &world_bounds) * self.camera.view_from_world(),

@@ -8,7 +8,7 @@ use super::theme::{self, ROW_HEIGHT, Tokens};
 use super::widgets::{closable_heading, rule};
 
 /// Keys and what they do, in groups.
-const KEYS: [&[(&str, &str)]; 3] = [
+const KEYS: [&[(&str, &str)]; 4] = [
     &[
         ("Space", "play or pause"),
         ("Shift Space", "play backward"),
@@ -39,11 +39,18 @@ const KEYS: [&[(&str, &str)]; 3] = [
         ("9 0", "isometric, reset"),
     ],
     &[
+        ("B", "bones"),
+        ("Shift B", "names of bones"),
+        ("W", "weights of the bone"),
+        ("K", "bind pose, clip"),
+        ("F2", "name the bone"),
+    ],
+    &[
         ("T", "next view mode"),
         ("Shift T", "previous view mode"),
         ("V", "studio light, book light"),
         ("Alt drag", "turn the surroundings"),
-        ("Click", "select a subset"),
+        ("Click", "select what is shown"),
         ("Alt click", "in the list: show alone"),
         ("G", "ground grid"),
         ("Z", "wireframe"),

@@ -4,9 +4,10 @@ use egui::{Event, Key, Modifiers, Ui};
 
 use super::UiState;
 use super::flight::FLIGHT_KEYS;
+use super::skeleton;
 use crate::anim::Direction;
 use crate::scene::{Overlay, ViewPreset};
-use crate::session::{Command, JointCommand, LookCommand, Session, SubsetCommand};
+use crate::session::{Command, LookCommand, Session, SubsetCommand};
 
 /// Reads the keys of this frame. Nothing while words are typed. `popover_open`: Esc has shut something that hung from a button.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
@@ -28,7 +29,13 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                     continue;
                 }
                 commands.extend(command_for(key, modifiers).map(|command| of_selection(command, session)));
+                // The key that flies forward while the view is held.
+                let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
+                if !flies {
+                    commands.extend(skeleton::keys::command_for(session, key, modifiers));
+                }
                 match key {
+                    Key::F2 => state.skeleton.rename_selected(session),
                     Key::Escape if !popover_open => escape(session, state, commands),
                     Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
                     _ => {}
@@ -61,17 +68,8 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     } else if state.diagnostics_open {
         state.diagnostics_open = false;
     } else if !state.timeline.let_go_of_keys() {
-        commands.extend(let_go(session));
-    }
-}
-
-/// Takes the selection away.
-fn let_go(session: &Session) -> Option<Command> {
-    if session.joints().selected().is_some() {
-        Some(JointCommand::Select(None).into())
-    } else {
-        let subset = session.subsets().selected();
-        subset.map(|_| SubsetCommand::Select(None).into())
+        let of_subset = || session.subsets().selected().map(|_| SubsetCommand::Select(None).into());
+        commands.extend(skeleton::keys::escape(session).or_else(of_subset));
     }
 }
 
@@ -129,7 +127,10 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     let plain = !modifiers.command && !modifiers.alt;
     let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);
-    key == Key::Escape || (plain && (flies || key == Key::P)) || command_for(key, modifiers).is_some()
+    key == Key::Escape
+        || skeleton::keys::owns(key, modifiers)
+        || (plain && (flies || key == Key::P))
+        || command_for(key, modifiers).is_some()
 }
 
 #[cfg(test)]

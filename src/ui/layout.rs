@@ -2,12 +2,13 @@
 
 use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
 
-use super::panel::{Panel, scrolled};
+use super::panel::{Panel, scrolled, shown_rect};
+use super::skeleton::SidePage;
 use super::state::{SheetPage, UiState};
 use super::theme::MARGIN;
 use super::{
-    diagnostics_panel, inspector, light, model_panel, overlays, picture, timeline, title_bar, toolbar, view_modes,
-    widgets,
+    diagnostics_panel, inspector, light, model_panel, overlays, picture, skeleton, timeline, title_bar, toolbar,
+    view_modes, widgets,
 };
 use crate::session::{Command, Session};
 
@@ -47,12 +48,14 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
     if session.open_model().is_some() {
         Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {
             ui.set_width(SIDE_WIDTH - 26.0);
-            scrolled("model", side_room).show(ui, |ui| {
-                model_panel::show(ui, session, state, commands);
-            });
+            side_panel(ui, "model", session, state, side_room, commands);
         });
     }
-    let inspects = session.subsets().selected().is_some();
+    // Beside the panel on the left, which may be as high as the window.
+    let legend_at = pos2(left_top.x + SIDE_WIDTH + MARGIN, window.max.y - covered.max(MARGIN));
+    skeleton::show_legend(ui, session, legend_at, true);
+    let inspects_joint = skeleton::is_inspected(session);
+    let inspects = session.subsets().selected().is_some() || inspects_joint;
     if state.diagnostics_open {
         let at = side_top + vec2(SIDE_WIDTH + MARGIN, 0.0);
         let right = window.max.x - if inspects { MARGIN + INSPECTOR_WIDTH } else { 0.0 };
@@ -66,7 +69,11 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
         Panel::new("inspector", Align2::RIGHT_TOP, at).show(ui, |ui| {
             ui.set_width(INSPECTOR_WIDTH - 26.0);
             scrolled("inspector", side_room).show(ui, |ui| {
-                inspector::show(ui, session, state, commands);
+                if inspects_joint {
+                    skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
+                } else {
+                    inspector::show(ui, session, state, commands);
+                }
             });
         });
     }
@@ -78,6 +85,28 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
                 ui.set_width(window.width() - 2.0 * MARGIN - 20.0);
                 timeline::wide(ui, session, state, commands);
             });
+    }
+}
+
+/// Facts or the tree of joints; each scrolls by itself.
+fn side_panel(
+    ui: &mut Ui,
+    id: &'static str,
+    session: &Session,
+    state: &mut UiState,
+    room: f32,
+    commands: &mut Vec<Command>,
+) {
+    let top = ui.cursor().min.y;
+    if skeleton::has_joints(session) {
+        skeleton::show_pages(ui, &mut state.skeleton);
+        ui.add_space(8.0);
+    }
+    let room = room - (ui.cursor().min.y - top);
+    if state.skeleton.page == SidePage::Skeleton {
+        skeleton::show_tree(ui, session, &mut state.skeleton, room, commands);
+    } else {
+        scrolled(id, room).show(ui, |ui| model_panel::show(ui, session, state, commands));
     }
 }
 
@@ -101,6 +130,8 @@ pub(super) fn narrow(ui: &Ui, session: &Session, state: &mut UiState, window: Re
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
         sheet(ui, session, state, window, commands);
     }
+    let sheet_top = shown_rect(ui, "sheet").map_or(window.max.y, |sheet| sheet.min.y);
+    skeleton::show_legend(ui, session, pos2(left_top.x, sheet_top - MARGIN), false);
 }
 
 /// The timeline, and below it what was opened.
@@ -130,11 +161,22 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands
                 let covered =
                     bar_height(ui) + timeline::covered_height(ui, session, &state.timeline, true) + 3.0 * MARGIN;
                 let room = (window.height() * 0.5).min(window.height() - covered);
-                scrolled("sheet", room).show(ui, |ui| {
-                    sheet_page(ui, page, session, state, room, commands);
-                });
+                if page == SheetPage::Model && is_side_page(session, state) {
+                    side_panel(ui, "sheet", session, state, room, commands);
+                } else {
+                    scrolled("sheet", room).show(ui, |ui| {
+                        sheet_page(ui, page, session, state, room, commands);
+                    });
+                }
             }
         });
+}
+
+/// Whether the sheet has room for the side panel: nothing is inspected.
+fn is_side_page(session: &Session, state: &UiState) -> bool {
+    let names = state.skeleton.is_naming();
+    let inspects = session.subsets().selected().is_some() || skeleton::is_inspected(session);
+    !state.diagnostics_open && (!inspects || names)
 }
 
 fn sheet_page(
@@ -148,13 +190,13 @@ fn sheet_page(
     match page {
         SheetPage::Model if state.diagnostics_open => diagnostics_panel::show(ui, session, state, room - 50.0),
         SheetPage::Model if session.subsets().selected().is_some() => inspector::show(ui, session, state, commands),
-        SheetPage::Model => model_panel::show(ui, session, state, commands),
+        SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {
             widgets::section_name(ui, "View mode");
             view_modes::items(ui, session, commands);
         }
         SheetPage::Light => light::show(ui, session, commands),
-        SheetPage::Overlays => overlays::show(ui, session, commands),
+        SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewFrom => {
             widgets::section_name(ui, "View from");
             toolbar::view_from_items(ui, session, commands);

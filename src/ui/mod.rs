@@ -18,6 +18,7 @@ mod panel;
 mod passes;
 mod picture;
 mod popover;
+mod skeleton;
 mod split;
 mod state;
 mod subset_list;
@@ -35,7 +36,7 @@ mod wording;
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
 use crate::scene::{Insets, Theme};
-use crate::session::{Command, JointCommand, Session, SubsetCommand};
+use crate::session::{Command, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 pub use state::{Request, SheetPage, UiState};
@@ -45,7 +46,9 @@ use panel::Panel;
 use theme::{MARGIN, NARROW_WIDTH};
 
 /// One pass over the whole window. Returns what the person asked for, in order.
-pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command> {
+///
+/// The session is changed by the commands alone: what it is borrowed for is to pose the model of which numbers are read.
+pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Command> {
     let mut commands = Vec::new();
     let window = ui.max_rect();
     let narrow = window.width() < NARROW_WIDTH;
@@ -57,11 +60,14 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
         state.diagnostics_open = false;
     }
 
+    state.skeleton.read(ui, session, window);
+    let session = &*session;
     commands.push(set_theme(ui));
     commands.push(set_viewport(ui, session, state, window, narrow));
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
+    skeleton::show_marks(ui, session, &state.skeleton, window);
     split::show(ui, session, window, &mut commands);
     state.hovered_subset = None;
     state.timeline.update(session);
@@ -74,9 +80,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &mut UiState) -> Vec<Command>
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
     }
-    if session.joints().hovered() != state.timeline.hovered() {
-        commands.push(JointCommand::Hover(state.timeline.hovered()).into());
-    }
+    state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
     if state.help_open {
         let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
         Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {

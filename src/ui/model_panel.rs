@@ -6,7 +6,7 @@ use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, Tokens};
 use super::widgets::{choice_row, is_touch, menu_item, paint_chip, rule, section_name, value_row};
 use super::wording::{counted, grouped, measured, shortened};
-use super::{UiState, subset_list, textures, title_bar};
+use super::{UiState, skeleton, subset_list, textures, title_bar};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, UpAxis};
 use crate::session::{Command, OpenModel, Session};
@@ -17,16 +17,10 @@ pub(super) const PANEL_MARGIN: f32 = 12.0;
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
-    let tokens = Tokens::of(ui);
-    let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
-    ui.painter().text(
-        heading.left_center(),
-        Align2::LEFT_CENTER,
-        "Model",
-        theme::semibold(13.0),
-        tokens.text,
-    );
-    rule(ui, PANEL_MARGIN);
+    // Where there is a skeleton, the panel's pages are its heading.
+    if !skeleton::has_joints(session) {
+        heading(ui);
+    }
     counts(ui, open);
     space_rows(ui, session, commands);
     bounds_row(ui, open);
@@ -39,6 +33,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     other_models(ui, session, commands);
     rule(ui, PANEL_MARGIN);
     diagnostics_row(ui, session, state);
+}
+
+fn heading(ui: &mut Ui) {
+    let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    let (at, font) = (heading.left_center(), theme::semibold(13.0));
+    ui.painter()
+        .text(at, Align2::LEFT_CENTER, "Model", font, Tokens::of(ui).text);
+    rule(ui, PANEL_MARGIN);
 }
 
 fn counts(ui: &mut Ui, open: &OpenModel) {

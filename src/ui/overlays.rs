@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::skeleton::{self, SkeletonState};
 use super::widgets::{Slider, section_name, switch_row};
 use crate::scene::{Overlay, Overlays};
 use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, Session};
@@ -18,7 +19,7 @@ fn key(overlay: Overlay) -> &'static str {
 }
 
 /// The popover's contents.
-pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let overlays = &session.look().overlays;
     section_name(ui, "Overlays");
     for overlay in Overlay::ALL {
@@ -30,13 +31,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) 
             line_length(ui, overlays.line_length, commands);
         }
     }
+    skeleton::show_overlay_rows(ui, session, state, commands);
 }
 
 /// Whether anything beside the ground is drawn over the model.
-pub(super) fn any_beside_the_grid(overlays: &Overlays) -> bool {
-    Overlay::ALL
-        .into_iter()
-        .any(|overlay| overlay != Overlay::Grid && overlays.has(overlay))
+pub(super) fn any_beside_the_grid(session: &Session) -> bool {
+    let overlays = &session.look().overlays;
+    let mut lines = Overlay::ALL.into_iter().filter(|&overlay| overlay != Overlay::Grid);
+    lines.any(|overlay| overlays.has(overlay)) || skeleton::any_shown(session)
 }
 
 fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {

@@ -4,6 +4,7 @@ use egui::Ui;
 
 use super::inspector::VertexCount;
 use super::picture::PictureChoice;
+use super::skeleton::SkeletonState;
 use super::thumbnails::Thumbnails;
 use super::timeline::TimelineState;
 use super::viewport::ViewHold;
@@ -64,6 +65,7 @@ pub struct UiState {
     pub(super) view_hold: ViewHold,
     pub(super) hovered_subset: Option<usize>,
     pub(super) vertex_count: VertexCount,
+    pub(super) skeleton: SkeletonState,
     pub(super) requests: Vec<Request>,
 }
 

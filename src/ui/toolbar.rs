@@ -3,6 +3,7 @@
 use egui::{Popup, Rangef, RectAlign, Ui};
 
 use super::icons::Icon;
+use super::skeleton::SkeletonState;
 use super::state::{Request, SheetPage, UiState};
 use super::theme::MARGIN;
 use super::widgets::{TextButton, control_size, icon_button, keyed_menu_item, menu_item, valued_menu_item};
@@ -25,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         ui.spacing_mut().item_spacing.x = SPACING;
         view_mode_menu(ui, session, commands);
         light_button(ui, session, commands);
-        overlays_button(ui, session, commands);
+        overlays_button(ui, session, &mut state.skeleton, commands);
         view_from_menu(ui, session, commands);
         if icon_button(ui, Icon::Frame, "Frame the model (F)", false).clicked() {
             commands.push(Command::Glide(Box::new(Command::FrameModel)));
@@ -63,7 +64,7 @@ pub(super) fn narrow_width(ui: &Ui) -> f32 {
 }
 
 fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let mode = session.look().view_mode.label();
+    let mode = view_modes::shown(session);
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
     let button = button.on_hover_text("View mode (T)");
@@ -93,10 +94,10 @@ fn lighting(session: &Session) -> String {
     format!("Lighting: {}", light::label(session))
 }
 
-fn overlays_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let on = overlays::any_beside_the_grid(&session.look().overlays);
+fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+    let on = overlays::any_beside_the_grid(session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
-    popover::show(ui, &button, 236.0, |ui| overlays::show(ui, session, commands));
+    popover::show(ui, &button, 236.0, |ui| overlays::show(ui, session, state, commands));
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
@@ -166,7 +167,7 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.set_width(230.0);
     let pages = [
-        ("View mode", session.look().view_mode.label(), SheetPage::ViewMode),
+        ("View mode", view_modes::shown(session), SheetPage::ViewMode),
         ("Light and background", light::label(session), SheetPage::Light),
         ("Lines over the model", "", SheetPage::Overlays),
         ("View from…", "", SheetPage::ViewFrom),

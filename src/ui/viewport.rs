@@ -7,7 +7,7 @@ use glam::Vec2;
 
 use super::drag_trail::DragTrail;
 use super::flight::Flight;
-use crate::session::{Command, LookCommand, SubsetCommand};
+use crate::session::{Command, LookCommand};
 
 /// Radians of orbit for a drag over the height of the view.
 const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
@@ -61,7 +61,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
         && !popover_open
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        commands.push(SubsetCommand::SelectAt(in_picture(rect, pointer)).into());
+        commands.push(Command::SelectAt(in_picture(rect, pointer)));
     }
     if let Some(pointer) = response.hover_pos() {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
@@ -120,7 +120,7 @@ fn drag(
 }
 
 /// A point of the window in the picture: x right, y up, −1…1.
-fn in_picture(rect: Rect, at: Pos2) -> Vec2 {
+pub(super) fn in_picture(rect: Rect, at: Pos2) -> Vec2 {
     let share = (at - rect.min) / rect.size();
     Vec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
 }

@@ -7,6 +7,7 @@
 
 mod api;
 mod backend;
+mod kept_names;
 mod picture;
 mod picture_look;
 mod state;
@@ -22,6 +23,7 @@ use crate::app::App;
 use crate::session::Session;
 use crate::ui::Request;
 use backend::{Chosen, Preference};
+use kept_names::KeptNames;
 
 thread_local! {
     static PAGE: RefCell<Option<Page>> = const { RefCell::new(None) };
@@ -130,6 +132,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
         app: Rc::clone(&app_slot),
         session: Rc::clone(&session),
         frames: Rc::clone(&frames_rendered),
+        names: KeptNames::default(),
     };
     let shared_out = Rc::clone(&shared);
     runner
@@ -180,6 +183,7 @@ struct Shell {
     app: Rc<RefCell<Option<App>>>,
     session: Rc<RefCell<Session>>,
     frames: Rc<Cell<u64>>,
+    names: KeptNames,
 }
 
 impl eframe::App for Shell {
@@ -199,6 +203,9 @@ impl eframe::App for Shell {
             }
         }
         tell_events(&self.session);
+        if self.names.follow(&mut self.session.borrow_mut()) {
+            ui.ctx().request_repaint();
+        }
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {

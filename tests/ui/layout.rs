@@ -57,6 +57,7 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
         "sheet",
         "help",
         "error",
+        "legend",
     ];
     let area = |name: &'static str| {
         let id = egui::Id::unique(("panel", name));

@@ -1,6 +1,12 @@
 //! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
 
 mod camera_motion;
+#[path = "../core/chains.rs"]
+#[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
+mod chains;
+#[path = "../core/documents.rs"]
+#[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
+mod documents;
 mod dope_sheet;
 mod idle;
 mod keys;
@@ -16,6 +22,7 @@ mod pointer;
 mod popovers;
 mod rigs;
 mod saving;
+mod skeleton;
 mod split;
 mod subsets;
 mod timeline;

@@ -27,7 +27,7 @@ impl Page {
         if self.was_moving {
             self.session.advance(STEP_SECS);
         }
-        for command in ui::show(ui, &self.session, &mut self.state) {
+        for command in ui::show(ui, &mut self.session, &mut self.state) {
             self.session.apply(command);
         }
         self.requests.extend(self.state.take_requests());

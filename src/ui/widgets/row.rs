@@ -101,9 +101,14 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
 
 /// The name of a part of a panel, and at its right end something to do about it. Whether it was clicked.
 pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>) -> bool {
+    section_with_labelled_action(ui, name, action.map(|action| (action, action)))
+}
+
+/// The same where the words alone do not say enough to a reader: the second ones do.
+pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Option<(&str, &str)>) -> bool {
     let top = ui.cursor().min;
     section_name(ui, name);
-    let Some(action) = action else { return false };
+    let Some((action, label)) = action else { return false };
     let tokens = Tokens::of(ui);
     let galley = ui
         .painter()
@@ -120,7 +125,7 @@ pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>)
     }
     let at = place.center() - galley.size() * 0.5;
     ui.painter().galley(at, galley, tokens.accent);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, action));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response.clicked()
 }
 

@@ -156,6 +156,23 @@ fn the_figure_is_paired_limb_by_limb() {
 }
 
 #[test]
+fn kept_names_read_back_what_was_written_whatever_they_are() {
+    let model = mirrored_model(5);
+    let mut names = JointNames::default();
+    for (bone, name) in [(0, "Hüfte \n links"), (2, "1 2"), (4, "  a  b ")] {
+        names.set(bone, name);
+    }
+    let saved = names.saved(&model.skeleton);
+    let text = saved.to_text();
+    assert_eq!(text, "0 Hüfte  links\n2 1 2\n4 a  b\n");
+    assert_eq!(SavedNames::from_text(saved.fingerprint, &text), saved);
+    // What somebody else wrote there is left out line by line.
+    let odd = "x\n\n7\n-1 a\n99999999999999999999 b\n3 c";
+    let read = SavedNames::from_text(saved.fingerprint, odd);
+    assert_eq!(read.names, BTreeMap::from([(3, "c".to_owned())]));
+}
+
+#[test]
 fn the_soldiers_limbs_are_pairs() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use bindpose::anim::{SkinView, Trails, skin_positions};
 use bindpose::model::{JointIndex, SavedNames};
 use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
-use bindpose::session::{Command, File, JointCommand, JointRow, Session};
+use bindpose::session::{Command, File, JointCommand, JointRow, Session, SubsetCommand};
 use glam::{Affine3A, Vec2, Vec3};
 
 use super::models::{self, jointed, moving, still};
@@ -466,4 +466,62 @@ fn the_soldier_is_inspected_explained_and_coloured() {
     }
     let pairs = session.mirror_pairs();
     assert!(pairs.len() >= 20, "{}", pairs.len());
+}
+
+#[test]
+fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::LookFrom(ViewPreset::Front));
+    session.apply(Command::Seek { time_secs: 0.0 });
+    let inside = |session: &mut Session| on_screen(session, Vec3::new(0.7, 2.9, 0.5));
+    let bone = |session: &mut Session| {
+        let bone = session.bones().bones()[0];
+        on_screen(session, bone.from.midpoint(bone.to))
+    };
+    let selected = |session: &Session| {
+        let joints = session.joints();
+        (
+            session.subsets().selected(),
+            joints.selected_vertex().is_some(),
+            joints.selected(),
+        )
+    };
+    let at = inside(&mut session);
+    session.apply(Command::SelectAt(at));
+    assert_eq!(selected(&session), (Some(0), false, None));
+    session.apply(joint(SetSkinView(Some(SkinView::Weight))));
+    session.apply(Command::SelectAt(at));
+    assert_eq!(selected(&session), (None, true, None));
+    session.apply(joint(SetBonesVisible(true)));
+    let at_bone = bone(&mut session);
+    session.apply(Command::SelectAt(at_bone));
+    assert_eq!(selected(&session), (None, true, Some(JointIndex(0))));
+    // Beside the skin the bone stays whose weights are shown.
+    let nowhere = Vec2::splat(0.99);
+    session.apply(Command::SelectAt(nowhere));
+    assert_eq!(selected(&session), (None, false, Some(JointIndex(0))));
+    session.apply(joint(SetSkinView(None)));
+    session.apply(Command::SelectAt(nowhere));
+    assert_eq!(selected(&session), (None, false, None));
+    session.apply(joint(Select(Some(JointIndex(1)))));
+    session.apply(SubsetCommand::Select(Some(0)).into());
+    assert_eq!(selected(&session), (Some(0), false, None));
+}
+
+#[test]
+fn a_selected_vertex_is_where_it_is_drawn() {
+    let mut session = opened(moving("a.m3d"));
+    assert_eq!(session.selected_vertex_at(), None);
+    session.apply(joint(SelectVertex(Some(0))));
+    session.apply(Command::Seek { time_secs: 0.5 });
+    let place = session.explain_vertex().expect("it is there").position;
+    let world = session.frame().world_from_model.transform_point3(place);
+    let expected = on_screen(&mut session, world);
+    let at = session.selected_vertex_at().expect("in view");
+    assert!(at.distance(expected) < 1e-5, "{at} {expected}");
+    session.apply(Command::Zoom {
+        factor: 0.05,
+        pointer: Vec2::ZERO,
+    });
+    assert_eq!(session.selected_vertex_at(), None, "beside the picture");
 }

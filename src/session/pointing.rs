@@ -1,0 +1,32 @@
+//! What a click in the picture means, by what is shown there; and where the selected vertex is in the picture.
+
+use glam::{Vec2, Vec4Swizzles};
+
+use super::{JointCommand, Session, SubsetCommand};
+
+impl Session {
+    /// Selects what is shown at a point of the picture (x right, y up, −1…1): a bone while bones are drawn, a vertex while the
+    /// skin is coloured, else a subset. Beside all of them nothing is selected, but for the bone whose weights are shown.
+    pub(super) fn select_at(&mut self, pointer: Vec2) {
+        let bone = self.joints.bones_visible().then(|| self.joint_at(pointer)).flatten();
+        if bone.is_some() {
+            self.perform(JointCommand::Select(bone).into());
+        } else if self.joints.skin_view().is_some() {
+            self.perform(JointCommand::SelectVertexAt(pointer).into());
+        } else {
+            self.apply_to_subsets(SubsetCommand::SelectAt(pointer));
+            self.joints.let_go();
+        }
+    }
+
+    /// Where the selected vertex is in the picture of the pose on show: x right, y up, −1…1. None outside of it and behind the
+    /// eye.
+    pub fn selected_vertex_at(&mut self) -> Option<Vec2> {
+        let position = self.explain_vertex()?.position;
+        let world = self.world_from_model().transform_point3(position);
+        let clip = self.screen().clip_from_world * world.extend(1.0);
+        let place = clip.xyz() / clip.w;
+        let in_view = clip.w > 0.0 && place.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&place.z);
+        in_view.then_some(place.truncate())
+    }
+}

@@ -1,0 +1,117 @@
+//! Naming joints: a field in the row, and names proposed for the other side.
+
+use egui::{Align2, FontId, Id, Key, Modifiers, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
+
+use crate::model::JointIndex;
+use crate::session::{Command, JointCommand, Session};
+use crate::ui::panel::scrolled;
+use crate::ui::theme::{ROW_HEIGHT, Tokens};
+use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
+
+/// What is being named.
+#[derive(Debug, Default)]
+pub(super) struct Naming {
+    pub(super) of: Option<JointIndex>,
+    text: String,
+    begins: bool,
+    /// The list of proposed names stands in place of the tree.
+    pub(super) proposing: bool,
+}
+
+impl Naming {
+    /// Lets a joint be named.
+    pub(super) fn begin(&mut self, session: &Session, joint: JointIndex) {
+        let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
+        let bone = bones.and_then(|bones| bones.get(joint.index()));
+        let name = bone.and_then(|&bone| session.joint_names().get(bone));
+        *self = Self {
+            of: Some(joint),
+            text: name.unwrap_or_default().to_owned(),
+            begins: true,
+            proposing: false,
+        };
+    }
+}
+
+/// The field in place of a joint's name. Enter and a click elsewhere take the name, Esc leaves it.
+pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands: &mut Vec<Command>) {
+    let Some(joint) = naming.of else { return };
+    let field = TextEdit::singleline(&mut naming.text)
+        .id(Id::unique("joint name"))
+        .char_limit(64)
+        .hint_text("Name")
+        .margin(vec2(4.0, 2.0))
+        .align(egui::Align2::LEFT_CENTER);
+    let response = ui.put(place.shrink2(vec2(0.0, 1.0)), field);
+    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Name of the bone"));
+    if naming.begins {
+        naming.begins = false;
+        response.request_focus();
+    } else if !response.has_focus() {
+        let left = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        if !left {
+            let name = std::mem::take(&mut naming.text);
+            commands.push(JointCommand::Rename { joint, name }.into());
+        }
+        *naming = Naming::default();
+    }
+}
+
+/// The names that mirrored joints would have, to be taken or left.
+pub(super) fn show_proposals(
+    ui: &mut Ui,
+    session: &Session,
+    naming: &mut Naming,
+    room: f32,
+    commands: &mut Vec<Command>,
+) {
+    let tokens = Tokens::of(ui);
+    let proposed = session.proposed_names();
+    section_name(ui, "Mirrored names");
+    if proposed.is_empty() {
+        let words = if session.joint_names().is_empty() {
+            "Name bones of one side first: double click a bone, or press F2."
+        } else {
+            "Every bone with a partner on the other side has its name, or none of the two has one."
+        };
+        ui.label(egui::RichText::new(words).color(tokens.muted));
+    }
+    let buttons = control_size(ui) + 10.0;
+    let list = scrolled("proposed", (room - buttons - 30.0).max(3.0 * ROW_HEIGHT));
+    let names: Vec<_> = proposed.iter().collect();
+    let rows = list.auto_shrink([false, true]);
+    rows.show_rows(ui, ROW_HEIGHT, names.len(), |ui, range| {
+        for (bone, name) in &names[range] {
+            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+            let font = FontId::proportional(13.0);
+            let (left, number) = (rect.left_center(), format!("Bone {bone}"));
+            ui.painter()
+                .text(left, Align2::LEFT_CENTER, number, font.clone(), tokens.muted);
+            let at = pos2(rect.min.x + 76.0, rect.center().y);
+            paint_elided(ui.painter(), at, name, font, tokens.text, rect.max.x - at.x);
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Bone {bone} would be {name}")));
+        }
+    });
+    ui.add_space(10.0);
+    ui.horizontal(|ui| {
+        let wide = Rangef::new(control_size(ui), f32::INFINITY);
+        if !proposed.is_empty() {
+            let words = format!("Take {}", proposed.len());
+            if TextButton::new(&words, "Take the proposed names")
+                .width(wide)
+                .show(ui)
+                .clicked()
+            {
+                commands.push(JointCommand::AcceptMirrorNames.into());
+                naming.proposing = false;
+            }
+        }
+        if TextButton::new("Back", "Back to the tree")
+            .width(wide)
+            .show(ui)
+            .clicked()
+        {
+            naming.proposing = false;
+        }
+    });
+}

@@ -1,0 +1,67 @@
+//! Names of joints, kept in the browser by the hierarchy that they belong to. A browser that keeps nothing, or is full, is
+//! no reason to say anything: the names are there until the page is closed.
+
+use web_sys::Storage;
+
+use crate::model::SavedNames;
+use crate::session::{JointCommand, Session};
+
+/// More text than this is not kept, in bytes: names for two thousand joints.
+const MOST_BYTES: usize = 64 * 1024;
+
+/// What was taken up from the browser's store, and what was put there.
+#[derive(Debug, Default)]
+pub(super) struct KeptNames {
+    model: u64,
+    revision: u64,
+}
+
+impl KeptNames {
+    /// Gives a model that was opened the names that its hierarchy had, and keeps those that were given since. Whether the
+    /// model has other names now.
+    pub(super) fn follow(&mut self, session: &mut Session) -> bool {
+        let opened = self.model != session.model_revision();
+        self.model = session.model_revision();
+        let taken_up = opened && take_up(session).is_some();
+        let revision = session.joint_names_revision();
+        if !opened && self.revision != revision {
+            // See above: a failure means nothing.
+            let _ = keep(session);
+        }
+        self.revision = revision;
+        taken_up
+    }
+}
+
+fn store() -> Option<Storage> {
+    web_sys::window()?.local_storage().ok()?
+}
+
+fn key(fingerprint: u64) -> String {
+    format!("bindpose.names.{fingerprint:016x}")
+}
+
+fn take_up(session: &mut Session) -> Option<()> {
+    let fingerprint = session.saved_joint_names()?.fingerprint;
+    if !session.joint_names().is_empty() {
+        // They came along from a model with these bones.
+        return None;
+    }
+    let text = store()?.get_item(&key(fingerprint)).ok()??;
+    let kept = SavedNames::from_text(fingerprint, &text);
+    session.apply(JointCommand::ImportNames(kept).into());
+    Some(())
+}
+
+fn keep(session: &Session) -> Option<()> {
+    let saved = session.saved_joint_names()?;
+    let (store, key) = (store()?, key(saved.fingerprint));
+    let text = saved.to_text();
+    if text.is_empty() {
+        store.remove_item(&key).ok()
+    } else if text.len() <= MOST_BYTES {
+        store.set_item(&key, &text).ok()
+    } else {
+        None
+    }
+}
