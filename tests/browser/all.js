@@ -2,6 +2,8 @@
 import "./page.js";
 import "./opening.js";
 import "./playing.js";
+import "./keys.js";
+import "./skeleton.js";
 import "./pictures.js";
 import "./looking.js";
 import "./subsets.js";
