@@ -34,8 +34,9 @@ const range = (first, last) => ({ rangeSecs }) => near(30 * rangeSecs?.[0], firs
 
 test("the keys for time", STILL, async (page) => {
   await focusView(page);
-  const { clip, model } = await state(page);
-  assert.deepEqual(model.clips[0], { name: clip, startSecs: 0, endSecs: 32 / 30, keysPerSec: 30, keys: 698 }, "the table's clip");
+  const { model } = await state(page);
+  const [{ startSecs, endSecs, keysPerSec }] = model.clips;
+  assert.deepEqual([startSecs, Math.round(endSecs * keysPerSec), keysPerSec], [0, 32, 30], "the clip that the table is made for");
   await presses(page, [
     ["Space", "plays", ({ playing, backward }) => playing && !backward],
     ["Space", "pauses", ({ playing }) => !playing],
