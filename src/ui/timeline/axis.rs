@@ -180,6 +180,10 @@ mod tests {
         window.pan(WHOLE, FRAME, -100.0);
         assert_eq!(window.span_secs(WHOLE), [0.5, 2.5]);
         window.show(WHOLE, FRAME, [f32::NAN, 1.0]);
-        assert_eq!(window.span_secs(WHOLE)[1] - window.span_secs(WHOLE)[0], 4.0 * FRAME);
+        let [start, end] = window.span_secs(WHOLE);
+        assert!(
+            start == 0.5 && (end - start - 4.0 * FRAME).abs() < 1e-6,
+            "no number is the start"
+        );
     }
 }
