@@ -180,7 +180,7 @@ fn inspected() -> Vec<Command> {
     };
     let commands = [
         named(0, "Hips"),
-        named(7, "L thigh"),
+        named(7, "L clavicle"),
         JointCommand::Select(Some(bone)),
         JointCommand::SetBonesVisible(true),
         JointCommand::SetSkinView(Some(SkinView::Weight)),

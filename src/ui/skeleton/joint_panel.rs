@@ -173,7 +173,7 @@ fn links(
     let builder = egui::UiBuilder::new()
         .max_rect(place)
         .layout(egui::Layout::left_to_right(egui::Align::Min).with_main_wrap(true));
-    let used = ui.scope_builder(builder, |ui| {
+    ui.scope_builder(builder, |ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 0.0);
         for &joint in joints {
             let link = joint_link(ui, &session.joint_label(joint));
@@ -185,7 +185,6 @@ fn links(
             }
         }
     });
-    let _ = used;
 }
 
 /// A joint's name that can be clicked.

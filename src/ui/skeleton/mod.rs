@@ -64,6 +64,7 @@ impl SkeletonState {
         if self.model != session.model_revision() {
             self.model = session.model_revision();
             self.naming = Naming::default();
+            self.tree = TreeState::default();
         }
         if !has_joints(session) {
             self.page = SidePage::Model;
