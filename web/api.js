@@ -17,6 +17,18 @@ export function createApi() {
   // Whoever waits for it hears of a failure; nobody has to wait.
   ready.catch(() => {});
 
+  const give = (files, how) => {
+    used = true;
+    // A FileList empties itself when its input is used again, so it is copied before anything waits.
+    const given = Array.from(files);
+    const opened = opening.then(async () => {
+      const records = await Promise.all(given.map(read));
+      return (await ready)[how](records);
+    });
+    opening = opened.catch(() => {});
+    return opened;
+  };
+
   /** Now, or as soon as the viewer runs. */
   const command = (name) => (...values) => {
     if (viewer) viewer[name](...values);
@@ -32,17 +44,10 @@ export function createApi() {
     selectClip: command("selectClip"),
 
     /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
-    open(files) {
-      used = true;
-      // A FileList empties itself when its input is used again, so it is copied before anything waits.
-      const given = Array.from(files);
-      const opened = opening.then(async () => {
-        const records = await Promise.all(given.map(read));
-        return (await ready).open(records);
-      });
-      opening = opened.catch(() => {});
-      return opened;
-    },
+    open: (files) => give(files, "open"),
+
+    /** The same, but the clips of models with the same bones join those of the open one. */
+    addClips: (files) => give(files, "addClips"),
 
     /** A picture of the current view: a PNG `Blob`, as large as the canvas unless told otherwise. */
     async snapshot(options = {}) {

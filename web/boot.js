@@ -39,17 +39,18 @@ let restarting = false;
 let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
 
 const refuse = (words) => showNotice("Some files could not be read", words);
-const receive = async (files) => {
+const receive = async (files, addsClips = false) => {
   clearNotice();
   if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
-  await bindpose.open(files).catch((error) => refuse(wordsOf(error)));
+  const given = addsClips ? bindpose.addClips(files) : bindpose.open(files);
+  await given.catch((error) => refuse(wordsOf(error)));
 };
 const pick = takeChoices({ receive, refuse });
 takeDrops({ receive, refuse, openModel: () => bindpose.state().model?.name });
 const refreshTransport = mirrorTransport(bindpose);
 letTabLeave(view);
-element("open-files").addEventListener("click", () => pick(false));
-element("open-folder").addEventListener("click", () => pick(true));
+element("open-files").addEventListener("click", () => pick("files"));
+element("open-folder").addEventListener("click", () => pick("folder"));
 element("notice-close").addEventListener("click", clearNotice);
 
 boot();
@@ -172,7 +173,8 @@ async function restart(reason, of = starts) {
 function onEvent(type, detail) {
   if (type === "devicelost") return void restart(detail?.reason ?? "the device was lost");
   if (type === "panic") return onPanic(detail?.message ?? "");
-  if (type === "pickfiles") return pick(Boolean(detail?.folder));
+  if (type === "pickfiles") return pick("files");
+  if (type === "pickclips") return pick("clips");
   if (type === "picture") return saveFile(detail.name, detail.bytes, "image/png");
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {

@@ -9,8 +9,9 @@ const MAX_ENTRIES = 20_000;
 const element = (id) => document.getElementById(id);
 
 /**
- * Takes every drop on the page. `receive(files)` gets `{name, file}` records, name being the path inside what was
- * dropped; `refuse(words)` hears what could not be read; `openModel()` names the model that a drop would replace, if any.
+ * Takes every drop on the page. `receive(files, addsClips)` gets `{name, file}` records, name being the path inside what was
+ * dropped, and whether only their clips are wanted, as Shift says; `refuse(words)` hears what could not be read;
+ * `openModel()` names the model that a drop would replace, if any.
  */
 export function takeDrops({ receive, refuse, openModel }) {
   const overlay = element("drop-overlay");
@@ -20,7 +21,9 @@ export function takeDrops({ receive, refuse, openModel }) {
     if (!carriesFiles(event)) return;
     claim(event);
     event.dataTransfer.dropEffect = "copy";
-    element("drop-what").textContent = describe(event, openModel());
+    const addsClips = event.shiftKey && Boolean(openModel());
+    element("drop-title").textContent = addsClips ? "Drop to add clips" : "Drop to open";
+    element("drop-what").textContent = describe(event, openModel(), addsClips);
     overlay.hidden = false;
   };
   // In the capture phase, so that nothing below sees the drop and takes half of it.
@@ -34,26 +37,27 @@ export function takeDrops({ receive, refuse, openModel }) {
     hide();
     // The list is emptied when this listener returns, so the entries are taken now.
     const roots = entriesOf(event.dataTransfer);
+    const addsClips = event.shiftKey;
     const { files, problems } = await collect(roots);
     if (problems.length) refuse(problems.join("\n"));
-    if (files.length) receive(files);
+    if (files.length) receive(files, addsClips);
     else if (!problems.length) refuse("There is no model and no picture in what was dropped.");
   }, true);
 }
 
-/** Makes the hidden file inputs hand their files to `receive`. Gives `pick(folder)`, which opens a dialog. */
+/** Makes the hidden file inputs hand their files to `receive`. Gives `pick(what)`, which opens a dialog for "files", a "folder" or "clips". */
 export function takeChoices({ receive, refuse }) {
-  for (const id of ["files", "folder"]) {
+  for (const id of ["files", "folder", "clips"]) {
     const input = element(id);
     input.addEventListener("change", () => {
       const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
       input.value = ""; // So that choosing the same file again is a change.
       const files = id === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
-      if (files.length) receive(files);
+      if (files.length) receive(files, id === "clips");
       else if (chosen.length) refuse("There is no model and no picture in this folder.");
     });
   }
-  return (folder) => element(folder ? "folder" : "files").click();
+  return (what) => element(what).click();
 }
 
 function carriesFiles(event) {
@@ -66,11 +70,11 @@ function claim(event) {
 }
 
 /** What would be opened and what it replaces. Before the drop a page learns how many items there are, not their names. */
-function describe(event, openModel) {
+function describe(event, openModel, addsClips) {
   const count = Array.from(event.dataTransfer.items).filter((item) => item.kind === "file").length;
   const what = count ? [count === 1 ? "1 item" : `${count} items`] : [];
-  const then = openModel ? [`${openModel} stays until it is read`] : [];
-  return [...what, ...then].join(" · ");
+  const then = addsClips ? [`its clips join those of ${openModel}`] : [`${openModel} stays until it is read`, "Shift adds its clips"];
+  return [...what, ...(openModel ? then : [])].join(" · ");
 }
 
 function entriesOf(transfer) {

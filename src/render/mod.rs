@@ -188,8 +188,9 @@ impl Renderer {
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let model = posed_model(self.model.as_ref(), &self.no_bones, &self.common.pipelines, frame);
         for stage in &mut self.stages {
-            if parts.iter().any(|(light, _)| *light == stage.light()) {
-                stage.draw_around(&self.common, &mut encoder, frame, target.size(), model);
+            if let Some((_, columns)) = parts.iter().find(|(light, _)| *light == stage.light()) {
+                let place = (target.size(), columns);
+                stage.draw_around(&self.common, &mut encoder, frame, place, model);
             }
         }
         self.draw_picture(frame, target, &parts, model, &mut encoder);

@@ -1,5 +1,7 @@
 //! Ambient occlusion: normals and depth of what is in view, at half the picture's resolution, and how open each pixel is.
 
+use std::ops::Range;
+
 use super::gpu_model::{GpuModel, Posed};
 use super::pipelines::{Cut, Draw, GEOMETRY_FORMAT, ModelDraw, Pipelines, SHARE_FORMAT};
 use super::target::{DEPTH_FORMAT, begin_color_pass, flat_texture};
@@ -12,6 +14,9 @@ const NOTHING_SEEN: wgpu::Color = wgpu::Color {
     b: 1.0,
     a: 1.0,
 };
+
+/// Texels beside the columns of a light that its blurs read: a radius for each of the book's four.
+const BLUR_MARGIN: u32 = 4 * 5;
 
 /// Textures for pictures of one size.
 pub(super) struct Occlusion {
@@ -27,7 +32,7 @@ pub(super) struct Occlusion {
 
 impl Occlusion {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, size: [u32; 2]) -> Self {
-        let half = size.map(|side| side.div_ceil(2));
+        let half = half(size);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
         let texture = |label, format| flat_texture(device, label, half, format, usage);
         let geometry = texture("geometry", GEOMETRY_FORMAT);
@@ -84,7 +89,7 @@ impl Occlusion {
         frame_group: &wgpu::BindGroup,
         model: &GpuModel,
         posed: Posed<'_>,
-        light: Light,
+        (light, columns): (Light, &Range<u32>),
         nothing: &wgpu::BindGroup,
     ) {
         {
@@ -93,54 +98,47 @@ impl Occlusion {
             pass.set_bind_group(2, nothing, &[]);
             model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
         }
-        self.fill(
-            encoder,
-            frame_group,
-            posed.pipelines,
-            Draw::Occlusion(light),
-            &self.openness,
-        );
+        let fill = |encoder: &mut wgpu::CommandEncoder, draw, target| {
+            let mut pass = self.begin_fill(encoder, columns, target);
+            pass.set_pipeline(&posed.pipelines.get(draw));
+            pass.set_bind_group(0, frame_group, &[]);
+            pass.draw(0..3, 0..1);
+        };
+        fill(encoder, Draw::Occlusion(light), &self.openness);
         // The demo blurs twice.
         let blurs = match light {
             Light::Book => 2,
             Light::Studio => 1,
         };
         for _ in 0..blurs {
-            self.fill(
-                encoder,
-                frame_group,
-                posed.pipelines,
-                Draw::OcclusionBlurRows,
-                &self.between,
-            );
-            self.fill(
-                encoder,
-                frame_group,
-                posed.pipelines,
-                Draw::OcclusionBlurColumns,
-                &self.openness,
-            );
+            fill(encoder, Draw::OcclusionBlurRows, &self.between);
+            fill(encoder, Draw::OcclusionBlurColumns, &self.openness);
         }
     }
 
-    /// Draws over the whole of `target` from the geometry and the other of the two.
-    fn fill(
+    /// A pass over these columns of the picture into `target`, from the geometry and the other of the two.
+    fn begin_fill<'a>(
         &self,
-        encoder: &mut wgpu::CommandEncoder,
-        frame_group: &wgpu::BindGroup,
-        pipelines: &Pipelines,
-        draw: Draw,
+        encoder: &'a mut wgpu::CommandEncoder,
+        columns: &Range<u32>,
         target: &wgpu::TextureView,
-    ) {
+    ) -> wgpu::RenderPass<'a> {
         let source = if target == &self.openness {
             &self.between_group
         } else {
             &self.openness_group
         };
         let mut pass = begin_color_pass(encoder, "occlusion", target, wgpu::Color::WHITE, None);
-        pass.set_pipeline(&pipelines.get(draw));
-        pass.set_bind_group(0, frame_group, &[]);
+        let [width, height] = half(self.size);
+        let start = (columns.start / 2).saturating_sub(BLUR_MARGIN);
+        let end = (columns.end.div_ceil(2) + BLUR_MARGIN).min(width);
+        pass.set_scissor_rect(start, 0, end - start, height);
         pass.set_bind_group(1, source, &[]);
-        pass.draw(0..3, 0..1);
+        pass
     }
+}
+
+/// Of the textures for a picture of this size.
+fn half(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(2))
 }

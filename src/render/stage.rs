@@ -1,5 +1,7 @@
 //! All that belongs to one light: what the frame is under it, its shadow, its openness, its surroundings.
 
+use std::ops::Range;
+
 use super::contact::ContactMap;
 use super::environment::Environments;
 use super::frame_uniform::{Part, frame_uniform, has_contact_shadow};
@@ -99,13 +101,13 @@ impl Stage {
         self.surroundings.group()
     }
 
-    /// Draws all that the picture will read: shadow, openness, contact. `size` is the picture's.
+    /// Draws all that the picture will read: shadow, openness, contact. `size` is the picture's, `columns` are those of this light.
     pub(super) fn draw_around(
         &mut self,
         common: &Common,
         encoder: &mut wgpu::CommandEncoder,
         frame: &RenderFrame<'_>,
-        size: [u32; 2],
+        (size, columns): ([u32; 2], &Range<u32>),
         model: Option<(&GpuModel, Posed<'_>)>,
     ) {
         let part = Part {
@@ -136,7 +138,14 @@ impl Stage {
                     self.occlusion = Some(Occlusion::new(device, pipelines, size));
                 }
                 if let Some(occlusion) = &self.occlusion {
-                    occlusion.draw(encoder, &self.frame_group, model, posed, self.light, &common.nothing);
+                    occlusion.draw(
+                        encoder,
+                        &self.frame_group,
+                        model,
+                        posed,
+                        (self.light, columns),
+                        &common.nothing,
+                    );
                     openness = occlusion.view();
                 }
             }

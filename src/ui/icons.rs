@@ -16,6 +16,26 @@ pub(super) enum Icon {
     SkipStart,
     /// To the last frame.
     SkipEnd,
+    /// Play the other way.
+    PlayBackward,
+    /// One frame back.
+    StepBack,
+    /// One frame on.
+    StepForward,
+    /// To the key before.
+    KeyBack,
+    /// To the key after.
+    KeyForward,
+    /// Keys in rows.
+    DopeSheet,
+    /// What moves most first.
+    Sort,
+    /// Branches folded.
+    Fold,
+    /// Two into one.
+    Blend,
+    /// One more.
+    Plus,
     /// Stop at the end.
     Once,
     /// Start over at the end.
@@ -50,6 +70,8 @@ pub(super) enum Icon {
     Close,
     /// Opens a list below.
     ChevronDown,
+    /// Something is folded away.
+    ChevronRight,
     /// More.
     Dots,
 }
@@ -208,6 +230,50 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             line(&[(4.2, 4.2), (11.8, 11.8)]);
             line(&[(11.8, 4.2), (4.2, 11.8)]);
         }
+        Icon::PlayBackward => filled(&[(11.0, 3.2), (11.0, 12.8), (2.8, 8.0)]),
+        Icon::StepBack => {
+            filled(&[(9.4, 4.2), (9.4, 11.8), (3.4, 8.0)]);
+            line(&[(12.2, 4.0), (12.2, 12.0)]);
+        }
+        Icon::StepForward => {
+            filled(&[(6.6, 4.2), (12.6, 8.0), (6.6, 11.8)]);
+            line(&[(3.8, 4.0), (3.8, 12.0)]);
+        }
+        Icon::KeyBack => {
+            line(&[(6.0, 4.6), (2.6, 8.0), (6.0, 11.4)]);
+            filled(&[(11.0, 4.6), (14.4, 8.0), (11.0, 11.4), (7.6, 8.0)]);
+        }
+        Icon::KeyForward => {
+            line(&[(10.0, 4.6), (13.4, 8.0), (10.0, 11.4)]);
+            filled(&[(5.0, 4.6), (8.4, 8.0), (5.0, 11.4), (1.6, 8.0)]);
+        }
+        Icon::DopeSheet => {
+            for (y, keys) in [(3.6, [3.4, 8.0]), (8.0, [6.0, 12.6]), (12.4, [3.4, 10.4])] {
+                line(&[(1.6, y), (14.4, y)]);
+                for x in keys {
+                    filled(&[(x, y - 2.0), (x + 2.0, y), (x, y + 2.0), (x - 2.0, y)]);
+                }
+            }
+        }
+        Icon::Sort => {
+            for (y, end) in [(3.8, 14.0), (8.0, 10.4), (12.2, 6.0)] {
+                line(&[(2.0, y), (end, y)]);
+            }
+        }
+        Icon::Fold => {
+            line(&[(4.6, 1.8), (8.0, 5.0), (11.4, 1.8)]);
+            line(&[(2.4, 8.0), (13.6, 8.0)]);
+            line(&[(4.6, 14.2), (8.0, 11.0), (11.4, 14.2)]);
+        }
+        Icon::Blend => {
+            painter.circle_stroke(at(5.8, 8.0), 3.9, stroke);
+            painter.circle_stroke(at(10.2, 8.0), 3.9, stroke);
+        }
+        Icon::Plus => {
+            line(&[(8.0, 3.4), (8.0, 12.6)]);
+            line(&[(3.4, 8.0), (12.6, 8.0)]);
+        }
+        Icon::ChevronRight => line(&[(6.4, 4.6), (9.8, 8.0), (6.4, 11.4)]),
         Icon::ChevronDown => line(&[(4.6, 6.4), (8.0, 9.8), (11.4, 6.4)]),
         Icon::Dots => {
             for x in [3.6, 8.0, 12.4] {

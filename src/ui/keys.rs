@@ -5,6 +5,7 @@ use egui::{Event, Key, Modifiers, Ui};
 use super::UiState;
 use super::flight::FLIGHT_KEYS;
 use super::skeleton;
+use crate::anim::Direction;
 use crate::scene::{Overlay, ViewPreset};
 use crate::session::{Command, LookCommand, Session, SubsetCommand};
 
@@ -27,7 +28,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 if control_focused && matches!(key, Key::Space | Key::Enter) {
                     continue;
                 }
-                commands.extend(command_for(key, modifiers));
+                commands.extend(command_for(key, modifiers).map(|command| of_selection(command, session)));
                 // The key that flies forward while the view is held.
                 let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
                 if !flies {
@@ -47,6 +48,17 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
     }
 }
 
+/// Steps from key to key are of the joint that was chosen.
+fn of_selection(command: Command, session: &Session) -> Command {
+    match command {
+        Command::StepKey { direction, joint: None } => Command::StepKey {
+            direction,
+            joint: session.joints().selected(),
+        },
+        command => command,
+    }
+}
+
 /// Takes away what lies on top.
 fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if session.error().is_some() {
@@ -55,11 +67,17 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         state.help_open = false;
     } else if state.diagnostics_open {
         state.diagnostics_open = false;
-    } else if let Some(command) = skeleton::keys::escape(session) {
-        commands.push(command);
-    } else if session.subsets().selected().is_some() {
-        commands.push(SubsetCommand::Select(None).into());
+    } else if !state.timeline.let_go_of_keys() {
+        commands.extend(let_go(session));
     }
+}
+
+/// Takes the selection away.
+fn let_go(session: &Session) -> Option<Command> {
+    skeleton::keys::escape(session).or_else(|| {
+        let subset = session.subsets().selected();
+        subset.map(|_| SubsetCommand::Select(None).into())
+    })
 }
 
 /// What a key asks for.
@@ -76,12 +94,18 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
     let glide = |command| Some(Command::Glide(Box::new(command)));
     let opposite = |preset, other| glide(Command::LookFrom(if ctrl { other } else { preset }));
     let overlay = |overlay| Some(LookCommand::ToggleOverlay(overlay).into());
+    let step_key = |direction| Some(Command::StepKey { direction, joint: None });
     let frames = if shift { 10 } else { 1 };
     match key {
         Key::Space if shift => Some(Command::TogglePlayBackward),
         Key::Space => Some(Command::TogglePlay),
         Key::ArrowLeft | Key::Comma => Some(Command::StepFrames(-frames)),
         Key::ArrowRight | Key::Period => Some(Command::StepFrames(frames)),
+        Key::ArrowUp => step_key(Direction::Forward),
+        Key::ArrowDown => step_key(Direction::Backward),
+        Key::I if shift => Some(Command::ClearRange),
+        Key::I => Some(Command::SetRangeStart(None)),
+        Key::O if !shift => Some(Command::SetRangeEnd(None)),
         Key::Home => Some(Command::SeekStart),
         Key::End => Some(Command::SeekEnd),
         Key::OpenBracket => Some(Command::Slower),

@@ -42,7 +42,7 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
             let most = toolbar.min.x - MARGIN - left_top.x - 26.0;
             title_bar::show(ui, session, most, true);
         });
-    let covered = timeline::covered_height(ui, session, false);
+    let covered = timeline::covered_height(ui, session, &state.timeline, false);
     let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
     let side_room = window.max.y - covered.max(MARGIN) - side_top.y - 26.0;
     if session.open_model().is_some() {
@@ -83,7 +83,7 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
             .margin(Margin::same(9))
             .show(ui, |ui| {
                 ui.set_width(window.width() - 2.0 * MARGIN - 20.0);
-                timeline::wide(ui, session, &mut state.key_times, commands);
+                timeline::wide(ui, session, state, commands);
             });
     }
 }
@@ -154,11 +154,12 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands
                 };
             }
             if session.clip().is_some() {
-                timeline::narrow(ui, session, &mut state.key_times, commands);
+                timeline::narrow(ui, session, state, commands);
             }
             if let Some(page) = state.sheet {
                 ui.add_space(10.0);
-                let covered = bar_height(ui) + timeline::covered_height(ui, session, true) + 3.0 * MARGIN;
+                let covered =
+                    bar_height(ui) + timeline::covered_height(ui, session, &state.timeline, true) + 3.0 * MARGIN;
                 let room = (window.height() * 0.5).min(window.height() - covered);
                 if page == SheetPage::Model && is_side_page(session, state) {
                     side_panel(ui, "sheet", session, state, room, commands);
@@ -201,5 +202,6 @@ fn sheet_page(
             toolbar::view_from_items(ui, session, commands);
         }
         SheetPage::Picture => picture::show(ui, state),
+        SheetPage::Timeline => timeline::page(ui, session, state, room, commands),
     }
 }

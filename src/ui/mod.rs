@@ -26,7 +26,6 @@ mod textures;
 pub mod theme;
 mod thumbnails;
 mod timeline;
-mod timeline_bar;
 mod title_bar;
 mod toolbar;
 mod view_modes;
@@ -64,13 +63,14 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
-    commands.push(set_viewport(ui, session, window, narrow));
+    commands.push(set_viewport(ui, session, state, window, narrow));
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
     skeleton::show_marks(ui, session, &state.skeleton, window);
     split::show(ui, session, window, &mut commands);
     state.hovered_subset = None;
+    state.timeline.update(session);
 
     if narrow {
         layout::narrow(ui, session, state, window, &mut commands);
@@ -80,7 +80,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
     }
-    state.skeleton.hover(session, &mut commands);
+    state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
     if state.help_open {
         let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
         Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {
@@ -109,9 +109,9 @@ fn set_theme(ui: &Ui) -> Command {
 }
 
 /// What the panels leave free is where the model is framed.
-fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Command {
+fn set_viewport(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> Command {
     let top = (bar_height(ui) + MARGIN) / window.height();
-    let bottom = timeline::covered_height(ui, session, narrow) / window.height();
+    let bottom = timeline::covered_height(ui, session, &state.timeline, narrow) / window.height();
     let left = if narrow {
         0.0
     } else {
@@ -120,7 +120,7 @@ fn set_viewport(ui: &Ui, session: &Session, window: Rect, narrow: bool) -> Comma
     let insets = Insets {
         left,
         top: top.clamp(0.0, 0.3),
-        bottom: bottom.clamp(0.0, 0.4),
+        bottom: bottom.clamp(0.0, 0.6),
         ..Insets::default()
     };
     Command::SetViewport {

@@ -6,7 +6,7 @@ use super::inspector::VertexCount;
 use super::picture::PictureChoice;
 use super::skeleton::SkeletonState;
 use super::thumbnails::Thumbnails;
-use super::timeline_bar::KeyTimes;
+use super::timeline::TimelineState;
 use super::viewport::ViewHold;
 use crate::scene::Theme;
 
@@ -15,6 +15,8 @@ use crate::scene::Theme;
 pub enum Request {
     /// Let the person pick files.
     PickFiles,
+    /// Let the person pick models whose clips join those of the open one.
+    PickClips,
     /// Take this theme, whatever the system says.
     UseTheme(Theme),
     /// Save the view as a picture; [`picture_name`](super::picture_name) says how the file is called.
@@ -41,6 +43,8 @@ pub enum SheetPage {
     ViewFrom,
     /// A picture as a file.
     Picture,
+    /// Dope sheet and curves.
+    Timeline,
 }
 
 /// Which panels are open. Nothing here changes the model or the picture of it.
@@ -55,7 +59,7 @@ pub struct UiState {
     pub(super) coarse_pointer: bool,
     pub(super) shown_finding: Option<usize>,
     pub(super) shown_model: u64,
-    pub(super) key_times: KeyTimes,
+    pub(super) timeline: TimelineState,
     pub(super) picture: PictureChoice,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,

@@ -49,6 +49,8 @@ pub struct Tokens {
     pub error: Color32,
     /// Shadow under panels.
     pub shadow: Color32,
+    /// What belongs to x, y and z.
+    pub axes: [Color32; 3],
 }
 
 const fn rgb(hex: u32) -> Color32 {
@@ -78,6 +80,7 @@ impl Tokens {
             warning: rgb(0xFFB454),
             error: rgb(0xFF6B6B),
             shadow: over(0x000000, 34.0),
+            axes: [rgb(0xF24D57), rgb(0x80CC33), rgb(0x4D97FF)],
         }
     }
 
@@ -97,6 +100,7 @@ impl Tokens {
             warning: rgb(0xC26A00),
             error: rgb(0xC83232),
             shadow: over(0x1B2029, 17.0),
+            axes: [rgb(0xD63A45), rgb(0x4F8F0E), rgb(0x2A6FE0)],
         }
     }
 

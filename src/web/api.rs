@@ -52,6 +52,23 @@ pub fn state() -> JsValue {
 /// When an entry is not of that shape.
 #[wasm_bindgen]
 pub fn open(files: &Array) -> Result<JsValue, JsError> {
+    apply(Command::AddFiles(files_of(files)?));
+    Ok(state())
+}
+
+/// Adds the clips of models with the same bones to the open one: an array as [`open`] takes it. Without an open model it
+/// opens them; a failure is in the state's `error`. Returns the state.
+///
+/// # Errors
+/// When an entry is not of that shape.
+#[wasm_bindgen(js_name = addClips)]
+pub fn add_clips(files: &Array) -> Result<JsValue, JsError> {
+    apply(Command::AddClips(files_of(files)?));
+    Ok(state())
+}
+
+/// Files of `{name, bytes}` records.
+fn files_of(files: &Array) -> Result<Vec<File>, JsError> {
     let mut given = Vec::new();
     for entry in files.iter() {
         let field = |name: &str| Reflect::get(&entry, &name.into()).unwrap_or(JsValue::UNDEFINED);
@@ -63,8 +80,7 @@ pub fn open(files: &Array) -> Result<JsValue, JsError> {
             .map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
         given.push(File::new(&name, bytes.to_vec()));
     }
-    apply(Command::AddFiles(given));
-    Ok(state())
+    Ok(given)
 }
 
 /// Goes to a time in seconds, clamped to the clip.

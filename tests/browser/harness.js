@@ -144,13 +144,19 @@ export async function until(page, predicate) {
   }
 }
 
-/** Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. */
-export async function drop(page, paths, { look } = {}) {
+/** Shift among the modifiers of the DevTools protocol. */
+const SHIFT = 8;
+
+/**
+ * Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. `shift`:
+ * with Shift held.
+ */
+export async function drop(page, paths, { look, shift = false } = {}) {
   const devtools = await page.context().newCDPSession(page);
   const data = { items: [], files: paths, dragOperationsMask: 1 };
   for (const type of ["dragEnter", "dragOver", "dragOver", "drop"]) {
     if (type === "drop") await look?.();
-    await devtools.send("Input.dispatchDragEvent", { type, x: CENTRE[0], y: CENTRE[1], data });
+    await devtools.send("Input.dispatchDragEvent", { type, x: CENTRE[0], y: CENTRE[1], data, modifiers: shift ? SHIFT : 0 });
   }
   await devtools.detach();
 }

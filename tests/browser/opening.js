@@ -21,7 +21,7 @@ function copyOfSample(...parts) {
 test("a dropped file opens, and the page says before release what it will do", {}, async (page) => {
   const { path } = copyOfSample("hero.m3d");
   const look = async () => {
-    assert.match(await page.innerText("#drop-overlay"), /^Drop to open\s+1 item · figure\.m3d stays until it is read$/);
+    assert.match(await page.innerText("#drop-overlay"), /^Drop to open\s+1 item · figure\.m3d stays until it is read · Shift adds its clips$/);
     await keep(page, "drop-overlay");
   };
   const { outcome, model, error } = await dropAndWait(page, [path], { look });
@@ -89,6 +89,23 @@ test("the Open dialog gives its files", {}, async (page) => {
   const { path } = copyOfSample("chosen.m3d");
   await page.setInputFiles("#files", path);
   await until(page, ({ model }) => model?.name === "chosen.m3d");
+});
+
+test("a drop with Shift adds the clips of a model, and so does the dialog for clips", {}, async (page) => {
+  const { path } = copyOfSample("more.m3d");
+  const before = await state(page);
+  const count = before.model.clips.length;
+  const look = async () => {
+    const words = await page.innerText("#drop-overlay");
+    assert.match(words, /^Drop to add clips\s+1 item · its clips join those of figure\.m3d$/);
+  };
+  await drop(page, [path], { look, shift: true });
+  const joined = await until(page, ({ model }) => model.clips.length > 4);
+  assert.equal(joined.model.name, "figure.m3d", "the model stays");
+  assert.equal(joined.model.clips.length, 2 * count);
+  await page.setInputFiles("#clips", path);
+  await until(page, ({ model }) => model.clips.length === 12);
+  assert.equal((await state(page)).error, null);
 });
 
 test("the same file again keeps the clip and the time", {}, async (page) => {

@@ -2,6 +2,7 @@
 
 mod check;
 mod info;
+mod look;
 mod pipe;
 mod pose;
 mod program;

@@ -68,6 +68,10 @@ fn what_was_touched_settles() {
         "Frame the model",
         "Painted, 12",
         "Last frame",
+        "Dope sheet and curves",
+        "Bone 1, ",
+        "Sheet: Curves",
+        "Time 1.000 s",
     ] {
         window.click(label);
         assert_settles(&mut window);

@@ -55,6 +55,37 @@ fn arrows_step_one_frame_and_ten_with_shift() {
 }
 
 #[test]
+fn up_and_down_go_from_key_to_key() {
+    let mut window = open();
+    for (key, frame) in [
+        (Key::ArrowUp, 1.0),
+        (Key::ArrowUp, 2.0),
+        (Key::ArrowDown, 1.0),
+        (Key::ArrowDown, 0.0),
+        (Key::ArrowDown, 0.0),
+    ] {
+        window.press(PLAIN, key);
+        assert_frame(&window, frame);
+    }
+}
+
+#[test]
+fn i_and_o_set_the_range_and_shift_i_clears_it() {
+    let mut window = open();
+    let range = |window: &Window| window.session().playback().range_secs();
+    window.apply(Command::Seek { time_secs: 0.25 });
+    window.press(PLAIN, Key::I);
+    assert_eq!(range(&window), Some([0.25, 1.0]));
+    window.apply(Command::Seek { time_secs: 0.75 });
+    window.press(PLAIN, Key::O);
+    assert_eq!(range(&window), Some([0.25, 0.75]));
+    window.press(PLAIN, Key::Home);
+    assert_eq!(window.time_secs(), 0.25, "the first frame is the range's");
+    window.press(SHIFT, Key::I);
+    assert_eq!(range(&window), None);
+}
+
+#[test]
 fn brackets_change_the_speed_and_the_backslash_sets_it_back() {
     let mut window = open();
     for (key, speed) in [

@@ -263,9 +263,9 @@ fn targets_are_large_enough_for_fingers() {
         assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{start}: {rect}");
     }
     for (opener, item) in [
-        ("Clip ", "Turn"),
+        ("Clip ", "Turn, "),
         ("More", "Turntable"),
-        ("Speed ", "0.5×"),
+        ("Speed ", "Speed: 0.5×"),
         ("Handedness", "As found"),
     ] {
         window.click(opener);

@@ -7,6 +7,7 @@ mod chains;
 #[path = "../core/documents.rs"]
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod documents;
+mod dope_sheet;
 mod idle;
 mod keys;
 mod layout;
@@ -19,6 +20,7 @@ mod panels;
 mod picture;
 mod pointer;
 mod popovers;
+mod rigs;
 mod saving;
 mod skeleton;
 mod split;

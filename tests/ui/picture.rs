@@ -171,6 +171,68 @@ fn overlays_in_the_sheet_of_a_phone() {
     );
 }
 
+#[test]
+fn the_dope_sheet() {
+    let clicks = ["Dope sheet and", "Bone 2, "];
+    compare("wide-dark-keys", &draw_after(WIDE, Theme::Dark, false, vec![], &clicks));
+}
+
+#[test]
+fn curves_of_a_bone() {
+    let clicks = ["Dope sheet and", "Bone 2, ", "Sheet: Curves"];
+    compare(
+        "wide-light-curves",
+        &draw_after(WIDE, Theme::Light, false, vec![], &clicks),
+    );
+}
+
+#[test]
+fn the_dope_sheet_of_a_small_window_with_a_range() {
+    let range = [0.3, 0.9].map(Some);
+    let then = vec![Command::SetRangeStart(range[0]), Command::SetRangeEnd(range[1])];
+    let clicks = ["Dope sheet and", "Sort by motion"];
+    let size = Vec2::new(900.0, 700.0);
+    compare(
+        "small-light-keys",
+        &draw_after(size, Theme::Light, false, then, &clicks),
+    );
+}
+
+#[test]
+fn the_dope_sheet_of_a_phone() {
+    let clicks = ["Dope sheet and", "Bone 2, "];
+    compare(
+        "phone-dark-keys",
+        &draw_after(PHONE, Theme::Dark, true, vec![], &clicks),
+    );
+}
+
+#[test]
+fn curves_on_a_phone() {
+    let clicks = ["Dope sheet and", "Bone 2, ", "Sheet: Curves"];
+    compare(
+        "phone-light-curves",
+        &draw_after(PHONE, Theme::Light, true, vec![], &clicks),
+    );
+}
+
+#[test]
+fn clips_and_how_they_are_mixed() {
+    let then = vec![Command::SetBlend { clip: 1, share: 0.5 }];
+    compare(
+        "wide-dark-clips",
+        &draw_after(WIDE, Theme::Dark, false, then, &["Clip "]),
+    );
+}
+
+#[test]
+fn how_a_clip_plays_on_a_phone() {
+    compare(
+        "phone-light-playing",
+        &draw_after(PHONE, Theme::Light, true, vec![], &["Speed "]),
+    );
+}
+
 /// The bone over whose weights and numbers the pictures are taken: it moves and has children.
 fn inspected() -> Vec<Command> {
     let bone = JointIndex(7);

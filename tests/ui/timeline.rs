@@ -1,8 +1,9 @@
 //! The strip: transport, bar, menus.
 
-use bindpose::anim::LoopMode;
+use bindpose::anim::{LoopMode, WrapMode};
 use bindpose::session::{Command, SPEEDS};
-use egui::pos2;
+use bindpose::ui::Request;
+use egui::{Event, Key, Modifiers, pos2};
 
 use crate::models::{moving, still};
 use crate::page::{WIDE, Window, phone, window};
@@ -87,13 +88,17 @@ fn the_ends_are_one_click_away() {
 fn the_clip_menu_lists_all_clips_and_shows_one() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
         window.click("Clip Bend");
-        for item in ["Bend   1.00 s", "Turn   2.00 s", "Still   0.00 s"] {
+        for item in [
+            "Bend, 0.00–1.00 s · 62 keys · 30 a second · a.m3d",
+            "Turn, 0.50–2.50 s · 122 keys · 30 a second · a.m3d",
+            "Still, 0.25–0.25 s · 2 keys · 30 a second · a.m3d",
+        ] {
             assert!(window.shows(item), "{item}");
         }
-        window.click("Turn   2.00 s");
+        window.click("Turn, 0.50");
         assert_eq!(window.session().clip_index(), Some(1));
         assert!(
-            window.shows("Clip Turn") && !window.shows("Turn   2.00 s"),
+            window.shows("Clip Turn") && window.named(|name| name.starts_with("Turn, ")).is_empty(),
             "the menu is shut"
         );
         assert!(window.shows("Time 0.500 s") && window.shows("Frame 0 of 60"));
@@ -104,9 +109,9 @@ fn the_clip_menu_lists_all_clips_and_shows_one() {
 fn the_speed_menu_lists_all_speeds_and_sets_one() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
         window.click("Speed 1×");
-        let items = window.named(|name| name.ends_with('×') && !name.starts_with("Speed"));
+        let items = window.named(|name| name.starts_with("Speed: "));
         assert_eq!(items.len(), SPEEDS.len());
-        window.click("0.25×");
+        window.click("Speed: 0.25×");
         assert_eq!(window.session().playback().speed(), 0.25);
         assert!(window.shows("Speed 0.25×"));
     }
@@ -135,8 +140,151 @@ fn without_clips_there_is_no_strip() {
     ] {
         assert!(
             window
-                .named(|name| name.contains("Space") || name.starts_with("Time") || name.starts_with("Speed"))
+                .named(|name| name.contains("Space") || name.starts_with("Time ") || name.starts_with("Speed"))
                 .is_empty()
         );
+    }
+}
+
+#[test]
+fn buttons_step_by_frames_and_keys_and_play_backward() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let frame = |window: &Window| (window.time_secs() * 30.0 * 1000.0).round() / 1000.0;
+    for (button, expected) in [
+        ("One frame on", 1.0),
+        ("Next key", 2.0),
+        ("Previous key", 1.0),
+        ("One frame back", 0.0),
+    ] {
+        window.click(button);
+        assert_eq!(frame(&window), expected, "{button}");
+    }
+    window.harness.event(Event::ModifiersChanged(Modifiers::SHIFT));
+    window.click("One frame on");
+    assert_eq!(frame(&window), 10.0, "with Shift ten");
+    window.harness.event(Event::ModifiersChanged(Modifiers::NONE));
+    window.click("Backward");
+    assert!(window.session().is_animating() && window.session().playback().is_backward());
+    window.click("Backward");
+    assert!(!window.session().is_animating());
+}
+
+/// Types over what a read-out says.
+fn type_into(window: &mut Window, read_out: &str, typed: &str, end: Key) {
+    window.click(read_out);
+    window.harness.event(Event::Text(typed.to_owned()));
+    window.pass_on();
+    window.press(Modifiers::NONE, end);
+}
+
+#[test]
+fn time_and_frame_are_typed() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        type_into(&mut window, "Time 0.000 s", "0.25", Key::Enter);
+        assert_eq!(window.time_secs(), 0.25);
+        type_into(&mut window, "Time 0.250 s", "0,5 s", Key::Enter);
+        assert_eq!(window.time_secs(), 0.5);
+        type_into(&mut window, "Frame 15 of 30", "7.5", Key::Enter);
+        assert_eq!(window.time_secs(), 0.25);
+        type_into(&mut window, "Time 0.250 s", "0.9", Key::Escape);
+        assert_eq!(window.time_secs(), 0.25, "Esc leaves it");
+        assert!(window.shows("Time 0.250 s"));
+        type_into(&mut window, "Time 0.250 s", "soon", Key::Enter);
+        assert_eq!(window.time_secs(), 0.25, "no number, no other time");
+        type_into(&mut window, "Frame 8 of 30", "99", Key::Enter);
+        assert_eq!(window.time_secs(), 1.0, "beyond the end is the end");
+    }
+}
+
+#[test]
+fn speed_loop_wrap_and_range_are_set_in_one_place() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.click("Speed 1×");
+        type_into(&mut window, "Times as fast 1×", "0.3", Key::Enter);
+        assert_eq!(window.session().playback().speed(), 0.3);
+        type_into(&mut window, "Times as fast 0.3×", "100", Key::Enter);
+        assert_eq!(window.session().playback().speed(), 4.0, "4 at most");
+        window.click("Loop: As the book's demo");
+        assert_eq!(window.session().playback().wrap_mode(), WrapMode::BookDemo);
+        window.click("At the end: Once");
+        assert_eq!(window.session().playback().loop_mode(), LoopMode::Once);
+        assert!(!window.shows("Loop: Wrap"), "only a loop wraps");
+        type_into(&mut window, "In 0.000 s", "0.2", Key::Enter);
+        type_into(&mut window, "Out 1.000 s", "0.8", Key::Enter);
+        assert_eq!(window.session().playback().range_secs(), Some([0.2, 0.8]));
+        window.click("Clear");
+        assert_eq!(window.session().playback().range_secs(), None);
+        assert!(window.shows("Times as fast 4×"), "it stays open");
+    }
+}
+
+#[test]
+fn the_ends_of_the_range_are_dragged_on_the_bar_from_frame_to_frame() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let bar = window.rect("Time in seconds");
+    let at = |share: f32| pos2(bar.min.x + 12.0 + share * (bar.width() - 24.0), bar.center().y);
+    let drag = |window: &mut Window, name: &str, share: f32| {
+        let from = window.rect(name).center();
+        window.harness.hover_at(from);
+        window.harness.drag_at(from);
+        window.harness.hover_at(at(share));
+        window.pass_on();
+        window.harness.drop_at(at(share));
+        window.pass_on();
+    };
+    drag(&mut window, "Range in", 0.31);
+    assert_eq!(window.session().playback().range_secs(), Some([0.3, 1.0]));
+    drag(&mut window, "Range out", 0.69);
+    let [start, end] = window.session().playback().range_secs().expect("a range");
+    assert!(start == 0.3 && (end - 0.7).abs() < 1e-6);
+    assert_eq!(window.time_secs(), 0.0, "the time stays");
+    drag(&mut window, "Range out", 0.1);
+    let [start, end] = window.session().playback().range_secs().expect("a range");
+    assert!(start == 0.3 && (end - 1.0 / 3.0).abs() < 1e-6, "a frame is left");
+    drag(&mut window, "Range in", -0.2);
+    drag(&mut window, "Range out", 1.2);
+    assert_eq!(window.session().playback().range_secs(), None, "all of it is no range");
+}
+
+#[test]
+fn a_seam_that_is_seen_is_told() {
+    let window = window(WIDE, vec![moving("a.m3d")]);
+    let told = window.named(|name| name.starts_with("The loop's seam is seen: Bone 1 turns by "));
+    assert_eq!(told.len(), 1, "{:?}", window.widgets());
+    let mut window = window;
+    window.apply(Command::SetRangeEnd(Some(0.5)));
+    assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
+}
+
+#[test]
+fn clips_are_blended_faded_and_added() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.click("Clip Bend");
+        window.click("Add clips…");
+        assert_eq!(window.harness.state().requests, [Request::PickClips]);
+        window.click("Blend with Turn");
+        assert_eq!(
+            window.session().blend().map(|blend| (blend.clip, blend.share)),
+            Some((1, 0.5))
+        );
+        let share = window.rect("Share");
+        let at = pos2(share.max.x - 6.0, share.center().y);
+        window.harness.hover_at(at);
+        window.harness.drag_at(at);
+        window.harness.drop_at(at);
+        window.pass_on();
+        assert_eq!(window.session().blend().map(|blend| blend.share), Some(1.0));
+        window.click("End the blend with Turn");
+        assert_eq!(window.session().blend(), None);
+        let fade = window.rect("Crossfade");
+        let at = fade.center();
+        window.harness.hover_at(at);
+        window.harness.drag_at(at);
+        window.harness.drop_at(at);
+        window.pass_on();
+        assert!((window.session().crossfade_secs() - 1.0).abs() < 0.05);
+        window.apply(Command::AddClips(vec![moving("more.m3d")]));
+        let added = window.named(|name| name.contains("more.m3d"));
+        assert_eq!(added.len(), 3, "{added:?}");
     }
 }

@@ -9,6 +9,7 @@ mod row;
 mod segmented;
 mod slider;
 mod switch;
+mod typed;
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
@@ -26,6 +27,7 @@ pub(super) use row::{
 pub(super) use segmented::segmented;
 pub(super) use slider::Slider;
 pub(super) use switch::switch_row;
+pub(super) use typed::{TypedValue, typed_number};
 
 use super::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 

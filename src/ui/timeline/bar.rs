@@ -1,0 +1,143 @@
+//! The bar of the strip: all keys of a clip, the time as a line that follows the pointer, the range that plays.
+
+use egui::{CursorIcon, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+
+use super::super::theme::{CONTROL_RADIUS, Tokens};
+use super::super::widgets::{arrow_steps, focus_ring, is_touch};
+use super::axis::TimeAxis;
+use super::marks::{MarkShape, mark_radius};
+use super::{seam, time_area};
+use crate::model::Clip;
+use crate::session::{Command, Session};
+
+/// Room at both ends, where the range's ends are taken hold of.
+const END_ROOM: f32 = 12.0;
+/// How far an end of the range can be taken hold of: outside and inside of it.
+const GRIP: [f32; 2] = [11.0, 4.0];
+const TOUCH_GRIP: [f32; 2] = [28.0, 16.0];
+
+/// An end of the range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum End {
+    In,
+    Out,
+}
+
+/// Shows the bar of the clip on show.
+pub(super) fn show(ui: &mut Ui, session: &Session, size: Vec2, commands: &mut Vec<Command>) {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let response = response.on_hover_cursor(CursorIcon::PointingHand);
+    let Some(clip) = session.clip() else { return };
+    ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
+    focus_ring(ui, rect, &response);
+
+    let axis = TimeAxis::new(rect.x_range(), END_ROOM, [clip.start_secs, clip.end_secs]);
+    paint_range(ui, session, &axis, rect);
+    let mut shape = MarkShape::new(ui);
+    let radius = mark_radius(axis.points_per_sec() / clip.keys_per_sec);
+    shape.add(session.key_times(None), &axis, rect.center().y, radius, tokens.muted);
+    shape.paint(ui.painter());
+    time_area::scrub(&response, &axis, commands);
+    if !response.dragged() {
+        time_area::paint_pointer(ui, &response, &axis, rect.y_range());
+    }
+    time_area::paint_head(ui, session, &axis, rect.y_range());
+    let time_secs = f64::from(session.playback().time_secs());
+    response.widget_info(|| WidgetInfo::slider(true, time_secs, "Time in seconds"));
+
+    for end in [End::In, End::Out] {
+        grip(ui, session, clip, end, &axis, rect, commands);
+    }
+    seam_tick(ui, session, &axis, rect);
+}
+
+/// What plays, when it is not all of it.
+fn paint_range(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
+    if let Some([start_secs, end_secs]) = session.playback().range_secs() {
+        let points = axis.x_of(start_secs)..=axis.x_of(end_secs);
+        let band = Rect::from_x_y_ranges(points, rect.y_range());
+        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
+    }
+}
+
+/// An end of the range: a bracket that is dragged from frame to frame.
+fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect: Rect, commands: &mut Vec<Command>) {
+    let [in_secs, out_secs] = session.playback().played_secs();
+    // A clip of one frame has no part.
+    if clip.last_frame() == 0 {
+        return;
+    }
+    let [outside, inside] = if is_touch(ui) { TOUCH_GRIP } else { GRIP };
+    let (secs, sign, name) = match end {
+        End::In => (in_secs, 1.0, "Range in"),
+        End::Out => (out_secs, -1.0, "Range out"),
+    };
+    let x = axis.x_of(secs);
+    let (from, to) = (x - sign * outside, x + sign * inside);
+    let target = Rect::from_x_y_ranges(from.min(to)..=from.max(to), rect.y_range());
+    let response = ui
+        .interact(target, ui.scope_id().with(("range", end)), Sense::click_and_drag())
+        .on_hover_cursor(CursorIcon::ResizeHorizontal);
+    let moved_frame = dragged_frame(ui, clip, secs, axis, &response);
+    if let Some(frame) = moved_frame {
+        let [in_frame, out_frame] = [in_secs, out_secs].map(|secs| clip.frame_at(secs));
+        commands.push(match end {
+            End::In => Command::SetRangeStart(Some(clip.time_of_frame(frame.min(out_frame.saturating_sub(1))))),
+            End::Out => Command::SetRangeEnd(Some(clip.time_of_frame(frame.max(in_frame + 1)))),
+        });
+    }
+    if response.double_clicked() {
+        commands.push(Command::ClearRange);
+    }
+    paint_bracket(ui, session, &response, pos2(x, rect.center().y), sign, rect.height());
+    let label = format!("{name} {secs:.3} s");
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &label));
+    let key = if end == End::In { "I" } else { "O" };
+    response.on_hover_text(format!(
+        "{label}, frame {}\n{key}: here; Shift I: all",
+        clip.frame_at(secs)
+    ));
+}
+
+/// The frame that pointer or arrow keys ask for.
+fn dragged_frame(ui: &Ui, clip: &Clip, secs: f32, axis: &TimeAxis, response: &Response) -> Option<u32> {
+    let steps = arrow_steps(ui, response);
+    if steps != 0.0 {
+        return Some(clip.frame_at(clip.step_frames(secs, steps as i32)));
+    }
+    let pointer = response.interact_pointer_pos().filter(|_| response.dragged())?;
+    Some(clip.frame_at(axis.seen_time_at(pointer.x)))
+}
+
+fn paint_bracket(ui: &Ui, session: &Session, response: &Response, at: egui::Pos2, sign: f32, height: f32) {
+    let tokens = Tokens::of(ui);
+    let active = response.hovered() || response.dragged() || response.has_focus();
+    let color = match (active, session.playback().range_secs()) {
+        (true, _) | (false, Some(_)) => tokens.accent,
+        (false, None) => tokens.faint.gamma_multiply(0.6),
+    };
+    let (half, foot) = (height * 0.5 - 4.0, sign * 3.5);
+    let x = at.x - sign * 6.5;
+    let points = [(foot, -half), (0.0, -half), (0.0, half), (foot, half)];
+    let points = points.map(|(right, down)| pos2(x + right, at.y + down));
+    ui.painter().add(Shape::line(points.into(), Stroke::new(1.6, color)));
+}
+
+/// A mark at the end of a loop whose seam is seen.
+fn seam_tick(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
+    let Some(words) = seam::words(session) else { return };
+    let color = Tokens::of(ui).warning;
+    let x = axis.points().max;
+    let at = pos2(x, rect.min.y + 1.0);
+    let corners = [vec2(-4.0, 0.0), vec2(4.0, 0.0), vec2(0.0, 5.5)].map(|offset| at + offset);
+    ui.painter()
+        .add(Shape::convex_polygon(corners.into(), color, Stroke::NONE));
+    let below = Rangef::new(rect.min.y + 4.0, rect.max.y - 1.0);
+    ui.painter()
+        .vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
+    let target = Rect::from_center_size(at + vec2(0.0, 4.0), vec2(14.0, 12.0));
+    let response = ui.interact(target, ui.scope_id().with("seam"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
+    response.on_hover_text(words);
+}

@@ -1,0 +1,209 @@
+//! The clips of the model: which one is on show, what is blended into it, and more of them from other files.
+
+use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::super::icons::{self, Icon};
+use super::super::panel::scrolled;
+use super::super::popover;
+use super::super::state::{Request, UiState};
+use super::super::theme::{CONTROL_RADIUS, Tokens};
+use super::super::widgets::{
+    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
+};
+use super::super::wording::{counted, trimmed};
+use crate::session::{ClipSummary, Command, OpenModel, Session};
+
+/// Width of the popover.
+const WIDTH: f32 = 320.0;
+/// Clips listed before the list scrolls.
+const ROWS: f32 = 6.0;
+/// The longest crossfade that the slider offers, seconds.
+const LONGEST_CROSSFADE: f32 = 2.0;
+
+/// The button with the clip's name, and the list that it opens.
+pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width: Rangef, commands: &mut Vec<Command>) {
+    let Some(open) = session.open_model() else { return };
+    let name = session.clip().map_or("", |clip| clip.name.as_str());
+    let label = format!("Clip {name}");
+    let response = TextButton::new(name, &label).list().width(width).show(ui);
+    let response = response.on_hover_text(format!("{name}\nNext clip: C"));
+    popover::show_above(ui, &response, WIDTH, |ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
+        section_name(ui, &counted(open.model.clips.len(), "clip"));
+        let shown = list(ui, session, open, commands);
+        if TextButton::new("Add clips…", "Add clips…")
+            .icon(Icon::Plus)
+            .show(ui)
+            .clicked()
+        {
+            state.requests.push(Request::PickClips);
+        }
+        if open.model.clips.len() > 1 {
+            popover::gap(ui);
+            mixing(ui, session, open, commands);
+        }
+        if shown {
+            Popup::close_all(ui.ctx());
+        }
+    });
+}
+
+/// A row for each clip. Whether another one was chosen.
+fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) -> bool {
+    let mut chosen = false;
+    let height = row_height(ui);
+    let count = open.model.clips.len();
+    let list = scrolled("clips", ROWS * (height + 2.0)).auto_shrink([false, true]);
+    list.show_rows(ui, height, count, |ui, seen| {
+        for (index, summary) in open.clip_list().enumerate().skip(seen.start).take(seen.len()) {
+            if row(ui, session, index, &summary, commands) {
+                commands.push(Command::SelectClip(index));
+                chosen = true;
+            }
+        }
+    });
+    ui.add_space(4.0);
+    chosen
+}
+
+fn row_height(ui: &Ui) -> f32 {
+    control_size(ui).max(40.0)
+}
+
+/// One clip: its name, below it what it is. Whether it was chosen.
+fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, commands: &mut Vec<Command>) -> bool {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), row_height(ui)), Sense::click());
+    let on = session.clip_index() == Some(index);
+    if on {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
+    } else if response.contains_pointer() || response.has_focus() {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
+    }
+    focus_ring(ui, rect, &response);
+    let facts = format!(
+        "{:.2}–{:.2} s · {} · {} a second · {}",
+        clip.start_secs,
+        clip.end_secs,
+        counted(clip.key_count, "key"),
+        trimmed(clip.keys_per_sec),
+        clip.file_name,
+    );
+    let icon_width = if is_touch(ui) { rect.height() } else { 28.0 };
+    let room = rect.width() - 14.0 - icon_width;
+    let color = if on { tokens.accent } else { tokens.text };
+    let name_at = pos2(rect.min.x + 9.0, rect.center().y - 8.0);
+    paint_elided(
+        ui.painter(),
+        name_at,
+        clip.name,
+        FontId::proportional(13.0),
+        color,
+        room,
+    );
+    let facts_at = pos2(rect.min.x + 9.0, rect.center().y + 9.0);
+    paint_elided(
+        ui.painter(),
+        facts_at,
+        &facts,
+        FontId::proportional(11.0),
+        tokens.muted,
+        room,
+    );
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{}, {facts}", clip.name)));
+    if !on {
+        let place = Rect::from_min_max(pos2(rect.max.x - icon_width, rect.min.y), rect.max);
+        blend_icon(ui, session, index, clip.name, place, &response, commands);
+    }
+    response.clicked()
+}
+
+/// What blends a clip into the one on show, or no longer.
+fn blend_icon(
+    ui: &Ui,
+    session: &Session,
+    index: usize,
+    name: &str,
+    place: Rect,
+    row: &Response,
+    commands: &mut Vec<Command>,
+) {
+    let tokens = Tokens::of(ui);
+    let on = session.blend().is_some_and(|blend| blend.clip == index);
+    let response = ui.interact(place, row.id.with("blend"), Sense::click());
+    let color = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tokens.accent,
+        (false, hovered) => tokens.muted_to_text(hovered),
+    };
+    icons::paint(ui.painter(), place, Icon::Blend, color);
+    focus_ring(ui, place, &response);
+    let label = if on {
+        format!("End the blend with {name}")
+    } else {
+        format!("Blend with {name}")
+    };
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, &label));
+    if response.on_hover_text(label).clicked() {
+        commands.push(if on {
+            Command::ClearBlend
+        } else {
+            Command::SetBlend {
+                clip: index,
+                share: 0.5,
+            }
+        });
+    }
+}
+
+/// How clips go over into each other.
+fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) {
+    let secs = session.crossfade_secs();
+    let text = format!("{secs:.2} s");
+    let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text);
+    if let Some(secs) = fade.show(ui) {
+        commands.push(Command::SetCrossfade(secs));
+    }
+    let Some(blend) = session.blend() else { return };
+    let names = [session.clip_index(), Some(blend.clip)].map(|clip| {
+        let clip = clip.and_then(|clip| open.model.clips.get(clip));
+        clip.map_or("", |clip| clip.name.as_str())
+    });
+    if section_with_action(ui, "Blend", Some("End")) {
+        commands.push(Command::ClearBlend);
+    }
+    let text = format!("{:.0} %", blend.share * 100.0);
+    let share = Slider::new("Share", blend.share, 0.0..=1.0, &text).reset_to(0.5);
+    if let Some(share) = share.show(ui) {
+        commands.push(Command::SetBlend {
+            clip: blend.clip,
+            share,
+        });
+    }
+    paint_ends(ui, names);
+}
+
+/// The names of what stands at the ends of the slider above.
+fn paint_ends(ui: &mut Ui, [left, right]: [&str; 2]) {
+    let color = Tokens::of(ui).muted;
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 16.0), Sense::hover());
+    let font = FontId::proportional(11.0);
+    let ends = Rangef::new(rect.min.x + 90.0, rect.max.x - 56.0);
+    let half = ends.span() * 0.5 - 4.0;
+    let painter = ui.painter();
+    paint_elided(
+        painter,
+        pos2(ends.min, rect.center().y),
+        left,
+        font.clone(),
+        color,
+        half,
+    );
+    let clipped = painter.with_clip_rect(Rect::from_x_y_ranges(ends.center()..=ends.max, rect.y_range()));
+    clipped.text(
+        pos2(ends.max, rect.center().y),
+        Align2::RIGHT_CENTER,
+        right,
+        font,
+        color,
+    );
+}

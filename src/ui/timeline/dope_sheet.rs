@@ -1,0 +1,150 @@
+//! The keys of all joints: a row for each, and only those that are seen.
+
+use egui::{Align2, FontId, Rangef, Rect, Role, ScrollArea, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use super::super::theme::{CONTROL_RADIUS, Tokens};
+use super::super::widgets::{is_touch, pressed_row_height};
+use super::super::wording::counted;
+use super::axis::{END_ROOM, TimeAxis};
+use super::marks::MarkShape;
+use super::ruler::{self, RULER_HEIGHT};
+use super::sheet::split_x;
+use super::state::TimelineState;
+use super::time_area;
+use crate::anim::JointActivity;
+use crate::model::{Clip, JointIndex};
+use crate::session::{Command, OpenModel, Session};
+
+/// What the rows have in common.
+pub(super) struct Sheet<'a> {
+    pub(super) session: &'a Session,
+    pub(super) open: &'a OpenModel,
+    pub(super) clip_index: usize,
+    pub(super) clip: &'a Clip,
+    pub(super) activity: &'a [JointActivity],
+    pub(super) axis: TimeAxis,
+    pub(super) area: Rect,
+    pub(super) split: f32,
+    pub(super) row_height: f32,
+    /// Without a tree there is nothing to fold.
+    pub(super) by_motion: bool,
+}
+
+/// Fills what is left of the sheet.
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
+    let (Some(open), Some(clip_index), Some(clip)) = (session.open_model(), session.clip_index(), session.clip())
+    else {
+        return;
+    };
+    let area = ui.available_rect_before_wrap();
+    let split = split_x(area);
+    let span_secs = state.window.span_secs([clip.start_secs, clip.end_secs]);
+    let sheet = Sheet {
+        session,
+        open,
+        clip_index,
+        clip,
+        activity: open.activity(clip_index).unwrap_or_default(),
+        axis: TimeAxis::new(Rangef::new(split, area.max.x), END_ROOM, span_secs),
+        area,
+        split,
+        row_height: pressed_row_height(ui),
+        by_motion: state.rows.by_motion,
+    };
+    sheet.show(ui, state, commands);
+}
+
+impl Sheet<'_> {
+    fn show(&self, ui: &mut Ui, state: &mut TimelineState, commands: &mut Vec<Command>) {
+        let tokens = Tokens::of(ui);
+        let area = self.area;
+        let ruler_rect = Rect::from_min_max(
+            pos2(self.split, area.min.y),
+            pos2(area.max.x, area.min.y + RULER_HEIGHT),
+        );
+        let time_rect = Rect::from_min_max(ruler_rect.min, area.max);
+        ui.painter().rect_filled(time_rect, CONTROL_RADIUS, tokens.field);
+        let count = counted(self.open.model.skeleton.joint_count(), "bone");
+        let at = pos2(area.min.x + 6.0, ruler_rect.center().y);
+        ui.painter()
+            .text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tokens.faint);
+        self.paint_box_span(ui, state, ruler_rect);
+        ruler::paint(ui, self.clip, &self.axis, ruler_rect, area.max.y);
+        let response = time_area::ruler(ui, self.session, &self.axis, ruler_rect, commands);
+        time_area::navigate(ui, &response, self.clip, &self.axis, state);
+
+        let body = Rect::from_min_max(pos2(area.min.x, ruler_rect.max.y), area.max);
+        self.show_rows(ui, body, state, commands);
+        let over = ui.painter().clip_rect();
+        ui.set_clip_rect(over.intersect(time_rect));
+        self.paint_range_ends(ui, ruler_rect);
+        time_area::paint_head_below_ruler(ui, self.session, &self.axis, ruler_rect, area.max.y);
+        ui.set_clip_rect(over);
+    }
+
+    fn show_rows(&self, ui: &mut Ui, body: Rect, state: &mut TimelineState, commands: &mut Vec<Command>) {
+        let mut rows = std::mem::take(&mut state.rows);
+        let shown = rows.update(self.session, self.open, self.clip_index);
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(body).id_salt("rows"));
+        // The scroll bar stands in the panel's margin.
+        let with_bar = Rect::from_min_max(body.min, pos2(ui.clip_rect().max.x, body.max.y));
+        ui.set_clip_rect(ui.clip_rect().intersect(with_bar));
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ScrollArea::vertical()
+            .id_salt("dope sheet")
+            .auto_shrink(false)
+            .max_height(body.height())
+            .min_scrolled_height(body.height())
+            .show_rows(&mut ui, self.row_height, shown.len(), |ui, seen| {
+                let top = ui.max_rect().min.y - seen.start as f32 * self.row_height;
+                let keys = Rect::from_x_y_ranges(self.split..=body.max.x, body.y_range());
+                let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
+                response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Keys of all bones"));
+                let mut shape = MarkShape::new(ui);
+                self.reveal(ui, shown, top, state);
+                for row in &shown[seen] {
+                    self.show_row(ui, row, &response, state, &mut shape, commands);
+                }
+                shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
+                self.press_keys(ui, &response, shown, top, state, commands);
+                time_area::navigate(ui, &response, self.clip, &self.axis, state);
+                if is_touch(ui) && response.dragged() {
+                    ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
+                }
+                if !response.dragged() {
+                    time_area::paint_pointer(ui, &response, &self.axis, keys.y_range());
+                }
+            });
+        state.rows = rows;
+    }
+
+    /// Key times of a joint.
+    pub(super) fn key_times(&self, joint: JointIndex) -> &[f32] {
+        self.open.key_times(self.clip_index, Some(joint))
+    }
+
+    /// The stretch of the box on the ruler.
+    fn paint_box_span(&self, ui: &Ui, state: &TimelineState, ruler_rect: Rect) {
+        let Some(key_box) = &state.key_box else { return };
+        let [start, end] = key_box
+            .span_secs
+            .map(|secs| self.axis.points().clamp(self.axis.x_of(secs)));
+        let band = Rect::from_x_y_ranges(start..=end, ruler_rect.y_range());
+        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
+    }
+
+    /// Lines where the range begins and ends.
+    fn paint_range_ends(&self, ui: &Ui, ruler_rect: Rect) {
+        let Some(range_secs) = self.session.playback().range_secs() else {
+            return;
+        };
+        let color = Tokens::of(ui).accent.gamma_multiply(0.55);
+        for secs in range_secs {
+            let x = self.axis.x_of(secs);
+            if self.axis.points().expand(END_ROOM).contains(x) {
+                ui.painter()
+                    .vline(x, ruler_rect.min.y..=self.area.max.y, Stroke::new(1.0, color));
+            }
+        }
+    }
+}

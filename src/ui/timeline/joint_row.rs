@@ -1,0 +1,171 @@
+//! One row of the dope sheet: a joint's name and its keys.
+
+use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::super::icons::{self, Icon};
+use super::super::theme::{CONTROL_RADIUS, Tokens};
+use super::super::widgets::{focus_ring, is_touch, paint_elided};
+use super::super::wording::counted;
+use super::axis::END_ROOM;
+use super::dope_sheet::Sheet;
+use super::marks::{MarkShape, mark_radius};
+use super::rows::Row;
+use super::state::TimelineState;
+use crate::anim::JointActivity;
+use crate::model::JointIndex;
+use crate::session::{Command, JointCommand};
+
+/// Room that a branch begins further to the right than its parent.
+const INDENT: f32 = 11.0;
+/// A column of names slimmer than this has little room for a tree.
+const SLIM_NAMES: f32 = 150.0;
+/// Opacity of the tint of the row that moves most.
+const MOST_TINT: f32 = 0.17;
+
+impl Sheet<'_> {
+    /// Brings the row of a joint that was selected elsewhere into sight.
+    pub(super) fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
+        let selected = self.session.joints().selected();
+        if state.revealed == selected {
+            return;
+        }
+        state.revealed = selected;
+        if let Some(index) = rows.iter().position(|row| Some(row.joint) == selected) {
+            let y = top + index as f32 * self.row_height;
+            let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
+            ui.scroll_to_rect(row, None);
+        }
+    }
+
+    /// Shows it; its marks are added to those of the others.
+    pub(super) fn show_row(
+        &self,
+        ui: &mut Ui,
+        row: &Row,
+        keys: &Response,
+        state: &mut TimelineState,
+        shape: &mut MarkShape,
+        commands: &mut Vec<Command>,
+    ) {
+        let tokens = Tokens::of(ui);
+        let size = vec2(self.area.width(), self.row_height);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
+        let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
+        let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
+        let tint = MOST_TINT * activity.share;
+        if tint > 0.0 {
+            let tint = tokens.warning.gamma_multiply(tint);
+            ui.painter().rect_filled(time_rect, 0.0, tint);
+        }
+        let pointed = keys.hover_pos().is_some_and(|at| rect.y_range().contains(at.y));
+        if pointed {
+            state.hovered = Some(row.joint);
+        }
+        if self.session.joints().hovered() == Some(row.joint) {
+            ui.painter().rect_filled(time_rect, 0.0, tokens.field);
+        }
+        self.name_cell(ui, row, name_rect, state, commands);
+        self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
+    }
+
+    /// The name of a joint, which selects it, and what folds its branch.
+    fn name_cell(&self, ui: &Ui, row: &Row, rect: Rect, state: &mut TimelineState, commands: &mut Vec<Command>) {
+        let tokens = Tokens::of(ui);
+        let id = ui.scope_id().with(("row", row.joint.0));
+        let response = ui.interact(rect, id, Sense::click());
+        let joints = self.session.joints();
+        let selected = joints.selected() == Some(row.joint);
+        if response.contains_pointer() && !is_touch(ui) {
+            state.hovered = Some(row.joint);
+        }
+        if selected {
+            ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
+        } else if joints.hovered() == Some(row.joint) {
+            ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
+        }
+        focus_ring(ui, rect, &response);
+        let name = self.session.joint_label(row.joint);
+        let key_count = counted(self.key_times(row.joint).len(), "key");
+        response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("{name}, {key_count}")));
+        if response.clicked() {
+            let joint = (!selected).then_some(row.joint);
+            state.revealed = joint;
+            commands.push(JointCommand::Select(joint).into());
+        }
+
+        // Deep joints of a slim column keep room for their names.
+        let slim = rect.width() < SLIM_NAMES;
+        let (indent, deepest) = if slim { (0.5 * INDENT, 0.2) } else { (INDENT, 0.4) };
+        let left = rect.min.x + 4.0 + (row.depth as f32 * indent).min(deepest * rect.width());
+        let chevron_width = if self.by_motion { 4.0 } else { 16.0 };
+        let mut right = rect.max.x - 6.0;
+        if row.folded {
+            let at = pos2(right, rect.center().y);
+            let count = format!("+{}", row.below);
+            let font = FontId::proportional(11.0);
+            let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, count, font, tokens.faint);
+            right = drawn.min.x - 4.0;
+        }
+        let color = if selected { tokens.accent } else { tokens.text };
+        let at = pos2(left + chevron_width, rect.center().y);
+        paint_elided(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
+        if row.below > 0 {
+            let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
+            self.fold(ui, row, &name, place, commands);
+        }
+    }
+
+    fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
+        let tokens = Tokens::of(ui);
+        let target = if is_touch(ui) {
+            let right = place.max.x.max(self.area.min.x + 44.0);
+            Rect::from_x_y_ranges(self.area.min.x..=right, place.y_range())
+        } else {
+            place
+        };
+        let response = ui.interact(target, ui.scope_id().with(("fold", row.joint.0)), Sense::click());
+        let icon = if row.folded {
+            Icon::ChevronRight
+        } else {
+            Icon::ChevronDown
+        };
+        icons::paint(ui.painter(), place, icon, tokens.muted_to_text(response.hovered()));
+        let verb = if row.folded { "Unfold" } else { "Fold" };
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
+        if response.clicked() {
+            let (joint, folded) = (row.joint, !row.folded);
+            commands.push(JointCommand::SetFolded { joint, folded }.into());
+        }
+    }
+
+    fn add_marks(
+        &self,
+        joint: JointIndex,
+        activity: JointActivity,
+        y: f32,
+        state: &TimelineState,
+        tokens: &Tokens,
+        shape: &mut MarkShape,
+    ) {
+        let times_secs = self.key_times(joint);
+        let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
+            return;
+        };
+        let chosen = state
+            .key_box
+            .as_ref()
+            .map_or(0..0, |key_box| key_box.part_of(joint, times_secs));
+        if activity.constant && times_secs.len() > 1 {
+            let seen = self.axis.points().expand(END_ROOM);
+            let points = Rangef::new(seen.clamp(self.axis.x_of(first)), seen.clamp(self.axis.x_of(last)));
+            shape.bar(points, y, 1.0, tokens.faint.gamma_multiply(0.6));
+        } else {
+            let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
+            shape.add(&times_secs[..chosen.start], &self.axis, y, radius, tokens.muted);
+            shape.add(&times_secs[chosen.end..], &self.axis, y, radius, tokens.muted);
+        }
+        let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec) + 0.6;
+        shape.add(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
+    }
+}

@@ -1,0 +1,80 @@
+//! What pressing and dragging over the keys of the dope sheet does.
+
+use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Ui, pos2};
+
+use super::super::theme::Tokens;
+use super::super::widgets::is_touch;
+use super::dope_sheet::Sheet;
+use super::key_box::KeyBox;
+use super::rows::Row;
+use super::state::TimelineState;
+use crate::model::JointIndex;
+use crate::session::{Command, JointCommand};
+
+/// How far from a key a click still means it.
+const REACH: f32 = 6.0;
+const TOUCH_REACH: f32 = 16.0;
+
+impl Sheet<'_> {
+    /// A click goes to a key; a drag draws a box.
+    pub(super) fn press_keys(
+        &self,
+        ui: &Ui,
+        response: &Response,
+        rows: &[Row],
+        top: f32,
+        state: &mut TimelineState,
+        commands: &mut Vec<Command>,
+    ) {
+        let row_at = |at: Pos2| (at.y - top) / self.row_height;
+        let corner = |at: Pos2| (self.axis.seen_time_at(at.x), row_at(at));
+        let joint_of = |row: usize| rows.get(row).map(|row| row.joint);
+        let pointer = response.interact_pointer_pos();
+        let boxes = !is_touch(ui);
+        if response.drag_started_by(PointerButton::Primary)
+            && boxes
+            && let Some(origin) = ui.input(|input| input.pointer.press_origin())
+        {
+            state.key_box = Some(KeyBox::at(corner(origin)));
+        }
+        if response.dragged_by(PointerButton::Primary)
+            && let (true, Some(pointer), Some(key_box)) = (boxes, pointer, &mut state.key_box)
+        {
+            let pointer = pointer.clamp(response.rect.min, response.rect.max);
+            key_box.stretch(corner(pointer), joint_of);
+            let from = pos2(self.axis.x_of(key_box.from.0), top + key_box.from.1 * self.row_height);
+            let drawn = Rect::from_two_pos(from, pointer);
+            let tokens = Tokens::of(ui);
+            ui.painter().rect_filled(drawn, 2.0, tokens.accent_ground);
+            ui.painter()
+                .rect_stroke(drawn, 2.0, Stroke::new(1.0, tokens.accent), StrokeKind::Inside);
+        }
+        let Some(at) = pointer.or(response.hover_pos()) else {
+            return;
+        };
+        let key =
+            joint_of(row_at(at).max(0.0) as usize).and_then(|joint| Some((joint, self.key_near(ui, joint, at.x)?)));
+        if let Some((joint, time_secs)) = key {
+            ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+            if response.clicked() {
+                state.revealed = Some(joint);
+                commands.push(JointCommand::Select(Some(joint)).into());
+                commands.push(Command::Seek { time_secs });
+            }
+        }
+        if response.clicked() {
+            state.key_box = None;
+        }
+    }
+
+    /// The key of a joint that is meant by a place.
+    fn key_near(&self, ui: &Ui, joint: JointIndex, x: f32) -> Option<f32> {
+        let reach = if is_touch(ui) { TOUCH_REACH } else { REACH };
+        let times_secs = self.key_times(joint);
+        let next = times_secs.partition_point(|&secs| self.axis.x_of(secs) < x);
+        let around = &times_secs[next.saturating_sub(1)..times_secs.len().min(next + 1)];
+        let away = |secs: &f32| (self.axis.x_of(*secs) - x).abs();
+        let nearest = around.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        (away(nearest) <= reach).then_some(*nearest)
+    }
+}

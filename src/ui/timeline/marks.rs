@@ -1,0 +1,169 @@
+//! Keys as marks along a width: one by one where there is room, and as bars where there is none.
+
+use egui::{Color32, Mesh, Painter, Pos2, Rangef, Rect, Shape, Ui, pos2};
+
+use super::axis::TimeAxis;
+
+/// Keys closer than this are drawn as one bar.
+pub(super) const MERGE_POINTS: f32 = 3.0;
+/// How far a mark reaches at most.
+const MOST_RADIUS: f32 = 4.2;
+const LEAST_RADIUS: f32 = 1.6;
+/// Half the height of a bar.
+const BAR_RADIUS: f32 = 1.5;
+
+/// What is drawn of one key or of many.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Mark {
+    /// A key by itself, at a place.
+    Key(f32),
+    /// Keys too close to be told apart.
+    Run(Rangef),
+}
+
+/// The marks of key times in order, from the left: as many as the width holds at most, found in steps that leap over what
+/// is merged, so that their number does not matter.
+pub(super) fn marks(times_secs: &[f32], axis: &TimeAxis, mut draw: impl FnMut(Mark)) {
+    let seen = axis.points().expand(MOST_RADIUS);
+    let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
+    let end = times_secs.partition_point(|&secs| axis.x_of(secs) <= seen.max);
+    let mut rest = &times_secs[first..end.max(first)];
+    while let Some((&first_secs, after)) = rest.split_first() {
+        let start = axis.x_of(first_secs);
+        let mut last = start;
+        rest = after;
+        loop {
+            let merged = rest.partition_point(|&secs| axis.x_of(secs) < last + MERGE_POINTS);
+            let Some(&last_secs) = rest[..merged].last() else { break };
+            last = axis.x_of(last_secs);
+            rest = &rest[merged..];
+        }
+        draw(if last > start {
+            Mark::Run(Rangef::new(start, last))
+        } else {
+            Mark::Key(start)
+        });
+    }
+}
+
+/// How large keys are drawn that are this far apart.
+pub(super) fn mark_radius(spacing: f32) -> f32 {
+    (0.4 * spacing).clamp(LEAST_RADIUS, MOST_RADIUS)
+}
+
+/// Diamonds and bars in one shape: thousands cost as much as the words of a panel.
+#[derive(Debug)]
+pub(super) struct MarkShape {
+    mesh: Mesh,
+    /// Half the width of a soft edge.
+    feather: f32,
+}
+
+impl MarkShape {
+    /// Nothing yet.
+    pub(super) fn new(ui: &Ui) -> Self {
+        Self {
+            mesh: Mesh::default(),
+            feather: 0.7 / ui.pixels_per_point(),
+        }
+    }
+
+    /// Adds the marks of a row whose middle is at `y`.
+    pub(super) fn add(&mut self, times_secs: &[f32], axis: &TimeAxis, y: f32, radius: f32, color: Color32) {
+        marks(times_secs, axis, |mark| match mark {
+            Mark::Key(x) => self.diamond(pos2(x, y), radius, color),
+            Mark::Run(points) => self.bar(points, y, BAR_RADIUS, color),
+        });
+    }
+
+    /// Adds a bar.
+    pub(super) fn bar(&mut self, points: Rangef, y: f32, radius: f32, color: Color32) {
+        let rect = Rect::from_x_y_ranges(points.expand(0.5), Rangef::new(y - radius, y + radius));
+        self.mesh.add_colored_rect(rect, color);
+    }
+
+    fn diamond(&mut self, center: Pos2, radius: f32, color: Color32) {
+        let first = self.mesh.vertices.len() as u32;
+        let mut corners = |radius: f32, color| {
+            for (x, y) in [(0.0, -radius), (radius, 0.0), (0.0, radius), (-radius, 0.0)] {
+                self.mesh.colored_vertex(pos2(center.x + x, center.y + y), color);
+            }
+        };
+        corners(radius - self.feather, color);
+        corners(radius + self.feather, Color32::TRANSPARENT);
+        self.mesh.add_triangle(first, first + 1, first + 2);
+        self.mesh.add_triangle(first, first + 2, first + 3);
+        for corner in 0..4 {
+            let next = (corner + 1) % 4;
+            let [inner, inner_next] = [first + corner, first + next];
+            self.mesh.add_triangle(inner, inner + 4, inner_next);
+            self.mesh.add_triangle(inner_next, inner + 4, inner_next + 4);
+        }
+    }
+
+    /// Draws all of it.
+    pub(super) fn paint(self, painter: &Painter) {
+        if !self.mesh.is_empty() {
+            painter.add(Shape::mesh(self.mesh));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(times_secs: &[f32], span_secs: [f32; 2], width: f32) -> Vec<Mark> {
+        let axis = TimeAxis::new(Rangef::new(0.0, width), 0.0, span_secs);
+        let mut found = Vec::new();
+        marks(times_secs, &axis, |mark| found.push(mark));
+        found
+    }
+
+    #[test]
+    fn keys_with_room_are_marks_of_their_own() {
+        let keys = [0.0, 0.5, 1.0];
+        assert_eq!(found(&keys, [0.0, 1.0], 100.0), [0.0, 50.0, 100.0].map(Mark::Key));
+        assert_eq!(
+            found(&keys, [0.0, 0.1], 100.0),
+            [Mark::Key(0.0)],
+            "the others are not seen"
+        );
+        assert_eq!(found(&[], [0.0, 1.0], 100.0), []);
+        assert_eq!(
+            found(&[0.3, 0.3], [0.0, 1.0], 100.0),
+            [Mark::Key(30.0)],
+            "two at one time"
+        );
+    }
+
+    #[test]
+    fn keys_without_room_are_a_bar() {
+        let keys = [0.1, 0.12, 0.14, 0.5, 0.9, 0.92];
+        let marks = found(&keys, [0.0, 1.0], 100.0);
+        let [Mark::Run(first), Mark::Key(middle), Mark::Run(last)] = marks[..] else {
+            panic!("{marks:?}");
+        };
+        let near = |a: f32, b: f32| (a - b).abs() < 1e-3;
+        assert!(near(first.min, 10.0) && near(first.max, 14.0) && near(middle, 50.0) && near(last.max, 92.0));
+    }
+
+    #[test]
+    fn there_are_never_more_marks_than_the_width_holds() {
+        let mut seed = 7_u32;
+        for count in [10, 1000, 100_000] {
+            let mut keys: Vec<f32> = (0..count)
+                .map(|_| {
+                    seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                    (seed >> 8) as f32 / (1 << 24) as f32
+                })
+                .collect();
+            keys.sort_by(f32::total_cmp);
+            for span_secs in [[0.0, 1.0], [0.4, 0.6]] {
+                let marks = found(&keys, span_secs, 600.0);
+                let most = (600.0 + 2.0 * MOST_RADIUS) / MERGE_POINTS + 1.0;
+                assert!(marks.len() as f32 <= most, "{} of {count}", marks.len());
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! What the timeline remembers: what of it is open, what part of the time is seen, what is chosen in it.
+
+use egui::Ui;
+
+use super::axis::TimeWindow;
+use super::curves::Curves;
+use super::key_box::KeyBox;
+use super::rows::Rows;
+use crate::model::{Clip, JointIndex};
+use crate::session::Session;
+
+/// Height of the sheet until somebody drags its edge.
+const FIRST_HEIGHT: f32 = 264.0;
+/// Below this height a sheet shows nothing.
+const LEAST_HEIGHT: f32 = 132.0;
+/// The view keeps the rest of the window.
+const MOST_SHARE: f32 = 0.6;
+
+/// What the sheet shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum SheetTab {
+    /// Keys of all joints.
+    #[default]
+    Keys,
+    /// Motion of one joint.
+    Curves,
+}
+
+/// What the timeline remembers. Nothing here changes the model or the picture of it.
+#[derive(Debug, Default)]
+pub(in crate::ui) struct TimelineState {
+    pub(super) open: bool,
+    pub(super) dragged_height: Option<f32>,
+    pub(super) tab: SheetTab,
+    pub(super) window: TimeWindow,
+    pub(super) rows: Rows,
+    pub(super) curves: Curves,
+    pub(super) key_box: Option<KeyBox>,
+    /// The joint whose row is under the pointer in this pass.
+    pub(super) hovered: Option<JointIndex>,
+    /// The selected joint whose row was brought into sight.
+    pub(super) revealed: Option<JointIndex>,
+    of: Option<(u64, usize)>,
+    head_was_seen: bool,
+}
+
+impl TimelineState {
+    /// Forgets what belonged to another clip, or to another model, and turns the page when the time leaves it.
+    pub(in crate::ui) fn update(&mut self, session: &Session) {
+        self.hovered = None;
+        let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
+            return;
+        };
+        let of = Some((session.model_revision(), index));
+        if self.of != of {
+            self.window.show_all();
+            self.key_box = None;
+            self.of = of;
+        }
+        self.follow(session, clip);
+    }
+
+    /// What is seen goes on with the time, as long as that was seen.
+    fn follow(&mut self, session: &Session, clip: &Clip) {
+        let time_secs = session.playback().time_secs();
+        let whole_secs = [clip.start_secs, clip.end_secs];
+        let [start_secs, end_secs] = self.window.span_secs(whole_secs);
+        let seen = (start_secs..=end_secs).contains(&time_secs);
+        if !seen && self.head_was_seen && session.is_animating() {
+            let length_secs = end_secs - start_secs;
+            let start_secs = if session.playback().is_backward() {
+                time_secs - length_secs
+            } else {
+                time_secs
+            };
+            let frame_secs = 1.0 / clip.keys_per_sec;
+            self.window
+                .show(whole_secs, frame_secs, [start_secs, start_secs + length_secs]);
+        } else {
+            self.head_was_seen = seen;
+        }
+    }
+
+    /// The joint whose row is under the pointer.
+    pub(in crate::ui) fn hovered(&self) -> Option<JointIndex> {
+        self.hovered
+    }
+
+    /// Lets go of the keys that were chosen. Whether there were any.
+    pub(in crate::ui) fn let_go_of_keys(&mut self) -> bool {
+        self.key_box.take().is_some()
+    }
+
+    /// Height of the sheet in a wide window, while it is open.
+    pub(super) fn sheet_height(&self, ui: &Ui) -> Option<f32> {
+        let most = (ui.ctx().content_rect().height() * MOST_SHARE - 100.0).max(LEAST_HEIGHT);
+        let height = self.dragged_height.unwrap_or(FIRST_HEIGHT);
+        self.open.then(|| height.clamp(LEAST_HEIGHT, most))
+    }
+
+    /// Takes a height from the pointer: too little shuts the sheet.
+    pub(super) fn drag_height(&mut self, height: f32) {
+        self.open = height > 0.5 * LEAST_HEIGHT;
+        self.dragged_height = Some(height);
+    }
+
+    /// After a drag the height is one that can be had.
+    pub(super) fn settle_height(&mut self, ui: &Ui) {
+        self.dragged_height = self.sheet_height(ui);
+    }
+}

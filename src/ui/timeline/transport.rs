@@ -1,0 +1,144 @@
+//! The strip: transport, clip, bar, read-outs, speed and loop mode.
+
+use egui::{Align2, FontId, Rangef, Role, Sense, Ui, WidgetInfo, vec2};
+
+use super::super::icons::Icon;
+use super::super::popover;
+use super::super::state::{SheetPage, UiState};
+use super::super::theme::{CONTROL_RADIUS, Tokens};
+use super::super::widgets::{control_size, icon_button};
+use super::super::wording::trimmed;
+use super::readouts::{self, ReadoutWidths};
+use super::{bar, clips, controls, options, strip_height};
+use crate::anim::{Direction, LoopMode};
+use crate::session::{Command, Session};
+
+/// The least width of the clip's name on a phone.
+const CLIP_WIDTH_NARROW: f32 = 84.0;
+/// Room between controls in a wide window.
+const SPACING: f32 = 6.0;
+/// From this width on there are buttons for steps from key to key.
+const KEY_BUTTONS_WIDTH: f32 = 1060.0;
+
+/// The strip in one row, for wide windows.
+pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let Some(clip) = session.clip() else { return };
+    let height = strip_height(ui, false);
+    let row = vec2(ui.available_width(), height);
+    ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
+        let joint = session.joints().selected();
+        ui.spacing_mut().item_spacing.x = 2.0;
+        controls::end_button(ui, Direction::Backward, commands);
+        if with_keys {
+            controls::key_button(ui, Direction::Backward, joint, commands);
+        }
+        controls::frame_button(ui, Direction::Backward, commands);
+        controls::backward_button(ui, session, commands);
+        ui.add_space(3.0);
+        controls::play_button(ui, session, 34.0, commands);
+        ui.add_space(3.0);
+        controls::frame_button(ui, Direction::Forward, commands);
+        if with_keys {
+            controls::key_button(ui, Direction::Forward, joint, commands);
+        }
+        controls::end_button(ui, Direction::Forward, commands);
+        ui.spacing_mut().item_spacing.x = SPACING;
+        ui.add_space(4.0);
+        clips::button(ui, session, state, Rangef::new(92.0, 200.0), commands);
+
+        // The read-outs have fixed widths, so that nothing moves while values change.
+        let widths = ReadoutWidths::of(ui, clip);
+        let right_width = widths.time + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
+        let bar_width = (ui.available_width() - right_width).max(60.0);
+        bar::show(ui, session, vec2(bar_width, 30.0), commands);
+        readouts::time(ui, session, widths.time, commands);
+        readouts::frame(ui, session, clip, widths.frame, commands);
+        speed_button(ui, session, 48.0, commands);
+        loop_button(ui, session, commands);
+        let open = state.timeline.open;
+        let label = if open {
+            "Shut the dope sheet"
+        } else {
+            "Dope sheet and curves"
+        };
+        if icon_button(ui, Icon::DopeSheet, label, open).clicked() {
+            state.timeline.open = !open;
+        }
+    });
+}
+
+/// The strip in two rows, for phones: the bar above, large targets.
+pub(in crate::ui) fn narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let Some(clip) = session.clip() else { return };
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 10.0;
+        controls::play_button(ui, session, 44.0, commands);
+        let bar_width = ui.available_width() - control_size(ui) - 10.0;
+        bar::show(ui, session, vec2(bar_width, 44.0), commands);
+        let open = state.sheet == Some(SheetPage::Timeline);
+        let label = if open {
+            "Shut the dope sheet"
+        } else {
+            "Dope sheet and curves"
+        };
+        if icon_button(ui, Icon::DopeSheet, label, open).clicked() {
+            state.sheet = (!open).then_some(SheetPage::Timeline);
+        }
+    });
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        let widths = ReadoutWidths::of(ui, clip);
+        let spacing = ui.spacing().item_spacing.x;
+        let others_width = widths.time + 52.0 + control_size(ui) + 3.0 * spacing;
+        // The slimmest phones have room for the time alone.
+        let frame_width = widths.frame + spacing;
+        let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + others_width + frame_width;
+        let right_width = others_width + if shows_frame { frame_width } else { 0.0 };
+        let clip_width = Rangef::new(
+            CLIP_WIDTH_NARROW.min(ui.available_width() - right_width),
+            (ui.available_width() - right_width).max(0.0),
+        );
+        clips::button(ui, session, state, clip_width, commands);
+        ui.add_space((ui.available_width() - right_width).max(0.0));
+        readouts::time(ui, session, widths.time, commands);
+        if shows_frame {
+            readouts::frame(ui, session, clip, widths.frame, commands);
+        }
+        speed_button(ui, session, 52.0, commands);
+        loop_button(ui, session, commands);
+    });
+}
+
+/// The speed, and behind it all about how a clip plays.
+fn speed_button(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
+    let speed = session.playback().speed();
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
+    }
+    let text = format!("{}×", trimmed(speed));
+    let color = if (speed - 1.0).abs() < 1e-4 {
+        tokens.muted
+    } else {
+        tokens.accent
+    };
+    let font = FontId::proportional(13.0);
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, &text, font, color);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
+    let response = response.on_hover_text("Speed ([ slower, ] faster, \\ as the file), loop and range");
+    popover::show_above(ui, &response, options::WIDTH, |ui| options::show(ui, session, commands));
+}
+
+fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let (icon, label) = match session.playback().loop_mode() {
+        LoopMode::Once => (Icon::Once, "Plays once (L)"),
+        LoopMode::Loop => (Icon::Loop, "Loops (L)"),
+        LoopMode::PingPong => (Icon::PingPong, "Plays there and back (L)"),
+    };
+    if icon_button(ui, icon, label, false).clicked() {
+        commands.push(Command::CycleLoopMode);
+    }
+}

@@ -1,0 +1,132 @@
+//! `bindpose render` under other lights, in other modes, on other grounds: the page's menus as arguments.
+
+use image::RgbaImage;
+
+use crate::program::{FIGURE, run, scratch};
+
+const MODES: [&str; 11] = [
+    "lit",
+    "base-color",
+    "normal-map",
+    "normal",
+    "tangent",
+    "uv",
+    "roughness",
+    "material",
+    "depth",
+    "ao",
+    "shadow",
+];
+
+fn draw(name: &str, arguments: &[&str]) -> RgbaImage {
+    let path = scratch(&format!("look-{name}.png"));
+    let maps = concat!(env!("CARGO_MANIFEST_DIR"), "/web/sample");
+    let plain = [
+        "render",
+        FIGURE,
+        "--textures",
+        maps,
+        "--size",
+        "160x120",
+        "--no-grid",
+        "-o",
+    ];
+    let path_text = path.to_str().expect("UTF-8");
+    run(plain.iter().chain(&[path_text]).chain(arguments)).fine();
+    image::open(&path).expect("is a picture").into_rgba8()
+}
+
+/// Share of the pixels in which some channel differs by more than a driver's rounding.
+fn differs(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    let pixels = a.pixels().zip(b.pixels());
+    let different = pixels.filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 6));
+    different.count() as f64 / f64::from(a.width() * a.height())
+}
+
+#[test]
+fn every_view_mode_is_another_picture() {
+    let pictures = MODES.map(|mode| draw(mode, &["--view-mode", mode]));
+    for (index, picture) in pictures.iter().enumerate() {
+        for (other, mode) in pictures[..index].iter().zip(MODES) {
+            assert!(differs(picture, other) > 0.01, "{} is {mode}", MODES[index]);
+        }
+    }
+}
+
+/// The divided picture is the book's on the left and the studio's on the right.
+#[test]
+fn a_split_shows_both_lights_side_by_side() {
+    let [book, studio, split] = [
+        draw("book", &["--light", "book"]),
+        draw("studio", &["--light", "studio"]),
+        draw("split", &["--split", "0.5"]),
+    ];
+    assert!(differs(&book, &studio) > 0.02);
+    for (x, y, pixel) in split.enumerate_pixels() {
+        let whole = if x < 80 { &book } else { &studio };
+        let near = pixel
+            .0
+            .iter()
+            .zip(whole.get_pixel(x, y).0)
+            .all(|(a, b)| a.abs_diff(b) <= 6);
+        // One column on either side of the line, where samples of one pixel would belong to both.
+        assert!(near || x.abs_diff(80) <= 1, "({x}, {y})");
+    }
+}
+
+#[test]
+fn the_background_is_the_one_that_was_asked_for() {
+    let corner = |picture: &RgbaImage| picture.get_pixel(0, 0).0;
+    assert_eq!(
+        corner(&draw("color", &["--background", "#205080"])),
+        [0x20, 0x50, 0x80, 255]
+    );
+    assert_eq!(corner(&draw("none", &["--background", "none"]))[3], 0);
+    let (sky, backdrop) = (draw("sky", &["--background", "sky"]), draw("backdrop", &[]));
+    assert!(differs(&sky, &backdrop) > 0.3);
+}
+
+#[test]
+fn lines_exposure_turn_and_steps_change_the_picture() {
+    let plain = draw("plain", &[]);
+    for (name, more) in [
+        ("wireframe", &["--overlay", "wireframe"][..]),
+        ("normals", &["--overlay", "normals"]),
+        ("tangents", &["--overlay", "tangents"]),
+        ("bounds", &["--overlay", "bounds"]),
+        ("axes", &["--overlay", "axes"]),
+        ("exposure", &["--exposure", "-1.5"]),
+        ("turn", &["--turn", "120"]),
+        ("green", &["--flip-green"]),
+        ("no-shadow", &["--without", "shadow"]),
+        ("no-reflections", &["--without", "reflections"]),
+        ("no-contact", &["--without", "contact"]),
+        ("no-ao", &["--without", "ao"]),
+    ] {
+        let share = differs(&plain, &draw(name, more));
+        assert!(share > 0.0005, "{name}: {share}");
+    }
+}
+
+#[test]
+fn names_that_are_none_are_answered_with_those_that_are() {
+    for (arguments, expected) in [
+        (["--light", "lamp"], "expected one of studio, book"),
+        (["--view-mode", "fancy"], "expected one of lit, base-color, normal-map"),
+        (
+            ["--overlay", "lines"],
+            "expected one of grid, wireframe, normals, tangents, bounds, axes",
+        ),
+        (
+            ["--without", "light"],
+            "expected one of shadow, reflections, contact, ao",
+        ),
+        (["--background", "blue"], "a colour such as #20262e"),
+        (["--split", "2"], "a share from 0 to 1"),
+        (["--exposure", "inf"], "a finite number"),
+    ] {
+        let refused = run(["render", FIGURE, "-o", "nothing.png"].iter().chain(&arguments));
+        assert_eq!((refused.code, refused.out.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(refused.err.contains(expected), "{arguments:?}: {}", refused.err);
+    }
+}

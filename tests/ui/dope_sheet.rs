@@ -1,0 +1,371 @@
+//! The sheet above the strip: rows, keys, boxes, zoom; and how little of it is drawn.
+
+use bindpose::model::JointIndex;
+use bindpose::session::{Command, JointCommand};
+use egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
+};
+
+use crate::layout::{assert_apart, assert_between_sides, assert_inside};
+use crate::models::moving;
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+use crate::rigs::rig;
+
+/// Room between the ends of the time and the ends of the sheet.
+const END_ROOM: f32 = 8.0;
+
+fn open(window: &mut Window) {
+    window.click("Dope sheet and curves");
+}
+
+fn sheet(joints: usize, keys: usize) -> Window {
+    let mut window = window(WIDE, vec![rig(joints, keys)]);
+    open(&mut window);
+    window
+}
+
+/// Where a share of what is seen of the time is, in a row.
+fn place(window: &Window, row: &str, share: f32) -> Pos2 {
+    let keys = window.rect("Keys of all bones");
+    let x = keys.min.x + END_ROOM + share * (keys.width() - 2.0 * END_ROOM);
+    pos2(x, window.rect(row).center().y)
+}
+
+fn press(window: &mut Window, at: Pos2) {
+    window.harness.hover_at(at);
+    window.harness.drag_at(at);
+    window.harness.drop_at(at);
+    window.pass_on();
+}
+
+fn drag(window: &mut Window, from: Pos2, to: Pos2) {
+    window.harness.hover_at(from);
+    window.harness.drag_at(from);
+    window.harness.hover_at(from + (to - from) * 0.5);
+    window.harness.hover_at(to);
+    window.pass_on();
+    window.harness.drop_at(to);
+    window.pass_on();
+}
+
+fn wheel(window: &mut Window, at: Pos2, delta: Vec2, modifiers: Modifiers) {
+    window.harness.hover_at(at);
+    window.harness.event_modifiers(
+        Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta,
+            phase: TouchPhase::Move,
+            source: MouseWheelSource::Wheel,
+            modifiers,
+        },
+        modifiers,
+    );
+    window.wait(0.5);
+}
+
+fn rows(window: &Window) -> Vec<String> {
+    let rows = window.named(|name| name.starts_with("Bone ") && name.contains(" key"));
+    rows.into_iter().map(|(name, _)| name).collect()
+}
+
+#[test]
+fn a_button_opens_and_shuts_it_and_the_edge_sizes_it() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    assert!(!window.shows("Keys of all bones"));
+    open(&mut window);
+    assert_eq!(rows(&window), ["Bone 0, 31 keys", "Bone 1, 31 keys"]);
+    let before = window.rect("Keys of all bones").height();
+    let edge = window.rect("Height of the dope sheet").center();
+    drag(&mut window, edge, edge - vec2(0.0, 80.0));
+    let higher = window.rect("Keys of all bones").height();
+    assert!((higher - before - 80.0).abs() < 2.0, "{before} to {higher}");
+    let edge = window.rect("Height of the dope sheet").center();
+    drag(&mut window, edge, edge - vec2(0.0, 2000.0));
+    assert_inside(&window, WIDE);
+    let edge = window.rect("Height of the dope sheet").center();
+    drag(&mut window, edge, pos2(edge.x, WIDE.y - 20.0));
+    assert!(!window.shows("Keys of all bones"), "dragged down it is shut");
+    let edge = window.rect("Height of the dope sheet").center();
+    drag(&mut window, edge, edge - vec2(0.0, 200.0));
+    assert!(window.shows("Keys of all bones"), "dragged up it is open");
+    window.click("Shut the dope sheet");
+    assert!(!window.shows("Keys of all bones"));
+}
+
+#[test]
+fn a_click_on_a_key_goes_there_and_chooses_its_bone() {
+    let mut window = sheet(5, 31);
+    let at = place(&window, "Bone 3, ", 20.0 / 30.0);
+    press(&mut window, at + vec2(3.0, 0.0));
+    let key_secs = 20.0 / 30.0;
+    assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
+    assert_eq!(window.session().joints().selected(), Some(JointIndex(3)));
+    // Up and down go from key to key of that bone.
+    window.press(Modifiers::NONE, Key::ArrowUp);
+    assert!((window.time_secs() - 21.0 / 30.0).abs() < 1e-6);
+    window.press(Modifiers::NONE, Key::ArrowDown);
+    window.press(Modifiers::NONE, Key::ArrowDown);
+    assert!((window.time_secs() - 19.0 / 30.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_drag_draws_a_box_counts_its_keys_and_makes_a_range_of_it() {
+    let mut window = sheet(5, 31);
+    let from = place(&window, "Bone 1, ", 9.5 / 30.0);
+    let to = place(&window, "Bone 4, ", 14.5 / 30.0);
+    drag(&mut window, from, to);
+    // Bones 1, 4, 2, 3 stand in the order of the tree; 1 and 4 are next to each other.
+    let [words] = &window.named(|name| name.contains(" keys · "))[..] else {
+        panic!("{:?}", window.widgets());
+    };
+    assert_eq!(words.0, "10 keys · 0.32–0.48 s");
+    assert_eq!(window.time_secs(), 0.0, "a box leaves the time alone");
+    window.click("As range");
+    let [start, end] = window.session().playback().range_secs().expect("a range");
+    assert!((start - 9.5 / 30.0).abs() < 0.002 && (end - 14.5 / 30.0).abs() < 0.002);
+    window.press(Modifiers::NONE, Key::Escape);
+    assert!(!window.shows("As range"), "Esc lets go of the keys");
+    window.click("Bone 2, ");
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(window.session().joints().selected(), None, "and then of the bone");
+}
+
+#[test]
+fn branches_fold_with_counts_and_rows_are_sorted_by_motion() {
+    let mut window = sheet(13, 31);
+    assert_eq!(rows(&window).len(), 10, "the others are to be scrolled to");
+    window.click("Fold Bone 1");
+    assert!(!rows(&window).contains(&"Bone 4, 31 keys".to_owned()));
+    window.click("Unfold Bone 1");
+    assert!(rows(&window).contains(&"Bone 4, 31 keys".to_owned()));
+    window.click("Fold all");
+    assert_eq!(rows(&window), ["Bone 0, 31 keys"]);
+    window.click("Unfold all");
+    window.click("Sort by motion");
+    assert_eq!(rows(&window)[..2], ["Bone 12, 31 keys", "Bone 11, 31 keys"]);
+}
+
+#[test]
+fn ctrl_and_wheel_zoom_at_the_pointer_and_shift_and_wheel_pans() {
+    let mut window = sheet(5, 301);
+    let at = place(&window, "Bone 1, ", 0.5);
+    for _ in 0..4 {
+        wheel(&mut window, at, vec2(0.0, 100.0), Modifiers::COMMAND | Modifiers::CTRL);
+    }
+    assert!(window.shows("All of the time"));
+    // The time under the pointer stayed: a click goes to the key in the middle of the clip.
+    press(&mut window, at);
+    assert!((window.time_secs() - 5.0).abs() < 0.02, "{}", window.time_secs());
+    let camera = *window.session().camera();
+    wheel(&mut window, at, vec2(0.0, -60.0), Modifiers::SHIFT);
+    press(&mut window, at);
+    assert!(window.time_secs() > 5.05, "{}", window.time_secs());
+    assert_eq!(*window.session().camera(), camera, "the view behind did not hear of it");
+    let before = window.time_secs();
+    for (from, to) in [(at, at - vec2(120.0, 0.0))] {
+        window.harness.hover_at(from);
+        for (pos, pressed) in [(from, true), (to, true), (to, false)] {
+            window.harness.event(Event::PointerMoved(pos));
+            if pos == from || !pressed {
+                window.harness.event(Event::PointerButton {
+                    pos,
+                    button: PointerButton::Middle,
+                    pressed,
+                    modifiers: Modifiers::NONE,
+                });
+            }
+            window.pass_on();
+        }
+    }
+    press(&mut window, at);
+    assert!(window.time_secs() > before + 0.05, "{}", window.time_secs());
+    window.click("All of the time");
+    assert!(!window.shows("All of the time"));
+}
+
+#[test]
+fn rows_light_up_with_their_bones_and_come_into_sight_when_one_is_selected() {
+    let mut window = sheet(300, 31);
+    let at = place(&window, "Bone 4, ", 0.4);
+    window.harness.hover_at(at);
+    window.pass_on();
+    let row = |window: &Window| window.session().joints().hovered();
+    assert_eq!(row(&window), Some(JointIndex(4)));
+    window.harness.hover_at(window.rect("Bone 1, ").center());
+    window.pass_on();
+    assert_eq!(row(&window), Some(JointIndex(1)));
+    window.harness.hover_at(pos2(720.0, 300.0));
+    window.pass_on();
+    assert_eq!(row(&window), None);
+    assert!(!rows(&window).contains(&"Bone 299, 31 keys".to_owned()));
+    window.apply(JointCommand::Select(Some(JointIndex(299))).into());
+    window.wait(0.5);
+    assert!(
+        rows(&window).contains(&"Bone 299, 31 keys".to_owned()),
+        "{:?}",
+        rows(&window)
+    );
+    let first = rows(&window)[0].clone();
+    wheel(&mut window, at, vec2(0.0, 300.0), Modifiers::NONE);
+    assert_ne!(rows(&window)[0], first, "it is not held there");
+}
+
+#[test]
+fn bones_go_by_their_names() {
+    let mut window = sheet(5, 31);
+    let name = "Tail".to_owned();
+    let joint = JointIndex(2);
+    window.apply(JointCommand::Rename { joint, name }.into());
+    window.click("Tail, 31 keys");
+    window.click("Sheet: Curves");
+    assert!(window.shows("Curves of Tail"));
+}
+
+#[test]
+fn the_ruler_carries_the_time() {
+    let mut window = sheet(5, 31);
+    let ruler = window.rect("Ruler in seconds");
+    drag(&mut window, ruler.left_center() + vec2(8.0, 0.0), ruler.center());
+    assert!((window.time_secs() - 0.5).abs() < 0.01, "{}", window.time_secs());
+    assert!(!window.session().is_scrubbing());
+}
+
+/// Corners of all that is drawn in the window.
+fn vertices(window: &Window) -> usize {
+    let shapes = &window.harness.output().shapes;
+    let meshes = shapes.iter().filter_map(|clipped| match &clipped.shape {
+        egui::Shape::Mesh(mesh) => Some(mesh.vertices.len()),
+        _ => None,
+    });
+    meshes.sum::<usize>() + shapes.len()
+}
+
+#[test]
+fn what_is_drawn_is_bounded_by_what_is_seen_and_not_by_the_model() {
+    let few = sheet(30, 1000);
+    let many = sheet(2000, 1000);
+    let [few_vertices, many_vertices] = [&few, &many].map(vertices);
+    // A mark has eight corners, a bar four; ten rows of a mark every three points of 1200.
+    assert!(many_vertices <= 10 * 1200 / 3 * 8, "{many_vertices}");
+    assert!(
+        many_vertices <= few_vertices + few_vertices / 4,
+        "{few_vertices} {many_vertices}"
+    );
+    assert_eq!(
+        rows(&many).len(),
+        rows(&few).len(),
+        "rows that are not seen are not laid out"
+    );
+}
+
+#[test]
+fn rigs_of_any_size_have_their_rows() {
+    for (joints, shown) in [(1, 1), (300, 10)] {
+        let mut window = sheet(joints, 31);
+        assert_eq!(rows(&window).len(), shown);
+        assert_inside(&window, WIDE);
+        assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
+        window.apply(Command::SelectClip(1));
+        assert_eq!(rows(&window).len(), shown, "a clip of one key has rows too");
+    }
+}
+
+#[test]
+fn it_fits_windows_of_any_size() {
+    for size in [WIDE, vec2(900.0, 700.0), vec2(900.0, 600.0), vec2(1200.0, 480.0)] {
+        let mut window = window(size, vec![rig(30, 31)]);
+        open(&mut window);
+        for tab in ["Sheet: Curves", "Sheet: Dope sheet"] {
+            window.click(tab);
+            assert_inside(&window, size);
+            assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
+        }
+    }
+    for size in [PHONE, vec2(320.0, 568.0), vec2(844.0, 390.0), vec2(899.0, 700.0)] {
+        let mut window = touch_window(size, vec![rig(30, 31)]);
+        open(&mut window);
+        window.click("Bone 1, ");
+        for tab in ["Sheet: Curves", "Sheet: Dope sheet"] {
+            window.click(tab);
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+        }
+    }
+}
+
+#[test]
+fn rows_scroll_with_the_wheel() {
+    let mut window = sheet(300, 31);
+    let first = rows(&window)[0].clone();
+    let at = place(&window, "Bone 1, ", 0.5);
+    wheel(&mut window, at, vec2(0.0, -400.0), Modifiers::NONE);
+    assert_ne!(rows(&window)[0], first);
+    assert!(!window.shows("All of the time"), "the time stays");
+}
+
+#[test]
+fn on_a_phone_it_is_a_page_of_the_sheet_with_buttons_for_time() {
+    let mut window = phone(vec![rig(30, 31)]);
+    open(&mut window);
+    assert!(!rows(&window).is_empty());
+    assert_between_sides(&window, PHONE);
+    for start in [
+        "Previous key",
+        "One frame on",
+        "Backward",
+        "Last frame",
+        "Sort by motion",
+        "Fold all",
+        "Shut the dope sheet",
+        "Bone 1, ",
+        "Range in",
+        "Time 0",
+        "Frame 0",
+    ] {
+        let rect = window.rect(start);
+        assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{start}: {rect}");
+    }
+    window.click("One frame on");
+    assert!((window.time_secs() - 1.0 / 30.0).abs() < 1e-6);
+    window.click("Sheet: Curves");
+    assert_inside(&window, PHONE);
+    window.click("Shut the dope sheet");
+    assert!(rows(&window).is_empty());
+}
+
+#[test]
+fn curves_show_the_chosen_bone_and_follow_the_choices() {
+    let mut window = sheet(5, 31);
+    window.click("Sheet: Curves");
+    assert!(window.shows("Choose a bone in the dope sheet to see how it moves."));
+    window.click("Sheet: Dope sheet");
+    window.click("Bone 4, ");
+    window.click("Sheet: Curves");
+    assert!(window.shows("Curves of Bone 4"));
+    let legend = |window: &Window| {
+        let found = window.named(|name| name.starts_with("t 0") && name.contains(", x "));
+        found[0].0.clone()
+    };
+    assert_eq!(legend(&window), "t 0.000 s, x 0.0000, y 0.0000, z 0.0000, w 1.0000");
+    window.apply(Command::Seek { time_secs: 10.0 / 30.0 });
+    // Bone 4 of 5 turns by 0.8 sin 1.5 about x, as far as six digits of a file say it.
+    let angle = 0.8 * 1.5_f32.sin();
+    let x = |window: &Window| {
+        let legend = legend(window);
+        let value = legend.split(", ").nth(1).and_then(|x| x.strip_prefix("x "));
+        let number = value.and_then(|value| value.trim_end_matches('°').parse::<f32>().ok());
+        number.unwrap_or_else(|| panic!("{legend}"))
+    };
+    assert!((x(&window) - (angle * 0.5).sin()).abs() < 2e-4);
+    window.click("Rotation as: Euler");
+    assert!((x(&window) - angle.to_degrees()).abs() < 2e-2);
+    window.click("Part: Translation");
+    assert_eq!(legend(&window), "t 0.333 s, x 0.0000, y 0.1000, z 0.0000");
+    window.click("Space: Model");
+    assert_ne!(legend(&window), "t 0.333 s, x 0.0000, y 0.1000, z 0.0000");
+    window.click("Part: Scale");
+    assert!(legend(&window).contains("y 1.0000"));
+    let curves = window.rect("Curves of Bone 4");
+    press(&mut window, curves.center());
+    assert!((window.time_secs() - 0.5).abs() < 0.01, "a press goes there");
+}
