@@ -5,5 +5,6 @@ import "./playing.js";
 import "./pictures.js";
 import "./looking.js";
 import "./subsets.js";
+import "./skeleton.js";
 import "./moving.js";
 import "./lasting.js";
