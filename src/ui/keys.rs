@@ -68,9 +68,16 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     } else if state.diagnostics_open {
         state.diagnostics_open = false;
     } else if !state.timeline.let_go_of_keys() {
-        let of_subset = || session.subsets().selected().map(|_| SubsetCommand::Select(None).into());
-        commands.extend(skeleton::keys::escape(session).or_else(of_subset));
+        commands.extend(let_go(session));
     }
+}
+
+/// Takes the selection away.
+fn let_go(session: &Session) -> Option<Command> {
+    skeleton::keys::escape(session).or_else(|| {
+        let subset = session.subsets().selected();
+        subset.map(|_| SubsetCommand::Select(None).into())
+    })
 }
 
 /// What a key asks for.

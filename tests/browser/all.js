@@ -4,6 +4,7 @@ import "./opening.js";
 import "./playing.js";
 import "./keys.js";
 import "./skeleton.js";
+import "./names.js";
 import "./pictures.js";
 import "./looking.js";
 import "./subsets.js";

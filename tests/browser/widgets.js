@@ -15,6 +15,11 @@ export const LIGHT_POPOVER = {
 export const TRIM_ROW = [100, 388];
 export const TRIM_EYE = [238, 388];
 
+/** The panel's other page: its tree of bones, and in it the bone that hangs from the root. */
+export const SKELETON_PAGE = [190, 87];
+export const TREE = { x: 14, y: 140, width: 240, height: 300 };
+export const SECOND_BONE = [90, 179];
+
 /** The inspector on the right, as large as it is for a subset with maps. */
 export const INSPECTOR = { x: 662, y: 62, width: 284, height: 386 };
 export const ROUGHNESS_KNOB = [834, 285];

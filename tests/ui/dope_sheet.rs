@@ -9,6 +9,7 @@ use egui::{
 use crate::layout::{assert_apart, assert_between_sides, assert_inside};
 use crate::models::moving;
 use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+use crate::pointer::{fingers, gesture};
 use crate::rigs::rig;
 
 /// Room between the ends of the time and the ends of the sheet.
@@ -331,6 +332,38 @@ fn on_a_phone_it_is_a_page_of_the_sheet_with_buttons_for_time() {
     assert_inside(&window, PHONE);
     window.click("Shut the dope sheet");
     assert!(rows(&window).is_empty());
+}
+
+#[test]
+fn a_finger_that_rests_on_a_step_makes_ten_of_it() {
+    let mut window = phone(vec![rig(5, 31)]);
+    open(&mut window);
+    let at = [window.rect("One frame on").center()];
+    fingers(&mut window, TouchPhase::Start, &at);
+    window.wait(1.5);
+    fingers(&mut window, TouchPhase::End, &at);
+    window.pass_on();
+    assert!(
+        (window.time_secs() - 10.0 / 30.0).abs() < 1e-6,
+        "{}",
+        window.time_secs()
+    );
+}
+
+#[test]
+fn two_fingers_zoom_in_time_and_one_pans_and_scrolls() {
+    let mut window = phone(vec![rig(300, 301)]);
+    open(&mut window);
+    let middle = window.rect("Keys of all bones").center();
+    let pinch = |apart: f32| vec![middle - vec2(apart, 0.0), middle + vec2(apart, 0.0)];
+    gesture(&mut window, &[20.0, 30.0, 40.0, 60.0, 80.0].map(pinch));
+    assert!(window.shows("All of the time"));
+    let first = rows(&window)[0].clone();
+    let path = [0.0, 20.0, 60.0, 120.0].map(|up| vec![middle - vec2(0.5 * up, up)]);
+    gesture(&mut window, &path);
+    assert_ne!(rows(&window)[0], first, "rows follow the finger");
+    assert!(!window.shows("As range"), "a finger draws no box");
+    assert_eq!(window.time_secs(), 0.0);
 }
 
 #[test]

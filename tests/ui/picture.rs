@@ -186,44 +186,6 @@ fn curves_of_a_bone() {
     );
 }
 
-/// The bone over whose weights and numbers the pictures are taken: it moves and has children.
-fn inspected() -> Vec<Command> {
-    let bone = JointIndex(7);
-    let named = |joint: u32, name: &str| JointCommand::Rename {
-        joint: JointIndex(joint),
-        name: name.to_owned(),
-    };
-    let commands = [
-        named(0, "Hips"),
-        named(7, "L thigh"),
-        JointCommand::Select(Some(bone)),
-        JointCommand::SetBonesVisible(true),
-        JointCommand::SetSkinView(Some(SkinView::Weight)),
-    ];
-    commands.into_iter().map(Command::Joint).collect()
-}
-
-#[test]
-fn the_tree_and_a_joint_on_dark_and_light() {
-    for (name, theme) in [("wide-dark-joint", Theme::Dark), ("wide-light-joint", Theme::Light)] {
-        let mut then = inspected();
-        then.push(JointCommand::SetLabelsVisible(true).into());
-        compare(name, &draw_after(WIDE, theme, false, then, &["Panel: Skeleton"]));
-    }
-}
-
-#[test]
-fn a_vertex_explained_in_a_small_window() {
-    let mut then = inspected();
-    then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
-    then.push(JointCommand::SelectVertex(Some(4_962)).into());
-    let clicks = ["Panel: Skeleton", "Explain"];
-    compare(
-        "small-light-vertex",
-        &draw_after(Vec2::new(900.0, 700.0), Theme::Light, false, then, &clicks),
-    );
-}
-
 #[test]
 fn the_dope_sheet_of_a_small_window_with_a_range() {
     let range = [0.3, 0.9].map(Some);
@@ -268,6 +230,44 @@ fn how_a_clip_plays_on_a_phone() {
     compare(
         "phone-light-playing",
         &draw_after(PHONE, Theme::Light, true, vec![], &["Speed "]),
+    );
+}
+
+/// The bone over whose weights and numbers the pictures are taken: it moves and has children.
+fn inspected() -> Vec<Command> {
+    let bone = JointIndex(7);
+    let named = |joint: u32, name: &str| JointCommand::Rename {
+        joint: JointIndex(joint),
+        name: name.to_owned(),
+    };
+    let commands = [
+        named(0, "Hips"),
+        named(7, "L clavicle"),
+        JointCommand::Select(Some(bone)),
+        JointCommand::SetBonesVisible(true),
+        JointCommand::SetSkinView(Some(SkinView::Weight)),
+    ];
+    commands.into_iter().map(Command::Joint).collect()
+}
+
+#[test]
+fn the_tree_and_a_joint_on_dark_and_light() {
+    for (name, theme) in [("wide-dark-joint", Theme::Dark), ("wide-light-joint", Theme::Light)] {
+        let mut then = inspected();
+        then.push(JointCommand::SetLabelsVisible(true).into());
+        compare(name, &draw_after(WIDE, theme, false, then, &["Panel: Skeleton"]));
+    }
+}
+
+#[test]
+fn a_vertex_explained_in_a_small_window() {
+    let mut then = inspected();
+    then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
+    then.push(JointCommand::SelectVertex(Some(4_962)).into());
+    let clicks = ["Panel: Skeleton", "Explain"];
+    compare(
+        "small-light-vertex",
+        &draw_after(Vec2::new(900.0, 700.0), Theme::Light, false, then, &clicks),
     );
 }
 

@@ -163,7 +163,7 @@ fn what_happens_on_a_panel_does_not_reach_the_view() {
 }
 
 /// Fingers as a browser tells of them: each as a touch, and the first as a pointer too.
-fn fingers(window: &mut Window, phase: TouchPhase, at: &[Pos2]) {
+pub(crate) fn fingers(window: &mut Window, phase: TouchPhase, at: &[Pos2]) {
     for (finger, &pos) in at.iter().enumerate() {
         let id = TouchId(finger as u64 + 1);
         window.harness.input_mut().events.push(Event::Touch {
@@ -190,7 +190,8 @@ fn fingers(window: &mut Window, phase: TouchPhase, at: &[Pos2]) {
     window.harness.step();
 }
 
-fn gesture(window: &mut Window, path: &[Vec<Pos2>]) {
+/// Fingers along a path, and away.
+pub(crate) fn gesture(window: &mut Window, path: &[Vec<Pos2>]) {
     for (step, at) in path.iter().enumerate() {
         fingers(window, if step == 0 { TouchPhase::Start } else { TouchPhase::Move }, at);
     }

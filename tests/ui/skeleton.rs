@@ -269,6 +269,8 @@ fn matrices_numbers_and_keys_are_copied_as_text() {
     );
     let last = copied_by(&mut window, "Copy: Final matrix");
     assert!(last.starts_with("finalTransform = offset · toRoot"), "{last}");
+    let local = copied_by(&mut window, "Copy: place now");
+    assert!(local.starts_with("position") && local.contains("0.500000"), "{local}");
     let all = copied_by(&mut window, "Copy all numbers");
     assert!(all.starts_with("bone 1; parent 0; children 3"), "{all}");
     let keys = copied_by(&mut window, "Copy: keys");
@@ -479,7 +481,7 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     };
     assert_eq!(window.session().ghost_plan(), Some(plan));
     assert!(window.shows("Ghosts every frames"));
-    window.click("Trail of the bone");
+    window.click("Trail of Bone 3");
     assert_eq!(window.session().joints().trails(), [JointIndex(3)]);
     window.click("Leave the trail of Bone 3");
     assert!(window.session().joints().trails().is_empty());

@@ -1,6 +1,6 @@
 //! The selected joint: what it hangs from, where it is now, its matrices and keys; below it the selected vertex.
 
-use egui::{Align2, FontId, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::tree_row::counted_vertices;
 use super::{SkeletonState, key_table, numbers, vertex_panel};
@@ -10,8 +10,8 @@ use crate::session::{Command, JointCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    control_size, focus_ring, icon_button, paint_elided, rule, section_with_action, section_with_labelled_action,
-    segmented, switch_row, value_row,
+    TextButton, control_size, focus_ring, icon_button, paint_elided, rule, section_with_action,
+    section_with_labelled_action, segmented, switch_row, value_row,
 };
 
 /// Height of the heading, as in the panel on the left.
@@ -70,21 +70,19 @@ fn show_joint(
     relatives(ui, session, state, joint, commands);
 
     rule(ui, MARGIN);
-    if section_with_labelled_action(ui, "Now", Some(("Copy all", "Copy all numbers of the bone"))) {
-        ui.ctx().copy_text(readout.to_text());
+    let parts = match state.space {
+        Space::Local => &readout.local,
+        Space::Model => &readout.model,
+    };
+    if section_with_labelled_action(ui, "Now", Some(("Copy", "Copy: place now"))) {
+        ui.ctx().copy_text(parts.to_text());
     }
     let spaces = [(Space::Local, "Local"), (Space::Model, "Model")];
     if let Some(space) = segmented(ui, "Relative to", &spaces, Some(state.space)) {
         state.space = space;
     }
     ui.add_space(4.0);
-    numbers::show_parts(
-        ui,
-        match state.space {
-            Space::Local => &readout.local,
-            Space::Model => &readout.model,
-        },
-    );
+    numbers::show_parts(ui, parts);
     let matrices = [
         ("Offset", "offset", &readout.offset),
         (
@@ -100,6 +98,12 @@ fn show_joint(
             ui.ctx().copy_text(matrix.to_text(in_books));
         }
         numbers::show_matrix(ui, name, matrix);
+    }
+    ui.add_space(8.0);
+    let all = TextButton::new("Copy all numbers", "Copy all numbers of the bone");
+    let wide = Rangef::point(ui.available_width());
+    if all.width(wide).show(ui).clicked() {
+        ui.ctx().copy_text(readout.to_text());
     }
     rule(ui, MARGIN);
     let trail = session.joints().trails().contains(&joint);
@@ -173,7 +177,7 @@ fn links(
     let builder = egui::UiBuilder::new()
         .max_rect(place)
         .layout(egui::Layout::left_to_right(egui::Align::Min).with_main_wrap(true));
-    let used = ui.scope_builder(builder, |ui| {
+    ui.scope_builder(builder, |ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 0.0);
         for &joint in joints {
             let link = joint_link(ui, &session.joint_label(joint));
@@ -185,7 +189,6 @@ fn links(
             }
         }
     });
-    let _ = used;
 }
 
 /// A joint's name that can be clicked.

@@ -41,9 +41,11 @@ pub(in crate::ui) fn show(ui: &Ui, session: &Session, state: &SkeletonState, win
         };
         let at = in_window(window, label.position) + vec2(7.0, 0.0);
         let galley = painter.layout_no_wrap(name, font, color);
-        let place = Align2::LEFT_CENTER.anchor_size(at, galley.size());
+        let place = Align2::LEFT_CENTER
+            .anchor_size(at, galley.size())
+            .expand2(vec2(3.0, 0.0));
         if !taken.iter().any(|other| other.intersects(place)) {
-            paint_with_halo(painter, place.min, &galley, color, tokens.panel);
+            paint_with_halo(painter, place.min + vec2(3.0, 0.0), &galley, color, tokens.panel);
             taken.push(place);
         }
     }
@@ -65,7 +67,7 @@ fn in_window(window: Rect, at: Vec2) -> Pos2 {
 fn paint_with_halo(painter: &Painter, at: Pos2, galley: &Arc<Galley>, color: Color32, halo: Color32) {
     for (x, y) in HALO {
         let around = at + vec2(x, y);
-        painter.galley_with_override_text_color(around, Arc::clone(galley), halo.gamma_multiply(0.7));
+        painter.galley_with_override_text_color(around, Arc::clone(galley), halo.gamma_multiply(0.8));
     }
     painter.galley(at, Arc::clone(galley), color);
 }

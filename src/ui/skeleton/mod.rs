@@ -64,6 +64,7 @@ impl SkeletonState {
         if self.model != session.model_revision() {
             self.model = session.model_revision();
             self.naming = Naming::default();
+            self.tree = TreeState::default();
         }
         if !has_joints(session) {
             self.page = SidePage::Model;
@@ -78,10 +79,10 @@ impl SkeletonState {
         self.reading.take(session, window.height());
     }
 
-    /// Lets the joint under the pointer stand out; `in_timeline` is that of the row under it there.
-    pub(super) fn hover(&self, session: &Session, in_timeline: Option<JointIndex>, commands: &mut Vec<Command>) {
+    /// Lets the joint under the pointer stand out; `elsewhere` it is in another panel.
+    pub(super) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
         let bones_at = self.pointer_in_view.filter(|_| session.joints().bones_visible());
-        match (self.hovered.or(in_timeline), bones_at) {
+        match (self.hovered.or(elsewhere), bones_at) {
             (None, Some(pointer)) => commands.push(JointCommand::HoverAt(Some(pointer)).into()),
             (hovered, _) if session.joints().hovered() != hovered => {
                 commands.push(JointCommand::Hover(hovered).into());

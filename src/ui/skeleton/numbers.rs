@@ -11,7 +11,7 @@ const WIDTH: usize = 9;
 const MATRIX_ROW_HEIGHT: f32 = 19.0;
 /// The last column of an affine matrix is 0 0 0 1 and needs less room.
 const LAST_COLUMN_WIDTH: f32 = 22.0;
-/// Of numbers, in points: four of a quaternion stand in one row.
+/// Of numbers, in points.
 const FONT_SIZE: f32 = 11.0;
 
 /// A number of nine characters at most, with as many decimals as have room, up to `decimals`; with an exponent beyond.
@@ -57,10 +57,14 @@ pub(super) fn row(ui: &mut Ui, label: &str, numbers: &[String]) {
     let (font, left) = (FontId::proportional(12.0), rect.left_center());
     ui.painter().text(left, Align2::LEFT_CENTER, label, font, tokens.muted);
     // Four numbers are those of a unit quaternion, which are short.
-    let column = if numbers.len() > 3 { 48.0 } else { 63.0 };
+    let (column, size) = if numbers.len() > 3 {
+        (48.0, FONT_SIZE - 0.5)
+    } else {
+        (63.0, FONT_SIZE)
+    };
     for (place, number) in numbers.iter().rev().enumerate() {
         let at = pos2(rect.max.x - place as f32 * column, rect.center().y);
-        let font = theme::mono(FONT_SIZE);
+        let font = theme::mono(size);
         ui.painter().text(at, Align2::RIGHT_CENTER, number, font, tokens.text);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {}", numbers.join(" "))));

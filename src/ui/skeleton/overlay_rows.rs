@@ -13,6 +13,7 @@ use crate::ui::widgets::{
     Slider, control_size, icon_button, number_field, paint_elided, section_name, section_with_action, segmented,
     switch_row,
 };
+use crate::ui::wording::shortened;
 
 /// Ghosts that are shown when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
@@ -118,7 +119,13 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
     let trails = session.joints().trails();
     let selected = session.joints().selected();
     if let Some(joint) = selected.filter(|joint| !trails.contains(joint))
-        && switch_row(ui, "Trail of the bone", "", false).clicked()
+        && switch_row(
+            ui,
+            &format!("Trail of {}", shortened(&session.joint_label(joint), 18)),
+            "",
+            false,
+        )
+        .clicked()
     {
         commands.push(JointCommand::ToggleTrail(joint).into());
     }

@@ -9,8 +9,7 @@ use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use crate::ui::widgets::{
-    focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_name, section_with_action,
-    section_with_labelled_action,
+    focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_name, section_with_labelled_action,
 };
 use crate::ui::wording::grouped;
 
@@ -39,8 +38,12 @@ pub(super) fn show(
         influence_bar(ui, session, state, influence, commands);
     }
     rule(ui, MARGIN);
-    let verb = if state.explains { "Hide" } else { "Explain this vertex" };
-    if section_with_action(ui, "Place now", Some(verb)) {
+    let action = if state.explains {
+        ("Hide", "Hide the explanation")
+    } else {
+        ("Explain this vertex", "Explain this vertex")
+    };
+    if section_with_labelled_action(ui, "Place now", Some(action)) {
         state.explains = !state.explains;
     }
     let bind = explanation.bind_position.to_array();

@@ -56,14 +56,17 @@ pub(super) fn end_button(ui: &mut Ui, direction: Direction, commands: &mut Vec<C
     }
 }
 
-/// One frame on or back, with Shift ten.
+/// One frame on or back; with Shift, or held by a finger, ten.
 pub(super) fn frame_button(ui: &mut Ui, direction: Direction, commands: &mut Vec<Command>) {
     let (icon, label, sign) = match direction {
         Direction::Backward => (Icon::StepBack, "One frame back (←, with Shift ten)", -1),
         Direction::Forward => (Icon::StepForward, "One frame on (→, with Shift ten)", 1),
     };
-    if icon_button(ui, icon, label, false).clicked() {
-        let many = ui.input(|input| input.modifiers.shift);
+    let response = icon_button(ui, icon, label, false);
+    // Fingers have no Shift, but patience.
+    let long = response.long_touched();
+    if response.clicked() || long {
+        let many = long || ui.input(|input| input.modifiers.shift);
         let frames = if many { MANY_FRAMES } else { 1 };
         commands.push(Command::StepFrames(sign * frames));
     }

@@ -131,8 +131,8 @@ mod tests {
         );
         assert_eq!(found(&[], [0.0, 1.0], 100.0), []);
         assert_eq!(
-            found(&[0.3, 0.3], [0.0, 1.0], 100.0),
-            [Mark::Key(30.0)],
+            found(&[0.5, 0.5], [0.0, 1.0], 100.0),
+            [Mark::Key(50.0)],
             "two at one time"
         );
     }
