@@ -86,15 +86,17 @@ function projected({ camera }, { width, height }, { position, normal }) {
 }
 
 /**
- * Vertices that are seen in a picture with nothing else near them: they face the eye, and what is drawn within two pixels
- * has nearly the same weight and is not in front of them.
+ * Vertices that are plainly seen in a picture: they face the eye, nothing is in front of them, and around them the same side
+ * has nearly the same weight.
  */
 function plainlySeen(now, drawn, bone) {
   const all = vertices().map((vertex) => ({ weight: vertex.weightOf(bone), ...projected(now, drawn, vertex) }));
   return all.filter((vertex) => {
-    const near = all.filter(({ x, y }) => Math.hypot(x - vertex.x, y - vertex.y) < 2.5);
-    const alike = near.every(({ weight, depth }) => Math.abs(weight - vertex.weight) < 0.2 && depth > vertex.depth - 0.03);
-    return vertex.facing > 0.85 && near.length > 3 && alike;
+    if (vertex.facing < 0.85) return false;
+    const around = all.filter(({ x, y }) => Math.hypot(x - vertex.x, y - vertex.y) < 2.5);
+    const sameSide = around.filter(({ depth }) => depth < vertex.depth + 0.06);
+    const alike = ({ weight, depth }) => Math.abs(weight - vertex.weight) < 0.25 && depth > vertex.depth - 0.03;
+    return sameSide.length > 1 && sameSide.every(alike);
   });
 }
 
