@@ -46,7 +46,8 @@ impl Camera {
         let reach_up = (fitted + middle_of_free).max(Vec2::splat(1e-3));
         let reach_down = (fitted - middle_of_free).max(Vec2::splat(1e-3));
 
-        let mut center = bounds.center();
+        // Framed from here, what remains to be done is to centre.
+        let mut center = self.first_center(world_points, bounds.center(), fitted, middle_of_free);
         for round in 0..=FRAMING_ROUNDS {
             let mut distance = 0.0_f32;
             for &point in world_points {
@@ -78,6 +79,28 @@ impl Camera {
             center += way;
         }
         self.target = center;
+    }
+
+    /// A target near that of the framed picture: with a distance of its own all points are between the tangents
+    /// `middle ± fitted`, right and up, and no nearer eye has that. In each direction the eye's place along the picture, `c`, and
+    /// its distance `d` obey `max(p − t⁺z) − t⁺d ≤ c ≤ min(p − t⁻z) − t⁻d` over points at `p`, `z` behind the first center, with
+    /// `t±` the tangents; the least `d` makes both ends meet.
+    fn first_center(&self, world_points: &[Vec3], center: Vec3, fitted: Vec2, middle: Vec2) -> Vec3 {
+        let (right, up, forward) = (self.right(), self.up(), self.forward());
+        let perspective = matches!(self.projection, Projection::Perspective { .. });
+        let (most, least) = (middle + fitted, middle - fitted);
+        let (mut from, mut to) = (Vec2::NEG_INFINITY, Vec2::INFINITY);
+        for &point in world_points {
+            let offset = point - center;
+            let in_plane = Vec2::new(offset.dot(right), offset.dot(up));
+            let behind = if perspective { offset.dot(forward) } else { 0.0 };
+            from = from.max(in_plane - most * behind);
+            to = to.min(in_plane - least * behind);
+        }
+        let distance = ((from - to) / (most - least)).max_element();
+        let place = ((from - most * distance) + (to - least * distance)) * 0.5;
+        let moved = center + right * place.x + up * place.y;
+        if moved.is_finite() { moved } else { center }
     }
 
     /// How far some points reach in the picture: shares of its width, from the left edge to the leftmost and from the
@@ -140,6 +163,30 @@ mod tests {
                     "{preset:?} {projection:?}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn a_free_part_beside_the_middle_of_the_picture_is_filled_too() {
+        for preset in [ViewPreset::ThreeQuarter, ViewPreset::Front, ViewPreset::Top] {
+            let insets = Insets {
+                top: 0.1,
+                bottom: 0.56,
+                ..Insets::default()
+            };
+            let mut camera = Camera::default();
+            camera.look_from(preset);
+            camera.frame(&unit_box().corners(), 1.6, insets);
+            let corners = corners_in_clip(&camera, &unit_box(), 1.6);
+            let heights = || corners.iter().map(|corner| corner.y);
+            let [lowest, highest] = [heights().fold(f32::INFINITY, f32::min), heights().fold(-1.0, f32::max)];
+            let free = [2.0 * insets.bottom - 1.0, 1.0 - 2.0 * insets.top];
+            let share = (highest - lowest) / (free[1] - free[0]);
+            assert!((share - FRAMED_SHARE).abs() < 0.02, "{preset:?} fills {share}");
+            assert!(
+                lowest > free[0] && highest < free[1],
+                "{preset:?}: {lowest} to {highest} in {free:?}"
+            );
         }
     }
 

@@ -53,7 +53,14 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         )
         .with("textures", textures(session))
         .with("clip", session.clip().map(|clip| clip.name.as_str()))
+        .with("blend", blend(session))
         .with("timeSecs", playback.time_secs())
+        .with(
+            "rangeSecs",
+            playback
+                .range_secs()
+                .map_or(JsValue::NULL, |range| numbers(range).into()),
+        )
         .with("playing", playback.is_playing())
         .with("backward", playback.is_backward())
         .with("speed", session.playback().speed())
@@ -70,6 +77,7 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         )
         .with("gridVisible", session.grid_visible())
         .with("look", look(session))
+        .with("skeleton", skeleton(session))
         .with("framesRendered", view.frames_rendered as f64)
         .with(
             "notices",
@@ -139,6 +147,50 @@ fn look(session: &Session) -> JsValue {
         .done()
 }
 
+/// The clip that is blended into the one on show, and its share of the pose.
+fn blend(session: &Session) -> JsValue {
+    let clip_name = |index: usize| Some(&*session.open_model()?.model.clips.get(index)?.name);
+    session.blend().map_or(JsValue::NULL, |blend| {
+        Fields::new()
+            .with("clip", clip_name(blend.clip))
+            .with("share", blend.share)
+            .done()
+    })
+}
+
+/// What is chosen of the bones and the skin, and how they are shown. Bones go by their numbers in the file.
+fn skeleton(session: &Session) -> JsValue {
+    let joints = session.joints();
+    let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
+    let selected = joints.selected().and_then(|joint| bones?.get(joint.index()).copied());
+    let names = session.joint_names().all().iter();
+    Fields::new()
+        .with("selected", selected.map_or(JsValue::NULL, JsValue::from))
+        .with(
+            "vertex",
+            joints
+                .selected_vertex()
+                .map_or(JsValue::NULL, |selected| selected.vertex.into()),
+        )
+        .with("bonesVisible", joints.bones_visible())
+        .with("boneStyle", joints.bone_style().name())
+        .with("labelsVisible", joints.labels_visible())
+        .with(
+            "skinView",
+            joints.skin_view().map_or(JsValue::NULL, |view| view.name().into()),
+        )
+        .with("bindShare", session.bind_share())
+        .with(
+            "names",
+            names
+                .fold(Fields::new(), |names, (bone, name)| {
+                    names.with(&bone.to_string(), name.as_str())
+                })
+                .done(),
+        )
+        .done()
+}
+
 /// How many maps the materials name, and the names that no file fits.
 fn textures(session: &Session) -> JsValue {
     let checklist = session.maps().checklist();
@@ -189,7 +241,11 @@ fn bounds(bounds: &Aabb) -> JsValue {
 }
 
 fn vector(vector: glam::Vec3) -> Array {
-    vector.to_array().into_iter().map(JsValue::from).collect()
+    numbers(vector.to_array())
+}
+
+fn numbers(numbers: impl IntoIterator<Item = f32>) -> Array {
+    numbers.into_iter().map(JsValue::from).collect()
 }
 
 fn loop_name(mode: LoopMode) -> &'static str {

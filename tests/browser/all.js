@@ -2,9 +2,11 @@
 import "./page.js";
 import "./opening.js";
 import "./playing.js";
+import "./keys.js";
+import "./skeleton.js";
+import "./names.js";
 import "./pictures.js";
 import "./looking.js";
 import "./subsets.js";
-import "./skeleton.js";
 import "./moving.js";
 import "./lasting.js";

@@ -179,11 +179,11 @@ export async function keep(page, name) {
 }
 
 /** Drags with the mouse from one place to another and lets go. */
-export async function drag(page, [fromX, fromY], [toX, toY]) {
+export async function drag(page, [fromX, fromY], [toX, toY], { button = "left" } = {}) {
   await page.mouse.move(fromX, fromY);
-  await page.mouse.down();
+  await page.mouse.down({ button });
   await page.mouse.move(toX, toY, { steps: 5 });
-  await page.mouse.up();
+  await page.mouse.up({ button });
 }
 
 /** Waits for the next frames to be on screen. */

@@ -1,8 +1,9 @@
 // Time: it advances, it can be scrubbed, and the same time is the same picture. Keys, and the transport in the DOM.
 
 import assert from "node:assert/strict";
-import { CENTRE, atRest, call, keep, settled, state, test, until } from "./harness.js";
+import { CENTRE, call, drag, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
+import { RANGE_IN, RANGE_OUT, TIME_BAR } from "./widgets.js";
 
 test("time advances, with events, and pauses", {}, async (page) => {
   await page.evaluate(() => {
@@ -59,80 +60,72 @@ test("a clip is chosen by its name; a name that is not there changes nothing", {
   assert.equal((await state(page)).clip, model.clips[1].name);
 });
 
+/** Where a share of the clip is on the bar. */
+const onBar = (share) => [TIME_BAR.first + share * (TIME_BAR.last - TIME_BAR.first), TIME_BAR.y];
+
+test("a drag on the bar carries the time, which goes on from there", {}, async (page) => {
+  const { clip, model } = await state(page);
+  const { startSecs, endSecs } = model.clips.find(({ name }) => name === clip);
+  const shareOf = ({ timeSecs }) => (timeSecs - startSecs) / (endSecs - startSecs);
+  await page.mouse.move(...onBar(0.2));
+  await page.mouse.down();
+  for (const share of [0.4, 0.9, 0.3]) {
+    await page.mouse.move(...onBar(share), { steps: 3 });
+    // A point is a three hundredth of the clip.
+    await until(page, (now) => Math.abs(shareOf(now) - share) < 0.004);
+    await settled(page);
+    const held = await state(page);
+    assert.ok(Math.abs(shareOf(held) - share) < 0.004, `held at ${share}, the time stands at ${shareOf(held)}`);
+    assert.equal(held.playing, true, "the pointer holds the time; it is not paused");
+  }
+  await page.mouse.move(TIME_BAR.last + 200, TIME_BAR.y);
+  await until(page, (now) => Math.abs(shareOf(now) - 1) < 1e-4);
+  await page.mouse.move(...onBar(0.5));
+  await until(page, (now) => Math.abs(shareOf(now) - 0.5) < 0.004);
+  await page.mouse.up();
+  await until(page, (now) => Math.abs(shareOf(now) - 0.5) > 0.01);
+  assert.equal((await state(page)).playing, true);
+});
+
+test("a click on the bar of a paused clip goes there and stays", { reducedMotion: "reduce" }, async (page) => {
+  await page.mouse.click(...onBar(0.75));
+  const { timeSecs, playing } = await until(page, ({ timeSecs }) => timeSecs > 0);
+  assert.equal(playing, false);
+  const { model } = await state(page);
+  assert.ok(Math.abs(timeSecs / model.clips[0].endSecs - 0.75) < 0.004, `${timeSecs} s`);
+  await settled(page);
+  assert.equal((await state(page)).timeSecs, timeSecs);
+});
+
+test("the ends of the range are dragged from frame to frame, and playing stays between them", {}, async (page) => {
+  await call(page, "pause");
+  const frames = 32;
+  await drag(page, RANGE_OUT, onBar(20.2 / frames));
+  const within = (first, last) => ({ rangeSecs }) =>
+    [first, last].every((frame, end) => Math.abs(30 * rangeSecs?.[end] - frame) < 1e-3);
+  await until(page, within(0, 20));
+  await drag(page, RANGE_IN, onBar(9.8 / frames));
+  const { rangeSecs } = await until(page, within(10, 20));
+  await settled(page);
+  await keep(page, "range");
+  await page.evaluate(() => {
+    globalThis.times = [];
+    bindpose.addEventListener("timeupdate", ({ detail }) => times.push(detail.timeSecs));
+  });
+  await call(page, "play");
+  await page.waitForFunction(() => times.length > 12);
+  const times = await page.evaluate(() => times);
+  const outside = times.filter((secs) => secs < rangeSecs[0] - 1e-4 || secs > rangeSecs[1] + 1e-4);
+  assert.deepEqual(outside, [], `of ${times}`);
+  await page.mouse.dblclick(...onBar((20 + 0.4) / frames));
+  await until(page, ({ rangeSecs }) => rangeSecs === null);
+});
+
 /** Presses keys in the viewer, the way a person does after a click into the view. */
 async function focusView(page) {
   await page.mouse.click(...CENTRE);
   await settled(page);
 }
-
-test("the keys do what they say", {}, async (page) => {
-  await focusView(page);
-  await page.keyboard.press("Space");
-  await until(page, ({ playing }) => !playing);
-  await page.keyboard.press("Home");
-  const { clip, model } = await state(page);
-  const { startSecs, endSecs } = model.clips.find(({ name }) => name === clip);
-  await until(page, ({ timeSecs }) => Math.abs(timeSecs - startSecs) < 1e-4);
-  await page.keyboard.press("ArrowRight");
-  await until(page, ({ timeSecs }) => timeSecs > startSecs + 1e-4);
-  const frame = (await state(page)).timeSecs - startSecs;
-  await page.keyboard.press("Shift+ArrowRight");
-  await until(page, ({ timeSecs }) => timeSecs > startSecs + frame * 1.5);
-  const eleven = (await state(page)).timeSecs - startSecs;
-  assert.ok(Math.abs(eleven - Math.min(11 * frame, endSecs - startSecs)) < frame / 2, `${eleven} is not eleven of ${frame}`);
-  await page.keyboard.press("ArrowLeft");
-  await until(page, ({ timeSecs }) => timeSecs < startSecs + eleven - 1e-4);
-  await page.keyboard.press("End");
-  await until(page, ({ timeSecs }) => Math.abs(timeSecs - endSecs) < 1e-4);
-  await page.keyboard.press("c");
-  await until(page, (now) => now.clip !== clip);
-  await page.keyboard.press("Shift+C");
-  await until(page, (now) => now.clip === clip);
-});
-
-test("the keys for speed and loop", {}, async (page) => {
-  await focusView(page);
-  const speed = (await state(page)).speed;
-  assert.equal(speed, 1);
-  await page.keyboard.press("[");
-  await until(page, ({ speed }) => speed < 1);
-  await page.keyboard.press("]");
-  await page.keyboard.press("]");
-  await until(page, ({ speed }) => speed > 1);
-  await page.keyboard.press("\\");
-  await until(page, ({ speed }) => speed === 1);
-  const loops = [];
-  for (let press = 0; press < 3; press += 1) {
-    const { loop } = await state(page);
-    loops.push(loop);
-    await page.keyboard.press("l");
-    await until(page, (now) => now.loop !== loop);
-  }
-  assert.equal(new Set(loops).size, 3, loops.join(", "));
-  assert.equal((await state(page)).loop, loops[0], "and round again");
-});
-
-test("the mouse orbits, the wheel zooms and F frames the model again", {}, async (page) => {
-  await call(page, "pause");
-  await focusView(page);
-  const before = await picture(page);
-  await page.mouse.move(...CENTRE);
-  await page.mouse.down();
-  await page.mouse.move(CENTRE[0] + 120, CENTRE[1] + 30, { steps: 6 });
-  await page.mouse.up();
-  await atRest(page);
-  const orbited = await picture(page);
-  assert.ok(difference(before, orbited) > 0.01, "a drag turns the view");
-  for (let turn = 0; turn < 5; turn += 1) await page.mouse.wheel(0, -240);
-  await settled(page);
-  await settled(page);
-  const zoomed = await picture(page);
-  assert.ok(difference(orbited, zoomed) > 0.01, "the wheel zooms");
-  await page.keyboard.press("f");
-  await page.waitForTimeout(1000);
-  const framed = await picture(page);
-  assert.ok(difference(zoomed, framed) > 0.01, "F moves the camera back");
-});
 
 test("the transport is there for screen readers and moves with the viewer", {}, async (page) => {
   await page.focus("#transport-play");

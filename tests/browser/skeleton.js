@@ -1,70 +1,161 @@
-// Names that a person gives to bones: typed in the tree, kept by the browser, there again with the next visit.
+// Bones and skin by mouse: a bone is selected where it is drawn, its weights are coloured as the legend says.
 
 import assert from "node:assert/strict";
-import { atRest, keep, running, settled, test } from "./harness.js";
-import { decoded, difference } from "./picture.js";
-import { GROUND, SECOND_BONE, SKELETON_PAGE, TREE } from "./widgets.js";
+import { readFileSync } from "node:fs";
+import { SAMPLE, atRest, keep, settled, state, test, until } from "./harness.js";
+import { decoded, difference, picture } from "./picture.js";
+import { BONES, GROUND, LEGEND_BAR } from "./widgets.js";
 
-/** The sample waits on its first frame, so that only what a test does can change the page. */
+/** The sample waits on its first frame, so that only what a test does can change the picture. */
 const STILL = { reducedMotion: "reduce" };
 
-/** What the browser keeps for this page. */
-function kept(page) {
-  return page.evaluate(() => Object.entries(localStorage).filter(([key]) => key.startsWith("bindpose.names.")));
+/** Shows the bones. The click gives the view the keyboard and selects nothing. */
+async function showBones(page) {
+  await page.mouse.click(...GROUND);
+  await settled(page);
+  await page.keyboard.press("b");
+  await until(page, ({ skeleton }) => skeleton.bonesVisible);
 }
 
-/** Opens the tree. A click before the page has come to rest would find nothing there yet. */
-async function openTree(page) {
-  await atRest(page);
-  await page.mouse.click(...SKELETON_PAGE);
+/** Clicks on a bone and waits until it is the one that is selected. */
+async function selectBone(page, bone) {
+  await page.mouse.click(...BONES[bone]);
+  await until(page, ({ skeleton }) => skeleton.selected === Number(bone));
 }
 
-/** The rows of the tree, with nothing under the pointer. */
-async function tree(page) {
+test("a click on a bone selects it, one beside all bones none, and Esc lets go", STILL, async (page) => {
+  await showBones(page);
+  const plain = await picture(page);
+  for (const bone of Object.keys(BONES)) {
+    await selectBone(page, bone);
+    await page.mouse.move(...GROUND);
+    await settled(page);
+    const marked = await picture(page);
+    assert.ok(difference(plain, marked) > 0.0005, `bone ${bone} stands out: ${difference(plain, marked)} of the pixels`);
+  }
+  await keep(page, "bone-selected");
+  await page.mouse.click(...GROUND);
+  await until(page, ({ skeleton }) => skeleton.selected === null);
+  const [bone] = Object.keys(BONES);
+  await selectBone(page, bone);
+  await page.keyboard.press("Escape");
+  await until(page, ({ skeleton }) => skeleton.selected === null);
   await page.mouse.move(...GROUND);
   await settled(page);
-  return decoded(page, await page.screenshot({ clip: TREE }));
-}
-
-async function nameSecondBone(page, name) {
-  await page.mouse.dblclick(...SECOND_BONE);
-  await settled(page);
-  await page.keyboard.type(name);
-  await page.keyboard.press("Enter");
-  await settled(page);
-  // Esc lets go of the bone, which the clicks have selected.
-  await page.keyboard.press("Escape");
-}
-
-test("names of bones are kept and are there after a reload", STILL, async (page) => {
-  await openTree(page);
-  const unnamed = await tree(page);
-  assert.deepEqual(await kept(page), []);
-  await nameSecondBone(page, "Hips");
-  const named = await tree(page);
-  await keep(page, "names");
-  assert.ok(difference(unnamed, named) > 0, "the name is in the tree");
-  const [[key, text], ...others] = await kept(page);
-  assert.match(key, /^bindpose\.names\.[0-9a-f]{16}$/);
-  assert.equal(text, "1 Hips\n");
-  assert.deepEqual(others, []);
-
-  await page.reload();
-  await running(page);
-  await openTree(page);
-  assert.equal(difference(named, await tree(page)), 0, "the same names");
-  assert.deepEqual(await kept(page), [[key, text]]);
+  assert.equal((await picture(page)).digest, plain.digest);
 });
 
-test("a browser that keeps nothing does not stand in the way", {
-  ...STILL,
-  prepare: (page) => page.addInitScript(() => {
-    const refuse = () => { throw new DOMException("full", "QuotaExceededError"); };
-    Object.assign(Storage.prototype, { getItem: refuse, setItem: refuse, removeItem: refuse });
-  }),
-}, async (page) => {
-  await openTree(page);
-  const unnamed = await tree(page);
-  await nameSecondBone(page, "Hips");
-  assert.ok(difference(unnamed, await tree(page)) > 0, "the name is in the tree all the same");
+test("a bone that is not drawn is not selected by a click", STILL, async (page) => {
+  await page.mouse.click(...Object.values(BONES)[0]);
+  await atRest(page);
+  assert.equal((await state(page)).skeleton.selected, null, "the click is about a subset");
+});
+
+/** The sample's vertices as its file has them. */
+function vertices() {
+  const text = readFileSync(SAMPLE, "latin1");
+  const numbers = (words) => words.trim().split(/\s+/).map(Number);
+  const vertex = /Position: (.*)\nTangent: .*\nNormal: (.*)\nTex-Coords: .*\nBlendWeights: (.*)\nBlendIndices: (.*)\n/g;
+  return Array.from(text.matchAll(vertex), ([, position, normal, weights, bones]) => {
+    const [shares, indices] = [numbers(weights), numbers(bones)];
+    const weightOf = (bone) => shares.reduce((sum, share, at) => sum + (indices[at] === bone ? share : 0), 0);
+    return { position: numbers(position), normal: numbers(normal), weightOf };
+  });
+}
+
+const dot = (one, other) => one.reduce((sum, at, axis) => sum + at * other[axis], 0);
+const minus = (one, other) => one.map((at, axis) => at - other[axis]);
+
+/**
+ * Where a vertex of the bind pose is in a picture, in pixels; how far from the eye, along the view; and how much it faces the
+ * eye. The sample stands in the world as in its file: left-handed, y up.
+ */
+function projected({ camera }, { width, height }, { position, normal }) {
+  const [sinYaw, cosYaw] = [Math.sin(camera.yawRadians), Math.cos(camera.yawRadians)];
+  const [sinPitch, cosPitch] = [Math.sin(camera.pitchRadians), Math.cos(camera.pitchRadians)];
+  const forward = [sinYaw * cosPitch, -sinPitch, cosYaw * cosPitch];
+  const right = [cosYaw, 0, -sinYaw];
+  const up = [sinYaw * sinPitch, cosPitch, cosYaw * sinPitch];
+  const eye = minus(camera.target, forward.map((at) => at * camera.distance));
+  const seen = minus(position, eye);
+  const depth = dot(seen, forward);
+  // The camera sees an eighth of a turn from bottom to top.
+  const scale = height / (2 * Math.tan(Math.PI / 8) * depth);
+  const facing = -dot(normal, seen) / (Math.hypot(...normal) * Math.hypot(...seen));
+  return { x: width / 2 + scale * dot(seen, right), y: height / 2 - scale * dot(seen, up), depth, facing };
+}
+
+/**
+ * Vertices that are seen in a picture with nothing else near them: they face the eye, and what is drawn within two pixels
+ * has nearly the same weight and is not in front of them.
+ */
+function plainlySeen(now, drawn, bone) {
+  const all = vertices().map((vertex) => ({ weight: vertex.weightOf(bone), ...projected(now, drawn, vertex) }));
+  return all.filter((vertex) => {
+    const near = all.filter(({ x, y }) => Math.hypot(x - vertex.x, y - vertex.y) < 2.5);
+    const alike = near.every(({ weight, depth }) => Math.abs(weight - vertex.weight) < 0.2 && depth > vertex.depth - 0.03);
+    return vertex.facing > 0.85 && near.length > 3 && alike;
+  });
+}
+
+const channels = ({ pixels, width }, x, y) => {
+  const at = 4 * (Math.floor(y) * width + Math.floor(x));
+  return [...pixels.subarray(at, at + 3)];
+};
+
+test("vertices have the colours that the legend has for their weights", STILL, async (page) => {
+  const bone = 19;
+  await showBones(page);
+  await selectBone(page, bone);
+  for (const key of ["w", "k", "b"]) await page.keyboard.press(key);
+  const shown = ({ skeleton }) => skeleton.skinView === "weight" && skeleton.bindShare === 1 && !skeleton.bonesVisible;
+  await until(page, shown);
+  await page.mouse.move(...GROUND);
+  const now = await atRest(page);
+  await keep(page, "weights");
+  const legend = await decoded(page, await page.screenshot({ clip: LEGEND_BAR }));
+  const drawn = await picture(page, { width: 480, height: 300, overlays: [] });
+  const seen = plainlySeen(now, drawn, bone);
+
+  // From none to all, and a few between them; what is between changes from pixel to pixel.
+  for (const [weight, tolerance] of [[0, 4], [1, 4], [0.25, 60], [0.5, 60], [0.75, 60]]) {
+    const of = seen.filter((vertex) => Math.abs(vertex.weight - weight) < 0.03);
+    assert.ok(of.length >= 2, `${of.length} vertices with a weight of ${weight} are plainly seen`);
+    const expected = channels(legend, weight * (legend.width - 1), 1);
+    const far = of.map(({ x, y }) => Math.max(...minus(channels(drawn, x, y), expected).map(Math.abs)));
+    const middle = far.sort((one, other) => one - other)[Math.floor(far.length / 2)];
+    assert.ok(middle <= tolerance, `weight ${weight}: ${middle} of 255 from the legend's ${expected}, over ${of.length} vertices`);
+  }
+});
+
+test("with the skin in colours a click selects the vertex that is there", STILL, async (page) => {
+  await page.mouse.click(...GROUND);
+  await settled(page);
+  for (const key of ["w", "k"]) await page.keyboard.press(key);
+  await until(page, ({ skeleton }) => skeleton.skinView === "weight" && skeleton.bindShare === 1);
+  await atRest(page);
+  const place = [493, 240];
+  await page.mouse.click(...place);
+  const now = await until(page, ({ skeleton }) => skeleton.vertex !== null);
+  await page.mouse.move(...GROUND);
+  await atRest(page);
+  await keep(page, "vertex-selected");
+  const { x, y, facing } = projected(now, page.viewportSize(), vertices()[now.skeleton.vertex]);
+  assert.ok(Math.hypot(x - place[0], y - place[1]) < 12, `vertex ${now.skeleton.vertex} is at ${x}, ${y}`);
+  assert.ok(facing > 0, "on the side that is seen");
+  await page.keyboard.press("Escape");
+  await until(page, ({ skeleton }) => skeleton.vertex === null);
+});
+
+test("F2 names the bone that is selected", STILL, async (page) => {
+  const [bone] = Object.keys(BONES);
+  await showBones(page);
+  await selectBone(page, bone);
+  await page.keyboard.press("F2");
+  await settled(page);
+  await page.keyboard.type("left thigh");
+  await page.keyboard.press("Enter");
+  const { skeleton } = await until(page, ({ skeleton }) => skeleton.names[bone]);
+  assert.deepEqual(skeleton.names, { [bone]: "left thigh" });
+  assert.equal(skeleton.selected, Number(bone));
 });

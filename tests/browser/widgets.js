@@ -33,3 +33,14 @@ export const SPLIT_HANDLE = [480, 300];
 export const CHEST = [500, 240];
 /** Ground beside the figure that no panel covers. */
 export const GROUND = [600, 510];
+
+/** Bones of the figure on its first frame, by their numbers in the file: points on them beside other bones. */
+export const BONES = { 19: [508, 318], 24: [452, 205], 4: [492, 195] };
+
+/** The bar of the legend that explains the colours of the skin. */
+export const LEGEND_BAR = { x: 283, y: 489, width: 208, height: 3 };
+
+/** The bar with the keys in the strip: where its first and its last frame are, and what holds the ends of the range. */
+export const TIME_BAR = { first: 328, last: 648, y: 561 };
+export const RANGE_IN = [322, 561];
+export const RANGE_OUT = [654, 561];

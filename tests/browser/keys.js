@@ -1,0 +1,191 @@
+// Every key does what the table behind `?` says, in the order of that table: what is asked for is read from the state.
+
+import assert from "node:assert/strict";
+import { atRest, drag, settled, state, test, until } from "./harness.js";
+import { decoded, difference, picture } from "./picture.js";
+import { GROUND } from "./widgets.js";
+
+/** The sample waits on its first frame, and the camera is where it was sent at once. */
+const STILL = { reducedMotion: "reduce" };
+
+/** Gives the view the keyboard, with a click that selects nothing. */
+async function focusView(page) {
+  await page.mouse.click(...GROUND);
+  await settled(page);
+}
+
+/** Presses the keys of a table, one after the other, and waits until the state is what the table says of each. */
+async function presses(page, table) {
+  let before = await state(page);
+  for (const [key, words, holds] of table) {
+    await page.keyboard.press(key);
+    before = await until(page, (now) => holds(now, before)).catch((error) => {
+      throw new Error(`${key}: ${words}`, { cause: error });
+    });
+  }
+  return before;
+}
+
+const near = (one, other, tolerance = 1e-3) => Math.abs(one - other) <= tolerance;
+
+/** Whether the time is that of a frame: the clip that is open first has 30 in a second and begins at 0. */
+const atFrame = (frame) => ({ timeSecs }) => near(30 * timeSecs, frame);
+const range = (first, last) => ({ rangeSecs }) => near(30 * rangeSecs?.[0], first) && near(30 * rangeSecs?.[1], last);
+
+test("the keys for time", STILL, async (page) => {
+  await focusView(page);
+  const { model } = await state(page);
+  const [{ startSecs, endSecs, keysPerSec }] = model.clips;
+  assert.deepEqual([startSecs, Math.round(endSecs * keysPerSec), keysPerSec], [0, 32, 30], "the clip that the table is made for");
+  await presses(page, [
+    ["Space", "plays", ({ playing, backward }) => playing && !backward],
+    ["Space", "pauses", ({ playing }) => !playing],
+    ["Shift+Space", "plays backward", ({ playing, backward }) => playing && backward],
+    ["Space", "pauses that too", ({ playing }) => !playing],
+    ["End", "last frame", atFrame(32)],
+    ["Home", "first frame", atFrame(0)],
+    ["ArrowRight", "one frame on", atFrame(1)],
+    ["Period", "and with the period", atFrame(2)],
+    ["Shift+ArrowRight", "ten frames on", atFrame(12)],
+    ["Shift+Period", "and with the period", atFrame(22)],
+    ["ArrowLeft", "one frame back", atFrame(21)],
+    ["Comma", "and with the comma", atFrame(20)],
+    ["Shift+ArrowLeft", "ten frames back", atFrame(10)],
+    ["Shift+Comma", "and with the comma", atFrame(0)],
+    ["ArrowUp", "the next key: there is one in each frame", atFrame(1)],
+    ["ArrowDown", "the key before", atFrame(0)],
+    ["Shift+ArrowRight", "ten frames on", atFrame(10)],
+    ["i", "the range begins here", range(10, 32)],
+    ["Shift+ArrowRight", "ten frames on", atFrame(20)],
+    ["o", "the range ends here", range(10, 20)],
+    ["Home", "first frame of the range", atFrame(10)],
+    ["End", "last frame of the range", atFrame(20)],
+    ["Shift+I", "no range", ({ rangeSecs }) => rangeSecs === null],
+    ["[", "slower", ({ speed }, before) => speed < before.speed],
+    ["]", "faster", ({ speed }) => speed === 1],
+    ["]", "faster", ({ speed }) => speed > 1],
+    ["\\", "as the clip has it", ({ speed }) => speed === 1],
+    ["l", "there and back", ({ loop }, before) => before.loop === "loop" && loop === "pingpong"],
+    ["l", "once", ({ loop }) => loop === "once"],
+    ["l", "and round again", ({ loop }) => loop === "loop"],
+    ["c", "next clip", ({ clip }) => clip === model.clips[1].name],
+    ["Shift+C", "previous clip", ({ clip }) => clip === model.clips[0].name],
+    ["Shift+C", "and round", ({ clip }) => clip === model.clips.at(-1).name],
+  ]);
+});
+
+test("the keys for bones and skin", STILL, async (page) => {
+  await focusView(page);
+  const before = await picture(page);
+  await presses(page, [
+    ["b", "bones", ({ skeleton }) => skeleton.bonesVisible],
+    ["b", "no bones", ({ skeleton }) => !skeleton.bonesVisible],
+    ["Shift+B", "names", ({ skeleton }) => skeleton.labelsVisible],
+    ["Shift+B", "no names", ({ skeleton }) => !skeleton.labelsVisible],
+    ["w", "weights", ({ skeleton }) => skeleton.skinView === "weight"],
+    ["w", "the skin as it is", ({ skeleton }) => skeleton.skinView === null],
+    ["k", "bind pose", ({ skeleton }) => skeleton.bindShare === 1],
+    ["k", "the clip", ({ skeleton }) => skeleton.bindShare === 0],
+  ]);
+  assert.equal((await picture(page)).digest, before.digest, "each takes away what it brought");
+  for (const [key, share] of [["b", 0.003], ["w", 0.03], ["k", 0.03]]) {
+    await page.keyboard.press(key);
+    await settled(page);
+    const drawn = await picture(page);
+    assert.ok(difference(before, drawn) > share, `${key}: ${difference(before, drawn)} of the pixels`);
+    await page.keyboard.press(key);
+    await settled(page);
+  }
+});
+
+test("the keys for the look", STILL, async (page) => {
+  await focusView(page);
+  const overlay = (name) => ({ look }, before) => look.overlays.includes(name) !== before.look.overlays.includes(name);
+  const twice = (key, name) => [[key, name, overlay(name)], [key, `${name} as before`, overlay(name)]];
+  await presses(page, [
+    ["t", "next view mode", ({ look }) => look.viewMode !== "lit"],
+    ["Shift+T", "previous view mode", ({ look }) => look.viewMode === "lit"],
+    ["v", "book light", ({ look }) => look.light === "book"],
+    ["v", "studio light", ({ look }) => look.light === "studio"],
+    ...twice("g", "grid"),
+    ...twice("z", "wireframe"),
+    ...twice("n", "normals"),
+    ...twice("x", "axes"),
+  ]);
+});
+
+/** Where the table of keys hangs from its button. */
+const HELP = { x: 640, y: 60, width: 308, height: 400 };
+
+test("the question mark shows the table, and again takes it away", STILL, async (page) => {
+  await focusView(page);
+  const shown = async () => {
+    await atRest(page);
+    return decoded(page, await page.screenshot({ clip: HELP }));
+  };
+  const without = await shown();
+  await page.keyboard.press("?");
+  assert.ok(difference(without, await shown()) > 0.5);
+  await page.keyboard.press("?");
+  assert.equal(difference(without, await shown()), 0);
+  await page.keyboard.press("?");
+  await settled(page);
+  await page.keyboard.press("Escape");
+  assert.equal(difference(without, await shown()), 0, "Esc too");
+});
+
+/** From where the camera looks, in radians; a whole turn more or less is the same. */
+const from = (yaw, pitch) => ({ camera }) =>
+  near(Math.sin((camera.yawRadians - yaw) / 2), 0) && near(camera.pitchRadians, pitch);
+const sameView = ({ camera }, { camera: other }) =>
+  ["distance", "yawRadians", "pitchRadians"].every((field) => near(camera[field], other[field])) &&
+  camera.target.every((at, axis) => near(at, other.target[axis]));
+
+test("the keys for the camera", STILL, async (page) => {
+  await focusView(page);
+  const first = await state(page);
+  const steep = ({ camera }) => Math.abs(camera.pitchRadians) > 1.5;
+  await presses(page, [
+    ["1", "front", from(0, 0)],
+    ["Control+1", "back", from(Math.PI, 0)],
+    ["3", "right", from(Math.PI / 2, 0)],
+    ["Control+3", "left", from(-Math.PI / 2, 0)],
+    ["7", "top", (now) => steep(now) && now.camera.pitchRadians > 0],
+    ["Control+7", "below", (now) => steep(now) && now.camera.pitchRadians < 0],
+    ["9", "isometric", from(-Math.PI / 4, Math.atan(Math.SQRT1_2))],
+    ["5", "orthographic", ({ camera }) => camera.orthographic],
+    ["5", "perspective", ({ camera }) => !camera.orthographic],
+    ["0", "as at first", (now) => sameView(now, first)],
+  ]);
+});
+
+test("the mouse orbits, pans and zooms, and F frames the model again", STILL, async (page) => {
+  await focusView(page);
+  const first = await state(page);
+  await drag(page, GROUND, [GROUND[0] - 100, GROUND[1] - 40]);
+  const orbited = await atRest(page);
+  assert.ok(!near(orbited.camera.yawRadians, first.camera.yawRadians, 0.1), "a drag turns the view");
+  assert.ok(!near(orbited.camera.pitchRadians, first.camera.pitchRadians, 0.05), "up and down too");
+  assert.deepEqual(orbited.camera.target, first.camera.target);
+  let before = orbited;
+  for (const button of ["right", "middle"]) {
+    await drag(page, GROUND, [GROUND[0] - 80, GROUND[1] - 30], { button });
+    const panned = await atRest(page);
+    const { target, ...turn } = panned.camera;
+    assert.deepEqual({ ...before.camera, target }, { ...turn, target }, `${button}: nothing turns`);
+    assert.ok(target.some((at, axis) => !near(at, before.camera.target[axis], 0.05)), `${button}: the view moves`);
+    before = panned;
+  }
+  await page.mouse.wheel(0, -240);
+  const zoomed = await until(page, ({ camera }) => camera.distance < 0.8 * before.camera.distance);
+  await atRest(page);
+  await page.keyboard.press("f");
+  const framed = await until(page, ({ camera }) => camera.distance > 1.1 * zoomed.camera.distance);
+  assert.deepEqual(
+    [framed.camera.yawRadians, framed.camera.pitchRadians],
+    [orbited.camera.yawRadians, orbited.camera.pitchRadians],
+    "from where it looked",
+  );
+  await page.keyboard.press("0");
+  await until(page, (now) => sameView(now, first));
+});

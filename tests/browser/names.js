@@ -1,0 +1,73 @@
+// Names that a person gives to bones: typed in the tree, kept by the browser, there again with the next visit.
+
+import assert from "node:assert/strict";
+import { atRest, keep, running, settled, test, until } from "./harness.js";
+import { decoded, difference } from "./picture.js";
+import { GROUND, SECOND_BONE, SKELETON_PAGE, TREE } from "./widgets.js";
+
+/** The sample waits on its first frame, so that only what a test does can change the page. */
+const STILL = { reducedMotion: "reduce" };
+
+/** What the browser keeps for this page. */
+function kept(page) {
+  return page.evaluate(() => Object.entries(localStorage).filter(([key]) => key.startsWith("bindpose.names.")));
+}
+
+/** Opens the tree. A click before the page has come to rest would find nothing there yet. */
+async function openTree(page) {
+  await atRest(page);
+  await page.mouse.click(...SKELETON_PAGE);
+}
+
+/** The rows of the tree, with nothing under the pointer. */
+async function tree(page) {
+  await page.mouse.move(...GROUND);
+  await settled(page);
+  return decoded(page, await page.screenshot({ clip: TREE }));
+}
+
+async function nameSecondBone(page, name) {
+  await page.mouse.dblclick(...SECOND_BONE);
+  await settled(page);
+  await page.keyboard.type(name);
+  await page.keyboard.press("Enter");
+  await settled(page);
+  // Esc lets go of the bone, which the clicks have selected.
+  await page.keyboard.press("Escape");
+}
+
+test("names of bones are kept and are there after a reload", STILL, async (page) => {
+  await openTree(page);
+  const unnamed = await tree(page);
+  assert.deepEqual(await kept(page), []);
+  await nameSecondBone(page, "Hips");
+  const named = await tree(page);
+  await keep(page, "names");
+  assert.ok(difference(unnamed, named) > 0, "the name is in the tree");
+  const [[key, text], ...others] = await kept(page);
+  assert.match(key, /^bindpose\.names\.[0-9a-f]{16}$/);
+  assert.equal(text, "1 Hips\n");
+  assert.deepEqual(others, []);
+
+  await page.reload();
+  await running(page);
+  // The names follow with the first pass of the window.
+  const { skeleton } = await until(page, ({ skeleton }) => skeleton.names[1]);
+  assert.deepEqual(skeleton.names, { 1: "Hips" });
+  await openTree(page);
+  assert.equal(difference(named, await tree(page)), 0, "the same names");
+  assert.deepEqual(await kept(page), [[key, text]]);
+});
+
+test("a browser that keeps nothing does not stand in the way", {
+  ...STILL,
+  prepare: (page) => page.addInitScript(() => {
+    const refuse = () => { throw new DOMException("full", "QuotaExceededError"); };
+    Object.assign(Storage.prototype, { getItem: refuse, setItem: refuse, removeItem: refuse });
+  }),
+}, async (page) => {
+  await openTree(page);
+  const unnamed = await tree(page);
+  await nameSecondBone(page, "Hips");
+  assert.ok(difference(unnamed, await tree(page)) > 0, "the name is in the tree all the same");
+});
