@@ -39,8 +39,10 @@ let restarting = false;
 let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
 
 const refuse = (words) => showNotice("Some files could not be read", words);
+let received = null; // What was dropped or chosen last, for another reading.
 const receive = async (files, addsClips = false) => {
   clearNotice();
+  if (!addsClips) received = files;
   if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
   const given = addsClips ? bindpose.addClips(files) : bindpose.open(files);
   await given.catch((error) => refuse(wordsOf(error)));
@@ -175,6 +177,7 @@ function onEvent(type, detail) {
   if (type === "panic") return onPanic(detail?.message ?? "");
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
+  if (type === "readagain") return void readAgain();
   if (type === "picture") return saveFile(detail.name, detail.bytes, "image/png");
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
@@ -185,6 +188,19 @@ function onEvent(type, detail) {
   }
   if (type === "error") element("spoken").textContent = detail?.message ?? "";
   emit(type, detail);
+}
+
+/** Opens what is open once more, as it is on disk or on the server now. */
+async function readAgain() {
+  // What a script opened is the script's to open again.
+  if (!received && wasUsed()) return;
+  try {
+    const fresh = async (item) => ({ ...item, file: item.again ? await item.again() : item.file });
+    const files = received ? await Promise.all(received.map(fresh)) : await fetchOpening();
+    if (files) await bindpose.open(files);
+  } catch (error) {
+    refuse(`${wordsOf(error)}\nA file that was changed after it was chosen in a dialog has to be chosen again.`);
+  }
 }
 
 function onPanic(message) {

@@ -102,7 +102,9 @@ async function collect(roots) {
           for (const child of batch) await visit(child, false);
         }
       } else if (isRoot || USEFUL.test(path)) {
-        files.push({ name: path, file: await new Promise((done, fail) => entry.file(done, fail)) });
+        // A file that was changed since cannot be read through its old `File`, so another can be asked for.
+        const again = () => new Promise((done, fail) => entry.file(done, fail));
+        files.push({ name: path, file: await again(), again });
       }
     } catch (error) {
       problems.push(`${path} could not be read: ${error.message}`);

@@ -26,6 +26,14 @@ impl Screen {
         Vec2::new(point.x * self.aspect, point.y) * 0.5
     }
 
+    /// Where a world point is in the picture: x right, y up, −1…1, z its depth 0…1. None outside of it and behind the eye.
+    pub fn place(&self, position: Vec3) -> Option<Vec3> {
+        let clip = self.clip(position);
+        let place = clip.xyz() / clip.w;
+        let in_view = clip.w > 0.0 && place.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&place.z);
+        in_view.then_some(place)
+    }
+
     fn clip(&self, position: Vec3) -> Vec4 {
         self.clip_from_world * position.extend(1.0)
     }
@@ -119,10 +127,8 @@ pub fn label_places(bones: &Bones, screen: &Screen, spacing: f32, first: &[Joint
     places.clear();
     let joints = (0u32..).map(JointIndex).zip(bones.world_from_joint());
     places.extend(joints.filter_map(|(joint, world_from_joint)| {
-        let clip = screen.clip(world_from_joint.translation.into());
-        let place = clip.xyz() / clip.w;
-        let in_view = clip.w > 0.0 && place.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&place.z);
-        in_view.then_some(LabelPlace {
+        let place = screen.place(world_from_joint.translation.into())?;
+        Some(LabelPlace {
             joint,
             position: place.truncate(),
             depth: place.z,

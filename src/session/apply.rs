@@ -94,6 +94,10 @@ impl Session {
                 self.motion.interrupt();
                 self.frame_model();
             }
+            Command::FrameSelection => {
+                self.motion.interrupt();
+                self.frame_selection();
+            }
             Command::LookFrom(preset) => {
                 self.motion.interrupt();
                 self.camera.look_from(preset);

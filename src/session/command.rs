@@ -114,6 +114,8 @@ pub enum Command {
     },
     /// Frames all that the clip reaches.
     FrameModel,
+    /// Frames what is selected as it is posed now: what a joint moves, or a subset; all that the clip reaches without either.
+    FrameSelection,
     /// Looks from a named direction and frames.
     LookFrom(ViewPreset),
     /// Perspective or orthographic.

@@ -1,5 +1,7 @@
 //! The camera, where it needs to know the model and the window.
 
+use glam::Vec3;
+
 use super::Session;
 use crate::scene::Insets;
 
@@ -16,23 +18,67 @@ impl Session {
         let world_from_model = self.world_from_model();
         if let Some(open) = &mut self.open {
             let (_, points) = open.extent(self.clip);
-            let world_points: Vec<_> = points
+            let points: Vec<_> = points
                 .iter()
                 .map(|&point| world_from_model.transform_point3(point))
                 .collect();
-            // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
-            let centered = Insets {
-                left: 0.0,
-                right: 0.0,
-                ..self.insets
-            };
-            self.camera.frame(&world_points, self.aspect, centered);
-            let (left, right) = self.camera.free_at_sides(&world_points, self.aspect);
-            if left < self.insets.left || right < self.insets.right {
-                self.camera.frame(&world_points, self.aspect, self.insets);
-            }
+            self.frame_points(&points);
         }
         self.framed = true;
+    }
+
+    pub(super) fn frame_selection(&mut self) {
+        let points = self.selected_points();
+        if points.is_empty() {
+            self.frame_model();
+        } else {
+            self.frame_points(&points);
+            self.framed = false;
+        }
+    }
+
+    fn frame_points(&mut self, world_points: &[Vec3]) {
+        // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
+        let centered = Insets {
+            left: 0.0,
+            right: 0.0,
+            ..self.insets
+        };
+        self.camera.frame(world_points, self.aspect, centered);
+        let (left, right) = self.camera.free_at_sides(world_points, self.aspect);
+        if left < self.insets.left || right < self.insets.right {
+            self.camera.frame(world_points, self.aspect, self.insets);
+        }
+    }
+
+    /// Vertices that the selected joint moves for the greater part, with its bones; or those of the selected subset. World
+    /// space, as they are posed now.
+    fn selected_points(&mut self) -> Vec<Vec3> {
+        self.pose_vertices();
+        let world_from_model = self.world_from_model();
+        let joint = self.joints.selected();
+        let mut points = Vec::new();
+        if let Some(joint) = joint {
+            let bones = self.bones().bones().iter().filter(|bone| bone.joint == joint);
+            points.extend(bones.flat_map(|bone| [bone.from, bone.to]));
+        }
+        let Some(open) = &self.open else { return points };
+        let mesh = &open.model.mesh;
+        let positions = self.picker.positions();
+        let in_world = |vertex: usize| Some(world_from_model.transform_point3(*positions.get(vertex)?));
+        if let Some(joint) = joint {
+            let moved = mesh.influences.iter().enumerate().filter(|(_, influences)| {
+                let slots = influences.joints.into_iter().zip(influences.weights);
+                let of_joint = slots.filter(|&(of, _)| of == joint.0);
+                of_joint.map(|(_, weight)| weight).sum::<f32>() >= 0.5
+            });
+            points.extend(moved.filter_map(|(vertex, _)| in_world(vertex)));
+        } else if let Some(subset) = self.subsets.selected().and_then(|subset| mesh.submeshes.get(subset)) {
+            let start = subset.triangle_start as usize * 3;
+            let corners = &mesh.indices[start..start + subset.triangle_count as usize * 3];
+            points.extend(corners.iter().filter_map(|&vertex| in_world(vertex as usize)));
+        }
+        points
     }
 
     /// A model that nobody panned or zoomed stays framed in a picture of another shape. A shape that is none is left out.

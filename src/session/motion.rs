@@ -236,6 +236,7 @@ impl Command {
                 | Self::Pan { .. }
                 | Self::Zoom { .. }
                 | Self::FrameModel
+                | Self::FrameSelection
                 | Self::LookFrom(_)
                 | Self::ResetCamera
         )

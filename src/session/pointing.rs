@@ -1,6 +1,6 @@
 //! What a click in the picture means, by what is shown there; and where the selected vertex is in the picture.
 
-use glam::{Vec2, Vec4Swizzles};
+use glam::{Vec2, Vec3};
 
 use super::{JointCommand, Session, SubsetCommand};
 
@@ -24,9 +24,6 @@ impl Session {
     pub fn selected_vertex_at(&mut self) -> Option<Vec2> {
         let position = self.explain_vertex()?.position;
         let world = self.world_from_model().transform_point3(position);
-        let clip = self.screen().clip_from_world * world.extend(1.0);
-        let place = clip.xyz() / clip.w;
-        let in_view = clip.w > 0.0 && place.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&place.z);
-        in_view.then_some(place.truncate())
+        self.screen().place(world).map(Vec3::truncate)
     }
 }

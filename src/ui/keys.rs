@@ -37,6 +37,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 match key {
                     Key::F2 => state.skeleton.rename_selected(session),
                     Key::Escape if !popover_open => escape(session, state, commands),
+                    Key::R if modifiers.is_none() => state.read_again(),
                     Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
                     _ => {}
                 }
@@ -113,7 +114,8 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
         Key::Backslash => Some(Command::SetSpeed(1.0)),
         Key::L => Some(Command::CycleLoopMode),
         Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
-        Key::F => glide(Command::FrameModel),
+        Key::F if shift => glide(Command::FrameModel),
+        Key::F => glide(Command::FrameSelection),
         Key::G => overlay(Overlay::Grid),
         Key::Z => overlay(Overlay::Wireframe),
         Key::N => overlay(Overlay::Normals),
@@ -137,6 +139,7 @@ pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     key == Key::Escape
         || skeleton::keys::owns(key, modifiers)
         || (plain && (flies || key == Key::P))
+        || (modifiers.is_none() && key == Key::R)
         || command_for(key, modifiers).is_some()
 }
 

@@ -15,6 +15,8 @@ use crate::scene::Theme;
 pub enum Request {
     /// Let the person pick files.
     PickFiles,
+    /// Read the files that were opened last again.
+    ReadAgain,
     /// Let the person pick models whose clips join those of the open one.
     PickClips,
     /// Take this theme, whatever the system says.
@@ -76,6 +78,10 @@ impl UiState {
             coarse_pointer,
             ..Self::default()
         }
+    }
+
+    pub(super) fn read_again(&mut self) {
+        self.requests.push(Request::ReadAgain);
     }
 
     /// What was asked of the page since the last call.

@@ -196,6 +196,7 @@ impl eframe::App for Shell {
         for request in requests {
             match request {
                 Request::PickFiles => emit("pickfiles", &JsValue::UNDEFINED),
+                Request::ReadAgain => emit("readagain", &JsValue::UNDEFINED),
                 Request::PickClips => emit("pickclips", &JsValue::UNDEFINED),
                 Request::SavePicture { size, transparent } => picture::save(size, transparent),
                 // The app has done it.

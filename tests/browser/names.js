@@ -1,7 +1,7 @@
 // Names that a person gives to bones: typed in the tree, kept by the browser, there again with the next visit.
 
 import assert from "node:assert/strict";
-import { keep, running, settled, test, until } from "./harness.js";
+import { atRest, keep, running, settled, test, until } from "./harness.js";
 import { decoded, difference } from "./picture.js";
 import { GROUND, SECOND_BONE, SKELETON_PAGE, TREE } from "./widgets.js";
 
@@ -11,6 +11,12 @@ const STILL = { reducedMotion: "reduce" };
 /** What the browser keeps for this page. */
 function kept(page) {
   return page.evaluate(() => Object.entries(localStorage).filter(([key]) => key.startsWith("bindpose.names.")));
+}
+
+/** Opens the tree. A click before the page has come to rest would find nothing there yet. */
+async function openTree(page) {
+  await atRest(page);
+  await page.mouse.click(...SKELETON_PAGE);
 }
 
 /** The rows of the tree, with nothing under the pointer. */
@@ -31,7 +37,7 @@ async function nameSecondBone(page, name) {
 }
 
 test("names of bones are kept and are there after a reload", STILL, async (page) => {
-  await page.mouse.click(...SKELETON_PAGE);
+  await openTree(page);
   const unnamed = await tree(page);
   assert.deepEqual(await kept(page), []);
   await nameSecondBone(page, "Hips");
@@ -48,7 +54,7 @@ test("names of bones are kept and are there after a reload", STILL, async (page)
   // The names follow with the first pass of the window.
   const { skeleton } = await until(page, ({ skeleton }) => skeleton.names[1]);
   assert.deepEqual(skeleton.names, { 1: "Hips" });
-  await page.mouse.click(...SKELETON_PAGE);
+  await openTree(page);
   assert.equal(difference(named, await tree(page)), 0, "the same names");
   assert.deepEqual(await kept(page), [[key, text]]);
 });
@@ -60,7 +66,7 @@ test("a browser that keeps nothing does not stand in the way", {
     Object.assign(Storage.prototype, { getItem: refuse, setItem: refuse, removeItem: refuse });
   }),
 }, async (page) => {
-  await page.mouse.click(...SKELETON_PAGE);
+  await openTree(page);
   const unnamed = await tree(page);
   await nameSecondBone(page, "Hips");
   assert.ok(difference(unnamed, await tree(page)) > 0, "the name is in the tree all the same");

@@ -9,6 +9,8 @@ mod chains;
 mod documents;
 mod dope_sheet;
 mod idle;
+mod joint_numbers;
+mod joint_tree;
 mod keys;
 mod layout;
 mod look;

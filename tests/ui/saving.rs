@@ -76,3 +76,12 @@ fn the_name_says_model_clip_and_frame() {
     assert_eq!(named(vec![odd]), "x-Run-..-away--now--15.png");
     assert_eq!(named(vec![]), "bindpose.png");
 }
+
+#[test]
+fn r_asks_for_the_files_again_and_the_browsers_reload_stays_the_browsers() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.press(Modifiers::COMMAND, Key::R);
+    assert_eq!(pictures(&window), []);
+    window.press(Modifiers::NONE, Key::R);
+    assert_eq!(pictures(&window), [Request::ReadAgain]);
+}

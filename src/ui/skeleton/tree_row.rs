@@ -100,7 +100,8 @@ impl<'a> TreeRow<'a> {
         let reader = format!("{}, {vertices}", self.label);
         response.widget_info(|| WidgetInfo::selected(Role::TreeItem, true, self.selected, &reader));
 
-        if response.double_clicked() {
+        // A double click soon after another click counts as a triple one, wherever that was.
+        if response.double_clicked() || response.triple_clicked() {
             state.naming.begin(session, joint);
         } else if response.clicked() && !folds {
             commands.push(JointCommand::Select(Some(joint)).into());

@@ -525,3 +525,42 @@ fn a_selected_vertex_is_where_it_is_drawn() {
     });
     assert_eq!(session.selected_vertex_at(), None, "beside the picture");
 }
+
+#[test]
+fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
+    let mut session = chains(40);
+    session.apply(Command::FrameModel);
+    let whole = *session.camera();
+    session.apply(Command::FrameSelection);
+    assert_eq!(*session.camera(), whole, "nothing is selected");
+
+    let chosen = JointIndex(31);
+    session.apply(joint(Select(Some(chosen))));
+    session.apply(Command::FrameSelection);
+    let near = *session.camera();
+    assert!(
+        near.distance < 0.5 * whole.distance,
+        "{} of {}",
+        near.distance,
+        whole.distance
+    );
+    let place = session.bones().position(chosen).expect("it is there");
+    assert!(
+        near.target.distance(place) < 0.5 * near.distance,
+        "{} is not near {place}",
+        near.target
+    );
+    // It stays there when the window changes, which would frame all of the model otherwise.
+    session.apply(Command::SetViewport {
+        aspect: 1.3,
+        insets: Default::default(),
+    });
+    assert_eq!(session.camera().distance, near.distance);
+
+    session.apply(Command::FrameModel);
+    assert!(session.camera().distance > 1.5 * near.distance);
+    session.apply(joint(Select(None)));
+    session.apply(SubsetCommand::Select(Some(0)).into());
+    session.apply(Command::FrameSelection);
+    assert!(session.camera().distance.is_finite());
+}

@@ -187,6 +187,7 @@ fn plain_command() -> impl Strategy<Value = Command> {
         vector().prop_map(|drag| Command::Pan { drag }),
         (number(), vector()).prop_map(|(factor, pointer)| Command::Zoom { factor, pointer }),
         Just(Command::FrameModel),
+        Just(Command::FrameSelection),
         prop::sample::select(ViewPreset::ALL.to_vec()).prop_map(Command::LookFrom),
         Just(Command::ToggleProjection),
         Just(Command::ResetCamera),
