@@ -65,18 +65,22 @@ const onBar = (share) => [TIME_BAR.first + share * (TIME_BAR.last - TIME_BAR.fir
 
 /** The state when the time stands still: of a clip that plays, while the pointer holds it. */
 async function held(page) {
-  for (let before = await state(page); ; ) {
+  let before = await state(page);
+  for (let round = 0; round < 20; round += 1) {
     await settled(page);
     const now = await state(page);
     if (now.timeSecs === before.timeSecs) return now;
     before = now;
   }
+  throw new Error("the time goes on");
 }
 
 test("a drag on the bar carries the time, which goes on from there", {}, async (page) => {
   const { clip, model } = await state(page);
   const { startSecs, endSecs } = model.clips.find(({ name }) => name === clip);
   const shareOf = ({ timeSecs }) => (timeSecs - startSecs) / (endSecs - startSecs);
+  // The strip can be taken hold of once it was drawn.
+  await settled(page);
   await page.mouse.move(...onBar(0.2));
   await page.mouse.down();
   for (const share of [0.4, 0.9, 0.3]) {
