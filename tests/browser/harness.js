@@ -114,12 +114,14 @@ export function test(name, options, body) {
   });
 }
 
-/** Waits until the viewer runs and shows a model, and makes sure that it draws with the backend under test. */
+/** Waits until the viewer runs, shows a model and has drawn its panels, and makes sure that it draws with the backend under test. */
 export async function running(page) {
   await page.waitForFunction(() => !document.getElementById("fault").hidden || globalThis.bindpose?.state().model);
   assert.equal(await page.textContent("#fault-title"), "", await page.textContent("#fault-details"));
   assert.equal((await state(page)).backend, BACKEND, "the backend that is really in use");
   await page.waitForFunction(() => document.getElementById("shell").hidden);
+  // A press on a panel that was not drawn yet would go to what is behind it.
+  await settled(page);
 }
 
 /** What `bindpose.state()` says, as plain data. */
