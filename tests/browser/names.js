@@ -28,8 +28,8 @@ async function tree(page) {
 
 async function nameSecondBone(page, name) {
   await page.mouse.dblclick(...SECOND_BONE);
-  await settled(page);
-  await page.keyboard.type(name);
+  await atRest(page);
+  await page.keyboard.type(name, { delay: 30 });
   await page.keyboard.press("Enter");
   await settled(page);
   // Esc lets go of the bone, which the clicks have selected.
