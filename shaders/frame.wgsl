@@ -67,3 +67,11 @@ struct Frame {
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
+
+// Unit vector from a point of the world towards the viewer.
+fn towards_eye(world_position: vec3<f32>) -> vec3<f32> {
+    if frame.is_perspective > 0.5 {
+        return normalize(frame.eye - world_position);
+    }
+    return -frame.forward;
+}

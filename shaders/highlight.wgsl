@@ -36,10 +36,7 @@ fn vertex_skinned(
 
 @fragment
 fn fragment(vertex: VeilVertex) -> @location(0) vec4<f32> {
-    var to_eye = -frame.forward;
-    if frame.is_perspective > 0.5 {
-        to_eye = normalize(frame.eye - vertex.world_position);
-    }
+    let to_eye = towards_eye(vertex.world_position);
     let facing = abs(dot(normalize_or(vertex.world_normal, to_eye), to_eye));
     let alpha = veil.color_srgb.a * (0.35 + 0.65 * pow(1.0 - facing, 1.5));
     return vec4<f32>(linear_from_srgb(veil.color_srgb.rgb) * alpha, alpha);

@@ -43,10 +43,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let along = distance_of(packed);
     // A little towards the viewer: depth has steps.
     let point = world_at(view.ndc, along - (frame.depth_far - frame.depth_near) * 3e-5);
-    var to_eye = -frame.forward;
-    if frame.is_perspective > 0.5 {
-        to_eye = normalize(frame.eye - point);
-    }
+    let to_eye = towards_eye(point);
     let size = vec2<f32>(textureDimensions(geometry_map));
     let world_per_pixel = length(frame.eye_per_y + along * frame.forward_per_y) * 2.0 / size.y;
     let reach = min(frame.occlusion_radius / world_per_pixel, MAX_REACH_PIXELS);

@@ -39,10 +39,7 @@ fn vertex_skinned(
 
 // The colour itself where the surface faces the viewer, so that a legend can be read; darker where it turns away, for its shape.
 fn seen_color(vertex: SkinViewVertex) -> vec4<f32> {
-    var to_eye = -frame.forward;
-    if frame.is_perspective > 0.5 {
-        to_eye = normalize(frame.eye - vertex.world_position);
-    }
+    let to_eye = towards_eye(vertex.world_position);
     let facing = abs(dot(normalize_or(vertex.world_normal, to_eye), to_eye));
     let shade = mix(0.45, 1.0, smoothstep(0.0, 0.8, facing));
     return vec4<f32>(linear_from_srgb(vertex.color_srgb * shade), 1.0);

@@ -23,10 +23,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let normal_texel = textureSample(normal_map, map_sampler, mesh.tex_coord);
     let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), frame.forward);
     let side = select(-1.0, 1.0, clockwise) * frame.front_sign;
-    var to_eye = -frame.forward;
-    if frame.is_perspective > 0.5 {
-        to_eye = normalize(frame.eye - mesh.world_position);
-    }
+    let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // From behind, a bump is a dent: the relief has one shape, seen from its other side.
     let normal = mapped_normal(normal_texel.rgb, vertex_normal, mesh.world_tangent) * side;
