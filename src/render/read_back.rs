@@ -1,6 +1,7 @@
 //! The picture as bytes.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
+use std::time::Duration;
 
 use super::target::Target;
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
@@ -28,26 +29,38 @@ pub async fn read_back(
     let pending = Pending::start(device, queue, target);
     loop {
         device.poll(wgpu::PollType::Poll).map_err(gpu_error)?;
-        if let Some(outcome) = pending.outcome() {
-            return pending.finish(outcome);
+        match pending.outcome.try_recv() {
+            Ok(outcome) => return pending.finish(outcome),
+            Err(TryRecvError::Empty) => pause().await,
+            Err(TryRecvError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
         }
-        pause().await;
     }
 }
 
 /// As [`read_back`], for where a thread may wait: not on the web.
+///
+/// Threads may read from one device at once. A wait on one of them may then take up what another waits for, and tell it a moment
+/// after that one's own wait has ended: the answer itself is waited for, not the device alone.
 pub fn read_back_blocking(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     target: &Target,
 ) -> Result<Vec<u8>, ReadBackError> {
     let pending = Pending::start(device, queue, target);
-    device.poll(wgpu::PollType::wait_indefinitely()).map_err(gpu_error)?;
-    match pending.outcome() {
-        Some(outcome) => pending.finish(outcome),
-        None => Err(ReadBackError::Gpu("this platform cannot wait for it".into())),
+    loop {
+        device.poll(wgpu::PollType::wait_indefinitely()).map_err(gpu_error)?;
+        match pending.outcome.recv_timeout(ANSWER_WAIT) {
+            Ok(outcome) => return pending.finish(outcome),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
+        }
     }
 }
+
+/// How long another thread's answer is waited for before the device is asked again.
+const ANSWER_WAIT: Duration = Duration::from_millis(10);
+
+const NO_ANSWER: &str = "it gave no answer";
 
 type Outcome = Result<(), wgpu::BufferAsyncError>;
 
@@ -56,7 +69,7 @@ struct Pending {
     buffer: wgpu::Buffer,
     row_bytes: usize,
     padded_row_bytes: usize,
-    outcome: Arc<Mutex<Option<Outcome>>>,
+    outcome: Receiver<Outcome>,
 }
 
 impl Pending {
@@ -86,10 +99,10 @@ impl Pending {
             target.texture().size(),
         );
         queue.submit([encoder.finish()]);
-        let outcome = Arc::new(Mutex::new(None));
-        let arrived = Arc::clone(&outcome);
+        let (answer, outcome) = channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            *arrived.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+            // Nobody listens any more if the caller gave up.
+            let _ = answer.send(result);
         });
         Self {
             buffer,
@@ -97,10 +110,6 @@ impl Pending {
             padded_row_bytes: padded_row_bytes as usize,
             outcome,
         }
-    }
-
-    fn outcome(&self) -> Option<Outcome> {
-        self.outcome.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
     fn finish(&self, outcome: Outcome) -> Result<Vec<u8>, ReadBackError> {

@@ -186,8 +186,11 @@ pub(crate) fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: 
         texture.size(),
     );
     gpu.open.queue.submit([encoder.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("maps"));
+    let (answer, mapped) = std::sync::mpsc::channel();
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| answer.send(result).expect("is waited for"));
     device.poll(wgpu::PollType::wait_indefinitely()).expect("waits");
+    // Another test's wait may have taken this one's answer up, and hand it over a moment later.
+    mapped.recv().expect("an answer").expect("maps");
     let mapped = buffer.get_mapped_range(..).expect("mapped");
     mapped
         .chunks_exact(padded_row as usize)

@@ -56,6 +56,21 @@ fn draw_every_way(gpu: &Gpu, what: &str, scene: Scene, size: [u32; 2]) {
 }
 
 on_both_backends! {
+    /// A wait in one thread may take up what another waits for.
+    fn threads_read_from_one_device_at_once(gpu) {
+        let scene = bent_tube(0.6);
+        let mut renderer = gpu.renderer();
+        renderer.set_model(&scene.model).expect("small");
+        let mut target = gpu.target(8, 8);
+        renderer.render(&scene.frame(), &mut target);
+        let picture = gpu.read(&target);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| (0..500).for_each(|_| assert_eq!(gpu.read(&target), picture)));
+            }
+        });
+    }
+
     fn small_and_odd_pictures(gpu) {
         for size in [[1, 1], [3, 5], [2, 1], [1, 7]] {
             draw_every_way(gpu, &format!("{size:?}"), bent_tube(0.5).three_quarter(Theme::Dark), size);
