@@ -8,6 +8,7 @@ import {
   FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
 import { assertDrawn, difference, picture } from "./picture.js";
+import { GROUND } from "./widgets.js";
 
 /** A copy of the sample under another name, in a folder of its own. */
 function copyOfSample(...parts) {
@@ -122,6 +123,42 @@ test("the same file again keeps the clip and the time", {}, async (page) => {
   assert.equal(after.clip, model.clips[1].name);
   assert.ok(Math.abs(after.timeSecs - 0.3) < 1e-4, `${after.timeSecs}`);
   assert.ok(difference(before, await picture(page)) < 0.001);
+});
+
+test("R reads the files again as they are on disk now", { reducedMotion: "reduce" }, async (page) => {
+  const { path } = copyOfSample("changing.m3d");
+  const rewrite = (from, to) => writeFileSync(path, readFileSync(path, "latin1").replace(from, to), "latin1");
+  await dropAndWait(page, [path]);
+  await page.mouse.click(...GROUND);
+  await settled(page);
+  rewrite("AnimationClip Walk", "AnimationClip Stroll");
+  await page.keyboard.press("r");
+  await until(page, ({ model }) => model.clips[0].name === "Stroll");
+
+  rewrite("#Bones 39", "#Bones many");
+  await page.keyboard.press("r");
+  const broken = await until(page, ({ error }) => error !== null);
+  assert.match(JSON.stringify(broken.error), /changing\.m3d/);
+  assert.equal(broken.model.clips[0].name, "Stroll", "the model that was open stays");
+
+  rewrite("#Bones many", "#Bones 39");
+  rewrite("AnimationClip Stroll", "AnimationClip March");
+  await page.keyboard.press("r");
+  const mended = await until(page, ({ model }) => model.clips[0].name === "March");
+  assert.equal(mended.error, null);
+});
+
+test("R tells of a file from the dialog that has changed since", { reducedMotion: "reduce", expectErrors: true }, async (page) => {
+  const { path } = copyOfSample("chosen.m3d");
+  await page.setInputFiles("#files", path);
+  await until(page, ({ model }) => model?.name === "chosen.m3d");
+  writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll or so"), "latin1");
+  await page.mouse.click(...GROUND);
+  await settled(page);
+  await page.keyboard.press("r");
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.innerText("#notice"), /has to be chosen again/);
+  assert.equal((await state(page)).model.clips[0].name, "Walk", "the model that was open stays");
 });
 
 test("maps are found beside the model and join it later, and are drawn", {}, async (page) => {

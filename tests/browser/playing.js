@@ -3,7 +3,9 @@
 import assert from "node:assert/strict";
 import { CENTRE, call, drag, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
-import { RANGE_IN, RANGE_OUT, TIME_BAR } from "./widgets.js";
+import {
+  BLEND_END, BLEND_KNOB, BLEND_MOST, BLEND_SECOND_CLIP, CLIPS_BUTTON, RANGE_IN, RANGE_OUT, TIME_BAR,
+} from "./widgets.js";
 
 test("time advances, with events, and pauses", {}, async (page) => {
   await page.evaluate(() => {
@@ -166,4 +168,27 @@ test("Escape, then Tab leaves the viewer; Tab alone stays in it", {}, async (pag
   for (let press = 0; press < 3 && (await inside()); press += 1) await page.keyboard.press("Tab");
   assert.equal(await inside(), false);
   assert.match(await page.evaluate(() => document.activeElement.id), /^transport-/);
+});
+
+test("a clip is blended into another with the mouse, more and less, and no longer", { reducedMotion: "reduce" }, async (page) => {
+  const { model } = await state(page);
+  const alone = await picture(page);
+  await page.mouse.click(...CLIPS_BUTTON);
+  await settled(page);
+  await page.mouse.click(...BLEND_SECOND_CLIP);
+  const { blend } = await until(page, (now) => now.blend !== null);
+  assert.deepEqual(blend, { clip: model.clips[1].name, share: 0.5 });
+  await settled(page);
+  await keep(page, "blend");
+  const half = await picture(page);
+  assert.ok(difference(alone, half) > 0.005, `${difference(alone, half)} of the pixels`);
+  await drag(page, BLEND_KNOB, BLEND_MOST);
+  await until(page, (now) => now.blend?.share === 1);
+  await settled(page);
+  const whole = await picture(page);
+  assert.ok(difference(half, whole) > 0.005, `${difference(half, whole)} of the pixels`);
+  await page.mouse.click(...BLEND_END);
+  await until(page, (now) => now.blend === null);
+  await settled(page);
+  assert.equal((await picture(page)).digest, alone.digest, "and nothing of it is left");
 });

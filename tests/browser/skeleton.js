@@ -149,6 +149,27 @@ test("with the skin in colours a click selects the vertex that is there", STILL,
   await until(page, ({ skeleton }) => skeleton.vertex === null);
 });
 
+test("F frames the bone that is selected, Shift+F the whole animation, and F without a selection the model", STILL, async (page) => {
+  await showBones(page);
+  const { camera } = await state(page);
+  const far = (one, other) => Math.hypot(...minus(one.target, other.target));
+  await selectBone(page, "19");
+  await page.keyboard.press("f");
+  const close = await until(page, (now) => now.camera.distance < 0.7 * camera.distance);
+  // The bone is an upper leg: below the middle of the figure, which is as high as two metres at most, and above its feet.
+  const [, height] = close.camera.target;
+  assert.ok(height > 0.4 && height < camera.target[1], `${close.camera.target}`);
+  await page.keyboard.press("Shift+F");
+  const wide = await until(page, (now) => now.camera.distance > 1.2 * close.camera.distance);
+  assert.ok(far(wide.camera, camera) < 0.05 && Math.abs(wide.camera.distance / camera.distance - 1) < 0.02, JSON.stringify(wide.camera));
+  await page.keyboard.press("Escape");
+  await until(page, ({ skeleton }) => skeleton.selected === null);
+  await page.keyboard.press("f");
+  const { camera: whole } = await atRest(page);
+  assert.ok(whole.distance > 1.2 * close.camera.distance, `${whole.distance}`);
+  assert.deepEqual([whole.yawRadians, whole.pitchRadians], [camera.yawRadians, camera.pitchRadians], "from where it looked");
+});
+
 test("F2 names the bone that is selected", STILL, async (page) => {
   const [bone] = Object.keys(BONES);
   await showBones(page);

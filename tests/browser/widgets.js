@@ -44,3 +44,10 @@ export const LEGEND_BAR = { x: 283, y: 489, width: 208, height: 3 };
 export const TIME_BAR = { first: 328, last: 648, y: 561 };
 export const RANGE_IN = [322, 561];
 export const RANGE_OUT = [654, 561];
+
+/** The clips, which hang from their button in the strip; the icon that blends the second into the first, and what it brings. */
+export const CLIPS_BUTTON = [263, 561];
+export const BLEND_SECOND_CLIP = [537, 332];
+export const BLEND_KNOB = [408, 486];
+export const BLEND_MOST = [520, 486];
+export const BLEND_END = [540, 458];
