@@ -9,4 +9,5 @@ import "./pictures.js";
 import "./looking.js";
 import "./subsets.js";
 import "./moving.js";
+import "./fingers.js";
 import "./lasting.js";

@@ -62,23 +62,26 @@ test("the turntable turns the view until it is stopped", {}, async (page) => {
   assert.equal(stopped.playing, false);
 });
 
-test("with the right button held W flies forward, and letting go ends it", {}, async (page) => {
+test("with the right button held WASD and QE fly, each its own way, and letting go ends it", {}, async (page) => {
   await call(page, "pause");
-  const before = (await atRest(page)).camera;
-  await page.mouse.move(...GROUND);
-  await page.mouse.down({ button: "right" });
-  await page.keyboard.down("w");
-  const way = ({ target }) => Math.hypot(...target.map((at, axis) => at - before.target[axis]));
-  await until(page, ({ camera }) => way(camera) > 0.05);
-  await page.keyboard.up("w");
-  await page.mouse.up({ button: "right" });
-  const after = (await atRest(page)).camera;
-  assert.deepEqual([after.yawRadians, after.distance], [before.yawRadians, before.distance]);
-  const { yawRadians: yaw, pitchRadians: pitch } = before;
+  const { yawRadians: yaw, pitchRadians: pitch } = (await atRest(page)).camera;
   const ahead = [Math.sin(yaw) * Math.cos(pitch), -Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
-  const flown = after.target.map((at, axis) => at - before.target[axis]);
-  const forward = flown.reduce((sum, at, axis) => sum + at * ahead[axis], 0);
-  assert.ok(forward > 0.99 * Math.hypot(...flown), `${flown} is straight ahead, ${ahead}`);
+  const right = [Math.cos(yaw), 0, -Math.sin(yaw)];
+  const [back, left, up, down] = [ahead.map((at) => -at), right.map((at) => -at), [0, 1, 0], [0, -1, 0]];
+  for (const [key, way] of Object.entries({ w: ahead, s: back, a: left, d: right, e: up, q: down })) {
+    const before = (await state(page)).camera;
+    const flown = ({ target }) => target.map((at, axis) => at - before.target[axis]);
+    await page.mouse.move(...GROUND);
+    await page.mouse.down({ button: "right" });
+    await page.keyboard.down(key);
+    await until(page, ({ camera }) => Math.hypot(...flown(camera)) > 0.05);
+    await page.keyboard.up(key);
+    await page.mouse.up({ button: "right" });
+    const after = (await atRest(page)).camera;
+    assert.deepEqual([after.yawRadians, after.pitchRadians, after.distance], [yaw, pitch, before.distance]);
+    const along = flown(after).reduce((sum, at, axis) => sum + at * way[axis], 0);
+    assert.ok(along > 0.99 * Math.hypot(...flown(after)), `${key}: ${flown(after)} is along ${way}`);
+  }
 });
 
 test("passes are given up while frames are slow, and pictures have all of them", {

@@ -51,3 +51,6 @@ export const BLEND_SECOND_CLIP = [537, 332];
 export const BLEND_KNOB = [408, 486];
 export const BLEND_MOST = [520, 486];
 export const BLEND_END = [540, 458];
+
+/** The same bar on a phone, 390 × 844. */
+export const PHONE_TIME_BAR = { first: 81, last: 311, y: 754 };

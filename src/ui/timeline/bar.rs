@@ -14,7 +14,8 @@ use crate::session::{Command, Session};
 const END_ROOM: f32 = 12.0;
 /// How far an end of the range can be taken hold of: outside and inside of it.
 const GRIP: [f32; 2] = [11.0, 4.0];
-const TOUCH_GRIP: [f32; 2] = [28.0, 16.0];
+/// A finger on the play head means the time, also where the play head stands at an end: only what is outside holds the end.
+const TOUCH_GRIP: [f32; 2] = [32.0, -4.0];
 
 /// An end of the range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

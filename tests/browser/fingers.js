@@ -1,0 +1,64 @@
+// The view under fingers: one turns it, two move it and bring it nearer, and a finger on the bar carries the time.
+
+import assert from "node:assert/strict";
+import { atRest, call, keep, settled, state, test, until } from "./harness.js";
+import { PHONE_TIME_BAR } from "./widgets.js";
+
+const PHONE = { phone: true, reducedMotion: "reduce" };
+const STEPS = 6;
+
+/** Puts fingers down where they begin, moves them together to where they end, and lifts them. */
+async function fingers(page, ...ways) {
+  const devtools = await page.context().newCDPSession(page);
+  const send = (type, touchPoints) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints });
+  const at = (share) =>
+    ways.map(([[fromX, fromY], [toX, toY]], id) => ({
+      id,
+      x: fromX + share * (toX - fromX),
+      y: fromY + share * (toY - fromY),
+    }));
+  // One finger is always the first.
+  for (let down = 1; down <= ways.length; down += 1) await send("touchStart", at(0).slice(0, down));
+  for (let step = 1; step <= STEPS; step += 1) {
+    await send("touchMove", at(step / STEPS));
+    await settled(page);
+  }
+  await send("touchEnd", []);
+  await devtools.detach();
+  return atRest(page);
+}
+
+const near = (one, other, tolerance) => Math.abs(one - other) <= tolerance;
+const apart = (one, other) => Math.hypot(...one.target.map((at, axis) => at - other.target[axis]));
+
+test("a finger turns the view, two move it and bring it nearer", PHONE, async (page) => {
+  const { camera: first } = await atRest(page);
+  const { camera: turned, skeleton } = await fingers(page, [[120, 300], [220, 280]]);
+  assert.ok(!near(turned.yawRadians, first.yawRadians, 0.1), "a finger turns the view");
+  assert.ok(!near(turned.pitchRadians, first.pitchRadians, 0.01), "up and down too");
+  assert.deepEqual([turned.distance, ...turned.target], [first.distance, ...first.target]);
+  assert.equal(skeleton.selected, null, "a drag is no tap");
+
+  const { camera: moved } = await fingers(page, [[120, 300], [180, 340]], [[220, 300], [280, 340]]);
+  assert.ok(apart(moved, turned) > 0.05, "two fingers move the view");
+  assert.ok(near(moved.distance, turned.distance, 0.02 * turned.distance), `${moved.distance} from ${turned.distance}`);
+  assert.ok(near(moved.yawRadians, turned.yawRadians, 0.02), "and do not turn it");
+
+  const { camera: close } = await fingers(page, [[170, 320], [110, 320]], [[220, 320], [280, 320]]);
+  await keep(page, "pinched");
+  assert.ok(close.distance < 0.7 * moved.distance, `apart, they bring it nearer: ${close.distance} from ${moved.distance}`);
+  const { camera: far } = await fingers(page, [[110, 320], [170, 320]], [[280, 320], [220, 320]]);
+  assert.ok(far.distance > 1.4 * close.distance, `together, farther: ${far.distance} from ${close.distance}`);
+});
+
+test("a finger on the bar carries the time", PHONE, async (page) => {
+  const { first, last, y } = PHONE_TIME_BAR;
+  const { model } = await state(page);
+  const [{ endSecs }] = model.clips;
+  const middle = (first + last) / 2;
+  const { timeSecs, playing } = await fingers(page, [[first, y], [middle, y]]);
+  assert.ok(near(timeSecs, endSecs / 2, 0.05 * endSecs), `${timeSecs} of ${endSecs}`);
+  assert.equal(playing, false);
+  await call(page, "play");
+  await until(page, (now) => now.timeSecs !== timeSecs);
+});
