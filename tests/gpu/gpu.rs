@@ -187,7 +187,9 @@ pub(crate) fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: 
     );
     gpu.open.queue.submit([encoder.finish()]);
     let (answer, mapped) = std::sync::mpsc::channel();
-    buffer.map_async(wgpu::MapMode::Read, .., move |result| answer.send(result).expect("is waited for"));
+    buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+        answer.send(result).expect("is waited for");
+    });
     device.poll(wgpu::PollType::wait_indefinitely()).expect("waits");
     // Another test's wait may have taken this one's answer up, and hand it over a moment later.
     mapped.recv().expect("an answer").expect("maps");

@@ -1,0 +1,218 @@
+//! Pipelines, each built when it is first drawn with: a page that shows the studio light never waits for the others.
+
+mod recipe;
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use self::recipe::Recipe;
+use super::layouts::Layouts;
+use super::target::SampleCount;
+use crate::scene::{Light, OverlayVertex};
+use crate::shaders::{GeometryVertex, InfluenceVertex, Program};
+
+/// Normals and depth in view; see `geometry.wgsl`.
+pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// One share, 0…1.
+pub(super) const SHARE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// What colours the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Shading {
+    Lit(Light),
+    Inspect,
+}
+
+/// How the alpha of a diffuse map cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Cut {
+    /// Not at all.
+    Whole,
+    /// Whole pixels.
+    Hard,
+    /// With smooth edges, for pictures that are opaque already: alpha chooses samples and is not stored. As
+    /// [`Cut::Hard`] with one sample a pixel.
+    Smooth,
+}
+
+/// What is drawn of the model's triangles or vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum ModelDraw {
+    Mesh(Shading, Cut),
+    /// In colours of its vertices.
+    SkinView(Cut),
+    Caster(Cut),
+    Geometry(Cut),
+    Contact,
+    Edges,
+    Normals,
+    Tangents,
+    Highlight,
+}
+
+/// What is drawn without the model's buffers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Draw {
+    Model {
+        draw: ModelDraw,
+        skinned: bool,
+    },
+    Backdrop,
+    /// Hidden by the model, or before everything else.
+    World {
+        shape: WorldShape,
+        through: bool,
+    },
+    Occlusion(Light),
+    OcclusionBlurRows,
+    OcclusionBlurColumns,
+    ContactBlurRows,
+    ContactBlurColumns,
+}
+
+/// What stands in the world beside the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum WorldShape {
+    Lines,
+    Triangles,
+}
+
+pub(super) struct Pipelines {
+    device: wgpu::Device,
+    samples: SampleCount,
+    pub(super) layouts: Layouts,
+    modules: RefCell<HashMap<&'static str, wgpu::ShaderModule>>,
+    built: RefCell<HashMap<Draw, wgpu::RenderPipeline>>,
+}
+
+const GEOMETRY: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
+const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
+const WORLD_VERTEX: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
+const VERTEX_COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Unorm8x4];
+
+impl Pipelines {
+    pub(super) fn new(device: &wgpu::Device, samples: SampleCount) -> Self {
+        Self {
+            device: device.clone(),
+            samples,
+            layouts: Layouts::new(device),
+            modules: RefCell::default(),
+            built: RefCell::default(),
+        }
+    }
+
+    /// Builds it at the first call.
+    pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
+        let known = self.built.borrow().get(&draw).cloned();
+        known.unwrap_or_else(|| {
+            let pipeline = self.build(draw);
+            self.built.borrow_mut().insert(draw, pipeline.clone());
+            pipeline
+        })
+    }
+
+    fn module(&self, program: &Program) -> wgpu::ShaderModule {
+        let mut modules = self.modules.borrow_mut();
+        let module = modules.entry(program.name).or_insert_with(|| {
+            self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(program.name),
+                source: wgpu::ShaderSource::Wgsl(program.source().into()),
+            })
+        });
+        module.clone()
+    }
+
+    /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
+    /// from `front_facing`, which here says "clockwise on the screen".
+    fn build(&self, draw: Draw) -> wgpu::RenderPipeline {
+        let recipe = Recipe::of(draw, self.samples);
+        let module = self.module(&recipe.program);
+        let groups: Vec<_> = self.groups(draw).into_iter().map(Some).collect();
+        let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(recipe.program.name),
+            bind_group_layouts: &groups,
+            immediate_size: 0,
+        });
+        let buffer = |stride, attributes| {
+            Some(wgpu::VertexBufferLayout {
+                array_stride: stride as u64,
+                step_mode: recipe.step_mode,
+                attributes,
+            })
+        };
+        let geometry = buffer(size_of::<GeometryVertex>(), &GEOMETRY);
+        let influences = buffer(size_of::<InfluenceVertex>(), &INFLUENCES);
+        let colors = buffer(size_of::<[u8; 4]>(), &VERTEX_COLOR);
+        let buffers = match draw {
+            Draw::Model {
+                draw: ModelDraw::SkinView(_),
+                skinned,
+            } => vec![geometry, influences.filter(|_| skinned), colors],
+            Draw::Model { skinned: true, .. } => vec![geometry, influences],
+            Draw::Model { skinned: false, .. } => vec![geometry],
+            Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), &WORLD_VERTEX)],
+            _ => Vec::new(),
+        };
+        let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(recipe.program.name),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(&recipe.vertex),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &buffers,
+            },
+            primitive: wgpu::PrimitiveState {
+                topology: recipe.topology,
+                front_face: wgpu::FrontFace::Cw,
+                cull_mode: None,
+                ..Default::default()
+            },
+            depth_stencil: recipe.depth,
+            multisample: wgpu::MultisampleState {
+                count: recipe.samples,
+                alpha_to_coverage_enabled: recipe.alpha_to_coverage,
+                ..Default::default()
+            },
+            fragment: recipe.fragment.map(|entry_point| wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    fn groups(&self, draw: Draw) -> Vec<&wgpu::BindGroupLayout> {
+        let Layouts {
+            frame,
+            bones,
+            surroundings,
+            material,
+            line,
+            around,
+            texels,
+            nothing,
+        } = &self.layouts;
+        match draw {
+            Draw::Model { draw, .. } => match draw {
+                ModelDraw::Mesh(..) => vec![frame, bones, surroundings, material],
+                ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact => vec![frame, bones],
+                ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::SkinView(_) => {
+                    vec![frame, bones, nothing, material]
+                }
+                ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents | ModelDraw::Highlight => {
+                    vec![frame, bones, nothing, line]
+                }
+            },
+            Draw::Backdrop => vec![frame, nothing, surroundings],
+            Draw::World { .. } => vec![frame, nothing, nothing, line],
+            Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, around],
+            Draw::ContactBlurRows | Draw::ContactBlurColumns => vec![texels],
+        }
+    }
+}
