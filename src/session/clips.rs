@@ -1,5 +1,6 @@
 //! What panels show of clips: the list, keys, seams, what moves. Computed when it is first asked for.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use glam::Vec3;
@@ -112,8 +113,12 @@ impl OpenModel {
         Some(
             facts
                 .seam
-                .get_or_init(|| anim::seam(&self.model.skeleton, clip, self.size())),
+                .get_or_init(|| self.seam_between(clip, [clip.start_secs, clip.end_secs])),
         )
+    }
+
+    fn seam_between(&self, clip: &Clip, span_secs: [f32; 2]) -> Seam {
+        anim::seam(&self.model.skeleton, clip, span_secs, self.size())
     }
 
     /// How much each joint moves in a clip, in the skeleton's order; `None` without such a clip.
@@ -142,6 +147,18 @@ impl Session {
             (Some(open), Some(clip)) => open.key_times(clip, joint),
             _ => &[],
         }
+    }
+
+    /// The seam of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
+    /// nothing loops.
+    pub fn loop_seam(&self) -> Option<Cow<'_, Seam>> {
+        let (open, clip) = (self.open.as_ref()?, self.clip()?);
+        let span_secs = self.playback.seam_secs()?;
+        Some(if span_secs == [clip.start_secs, clip.end_secs] {
+            Cow::Borrowed(open.seam(self.clip?)?)
+        } else {
+            Cow::Owned(open.seam_between(clip, span_secs))
+        })
     }
 
     /// Where the time is in frames of the clip on show, counted from 0: 30.5 is half way from frame 30 to frame 31.

@@ -233,6 +233,18 @@ fn how_a_clip_plays_on_a_phone() {
     );
 }
 
+#[test]
+fn the_seam_of_a_range() {
+    let then = || [Command::SetRangeStart(Some(0.3)), Command::SetRangeEnd(Some(0.9))];
+    let clicks = ["Speed ", "Seam of Bone "];
+    for (name, size, theme, touch) in [
+        ("wide-dark-seam", WIDE, Theme::Dark, false),
+        ("phone-light-seam", PHONE, Theme::Light, true),
+    ] {
+        compare(name, &draw_after(size, theme, touch, then().into(), &clicks));
+    }
+}
+
 /// The bone over whose weights and numbers the pictures are taken: it moves and has children.
 fn inspected() -> Vec<Command> {
     let bone = JointIndex(7);

@@ -18,6 +18,7 @@ mod readouts;
 mod rows;
 mod ruler;
 mod seam;
+mod seam_list;
 mod sheet;
 mod state;
 mod time_area;
