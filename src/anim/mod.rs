@@ -31,7 +31,7 @@ pub use curve::{CurvePoint, CurveSpace, curve};
 pub use explain::{ExplainedInfluence, VertexExplanation, explain_vertex};
 pub use extreme_points::extreme_points;
 pub use inspect::{JointReadout, KeyRow, RowMatrix, TransformParts, key_rows, key_table};
-pub use keys::{Direction, key_times, merged_key_times, next_key, previous_key};
+pub use keys::{Direction, key_times, merged_key_times, merged_key_times_of, next_key, previous_key};
 pub use local_to_model::local_to_model;
 pub use palette::palette;
 pub use playback::{LoopMode, MAX_SPEED, MIN_SPEED, Playback, WrapMode};

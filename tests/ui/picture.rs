@@ -18,6 +18,7 @@ use image::RgbaImage;
 use image::imageops::{self, FilterType};
 
 use crate::page::{PHONE, WIDE, whole_window};
+use crate::rigs::chain;
 
 /// Drivers round and antialias differently: a channel may be off by this much anywhere …
 const TOLERANCE: u8 = 10;
@@ -175,6 +176,26 @@ fn overlays_in_the_sheet_of_a_phone() {
 fn the_dope_sheet() {
     let clicks = ["Dope sheet and", "Bone 2, "];
     compare("wide-dark-keys", &draw_after(WIDE, Theme::Dark, false, vec![], &clicks));
+}
+
+#[test]
+fn the_dope_sheet_with_folded_branches() {
+    let joint = JointIndex(2);
+    let folded = JointCommand::SetFolded { joint, folded: true };
+    let frames: [&[usize]; 5] = [
+        &[0, 60],
+        &[0, 30, 60],
+        &[0, 20, 40, 60],
+        &[5, 15, 20, 25, 60],
+        &[3, 33, 47],
+    ];
+    let then = || vec![Command::AddFiles(vec![chain(&frames)]), folded.clone().into()];
+    for (name, size, theme, touch) in [
+        ("wide-dark-folded", WIDE, Theme::Dark, false),
+        ("phone-light-folded", PHONE, Theme::Light, true),
+    ] {
+        compare(name, &draw_after(size, theme, touch, then(), &["Dope sheet and"]));
+    }
 }
 
 #[test]

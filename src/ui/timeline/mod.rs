@@ -8,6 +8,7 @@ mod curve_plot;
 mod curves;
 mod dope_sheet;
 mod edge;
+mod folded;
 mod joint_row;
 mod key_box;
 mod key_press;
