@@ -27,7 +27,7 @@ pub use activity::{JointActivity, activity};
 pub use animated_bounds::animated_bounds;
 pub use blend::blend;
 pub use blend_to_rest::blend_to_rest;
-pub use curve::{CurvePoint, CurveSpace, curve};
+pub use curve::{Curve, CurvePoint, CurveSpace};
 pub use explain::{ExplainedInfluence, VertexExplanation, explain_vertex};
 pub use extreme_points::extreme_points;
 pub use inspect::{JointReadout, KeyRow, RowMatrix, TransformParts, key_rows, key_table};

@@ -463,6 +463,25 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
     assert_ne!(legend(&window), "t 0.333 s, x 0.0000, y 0.1000, z 0.0000");
     window.click("Part: Scale");
     assert!(legend(&window).contains("y 1.0000"));
+    window.click("Part: Rotation");
+    window.apply(Command::Seek { time_secs: 0.4 });
+    let (whole, over) = (legend(&window), window.rect("Curves of Bone 4"));
+    let modifiers = Modifiers::COMMAND | Modifiers::CTRL;
+    wheel(
+        &mut window,
+        over.left_center() + vec2(0.4 * over.width(), 0.0),
+        vec2(0.0, 150.0),
+        modifiers,
+    );
+    window.harness.hover_at(pos2(5.0, 5.0));
+    window.pass_on();
+    assert!(window.shows("All of the time"));
+    assert_eq!(legend(&window), whole, "what is seen of the time changes no value");
+    wheel(&mut window, over.center(), vec2(0.0, -40.0), Modifiers::SHIFT);
+    window.harness.hover_at(pos2(5.0, 5.0));
+    window.pass_on();
+    assert_eq!(legend(&window), whole, "nor does panning");
+    window.click("All of the time");
     let curves = window.rect("Curves of Bone 4");
     press(&mut window, curves.center());
     assert!((window.time_secs() - 0.5).abs() < 0.01, "a press goes there");
