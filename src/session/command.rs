@@ -70,6 +70,7 @@ pub enum Command {
     /// Shows the clip some places further, around the end.
     CycleClip(i32),
     /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
+    /// Under reduced motion it is at once in any case.
     SetCrossfade(f32),
     /// Blends a second clip into the one on show, at the same share of its length. Nothing for the clip on show itself.
     SetBlend {

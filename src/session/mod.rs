@@ -35,7 +35,7 @@ pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
 pub use materials::MAX_SPEC_POWER;
-pub use mixing::{Blend, MAX_CROSSFADE_SECS};
+pub use mixing::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality};
 pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
