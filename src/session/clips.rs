@@ -32,7 +32,9 @@ pub struct ClipSummary<'a> {
 /// What is known of one clip beside its keys.
 #[derive(Clone, Debug)]
 pub(super) struct ClipFacts {
-    file_name: String,
+    pub(super) file_name: String,
+    /// Whether it came from another file than the model.
+    pub(super) joined: bool,
     extent: OnceLock<Extent>,
     key_times: OnceLock<Vec<f32>>,
     seam: OnceLock<Seam>,
@@ -49,14 +51,23 @@ struct Extent {
 }
 
 impl ClipFacts {
-    /// A clip of a file, of which nothing else was asked yet.
+    /// A clip of the model's file, of which nothing else was asked yet.
     pub(super) fn of_file(file_name: &str) -> Self {
         Self {
             file_name: file_name.to_owned(),
+            joined: false,
             extent: OnceLock::new(),
             key_times: OnceLock::new(),
             seam: OnceLock::new(),
             activity: OnceLock::new(),
+        }
+    }
+
+    /// The same of a clip that came from another file.
+    pub(super) fn joined_from(file_name: &str) -> Self {
+        Self {
+            joined: true,
+            ..Self::of_file(file_name)
         }
     }
 

@@ -21,6 +21,7 @@ mod playing;
 mod pointing;
 mod pose;
 mod quality;
+mod replacing;
 mod skeleton_view;
 mod sky;
 mod subsets;
@@ -96,6 +97,7 @@ pub struct Session {
     theme: Theme,
 
     model_revision: u64,
+    clips_revision: u64,
     maps_revision: u64,
     picture_revision: u64,
     events: Vec<Event>,

@@ -387,5 +387,11 @@ fn clips_are_blended_faded_and_added() {
         window.apply(Command::AddClips(vec![moving("more.m3d")]));
         let added = window.named(|name| name.contains("more.m3d"));
         assert_eq!(added.len(), 3, "{added:?}");
+        window.apply(Command::AddClips(vec![moving("more.m3d")]));
+        let again = window.named(|name| name.contains("more.m3d") && !name.contains("replace"));
+        assert_eq!(again, added, "the same file once more takes their places");
+        window.press(Modifiers::NONE, Key::Escape);
+        let told = "more.m3d was added before; its 3 clips replace the 3 clips from then.";
+        assert!(window.session().notices().any(|notice| notice.message == told));
     }
 }

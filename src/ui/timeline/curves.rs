@@ -49,7 +49,7 @@ pub(super) struct Curves {
 /// What the curve depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct CurveOf {
-    model_revision: u64,
+    clips_revision: u64,
     clip: usize,
     joint: JointIndex,
     space: CurveSpace,
@@ -172,7 +172,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     let count = (axis.points().span() / SAMPLE_SPACING).ceil().max(1.0) as usize + 1;
     let of = SampledOf {
         curve: CurveOf {
-            model_revision: session.model_revision(),
+            clips_revision: session.clips_revision(),
             clip: clip_index,
             joint,
             space: state.curves.space,

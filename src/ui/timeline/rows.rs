@@ -33,10 +33,10 @@ pub(super) struct Rows {
 impl Rows {
     /// Orders the rows of a clip anew.
     pub(super) fn update(&mut self, session: &Session, open: &OpenModel, clip: usize) {
-        self.branches.keep_of((session.model_revision(), clip));
+        self.branches.keep_of((session.clips_revision(), clip));
         self.rows.clear();
         if self.by_motion {
-            let of = Some((session.model_revision(), clip));
+            let of = Some((session.clips_revision(), clip));
             if self.sorted_of != of {
                 self.sorted_of = of;
                 sort_by_motion(open.activity(clip).unwrap_or_default(), &mut self.sorted);

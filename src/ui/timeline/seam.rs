@@ -23,7 +23,7 @@ pub(super) struct SeamReading {
 /// What the reading depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ReadOf {
-    model: u64,
+    clips: u64,
     names: u64,
     clip: Option<usize>,
     seam_secs: Option<[f32; 2]>,
@@ -33,7 +33,7 @@ impl SeamReading {
     /// Reads the seam when there is another one.
     pub(super) fn update(&mut self, session: &Session) {
         let of = Some(ReadOf {
-            model: session.model_revision(),
+            clips: session.clips_revision(),
             names: session.joint_names_revision(),
             clip: session.clip_index(),
             seam_secs: session.playback().seam_secs(),

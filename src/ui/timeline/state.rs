@@ -54,7 +54,7 @@ impl TimelineState {
         let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
             return;
         };
-        let of = Some((session.model_revision(), index));
+        let of = Some((session.clips_revision(), index));
         if self.of != of {
             self.window.show_all();
             self.key_box = None;
