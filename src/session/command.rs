@@ -238,6 +238,8 @@ pub enum Event {
     Pause,
     /// The time is another one.
     TimeUpdate,
+    /// What of the open model plays, or how, is another: clips, range, speed, what happens at the end.
+    PlaybackChange,
 }
 
 impl Event {
@@ -249,6 +251,7 @@ impl Event {
             Self::Play => "play",
             Self::Pause => "pause",
             Self::TimeUpdate => "timeupdate",
+            Self::PlaybackChange => "playbackchange",
         }
     }
 }
