@@ -24,7 +24,7 @@ pub(super) fn wrap_name(mode: WrapMode) -> &'static str {
     name_of(&WRAP_NAMES, mode)
 }
 
-fn name_of<T: PartialEq>(names: &[(T, &'static str)], value: T) -> &'static str {
+fn name_of<T: Copy + PartialEq>(names: &[(T, &'static str)], value: T) -> &'static str {
     let named = names.iter().find(|(named, _)| *named == value);
     named.map_or("", |(_, name)| name)
 }

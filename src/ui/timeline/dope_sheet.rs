@@ -104,9 +104,8 @@ impl Sheet<'_> {
                 response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Keys of all bones"));
                 let mut shape = MarkShape::new(ui);
                 self.reveal(ui, rows.all(), top, state);
-                for row in &rows.all()[seen] {
-                    let folded = rows.folded_below(row);
-                    self.show_row(ui, row, folded, &response, state, &mut shape, commands);
+                for row in rows.seen(seen) {
+                    self.show_row(ui, row, &response, state, &mut shape, commands);
                 }
                 shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
                 self.press_keys(ui, &response, &rows, top, state, commands);

@@ -10,7 +10,7 @@ use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
 use super::folded::FoldedBranch;
 use super::marks::{MarkShape, mark_radius};
-use super::rows::Row;
+use super::rows::{Row, SeenRow};
 use super::state::TimelineState;
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
@@ -44,8 +44,7 @@ impl Sheet<'_> {
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
-        row: &Row,
-        folded: Option<&FoldedBranch>,
+        SeenRow { row, folded }: SeenRow<'_>,
         keys: &Response,
         state: &mut TimelineState,
         shape: &mut MarkShape,

@@ -18,6 +18,13 @@ pub(super) struct Row {
     pub(super) folded: bool,
 }
 
+/// A row that is seen, and what is folded away below it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SeenRow<'a> {
+    pub(super) row: &'a Row,
+    pub(super) folded: Option<&'a FoldedBranch>,
+}
+
 /// Rows of the clip on show, in buffers that are kept.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
@@ -82,6 +89,15 @@ impl Rows {
     /// What is folded away below a row that is seen.
     pub(super) fn folded_below(&self, row: &Row) -> Option<&FoldedBranch> {
         self.branches.get(row.joint).filter(|_| row.folded)
+    }
+
+    /// The rows that are seen, once what is below them was merged.
+    pub(super) fn seen(&self, seen: Range<usize>) -> impl Iterator<Item = SeenRow<'_>> {
+        let rows = self.rows.get(seen).unwrap_or_default();
+        rows.iter().map(|row| SeenRow {
+            row,
+            folded: self.folded_below(row),
+        })
     }
 
     /// The joints that a row stands for: its own, and those folded away below it.
