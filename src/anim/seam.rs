@@ -38,13 +38,15 @@ pub struct Seam {
 }
 
 impl Seam {
-    /// All joints, the farthest travelled first. Of equal ways the greater turn is first, then the skeleton's order.
+    /// All joints, the farthest travelled first. Of equal ways the greater turn is first, then the greater change of scale, then
+    /// the skeleton's order.
     pub fn by_travel(&self) -> Vec<JointIndex> {
         let mut order: Vec<JointIndex> = (0..self.joints.len() as u32).map(JointIndex).collect();
         order.sort_by(|a, b| {
             let [a, b] = [a, b].map(|joint| &self.joints[joint.index()]);
             let by_turn = b.rotation_degrees.total_cmp(&a.rotation_degrees);
-            b.travel.total_cmp(&a.travel).then(by_turn)
+            let by_scale = b.scale.total_cmp(&a.scale);
+            b.travel.total_cmp(&a.travel).then(by_turn).then(by_scale)
         });
         order
     }

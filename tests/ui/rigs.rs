@@ -63,3 +63,13 @@ fn keyframe(bone: usize, joints: usize, key: usize) -> Keyframe {
         rotation: Quat::from_rotation_x(swing).to_array(),
     }
 }
+
+/// A joint that doubles its size until the last of two keys.
+pub(crate) fn growing() -> File {
+    let mut document = document(1, 2);
+    document.clips.truncate(1);
+    for (key, scale) in document.clips[0].bones[0].keyframes.iter_mut().zip([1.0, 2.0]) {
+        key.scale = [scale; 3];
+    }
+    models::file("growing.m3d", &document)
+}

@@ -8,7 +8,7 @@ use egui::{Event, Key, Modifiers, pos2};
 
 use crate::models::{moving, still};
 use crate::page::{WIDE, Window, phone, window};
-use crate::rigs::rig;
+use crate::rigs::{growing, rig};
 
 fn playing() -> Window {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
@@ -292,7 +292,7 @@ fn the_seam_of_each_bone_is_listed_and_a_row_selects_its_bone() {
             rows(&window),
             [
                 format!("Seam of Bone 1: distance 0, angle {angle:.2}°"),
-                "Seam of Bone 0: distance 0, angle 0°".to_owned(),
+                "Seam of Bone 0: distance 0, angle 0".to_owned(),
             ]
         );
         window.click("Seam of Bone 1");
@@ -323,6 +323,8 @@ fn where_nothing_jumps_that_is_said() {
         window.named(|name| name.starts_with("Seam of")).is_empty(),
         "one pose loops nowhere"
     );
+    window.apply(Command::AddFiles(vec![growing()]));
+    assert!(window.shows("Seam of Bone 0: distance 0, angle 0, scales by 50.0 %"));
     window.apply(Command::AddFiles(vec![rig(1, 31)]));
     assert!(window.shows("The last pose is the first one again."));
     assert!(window.named(|name| name.starts_with("Seam of Bone ")).is_empty());

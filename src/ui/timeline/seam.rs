@@ -7,6 +7,10 @@ use crate::session::Session;
 
 /// A distance below this share of the model's size is none: files round their numbers to about six digits.
 const NO_SHARE: f32 = 1e-5;
+/// Less is 0 with two decimals.
+const LEAST_DEGREES: f32 = 0.005;
+/// Less is 0 per cent with one decimal.
+const LEAST_SCALE: f32 = 5e-4;
 
 /// The seam of what loops, as it is shown.
 #[derive(Debug, Default)]
@@ -46,11 +50,11 @@ impl SeamReading {
         self.order = self.seam.by_travel();
         let size = session.open_model().map_or(1.0, |open| open.size());
         self.decimals = (-(size * NO_SHARE).log10()).ceil().clamp(0.0, 9.0) as usize;
-        self.jumps = self
-            .seam
-            .joints
-            .iter()
-            .any(|joint| self.distance(joint.travel).is_some() || angle(joint.rotation_degrees).is_some());
+        self.jumps = self.seam.joints.iter().any(|joint| {
+            joint.travel >= self.least_distance()
+                || joint.rotation_degrees >= LEAST_DEGREES
+                || joint.scale >= LEAST_SCALE
+        });
         self.words = self.told(session);
     }
 
@@ -93,8 +97,12 @@ impl SeamReading {
     /// A distance with as many decimals as all of this model have; `None` where that is nothing.
     pub(super) fn distance(&self, distance: f32) -> Option<String> {
         let decimals = self.decimals;
-        let least = 0.5 * 10.0_f32.powi(-(decimals as i32));
-        (distance >= least).then(|| format!("{distance:.decimals$}"))
+        (distance >= self.least_distance()).then(|| format!("{distance:.decimals$}"))
+    }
+
+    /// What is less is 0 with as many decimals.
+    fn least_distance(&self) -> f32 {
+        0.5 * 10.0_f32.powi(-(self.decimals as i32))
     }
 
     fn told(&self, session: &Session) -> Option<String> {
@@ -103,7 +111,7 @@ impl SeamReading {
         let numbers = [
             (jump.rotation_degrees >= 0.05).then(|| format!("turns by {:.1}°", jump.rotation_degrees)),
             (jump.translation > 0.0).then(|| format!("moves by {}", measured(jump.translation))),
-            (jump.scale >= 5e-4).then(|| format!("scales by {:.1} %", jump.scale * 100.0)),
+            scale(jump.scale).map(|scale| format!("scales by {scale}")),
         ];
         let numbers: Vec<String> = numbers.into_iter().flatten().collect();
         let poses = if session.playback().range_secs().is_some() {
@@ -119,7 +127,12 @@ impl SeamReading {
     }
 }
 
+/// A change of scale in per cent; `None` where that is nothing.
+pub(super) fn scale(share: f32) -> Option<String> {
+    (share >= LEAST_SCALE).then(|| format!("{:.1} %", share * 100.0))
+}
+
 /// An angle in degrees; `None` where that is nothing.
 pub(super) fn angle(degrees: f32) -> Option<String> {
-    (degrees >= 0.005).then(|| format!("{degrees:.2}°"))
+    (degrees >= LEAST_DEGREES).then(|| format!("{degrees:.2}°"))
 }

@@ -6,7 +6,7 @@ use super::super::panel::scrolled;
 use super::super::theme::{self, CONTROL_RADIUS, Tokens};
 use super::super::widgets::{focus_ring, is_touch, paint_elided, pressed_row_height, section_name};
 use super::TimelineState;
-use super::seam::{SeamReading, angle};
+use super::seam::{SeamReading, angle, scale};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, Session};
 
@@ -111,12 +111,11 @@ fn row(
     }
     focus_ring(ui, rect, &response);
 
-    let jump = reading.of_joint(joint);
-    let (distance, angle) = (reading.distance(jump.travel), angle(jump.rotation_degrees));
+    let jump = Jump::new(reading, joint);
     let [distance_x, angle_x] = columns(rect);
     let numbers = [
-        (distance_x, distance.as_deref(), reading.travel_is_seen(&jump)),
-        (angle_x, angle.as_deref(), jump.visibility >= 1.0),
+        (distance_x, &jump.distance, jump.travel_is_seen),
+        (angle_x, &jump.angle, jump.own_is_seen),
     ];
     for (x, number, seen) in numbers {
         let color = match (number, seen) {
@@ -124,33 +123,76 @@ fn row(
             (Some(_), true) => tokens.warning,
             (Some(_), false) => tokens.muted,
         };
-        let at = pos2(x, rect.center().y);
-        let number = number.unwrap_or("0");
+        let (at, number) = (pos2(x, rect.center().y), number.as_deref().unwrap_or("0"));
         ui.painter()
             .text(at, Align2::RIGHT_CENTER, number, theme::mono(11.5), color);
     }
     let name = session.joint_label(joint);
-    let color = match (selected, distance.is_some() || angle.is_some()) {
+    let color = match (selected, jump.is_something()) {
         (true, _) => tokens.accent,
         (false, true) => tokens.text,
         (false, false) => tokens.faint,
     };
     let at = pos2(rect.min.x + INSIDE, rect.center().y);
     let room = distance_x - DISTANCE_WIDTH - at.x;
-    paint_elided(ui.painter(), at, &name, FontId::proportional(12.5), color, room);
+    let words = [Some(name.as_str()), jump.scaled.as_deref()];
+    let words = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
+    paint_elided(ui.painter(), at, &words, FontId::proportional(12.5), color, room);
 
-    let [distance, angle] = [distance.as_deref().unwrap_or("0"), angle.as_deref().unwrap_or("0°")];
     response.widget_info(|| {
-        let label = format!("Seam of {name}: distance {distance}, angle {angle}");
+        let label = format!("Seam of {name}: {}", jump.words());
         WidgetInfo::selected(Role::ListItem, true, selected, label)
     });
     if response.clicked() {
         let joint = (!selected).then_some(joint);
         commands.push(JointCommand::Select(joint).into());
     }
-    let own = reading.distance(jump.translation);
-    response.on_hover_text(format!(
-        "{name}\n{distance} in the model, {} by its own keys\n{angle} relative to its parent",
-        own.as_deref().unwrap_or("0"),
-    ));
+    response.on_hover_ui(|ui| {
+        ui.label(format!("{name}\n{}", jump.long_words()));
+    });
+}
+
+/// The numbers of one row; `None` where one is nothing.
+struct Jump {
+    distance: Option<String>,
+    own_distance: Option<String>,
+    angle: Option<String>,
+    /// Few clips scale: there is no column for it.
+    scaled: Option<String>,
+    travel_is_seen: bool,
+    own_is_seen: bool,
+}
+
+impl Jump {
+    fn new(reading: &SeamReading, joint: JointIndex) -> Self {
+        let jump = reading.of_joint(joint);
+        Self {
+            distance: reading.distance(jump.travel),
+            own_distance: reading.distance(jump.translation),
+            angle: angle(jump.rotation_degrees),
+            scaled: scale(jump.scale).map(|scale| format!("scales by {scale}")),
+            travel_is_seen: reading.travel_is_seen(&jump),
+            own_is_seen: jump.visibility >= 1.0,
+        }
+    }
+
+    fn is_something(&self) -> bool {
+        self.distance.is_some() || self.angle.is_some() || self.scaled.is_some()
+    }
+
+    fn words(&self) -> String {
+        let [distance, angle] = [&self.distance, &self.angle].map(|number| number.as_deref().unwrap_or("0"));
+        let scaled = self.scaled.iter().map(|scaled| format!(", {scaled}"));
+        format!("distance {distance}, angle {angle}{}", scaled.collect::<String>())
+    }
+
+    fn long_words(&self) -> String {
+        let numbers = [&self.distance, &self.own_distance, &self.angle];
+        let [distance, own, angle] = numbers.map(|number| number.as_deref().unwrap_or("0"));
+        let scaled = self.scaled.iter().map(|scaled| format!(", {scaled}"));
+        format!(
+            "{distance} in the model, {own} by its own keys\n{angle} relative to its parent{}",
+            scaled.collect::<String>(),
+        )
+    }
 }

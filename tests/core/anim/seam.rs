@@ -121,6 +121,11 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
     let seam = seam_of(&model, 2.0);
     assert!(seam.joints[0].rotation_degrees < 1e-3, "a whole turn is none");
     assert_eq!((seam.joints[1].scale, seam.worst), (0.5, Some(JointIndex(1))));
+    assert_eq!(
+        seam.by_travel()[1],
+        JointIndex(1),
+        "after the first, whose turn is rounded"
+    );
 }
 
 #[test]
