@@ -42,6 +42,17 @@ export function createApi() {
     play: command("play"),
     pause: command("pause"),
     selectClip: command("selectClip"),
+    stepFrames: command("stepFrames"),
+    nextKey: command("nextKey"),
+    previousKey: command("previousKey"),
+    seekStart: command("seekStart"),
+    seekEnd: command("seekEnd"),
+    setRangeStart: command("setRangeStart"),
+    setRangeEnd: command("setRangeEnd"),
+    clearRange: command("clearRange"),
+    setSpeed: command("setSpeed"),
+    setLoop: command("setLoop"),
+    setWrap: command("setWrap"),
 
     /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
     open: (files) => give(files, "open"),

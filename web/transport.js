@@ -3,19 +3,32 @@
 
 const element = (id) => document.getElementById(id);
 
+/** What each button asks of the viewer. */
+const BUTTONS = {
+  first: (bindpose) => bindpose.seekStart(),
+  "previous-key": (bindpose) => bindpose.previousKey(),
+  back: (bindpose) => bindpose.stepFrames(-1),
+  on: (bindpose) => bindpose.stepFrames(1),
+  "next-key": (bindpose) => bindpose.nextKey(),
+  last: (bindpose) => bindpose.seekEnd(),
+  in: (bindpose) => bindpose.setRangeStart(),
+  out: (bindpose) => bindpose.setRangeEnd(),
+  all: (bindpose) => bindpose.clearRange(),
+};
+
 /** Follows and steers `bindpose`. */
 export function mirrorTransport(bindpose) {
   const section = element("transport");
-  const play = element("transport-play");
-  const clip = element("transport-clip");
-  const time = element("transport-time");
+  const [play, clip, time, speed, loop, wrap, range, all] =
+    ["play", "clip", "time", "speed", "loop", "wrap", "range", "all"].map((name) => element(`transport-${name}`));
+  const buttons = Object.keys(BUTTONS).map((name) => element(`transport-${name}`));
 
   const refresh = () => {
     const state = bindpose.state();
     const clips = state.model?.clips ?? [];
     section.hidden = !state.model;
     play.textContent = state.playing ? "Pause" : "Play";
-    play.disabled = time.disabled = clips.length === 0;
+    for (const control of [play, time, speed, loop, wrap, ...buttons]) control.disabled = clips.length === 0;
     const names = clips.map(({ name }) => name);
     if (names.join("\n") !== Array.from(clip.options, ({ value }) => value).join("\n")) {
       clip.replaceChildren(...names.map((name) => new Option(name, name)));
@@ -26,19 +39,51 @@ export function mirrorTransport(bindpose) {
     time.min = current.startSecs;
     time.max = current.endSecs;
     time.value = state.timeSecs;
-    time.setAttribute("aria-valuetext", `${state.timeSecs.toFixed(2)} of ${current.endSecs.toFixed(2)} seconds`);
+    time.setAttribute("aria-valuetext", `${timeWords(state)} of ${current.endSecs.toFixed(2)} seconds`);
+    // A number that is being typed is not taken from under the fingers.
+    if (document.activeElement !== speed) speed.value = rounded(state.speed);
+    loop.value = state.loop;
+    wrap.value = state.wrap;
+    wrap.disabled = state.loop !== "loop";
+    all.disabled = !state.rangeSecs;
+    range.textContent = rangeWords(state);
   };
 
   play.addEventListener("click", () => (bindpose.state().playing ? bindpose.pause() : bindpose.play()));
   clip.addEventListener("change", () => bindpose.selectClip(clip.value));
   time.addEventListener("input", () => bindpose.seek(time.valueAsNumber));
+  speed.addEventListener("change", () => {
+    bindpose.setSpeed(speed.valueAsNumber);
+    speed.value = rounded(bindpose.state().speed);
+  });
+  loop.addEventListener("change", () => bindpose.setLoop(loop.value));
+  wrap.addEventListener("change", () => bindpose.setWrap(wrap.value));
+  for (const [name, ask] of Object.entries(BUTTONS)) {
+    const button = element(`transport-${name}`);
+    button.addEventListener("click", () => {
+      ask(bindpose);
+      const state = bindpose.state();
+      // Where it came to is seen on the canvas alone.
+      element("spoken").textContent = ["in", "out", "all"].includes(name) ? rangeWords(state) : `${timeWords(state)} seconds`;
+      // A button that has done its work must not take the focus with it.
+      if (button.disabled) play.focus();
+    });
+  }
   element("transport-view").addEventListener("click", () => focusable()?.focus());
   section.addEventListener("focusin", refresh);
-  for (const type of ["load", "play", "pause"]) bindpose.addEventListener(type, refresh);
+  for (const type of ["load", "play", "pause", "playbackchange"]) bindpose.addEventListener(type, refresh);
   // Many a second while it plays: only when somebody looks.
   bindpose.addEventListener("timeupdate", () => section.matches(":focus-within") && refresh());
   return refresh;
 }
+
+/** Thousandths, without what f32 adds to a number: 0.3 instead of 0.30000001192092896. */
+const rounded = (number) => Number(number.toFixed(3));
+
+const timeWords = ({ timeSecs }) => timeSecs.toFixed(2);
+
+const rangeWords = ({ rangeSecs }) =>
+  rangeSecs ? `From ${rangeSecs[0].toFixed(2)} to ${rangeSecs[1].toFixed(2)} seconds` : "The whole clip plays";
 
 /** Where keys go to the viewer: its hidden text input, or the canvas. */
 function focusable() {

@@ -4,8 +4,15 @@ use std::f64::consts::PI;
 
 use glam::{DAffine3, DQuat, DVec3, Quat, Vec3};
 
-use super::sample_joint;
+use super::{merged_key_times_of, sample_joint};
 use crate::model::{Clip, JointIndex, LocalJoint, Skeleton};
+
+/// From mark to mark a joint turns by no more: far from the half turn at which the way round is not known.
+const MARK_RADIANS: f64 = PI / 6.0;
+/// Marks between two keys at most. A chain of joints that turns farther from key to key is beyond following with the eye.
+const MOST_STEPS: f64 = 64.0;
+/// How often marks come twice as close near the poles of y.
+const MOST_HALVINGS: u32 = 8;
 
 /// Relative to what a curve shows a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -24,7 +31,7 @@ pub struct CurvePoint {
     pub time_secs: f32,
     /// Translation.
     pub translation: Vec3,
-    /// Unit rotation, on the same side as that of the point before.
+    /// Unit rotation, on the same side as those of times nearby.
     pub rotation: Quat,
     /// The same as turns about the fixed axes x, then y, then z, in degrees: R = Rz · Ry · Rx. They go on beyond ±180°
     /// where the motion does, so that the curves have no jumps that the motion lacks.
@@ -33,43 +40,145 @@ pub struct CurvePoint {
     pub scale: Vec3,
 }
 
-/// The curves of a joint over a stretch of time, at as many points as `out` holds: evenly spaced, both ends among them; a
-/// single point is at the start. Allocates nothing. A joint that the skeleton lacks is the identity.
-pub fn curve(
-    skeleton: &Skeleton,
-    clip: &Clip,
+/// The curves of one joint in one clip.
+///
+/// A rotation has two quaternions and any number of angles. Which of them a curve shows is settled from the start of the clip
+/// to its end, at marks that stand close enough, so that what it says of a time does not depend on what else is looked at.
+#[derive(Clone, Debug)]
+pub struct Curve {
     joint: JointIndex,
     space: CurveSpace,
-    [start_secs, end_secs]: [f32; 2],
-    out: &mut [CurvePoint],
-) {
-    let steps = out.len().saturating_sub(1).max(1) as f64;
-    let (start, end) = (f64::from(start_secs), f64::from(end_secs));
-    let mut before: Option<(Quat, DVec3)> = None;
-    for (index, point) in out.iter_mut().enumerate() {
-        let part = index as f64 / steps;
-        let time_secs = (start * (1.0 - part) + end * part) as f32;
-        let LocalJoint {
-            mut rotation,
-            translation,
-            scale,
-        } = match space {
-            CurveSpace::Local => sample_joint(skeleton, clip, joint, time_secs),
-            CurveSpace::Model => model_joint(skeleton, clip, joint, time_secs),
-        };
-        if before.is_some_and(|(before, _)| before.dot(rotation) < 0.0) {
+    /// In the order of time, the first at the clip's start.
+    marks: Vec<Mark>,
+}
+
+/// What a curve shows at a time, for times from there to the next mark to follow.
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    time_secs: f32,
+    rotation: Quat,
+    /// Turns about x, y, z, radians.
+    euler: DVec3,
+}
+
+impl Mark {
+    /// What follows a mark at a later time; the principal angles without one.
+    fn after(before: Option<&Self>, time_secs: f32, mut rotation: Quat) -> Self {
+        if before.is_some_and(|before| before.rotation.dot(rotation) < 0.0) {
             rotation = -rotation;
         }
-        let euler = euler_radians(rotation.as_dquat(), before.map(|(_, euler)| euler));
-        before = Some((rotation, euler));
-        *point = CurvePoint {
+        let euler = euler_radians(rotation.as_dquat(), before.map(|before| before.euler));
+        Self {
+            time_secs,
+            rotation,
+            euler,
+        }
+    }
+}
+
+impl Curve {
+    /// The curves of a joint, relative to its parent or to the model. A joint that the skeleton lacks is the identity.
+    pub fn new(skeleton: &Skeleton, clip: &Clip, joint: JointIndex, space: CurveSpace) -> Self {
+        let mut curve = Self {
+            joint,
+            space,
+            marks: Vec::new(),
+        };
+        let rotation = curve.pose(skeleton, clip, clip.start_secs).rotation;
+        curve.marks.push(Mark::after(None, clip.start_secs, rotation));
+        let chain = curve.chain(skeleton);
+        let mut times_secs = merged_key_times_of(clip, &chain);
+        times_secs.push(clip.end_secs);
+        let turns_at = |secs: f32| -> Vec<DQuat> {
+            let rotation = |&joint| sample_joint(skeleton, clip, joint, secs).rotation.as_dquat();
+            chain.iter().map(rotation).collect()
+        };
+        let (mut start_secs, mut turns) = (clip.start_secs, turns_at(clip.start_secs));
+        for end_secs in times_secs {
+            if end_secs <= start_secs {
+                continue;
+            }
+            let next_turns = turns_at(end_secs);
+            // Together the joints of a chain turn by no more than each by itself.
+            let angle: f64 = turns.iter().zip(&next_turns).map(|(a, b)| angle_between(*a, *b)).sum();
+            let steps = (angle / MARK_RADIANS).ceil().clamp(1.0, MOST_STEPS) as u32;
+            for step in 1..=steps {
+                let part = f64::from(step) / f64::from(steps);
+                curve.mark_to(skeleton, clip, between(start_secs, end_secs, part), MOST_HALVINGS);
+            }
+            (start_secs, turns) = (end_secs, next_turns);
+        }
+        curve
+    }
+
+    /// Sets marks up to a time. Near the poles of y small turns are great angles: there marks stand closer.
+    fn mark_to(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32, halvings: u32) {
+        let before = self.marks[self.marks.len() - 1];
+        let rotation = self.pose(skeleton, clip, time_secs).rotation;
+        let mark = Mark::after(Some(&before), time_secs, rotation);
+        let middle_secs = between(before.time_secs, time_secs, 0.5);
+        let is_far = (mark.euler - before.euler).abs().max_element() > 1.5 * MARK_RADIANS;
+        if is_far && halvings > 0 && before.time_secs < middle_secs && middle_secs < time_secs {
+            self.mark_to(skeleton, clip, middle_secs, halvings - 1);
+            self.mark_to(skeleton, clip, time_secs, halvings - 1);
+        } else {
+            self.marks.push(mark);
+        }
+    }
+
+    /// The joints that turn it.
+    fn chain(&self, skeleton: &Skeleton) -> Vec<JointIndex> {
+        let above = |joint: &JointIndex| skeleton.parents().get(joint.index()).copied().flatten();
+        match self.space {
+            CurveSpace::Local => vec![self.joint],
+            CurveSpace::Model => std::iter::successors(Some(self.joint), above).collect(),
+        }
+    }
+
+    fn pose(&self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) -> LocalJoint {
+        match self.space {
+            CurveSpace::Local => sample_joint(skeleton, clip, self.joint, time_secs),
+            CurveSpace::Model => model_joint(skeleton, clip, self.joint, time_secs),
+        }
+    }
+
+    /// The curves at one time, seconds in the clip's own time; `skeleton` and `clip` are those that it was made of.
+    pub fn at(&self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) -> CurvePoint {
+        let LocalJoint {
+            rotation,
+            translation,
+            scale,
+        } = self.pose(skeleton, clip, time_secs);
+        let next = self.marks.partition_point(|mark| mark.time_secs <= time_secs);
+        let Mark { rotation, euler, .. } = Mark::after(self.marks.get(next.saturating_sub(1)), time_secs, rotation);
+        CurvePoint {
             time_secs,
             translation,
             rotation,
             euler_degrees: (euler * (180.0 / PI)).as_vec3(),
             scale,
-        };
+        }
     }
+
+    /// The curves over a stretch of time, at as many points as `out` holds: evenly spaced, both ends among them; a single point
+    /// is at the start. Allocates nothing.
+    pub fn sample(&self, skeleton: &Skeleton, clip: &Clip, [start_secs, end_secs]: [f32; 2], out: &mut [CurvePoint]) {
+        let steps = out.len().saturating_sub(1).max(1) as f64;
+        for (index, point) in out.iter_mut().enumerate() {
+            *point = self.at(skeleton, clip, between(start_secs, end_secs, index as f64 / steps));
+        }
+    }
+}
+
+/// A time between two, exact at both ends.
+fn between(start_secs: f32, end_secs: f32, part: f64) -> f32 {
+    (f64::from(start_secs) * (1.0 - part) + f64::from(end_secs) * part) as f32
+}
+
+/// The angle of the turn from one unit rotation to another, 0…π.
+fn angle_between(from: DQuat, to: DQuat) -> f64 {
+    // q and −q are the same rotation.
+    2.0 * from.dot(to).abs().min(1.0).acos()
 }
 
 /// A joint relative to the model: its own pose, then that of each ancestor.

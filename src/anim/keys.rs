@@ -25,7 +25,16 @@ pub fn key_times(clip: &Clip, joint: JointIndex) -> &[f32] {
 
 /// Times at which any joint has a key, seconds, in order. Of times closer than a twentieth of a frame the first is kept.
 pub fn merged_key_times(clip: &Clip) -> Vec<f32> {
-    let keyed = clip.tracks.iter().filter(|track| track.has_keys());
+    merged(clip, clip.tracks.iter())
+}
+
+/// The same of some joints. Those that are not there have none.
+pub fn merged_key_times_of(clip: &Clip, joints: &[JointIndex]) -> Vec<f32> {
+    merged(clip, joints.iter().filter_map(|joint| clip.tracks.get(joint.index())))
+}
+
+fn merged<'a>(clip: &Clip, tracks: impl Iterator<Item = &'a Track>) -> Vec<f32> {
+    let keyed = tracks.filter(|track| track.has_keys());
     let mut times_secs: Vec<f32> = keyed.flat_map(Track::times_secs).copied().collect();
     // A stable sort merges runs that are sorted, as these are.
     times_secs.sort_by(f32::total_cmp);

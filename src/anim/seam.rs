@@ -1,4 +1,4 @@
-//! What is seen where a loop begins again: the last pose of a clip beside the first.
+//! What is seen where a loop begins again: the pose in which it ends beside the one in which it begins.
 
 use super::joint_change::JointChange;
 use super::{PoseBuffers, sample_joint};
@@ -8,7 +8,7 @@ use crate::model::{Clip, JointIndex, Skeleton};
 /// picture a thousand pixels high, which is what a moving edge is blurred by.
 pub const VISIBLE_SHARE: f32 = 1.0 / 500.0;
 
-/// The jump of one joint from the last pose of a clip to the first, relative to its parent.
+/// The jump of one joint from the last pose of a loop to the first, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointSeam {
     /// Distance of the joint's place, in model units.
@@ -24,7 +24,7 @@ pub struct JointSeam {
     pub visibility: f32,
 }
 
-/// The seam of a clip.
+/// The seam of a loop.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seam {
     /// In the skeleton's order.
@@ -33,30 +33,47 @@ pub struct Seam {
     pub worst: Option<JointIndex>,
     /// Whether it is seen: a joint's own jump is, or what the jumps of its ancestors add up to.
     pub visible: bool,
+    /// The least travel that is seen, in model units: [`VISIBLE_SHARE`] of the model's size.
+    pub visible_travel: f32,
 }
 
-/// The seam of a clip of a skeleton; `size` is the length of the model's diagonal in its own units. A clip without length
-/// has none.
-pub fn seam(skeleton: &Skeleton, clip: &Clip, size: f32) -> Seam {
+impl Seam {
+    /// All joints, the farthest travelled first. Of equal ways the greater turn is first, then the greater change of scale, then
+    /// the skeleton's order.
+    pub fn by_travel(&self) -> Vec<JointIndex> {
+        let mut order: Vec<JointIndex> = (0..self.joints.len() as u32).map(JointIndex).collect();
+        order.sort_by(|a, b| {
+            let [a, b] = [a, b].map(|joint| &self.joints[joint.index()]);
+            let by_turn = b.rotation_degrees.total_cmp(&a.rotation_degrees);
+            let by_scale = b.scale.total_cmp(&a.scale);
+            b.travel.total_cmp(&a.travel).then(by_turn).then(by_scale)
+        });
+        order
+    }
+}
+
+/// The seam of a loop through a clip of a skeleton, from `first_secs` to `last_secs` of the clip's time; `size` is the
+/// length of the model's diagonal in its own units. A loop without length has none.
+pub fn seam(skeleton: &Skeleton, clip: &Clip, [first_secs, last_secs]: [f32; 2], size: f32) -> Seam {
     let mut pose = PoseBuffers::default();
     let mut places = |time_secs| {
         pose.evaluate(skeleton, clip, time_secs);
         pose.model.0.iter().map(|joint| joint.translation).collect::<Vec<_>>()
     };
-    let (last, first) = (places(clip.end_secs), places(clip.start_secs));
-    let visible_way = VISIBLE_SHARE * size.max(f32::MIN_POSITIVE);
+    let (last, first) = (places(last_secs), places(first_secs));
+    let visible_travel = VISIBLE_SHARE * size.max(f32::MIN_POSITIVE);
     let joints: Vec<JointSeam> = (0u32..)
         .map(JointIndex)
         .zip(last.into_iter().zip(first))
         .map(|(joint, (last, first))| {
-            let [from, to] = [clip.end_secs, clip.start_secs].map(|secs| sample_joint(skeleton, clip, joint, secs));
+            let [from, to] = [last_secs, first_secs].map(|secs| sample_joint(skeleton, clip, joint, secs));
             let change = JointChange::between(skeleton, joint, &from, &to);
             JointSeam {
                 translation: change.translation,
                 rotation_degrees: change.rotation_radians.to_degrees(),
                 scale: change.scale,
                 travel: last.distance(first),
-                visibility: change.surface_way(size) / visible_way,
+                visibility: change.surface_way(size) / visible_travel,
             }
         })
         .collect();
@@ -69,6 +86,11 @@ pub fn seam(skeleton: &Skeleton, clip: &Clip, size: f32) -> Seam {
         .map(|(index, _)| JointIndex(index as u32));
     let visible = joints
         .iter()
-        .any(|joint| joint.visibility >= 1.0 || joint.travel >= visible_way);
-    Seam { joints, worst, visible }
+        .any(|joint| joint.visibility >= 1.0 || joint.travel >= visible_travel);
+    Seam {
+        joints,
+        worst,
+        visible,
+        visible_travel,
+    }
 }

@@ -68,7 +68,14 @@ impl Span {
             stepped_secs
         } else if step_secs < 0.0 {
             self.end_secs
-        } else if (self.start_secs..self.end_secs).contains(&0.0) {
+        } else {
+            self.book_demo_start_secs()
+        }
+    }
+
+    /// Where the books' demo begins again.
+    pub(super) fn book_demo_start_secs(&self) -> f64 {
+        if (self.start_secs..self.end_secs).contains(&0.0) {
             0.0
         } else {
             self.start_secs

@@ -1,16 +1,21 @@
 //! The one place where things change.
 
 use super::pose::OnShow;
-use super::{Command, Effect, Look, Session};
-use crate::anim::{GhostPlan, LoopMode};
+use super::{Command, Effect, Event, Look, Session};
+use crate::anim::{GhostPlan, LoopMode, WrapMode};
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Camera, Passes, Projection, Theme};
 
 impl Session {
     /// Does what was asked. What makes no sense now is left undone.
     pub fn apply(&mut self, command: Command) -> Effect {
-        let before = self.shown();
+        let (before, played) = (self.shown(), self.played());
         let effect = self.perform(command);
+        let now = self.played();
+        // Another model is an event of its own.
+        if now != played && now.model == played.model {
+            self.note(Event::PlaybackChange);
+        }
         if self.shown() != before {
             self.picture_revision += 1;
         }
@@ -173,6 +178,19 @@ impl Session {
         effect
     }
 
+    fn played(&self) -> Played {
+        Played {
+            model: self.model_revision,
+            clips: self.clips_revision,
+            clip_count: self.open.as_ref().map_or(0, |open| open.model.clips.len()),
+            clip: self.clip,
+            range_secs: self.playback.range_secs(),
+            speed: self.playback.speed(),
+            loop_mode: self.playback.loop_mode(),
+            wrap_mode: self.playback.wrap_mode(),
+        }
+    }
+
     fn shown(&self) -> Shown {
         Shown {
             model: self.model_revision,
@@ -191,6 +209,19 @@ impl Session {
             theme: self.theme,
         }
     }
+}
+
+/// What plays, and how.
+#[derive(PartialEq)]
+struct Played {
+    model: u64,
+    clips: u64,
+    clip_count: usize,
+    clip: Option<usize>,
+    range_secs: Option<[f32; 2]>,
+    speed: f32,
+    loop_mode: LoopMode,
+    wrap_mode: WrapMode,
 }
 
 /// All that the picture depends on, but for its size.

@@ -1,5 +1,6 @@
 //! What panels show of clips: the list, keys, seams, what moves. Computed when it is first asked for.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use glam::Vec3;
@@ -31,7 +32,9 @@ pub struct ClipSummary<'a> {
 /// What is known of one clip beside its keys.
 #[derive(Clone, Debug)]
 pub(super) struct ClipFacts {
-    file_name: String,
+    pub(super) file_name: String,
+    /// Whether it came from another file than the model.
+    pub(super) joined: bool,
     extent: OnceLock<Extent>,
     key_times: OnceLock<Vec<f32>>,
     seam: OnceLock<Seam>,
@@ -48,14 +51,23 @@ struct Extent {
 }
 
 impl ClipFacts {
-    /// A clip of a file, of which nothing else was asked yet.
+    /// A clip of the model's file, of which nothing else was asked yet.
     pub(super) fn of_file(file_name: &str) -> Self {
         Self {
             file_name: file_name.to_owned(),
+            joined: false,
             extent: OnceLock::new(),
             key_times: OnceLock::new(),
             seam: OnceLock::new(),
             activity: OnceLock::new(),
+        }
+    }
+
+    /// The same of a clip that came from another file.
+    pub(super) fn joined_from(file_name: &str) -> Self {
+        Self {
+            joined: true,
+            ..Self::of_file(file_name)
         }
     }
 
@@ -112,8 +124,12 @@ impl OpenModel {
         Some(
             facts
                 .seam
-                .get_or_init(|| anim::seam(&self.model.skeleton, clip, self.size())),
+                .get_or_init(|| self.seam_between(clip, [clip.start_secs, clip.end_secs])),
         )
+    }
+
+    fn seam_between(&self, clip: &Clip, span_secs: [f32; 2]) -> Seam {
+        anim::seam(&self.model.skeleton, clip, span_secs, self.size())
     }
 
     /// How much each joint moves in a clip, in the skeleton's order; `None` without such a clip.
@@ -142,6 +158,18 @@ impl Session {
             (Some(open), Some(clip)) => open.key_times(clip, joint),
             _ => &[],
         }
+    }
+
+    /// The seam of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
+    /// nothing loops.
+    pub fn loop_seam(&self) -> Option<Cow<'_, Seam>> {
+        let (open, clip) = (self.open.as_ref()?, self.clip()?);
+        let span_secs = self.playback.seam_secs()?;
+        Some(if span_secs == [clip.start_secs, clip.end_secs] {
+            Cow::Borrowed(open.seam(self.clip?)?)
+        } else {
+            Cow::Owned(open.seam_between(clip, span_secs))
+        })
     }
 
     /// Where the time is in frames of the clip on show, counted from 0: 30.5 is half way from frame 30 to frame 31.

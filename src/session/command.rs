@@ -70,6 +70,7 @@ pub enum Command {
     /// Shows the clip some places further, around the end.
     CycleClip(i32),
     /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
+    /// Under reduced motion it is at once in any case.
     SetCrossfade(f32),
     /// Blends a second clip into the one on show, at the same share of its length. Nothing for the clip on show itself.
     SetBlend {
@@ -237,6 +238,8 @@ pub enum Event {
     Pause,
     /// The time is another one.
     TimeUpdate,
+    /// What of the open model plays, or how, is another: clips, range, speed, what happens at the end.
+    PlaybackChange,
 }
 
 impl Event {
@@ -248,6 +251,7 @@ impl Event {
             Self::Play => "play",
             Self::Pause => "pause",
             Self::TimeUpdate => "timeupdate",
+            Self::PlaybackChange => "playbackchange",
         }
     }
 }

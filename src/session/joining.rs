@@ -3,6 +3,7 @@
 use glam::Affine3A;
 
 use super::clips::ClipFacts;
+use super::replacing::replaced_notice;
 use super::{Event, File, FileSet, LoadError, OpenModel, Session, load};
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::{Skeleton, unique_names};
@@ -11,11 +12,18 @@ use crate::model::{Skeleton, unique_names};
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
 const OFFSET_TOLERANCE: f32 = 1e-3;
 
+/// What is noted of a file whose bones stand elsewhere.
+const OFFSETS_DIFFER: &str = "clips-offsets-differ";
+
 impl Session {
     /// Adds the clips of every model of a drop; true when there was no model to join and the drop was opened.
     pub(super) fn add_clips(&mut self, files: Vec<File>) -> bool {
-        let Some(open) = &mut self.open else {
+        if self.open.is_none() {
             return self.add_files(files);
+        }
+        let before = self.named_clips();
+        let Some(open) = &mut self.open else {
+            return false;
         };
         let had_clips = !open.model.clips.is_empty();
         let set = FileSet::new(files);
@@ -24,14 +32,25 @@ impl Session {
             .is_empty()
             .then(|| Box::new(LoadError::no_model(set.files().len())));
         // In the order of the drop, which the list of the largest first has lost.
+        let mut joined: Vec<&str> = Vec::new();
+        let mut replaced = false;
         for file in set.files().iter().filter(|file| models.contains(file)) {
-            if let Err(error) = open.join_clips(file) {
-                refused = refused.or(Some(error));
+            // Files of one drop that have one name in several folders do not replace each other.
+            let replaces = !joined.contains(&file.base_name());
+            match open.join_clips(file, replaces) {
+                Ok(replaced_some) => {
+                    joined.push(file.base_name());
+                    replaced |= replaced_some;
+                }
+                Err(error) => refused = refused.or(Some(error)),
             }
         }
         match refused {
             Some(error) => self.fail(*error),
             None => self.error = None,
+        }
+        if replaced {
+            self.take_up_clips(&before);
         }
         if !had_clips && self.show_clip(0) {
             if !self.reduced_motion {
@@ -45,11 +64,12 @@ impl Session {
 }
 
 impl OpenModel {
-    /// Adds the clips of a file to the list, under names that are free.
+    /// Adds the clips of a file to the list, under names that are free. With `replaces` they take the place of clips that files
+    /// of this name brought before, if there are any; then it is true.
     ///
     /// # Errors
     /// When the file makes no model, has no clips, or its bones are not those of this model; then nothing is added.
-    pub(super) fn join_clips(&mut self, file: &File) -> Result<(), Box<LoadError>> {
+    pub(super) fn join_clips(&mut self, file: &File, replaces: bool) -> Result<bool, Box<LoadError>> {
         let other = load(file)?;
         let refuse = |code, message| Err(Box::new(LoadError::refused(file, code, message)));
         let (ours, theirs) = (self.file.base_name(), file.base_name());
@@ -59,9 +79,16 @@ impl OpenModel {
         if other.model.clips.is_empty() {
             return refuse("clips-none", format!("{theirs} has no clips to add."));
         }
-        let first = self.model.clips.len();
+        let replaced = if replaces { self.remove_joined(theirs) } else { None };
+        let kept = self.model.clips.len();
+        let first = replaced.map_or(kept, |(first, _)| first);
         let all = self.model.clips.iter().chain(&other.model.clips);
         let names = unique_names(all.map(|clip| clip.name.as_str()), "clip", |_, _| {});
+        self.move_clip_notices(first, other.model.clips.len());
+        if let Some((first, before)) = replaced {
+            let notice = replaced_notice(theirs, first, other.model.clips.len(), before);
+            self.notices.push(notice);
+        }
         self.notices.extend(self.offsets_notice(&other));
         self.notices.extend(
             other
@@ -70,19 +97,25 @@ impl OpenModel {
                 .filter_map(|notice| joined_notice(notice, theirs, first)),
         );
         let mut clips = other.model.clips;
-        for (clip, name) in clips.iter_mut().zip(names.into_iter().skip(first)) {
+        for (clip, name) in clips.iter_mut().zip(names.into_iter().skip(kept)) {
             clip.name = name;
         }
-        self.clip_facts.extend(clips.iter().map(|_| ClipFacts::of_file(theirs)));
-        self.model.clips.extend(clips);
-        self.joined.push(file.clone());
-        Ok(())
+        let facts: Vec<_> = clips.iter().map(|_| ClipFacts::joined_from(theirs)).collect();
+        self.clip_facts.splice(first..first, facts);
+        self.model.clips.splice(first..first, clips);
+        let is_same = |joined: &File| joined.base_name() == theirs;
+        let place = self.joined.iter().position(is_same).filter(|_| replaced.is_some());
+        if replaced.is_some() {
+            self.joined.retain(|joined| !is_same(joined));
+        }
+        self.joined.insert(place.unwrap_or(self.joined.len()), file.clone());
+        Ok(replaced.is_some())
     }
 
     /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a notice.
     pub(super) fn join_again(&mut self, files: &[File]) {
         for file in files {
-            if let Err(error) = self.join_clips(file) {
+            if let Err(error) = self.join_clips(file, false) {
                 self.notices.push(Diagnostic {
                     severity: Severity::Warning,
                     position: None,
@@ -107,16 +140,16 @@ impl OpenModel {
         differing.sort_unstable();
         let &first = differing.first()?;
         let message = format!(
-            "{} of the {} bone offsets of {} differ from those of {}, the first that of bone {first}: its clips were made \
-             for other proportions.",
+            "{} of the {} {} differ from those of {}, the first that of bone {first}: its clips were made for other \
+             proportions.",
             differing.len(),
             ours.joint_count(),
-            other.file.base_name(),
+            offsets_of(other.file.base_name()),
             self.file.base_name(),
         );
         Some(Diagnostic {
             severity: Severity::Note,
-            code: "clips-offsets-differ",
+            code: OFFSETS_DIFFER,
             message,
             expected: None,
             found: None,
@@ -125,6 +158,15 @@ impl OpenModel {
             subject: Some(Subject::Bone(first)),
         })
     }
+}
+
+/// Whether a finding is that the bone offsets of a file differ.
+pub(super) fn is_about_offsets(notice: &Diagnostic, file_name: &str) -> bool {
+    notice.code == OFFSETS_DIFFER && notice.message.contains(&offsets_of(file_name))
+}
+
+fn offsets_of(file_name: &str) -> String {
+    format!("bone offsets of {file_name}")
 }
 
 impl LoadError {

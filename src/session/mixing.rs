@@ -5,6 +5,9 @@ use crate::anim::{LocalPose, Playback, PoseBuffers, blend, sample};
 use crate::model::Clip;
 use crate::scene::Aabb;
 
+/// How long a crossfade takes unless another length is chosen, in seconds: seen as a way from pose to pose, not waited for.
+pub const DEFAULT_CROSSFADE_SECS: f32 = 0.3;
+
 /// The longest crossfade, in seconds: a longer one is a blend.
 pub const MAX_CROSSFADE_SECS: f32 = 10.0;
 
@@ -21,7 +24,7 @@ pub struct Blend {
 }
 
 /// What is posed beside the clip on show.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Mix {
     crossfade_secs: f32,
     blend: Option<Blend>,
@@ -30,6 +33,19 @@ pub(super) struct Mix {
     revision: u64,
     pose: LocalPose,
     scratch: Scratch,
+}
+
+impl Default for Mix {
+    fn default() -> Self {
+        Self {
+            crossfade_secs: DEFAULT_CROSSFADE_SECS,
+            blend: None,
+            fades: Vec::new(),
+            revision: 0,
+            pose: LocalPose::default(),
+            scratch: Scratch::default(),
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -149,7 +165,8 @@ fn time_in_step(clip: &Clip, time_secs: f32, other: &Clip) -> f32 {
 }
 
 impl Session {
-    /// How long the pose takes from one clip to the next while it plays, in seconds; 0 is at once.
+    /// How long the pose takes from one clip to the next while it plays, in seconds; 0 is at once. Paused and under reduced
+    /// motion clips change at once.
     pub fn crossfade_secs(&self) -> f32 {
         self.mix.crossfade_secs
     }
@@ -190,6 +207,7 @@ impl Session {
         if let Some(clip) = self.clip
             && self.playback.is_playing()
             && !self.scrubbing
+            && !self.reduced_motion
             && duration_secs > 0.0
         {
             if self.mix.fades.len() == MOST_FADES {

@@ -21,6 +21,7 @@ mod playing;
 mod pointing;
 mod pose;
 mod quality;
+mod replacing;
 mod skeleton_view;
 mod sky;
 mod subsets;
@@ -35,7 +36,7 @@ pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UsedMap};
 pub use materials::MAX_SPEC_POWER;
-pub use mixing::{Blend, MAX_CROSSFADE_SECS};
+pub use mixing::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality};
 pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
@@ -96,6 +97,7 @@ pub struct Session {
     theme: Theme,
 
     model_revision: u64,
+    clips_revision: u64,
     maps_revision: u64,
     picture_revision: u64,
     events: Vec<Event>,

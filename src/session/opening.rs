@@ -80,6 +80,7 @@ impl Session {
         // The bar that was held may be gone, and nothing would let go of the time.
         self.scrubbing = false;
         self.model_revision += 1;
+        self.clips_revision += 1;
         self.maps_revision += 1;
         // The model alone, dropped again, keeps the pictures that came before.
         let kept = if again {

@@ -36,7 +36,7 @@ pub(super) struct Overlaid {
 
 #[derive(Clone, Debug, PartialEq)]
 struct TrailsKey {
-    model: u64,
+    clips: u64,
     clip: Option<usize>,
     joints: Vec<JointIndex>,
 }
@@ -151,7 +151,7 @@ impl Session {
             return;
         }
         let wanted = TrailsKey {
-            model: self.model_revision,
+            clips: self.clips_revision,
             clip: self.clip,
             joints: self.joints.trails().to_vec(),
         };

@@ -5,7 +5,7 @@ use super::Session;
 /// What the pose depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct OnShow {
-    model: u64,
+    clips: u64,
     clip: Option<usize>,
     time_secs: f32,
     bind_share: f32,
@@ -28,7 +28,7 @@ impl Session {
 
     pub(super) fn on_show(&self) -> OnShow {
         OnShow {
-            model: self.model_revision,
+            clips: self.clips_revision,
             clip: self.clip,
             time_secs: self.playback.time_secs(),
             bind_share: self.bind_share,

@@ -9,7 +9,7 @@ use super::{PAGE, state, tell_events};
 use crate::session::{Command, File, Session};
 
 /// Applies a command and asks for a frame.
-fn apply(command: Command) {
+pub(super) fn apply(command: Command) {
     PAGE.with_borrow(|page| {
         let Some(page) = page else { return };
         page.session.borrow_mut().apply(command);
@@ -21,6 +21,11 @@ fn apply(command: Command) {
     if let Some(session) = session {
         tell_events(&session);
     }
+}
+
+/// Something of the session, when there is one.
+pub(super) fn of_session<T>(read: impl FnOnce(&Session) -> Option<T>) -> Option<T> {
+    PAGE.with_borrow(|page| read(&page.as_ref()?.session.borrow()))
 }
 
 /// The session and what runs it, as one plain object.
@@ -104,14 +109,9 @@ pub fn pause() {
 /// Shows the clip with this name. Returns whether there is one.
 #[wasm_bindgen(js_name = selectClip)]
 pub fn select_clip(name: &str) -> bool {
-    let index = PAGE.with_borrow(|page| {
-        let session = page.as_ref()?.session.borrow();
-        session
-            .open_model()?
-            .model
-            .clips
-            .iter()
-            .position(|clip| clip.name == name)
+    let index = of_session(|session| {
+        let clips = &session.open_model()?.model.clips;
+        clips.iter().position(|clip| clip.name == name)
     });
     if let Some(index) = index {
         apply(Command::SelectClip(index));

@@ -10,6 +10,7 @@ mod backend;
 mod kept_names;
 mod picture;
 mod picture_look;
+mod playing;
 mod state;
 
 use std::cell::{Cell, RefCell};

@@ -3,7 +3,7 @@
 use js_sys::{Array, Object, Reflect};
 use wasm_bindgen::JsValue;
 
-use crate::anim::LoopMode;
+use super::playing::{loop_name, wrap_name};
 use crate::diagnostic::Diagnostic;
 use crate::scene::{Aabb, Overlay, Pass, Projection};
 use crate::session::{Event, OpenModel, Session};
@@ -44,7 +44,7 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
             .with("file", &*error.file_name)
             .done()
     });
-    Fields::new()
+    let fields = Fields::new()
         .with("backend", view.backend)
         .with("adapter", view.adapter)
         .with(
@@ -52,19 +52,11 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
             session.open_model().map_or(JsValue::NULL, |open| model(session, open)),
         )
         .with("textures", textures(session))
-        .with("clip", session.clip().map(|clip| clip.name.as_str()))
         .with("blend", blend(session))
         .with("timeSecs", playback.time_secs())
-        .with(
-            "rangeSecs",
-            playback
-                .range_secs()
-                .map_or(JsValue::NULL, |range| numbers(range).into()),
-        )
         .with("playing", playback.is_playing())
-        .with("backward", playback.is_backward())
-        .with("speed", session.playback().speed())
-        .with("loop", loop_name(playback.loop_mode()))
+        .with("backward", playback.is_backward());
+    how_it_plays(session, fields)
         .with(
             "camera",
             Fields::new()
@@ -89,6 +81,21 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
         .with("error", error)
         .with("uploadError", view.upload_error.as_deref())
         .done()
+}
+
+/// What of the model plays, and how.
+fn how_it_plays(session: &Session, fields: Fields) -> Fields {
+    let playback = session.playback();
+    let range_secs = playback.range_secs();
+    fields
+        .with("clip", session.clip().map(|clip| clip.name.as_str()))
+        .with(
+            "rangeSecs",
+            range_secs.map_or(JsValue::NULL, |range| numbers(range).into()),
+        )
+        .with("speed", playback.speed())
+        .with("loop", loop_name(playback.loop_mode()))
+        .with("wrap", wrap_name(playback.wrap_mode()))
 }
 
 fn model(session: &Session, open: &OpenModel) -> JsValue {
@@ -215,6 +222,7 @@ pub(super) fn event_detail(session: &Session, event: Event) -> JsValue {
         Event::Play | Event::Pause | Event::TimeUpdate => {
             Fields::new().with("timeSecs", session.playback().time_secs()).done()
         }
+        Event::PlaybackChange => how_it_plays(session, Fields::new()).done(),
     }
 }
 
@@ -246,12 +254,4 @@ fn vector(vector: glam::Vec3) -> Array {
 
 fn numbers(numbers: impl IntoIterator<Item = f32>) -> Array {
     numbers.into_iter().map(JsValue::from).collect()
-}
-
-fn loop_name(mode: LoopMode) -> &'static str {
-    match mode {
-        LoopMode::Once => "once",
-        LoopMode::Loop => "loop",
-        LoopMode::PingPong => "pingpong",
-    }
 }

@@ -8,9 +8,9 @@ use egui::{
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside};
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+use crate::page::{PHONE, STEP_SECS, WIDE, Window, phone, touch_window, window};
 use crate::pointer::{fingers, gesture};
-use crate::rigs::rig;
+use crate::rigs::{chain, rig};
 
 /// Room between the ends of the time and the ends of the sheet.
 const END_ROOM: f32 = 8.0;
@@ -140,10 +140,75 @@ fn branches_fold_with_counts_and_rows_are_sorted_by_motion() {
     window.click("Unfold Bone 1");
     assert!(rows(&window).contains(&"Bone 4, 31 keys".to_owned()));
     window.click("Fold all");
-    assert_eq!(rows(&window), ["Bone 0, 31 keys"]);
+    assert_eq!(
+        rows(&window),
+        ["Bone 0, 31 keys; folded away: 12 bones with keys at 31 times"]
+    );
     window.click("Unfold all");
     window.click("Sort by motion");
     assert_eq!(rows(&window)[..2], ["Bone 12, 31 keys", "Bone 11, 31 keys"]);
+}
+
+#[test]
+fn a_folded_row_has_the_keys_folded_away_in_its_branch() {
+    let mut window = window(WIDE, vec![chain(&[&[0, 30], &[0, 10, 30], &[10, 20]])]);
+    open(&mut window);
+    window.click("Fold Bone 0");
+    let row = "Bone 0, 2 keys; folded away: 2 bones with keys at 4 times";
+    assert_eq!(rows(&window), [row]);
+    let at = |window: &Window, frame: f32| place(window, row, frame / 30.0);
+    for frame in [10.0, 20.0, 30.0, 0.0] {
+        let there = at(&window, frame) + vec2(2.0, 0.0);
+        press(&mut window, there);
+        assert!((window.time_secs() - frame / 30.0).abs() < 1e-6, "{frame}");
+        assert_eq!(window.session().joints().selected(), Some(JointIndex(0)));
+        assert_eq!(rows(&window), [row], "it stays folded");
+    }
+    let between = at(&window, 15.0);
+    press(&mut window, between);
+    assert_eq!(window.time_secs(), 0.0, "there is no key");
+    // Bones 1 and 2 both have a key at frame 10, and one has another at 20.
+    let [from, to] = [9.0, 21.0].map(|frame| at(&window, frame));
+    drag(&mut window, from, to);
+    assert_eq!(
+        window.named(|name| name.starts_with("3 keys · ")).len(),
+        1,
+        "{:?}",
+        window.widgets()
+    );
+    window.click("Unfold Bone 0");
+    window.click("Fold Bone 1");
+    assert_eq!(
+        rows(&window),
+        [
+            "Bone 0, 2 keys",
+            "Bone 1, 3 keys; folded away: 1 bone with keys at 2 times"
+        ]
+    );
+}
+
+/// Time of a pass of the window, at best.
+fn pass_secs(window: &mut Window) -> f32 {
+    let pass = |window: &mut Window| {
+        let start = std::time::Instant::now();
+        window.harness.step();
+        start.elapsed().as_secs_f32()
+    };
+    (0..10).map(|_| pass(window)).fold(f32::INFINITY, f32::min)
+}
+
+#[test]
+fn folded_branches_of_many_joints_and_keys_leave_time_for_a_frame() {
+    let mut window = sheet(500, 1000);
+    window.click("Fold all");
+    assert_eq!(
+        rows(&window),
+        ["Bone 0, 1\u{2009}000 keys; folded away: 499 bones with keys at 1\u{2009}000 times"]
+    );
+    window.click("Unfold Bone 0");
+    assert_eq!(rows(&window).len(), 4);
+    let secs = pass_secs(&mut window);
+    assert!(secs < STEP_SECS, "{secs} s for a pass");
 }
 
 #[test]
@@ -398,6 +463,25 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
     assert_ne!(legend(&window), "t 0.333 s, x 0.0000, y 0.1000, z 0.0000");
     window.click("Part: Scale");
     assert!(legend(&window).contains("y 1.0000"));
+    window.click("Part: Rotation");
+    window.apply(Command::Seek { time_secs: 0.4 });
+    let (whole, over) = (legend(&window), window.rect("Curves of Bone 4"));
+    let modifiers = Modifiers::COMMAND | Modifiers::CTRL;
+    wheel(
+        &mut window,
+        over.left_center() + vec2(0.4 * over.width(), 0.0),
+        vec2(0.0, 150.0),
+        modifiers,
+    );
+    window.harness.hover_at(pos2(5.0, 5.0));
+    window.pass_on();
+    assert!(window.shows("All of the time"));
+    assert_eq!(legend(&window), whole, "what is seen of the time changes no value");
+    wheel(&mut window, over.center(), vec2(0.0, -40.0), Modifiers::SHIFT);
+    window.harness.hover_at(pos2(5.0, 5.0));
+    window.pass_on();
+    assert_eq!(legend(&window), whole, "nor does panning");
+    window.click("All of the time");
     let curves = window.rect("Curves of Bone 4");
     press(&mut window, curves.center());
     assert!((window.time_secs() - 0.5).abs() < 0.01, "a press goes there");

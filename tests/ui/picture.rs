@@ -18,6 +18,7 @@ use image::RgbaImage;
 use image::imageops::{self, FilterType};
 
 use crate::page::{PHONE, WIDE, whole_window};
+use crate::rigs::chain;
 
 /// Drivers round and antialias differently: a channel may be off by this much anywhere …
 const TOLERANCE: u8 = 10;
@@ -178,6 +179,26 @@ fn the_dope_sheet() {
 }
 
 #[test]
+fn the_dope_sheet_with_folded_branches() {
+    let joint = JointIndex(2);
+    let folded = JointCommand::SetFolded { joint, folded: true };
+    let frames: [&[usize]; 5] = [
+        &[0, 60],
+        &[0, 30, 60],
+        &[0, 20, 40, 60],
+        &[5, 15, 20, 25, 60],
+        &[3, 33, 47],
+    ];
+    let then = || vec![Command::AddFiles(vec![chain(&frames)]), folded.clone().into()];
+    for (name, size, theme, touch) in [
+        ("wide-dark-folded", WIDE, Theme::Dark, false),
+        ("phone-light-folded", PHONE, Theme::Light, true),
+    ] {
+        compare(name, &draw_after(size, theme, touch, then(), &["Dope sheet and"]));
+    }
+}
+
+#[test]
 fn curves_of_a_bone() {
     let clicks = ["Dope sheet and", "Bone 2, ", "Sheet: Curves"];
     compare(
@@ -231,6 +252,18 @@ fn how_a_clip_plays_on_a_phone() {
         "phone-light-playing",
         &draw_after(PHONE, Theme::Light, true, vec![], &["Speed "]),
     );
+}
+
+#[test]
+fn the_seam_of_a_range() {
+    let then = || [Command::SetRangeStart(Some(0.3)), Command::SetRangeEnd(Some(0.9))];
+    let clicks = ["Speed ", "Seam of Bone "];
+    for (name, size, theme, touch) in [
+        ("wide-dark-seam", WIDE, Theme::Dark, false),
+        ("phone-light-seam", PHONE, Theme::Light, true),
+    ] {
+        compare(name, &draw_after(size, theme, touch, then().into(), &clicks));
+    }
 }
 
 /// The bone over whose weights and numbers the pictures are taken: it moves and has children.

@@ -12,6 +12,21 @@ pub(crate) fn rig(joints: usize, keys: usize) -> File {
     models::file("rig.m3d", &document(joints, keys))
 }
 
+/// A chain of joints that swing, with keys at these frames each.
+pub(crate) fn chain(frames: &[&[usize]]) -> File {
+    let joints = frames.len();
+    let mut document = document(joints, 1);
+    document.bone_parents = (-1..joints as i32 - 1).collect();
+    document.clips.truncate(1);
+    for (bone, (track, frames)) in document.clips[0].bones.iter_mut().zip(frames).enumerate() {
+        track.keyframes = frames
+            .iter()
+            .map(|&frame| keyframe(bone + 1, joints + 1, frame))
+            .collect();
+    }
+    models::file("chain.m3d", &document)
+}
+
 fn document(joints: usize, keys: usize) -> Document {
     let mut document = models::skinned(&[("Swing", 0.0, 2)]);
     document.bone_parents = (0..joints as i32)
@@ -47,4 +62,14 @@ fn keyframe(bone: usize, joints: usize, key: usize) -> Keyframe {
         scale: [1.0; 3],
         rotation: Quat::from_rotation_x(swing).to_array(),
     }
+}
+
+/// A joint that doubles its size until the last of two keys.
+pub(crate) fn growing() -> File {
+    let mut document = document(1, 2);
+    document.clips.truncate(1);
+    for (key, scale) in document.clips[0].bones[0].keyframes.iter_mut().zip([1.0, 2.0]) {
+        key.scale = [scale; 3];
+    }
+    models::file("growing.m3d", &document)
 }

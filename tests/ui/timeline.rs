@@ -1,12 +1,14 @@
 //! The strip: transport, bar, menus.
 
 use bindpose::anim::{LoopMode, WrapMode};
+use bindpose::model::JointIndex;
 use bindpose::session::{Command, SPEEDS};
 use bindpose::ui::Request;
 use egui::{Event, Key, Modifiers, pos2};
 
 use crate::models::{moving, still};
 use crate::page::{WIDE, Window, phone, window};
+use crate::rigs::{growing, rig};
 
 fn playing() -> Window {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
@@ -251,9 +253,110 @@ fn a_seam_that_is_seen_is_told() {
     let window = window(WIDE, vec![moving("a.m3d")]);
     let told = window.named(|name| name.starts_with("The loop's seam is seen: Bone 1 turns by "));
     assert_eq!(told.len(), 1, "{:?}", window.widgets());
-    let mut window = window;
+}
+
+#[test]
+fn of_a_range_the_seam_between_its_ends_is_told_and_its_mark_stands_there() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let whole = window.rect("The loop's seam is seen").center().x;
+    window.apply(Command::SetRangeStart(Some(0.25)));
     window.apply(Command::SetRangeEnd(Some(0.5)));
+    let told = window.named(|name| name.ends_with("from the range's last pose to its first"));
+    assert_eq!(told.len(), 1, "{:?}", window.widgets());
+    let bar = window.rect("Time in seconds");
+    assert!((told[0].1.center().x - bar.center().x).abs() < 1.0 && whole > bar.max.x - 20.0);
+    // As far before the turning point of the swing as after it the pose is the same.
+    let turning_secs = 0.25 * std::f32::consts::TAU / 0.2 / 30.0;
+    window.apply(Command::ClearRange);
+    window.apply(Command::SetRangeStart(Some(turning_secs - 0.2)));
+    window.apply(Command::SetRangeEnd(Some(turning_secs + 0.2)));
     assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
+    window.apply(Command::ClearRange);
+    window.apply(Command::SetLoopMode(LoopMode::PingPong));
+    assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
+}
+
+#[test]
+fn the_seam_of_each_bone_is_listed_and_a_row_selects_its_bone() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.click("Speed 1×");
+        assert!(window.shows("Seam of the clip"));
+        let rows = |window: &Window| {
+            let mut rows = window.named(|name| name.starts_with("Seam of Bone "));
+            rows.sort_by(|a, b| a.1.min.y.total_cmp(&b.1.min.y));
+            rows.into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+        };
+        // Bone 1 turns on the spot by 1.2 sin 6, which carries nothing that is a joint.
+        let angle = (1.2 * 6.0_f32.sin()).abs().to_degrees();
+        assert_eq!(
+            rows(&window),
+            [
+                format!("Seam of Bone 1: distance 0, angle {angle:.2}°"),
+                "Seam of Bone 0: distance 0, angle 0".to_owned(),
+            ]
+        );
+        window.click("Seam of Bone 1");
+        assert_eq!(window.session().joints().selected(), Some(JointIndex(1)));
+        assert!(window.shows("Seam of the clip"), "it stays open");
+        window.apply(Command::SetRangeEnd(Some(0.5)));
+        assert!(window.shows("Seam of the range"));
+        let angle = (1.2 * 3.0_f32.sin()).abs().to_degrees();
+        assert_eq!(
+            rows(&window)[0],
+            format!("Seam of Bone 1: distance 0, angle {angle:.2}°")
+        );
+        window.apply(Command::SetLoopMode(LoopMode::Once));
+        assert!(rows(&window).is_empty() && !window.shows("Seam of the range"));
+    }
+}
+
+#[test]
+fn where_nothing_jumps_that_is_said() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("Speed 1×");
+    let turning_secs = 0.25 * std::f32::consts::TAU / 0.2 / 30.0;
+    window.apply(Command::SetRangeStart(Some(turning_secs - 0.2)));
+    window.apply(Command::SetRangeEnd(Some(turning_secs + 0.2)));
+    assert!(window.shows("No jump from the last pose to the first is seen."));
+    window.apply(Command::SelectClip(2));
+    assert!(
+        window.named(|name| name.starts_with("Seam of")).is_empty(),
+        "one pose loops nowhere"
+    );
+    window.apply(Command::AddFiles(vec![growing()]));
+    assert!(window.shows("Seam of Bone 0: distance 0, angle 0, scales by 50.0 %"));
+    window.apply(Command::AddFiles(vec![rig(1, 31)]));
+    assert!(window.shows("The last pose is the first one again."));
+    assert!(window.named(|name| name.starts_with("Seam of Bone ")).is_empty());
+}
+
+#[test]
+fn of_many_bones_only_the_rows_in_view_are_laid_out_and_the_pointer_lights_them_up() {
+    let mut window = window(WIDE, vec![rig(2000, 31)]);
+    window.click("Speed 1×");
+    let rows = window.named(|name| name.starts_with("Seam of Bone "));
+    assert!((6..=8).contains(&rows.len()), "{}", rows.len());
+    let distances: Vec<f32> = rows
+        .iter()
+        .map(|(name, _)| {
+            let distance = name.split_once("distance ").and_then(|(_, rest)| rest.split_once(','));
+            distance
+                .and_then(|(number, _)| number.parse().ok())
+                .unwrap_or_else(|| panic!("{name}"))
+        })
+        .collect();
+    assert!(
+        distances.is_sorted_by(|a, b| a >= b) && distances[0] > 0.0,
+        "{distances:?}"
+    );
+    let (name, rect) = &rows[2];
+    window.harness.hover_at(rect.center());
+    window.pass_on();
+    let hovered = window.session().joints().hovered().expect("it stands out");
+    assert!(
+        name.starts_with(&format!("Seam of Bone {}:", hovered.0)),
+        "{name} {hovered:?}"
+    );
 }
 
 #[test]
@@ -286,5 +389,11 @@ fn clips_are_blended_faded_and_added() {
         window.apply(Command::AddClips(vec![moving("more.m3d")]));
         let added = window.named(|name| name.contains("more.m3d"));
         assert_eq!(added.len(), 3, "{added:?}");
+        window.apply(Command::AddClips(vec![moving("more.m3d")]));
+        let again = window.named(|name| name.contains("more.m3d") && !name.contains("replace"));
+        assert_eq!(again, added, "the same file once more takes their places");
+        window.press(Modifiers::NONE, Key::Escape);
+        let told = "more.m3d was added before; its 3 clips replace the 3 clips from then.";
+        assert!(window.session().notices().any(|notice| notice.message == told));
     }
 }

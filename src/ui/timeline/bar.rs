@@ -6,7 +6,8 @@ use super::super::theme::{CONTROL_RADIUS, Tokens};
 use super::super::widgets::{arrow_steps, focus_ring, is_touch};
 use super::axis::TimeAxis;
 use super::marks::{MarkShape, mark_radius};
-use super::{seam, time_area};
+use super::seam::SeamReading;
+use super::time_area;
 use crate::model::Clip;
 use crate::session::{Command, Session};
 
@@ -25,7 +26,7 @@ enum End {
 }
 
 /// Shows the bar of the clip on show.
-pub(super) fn show(ui: &mut Ui, session: &Session, size: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, seam: &SeamReading, size: Vec2, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
@@ -50,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, size: Vec2, commands: &mut Ve
     for end in [End::In, End::Out] {
         grip(ui, session, clip, end, &axis, rect, commands);
     }
-    seam_tick(ui, session, &axis, rect);
+    seam_tick(ui, seam, &axis, rect);
 }
 
 /// What plays, when it is not all of it.
@@ -126,10 +127,12 @@ fn paint_bracket(ui: &Ui, session: &Session, response: &Response, at: egui::Pos2
 }
 
 /// A mark at the end of a loop whose seam is seen.
-fn seam_tick(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
-    let Some(words) = seam::words(session) else { return };
+fn seam_tick(ui: &Ui, seam: &SeamReading, axis: &TimeAxis, rect: Rect) {
+    let (Some(words), Some(at_secs)) = (seam.words(), seam.seen_at_secs()) else {
+        return;
+    };
     let color = Tokens::of(ui).warning;
-    let x = axis.points().max;
+    let x = axis.x_of(at_secs);
     let at = pos2(x, rect.min.y + 1.0);
     let corners = [vec2(-4.0, 0.0), vec2(4.0, 0.0), vec2(0.0, 5.5)].map(|offset| at + offset);
     ui.painter()
@@ -139,6 +142,6 @@ fn seam_tick(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
         .vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
     let target = Rect::from_center_size(at + vec2(0.0, 4.0), vec2(14.0, 12.0));
     let response = ui.interact(target, ui.scope_id().with("seam"), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
     response.on_hover_text(words);
 }

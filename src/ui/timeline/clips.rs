@@ -11,7 +11,7 @@ use super::super::widgets::{
     Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
 };
 use super::super::wording::{counted, trimmed};
-use crate::session::{ClipSummary, Command, OpenModel, Session};
+use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, Session};
 
 /// Width of the popover.
 const WIDTH: f32 = 320.0;
@@ -159,7 +159,7 @@ fn blend_icon(
 fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) {
     let secs = session.crossfade_secs();
     let text = format!("{secs:.2} s");
-    let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text);
+    let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text).reset_to(DEFAULT_CROSSFADE_SECS);
     if let Some(secs) = fade.show(ui) {
         commands.push(Command::SetCrossfade(secs));
     }

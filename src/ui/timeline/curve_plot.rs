@@ -8,6 +8,7 @@ use super::curves::Curves;
 use super::marks::MERGE_POINTS;
 use super::plot::ValueAxis;
 use super::ruler::RULER_HEIGHT;
+use crate::anim::CurvePoint;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
 
@@ -99,13 +100,13 @@ pub(super) fn paint_keys(
     }
 }
 
-/// The joint and its values at a time, left of the lines.
+/// The joint and its values at the time that is read, left of the lines.
 pub(super) fn paint_legend(
     ui: &Ui,
     session: &Session,
     curves: &Curves,
     joint: JointIndex,
-    time_secs: f32,
+    read: &CurvePoint,
     area: Rect,
     split: f32,
 ) {
@@ -121,14 +122,13 @@ pub(super) fn paint_legend(
         theme::semibold(12.5),
         tokens.text,
     );
-    let rows =
-        [("t", format!("{time_secs:.3} s"), tokens.muted)]
-            .into_iter()
-            .chain(curves.channels().iter().enumerate().map(|(channel, name)| {
-                let value = curves.value_at(channel, time_secs).unwrap_or(0.0);
-                let text = format!("{:>9}{}", format!("{value:.4}"), curves.unit());
-                (*name, text, channel_color(ui, channel))
-            }));
+    let rows = [("t", format!("{:.3} s", read.time_secs), tokens.muted)]
+        .into_iter()
+        .chain(curves.channels().iter().enumerate().map(|(channel, name)| {
+            let value = curves.value(read, channel);
+            let text = format!("{:>9}{}", format!("{value:.4}"), curves.unit());
+            (*name, text, channel_color(ui, channel))
+        }));
     let mut words = Vec::new();
     let step = 18.0_f32.min((area.height() - RULER_HEIGHT) / 5.5);
     for (row, (name, text, color)) in rows.enumerate() {

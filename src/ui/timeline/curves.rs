@@ -9,7 +9,7 @@ use super::ruler::{self, RULER_HEIGHT};
 use super::sheet::{segmented_of_width, split_x};
 use super::state::TimelineState;
 use super::time_area;
-use crate::anim::{CurvePoint, CurveSpace, curve};
+use crate::anim::{Curve, CurvePoint, CurveSpace};
 use crate::model::JointIndex;
 use crate::session::{Command, OpenModel, Session};
 
@@ -42,16 +42,23 @@ pub(super) struct Curves {
     rotation: RotationAs,
     space: CurveSpace,
     of: Option<SampledOf>,
+    curve: Option<Curve>,
     pub(super) points: Vec<CurvePoint>,
+}
+
+/// What the curve depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct CurveOf {
+    clips_revision: u64,
+    clip: usize,
+    joint: JointIndex,
+    space: CurveSpace,
 }
 
 /// What the samples depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SampledOf {
-    model_revision: u64,
-    clip: usize,
-    joint: JointIndex,
-    space: CurveSpace,
+    curve: CurveOf,
     span_secs: [f32; 2],
     count: usize,
 }
@@ -84,11 +91,24 @@ impl Curves {
         if self.of == Some(of) {
             return;
         }
-        self.of = Some(of);
+        let Some(clip) = session.clip() else { return };
+        let (skeleton, CurveOf { joint, space, .. }) = (&open.model.skeleton, of.curve);
+        let kept = self
+            .curve
+            .take()
+            .filter(|_| self.of.is_some_and(|before| before.curve == of.curve));
+        let curve = kept.unwrap_or_else(|| Curve::new(skeleton, clip, joint, space));
         self.points.resize(of.count, CurvePoint::default());
-        if let Some(clip) = session.clip() {
-            let skeleton = &open.model.skeleton;
-            curve(skeleton, clip, of.joint, of.space, of.span_secs, &mut self.points);
+        curve.sample(skeleton, clip, of.span_secs, &mut self.points);
+        self.curve = Some(curve);
+        self.of = Some(of);
+    }
+
+    /// The point at a time: its values are those of that time, whatever is seen.
+    fn point_at(&self, session: &Session, open: &OpenModel, time_secs: f32) -> CurvePoint {
+        match (&self.curve, session.clip()) {
+            (Some(curve), Some(clip)) => curve.at(&open.model.skeleton, clip, time_secs),
+            _ => CurvePoint::default(),
         }
     }
 
@@ -151,10 +171,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     let axis = TimeAxis::new(plot.x_range(), END_ROOM, span_secs);
     let count = (axis.points().span() / SAMPLE_SPACING).ceil().max(1.0) as usize + 1;
     let of = SampledOf {
-        model_revision: session.model_revision(),
-        clip: clip_index,
-        joint,
-        space: state.curves.space,
+        curve: CurveOf {
+            clips_revision: session.clips_revision(),
+            clip: clip_index,
+            joint,
+            space: state.curves.space,
+        },
         span_secs,
         count: count.min(MOST_SAMPLES),
     };
@@ -182,7 +204,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
         .hover_pos()
         .filter(|_| !response.dragged())
         .map_or(session.playback().time_secs(), |at| axis.seen_time_at(at.x));
-    paint_legend(ui, session, &state.curves, joint, read_secs, area, split);
+    let read = state.curves.point_at(session, open, read_secs);
+    paint_legend(ui, session, &state.curves, joint, &read, area, split);
     time_area::paint_pointer(ui, &response, &axis, lines_rect.y_range());
     time_area::paint_head_below_ruler(ui, session, &axis, ruler_rect, plot.max.y);
     time_area::navigate(ui, &response, clip, &axis, state);

@@ -84,7 +84,8 @@ impl Sheet<'_> {
 
     fn show_rows(&self, ui: &mut Ui, body: Rect, state: &mut TimelineState, commands: &mut Vec<Command>) {
         let mut rows = std::mem::take(&mut state.rows);
-        let shown = rows.update(self.session, self.open, self.clip_index);
+        rows.update(self.session, self.open, self.clip_index);
+        let count = rows.all().len();
         let mut ui = ui.new_child(UiBuilder::new().max_rect(body).id_salt("rows"));
         // The scroll bar stands in the panel's margin.
         let with_bar = Rect::from_min_max(body.min, pos2(ui.clip_rect().max.x, body.max.y));
@@ -95,18 +96,19 @@ impl Sheet<'_> {
             .auto_shrink(false)
             .max_height(body.height())
             .min_scrolled_height(body.height())
-            .show_rows(&mut ui, self.row_height, shown.len(), |ui, seen| {
+            .show_rows(&mut ui, self.row_height, count, |ui, seen| {
+                rows.merge_folded(seen.clone(), self.session, self.open, self.clip_index);
                 let top = ui.max_rect().min.y - seen.start as f32 * self.row_height;
                 let keys = Rect::from_x_y_ranges(self.split..=body.max.x, body.y_range());
                 let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
                 response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Keys of all bones"));
                 let mut shape = MarkShape::new(ui);
-                self.reveal(ui, shown, top, state);
-                for row in &shown[seen] {
+                self.reveal(ui, rows.all(), top, state);
+                for row in rows.seen(seen) {
                     self.show_row(ui, row, &response, state, &mut shape, commands);
                 }
                 shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
-                self.press_keys(ui, &response, shown, top, state, commands);
+                self.press_keys(ui, &response, &rows, top, state, commands);
                 time_area::navigate(ui, &response, self.clip, &self.axis, state);
                 if is_touch(ui) && response.dragged() {
                     ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));

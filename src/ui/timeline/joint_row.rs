@@ -8,8 +8,9 @@ use super::super::widgets::{focus_ring, is_touch, paint_elided};
 use super::super::wording::counted;
 use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
+use super::folded::FoldedBranch;
 use super::marks::{MarkShape, mark_radius};
-use super::rows::Row;
+use super::rows::{Row, SeenRow};
 use super::state::TimelineState;
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
@@ -19,6 +20,8 @@ use crate::session::{Command, JointCommand};
 const INDENT: f32 = 11.0;
 /// A column of names slimmer than this has little room for a tree.
 const SLIM_NAMES: f32 = 150.0;
+/// Size of the marks of keys folded away, as a share of those of a row's own keys.
+const FOLDED_SIZE: f32 = 0.85;
 /// Opacity of the tint of the row that moves most.
 const MOST_TINT: f32 = 0.17;
 
@@ -41,7 +44,7 @@ impl Sheet<'_> {
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
-        row: &Row,
+        SeenRow { row, folded }: SeenRow<'_>,
         keys: &Response,
         state: &mut TimelineState,
         shape: &mut MarkShape,
@@ -53,7 +56,8 @@ impl Sheet<'_> {
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
         let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
-        let tint = MOST_TINT * activity.share;
+        let share = folded.map_or(activity.share, |branch| branch.most_share.max(activity.share));
+        let tint = MOST_TINT * share;
         if tint > 0.0 {
             let tint = tokens.warning.gamma_multiply(tint);
             ui.painter().rect_filled(time_rect, 0.0, tint);
@@ -65,12 +69,23 @@ impl Sheet<'_> {
         if self.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
-        self.name_cell(ui, row, name_rect, state, commands);
+        self.name_cell(ui, row, folded, name_rect, state, commands);
+        if let Some(branch) = folded {
+            self.add_folded_marks(row.joint, branch, rect.center().y, state, &tokens, shape);
+        }
         self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
     }
 
     /// The name of a joint, which selects it, and what folds its branch.
-    fn name_cell(&self, ui: &Ui, row: &Row, rect: Rect, state: &mut TimelineState, commands: &mut Vec<Command>) {
+    fn name_cell(
+        &self,
+        ui: &Ui,
+        row: &Row,
+        folded: Option<&FoldedBranch>,
+        rect: Rect,
+        state: &mut TimelineState,
+        commands: &mut Vec<Command>,
+    ) {
         let tokens = Tokens::of(ui);
         let id = ui.scope_id().with(("row", row.joint.0));
         let response = ui.interact(rect, id, Sense::click());
@@ -86,8 +101,15 @@ impl Sheet<'_> {
         }
         focus_ring(ui, rect, &response);
         let name = self.session.joint_label(row.joint);
-        let key_count = counted(self.key_times(row.joint).len(), "key");
-        response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("{name}, {key_count}")));
+        response.widget_info(|| {
+            let mut label = format!("{name}, {}", counted(self.key_times(row.joint).len(), "key"));
+            if let Some(branch) = folded {
+                let bones = counted(row.below, "bone");
+                let times = counted(branch.times_secs.len(), "time");
+                label += &format!("; folded away: {bones} with keys at {times}");
+            }
+            WidgetInfo::selected(Role::ListItem, true, selected, label)
+        });
         if response.clicked() {
             let joint = (!selected).then_some(row.joint);
             state.revealed = joint;
@@ -139,6 +161,46 @@ impl Sheet<'_> {
         }
     }
 
+    /// Keys of joints folded away: hollow and smaller than the joint's own, which are drawn over them.
+    fn add_folded_marks(
+        &self,
+        joint: JointIndex,
+        branch: &FoldedBranch,
+        y: f32,
+        state: &TimelineState,
+        tokens: &Tokens,
+        shape: &mut MarkShape,
+    ) {
+        let times_secs = &branch.times_secs[..];
+        let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
+            return;
+        };
+        let tree = self.session.joints().tree();
+        let is_below = |below| below != joint && tree.is_in_branch(below, joint);
+        let chosen = state
+            .key_box
+            .as_ref()
+            .map_or(0..0, |key_box| key_box.part_of_any(is_below, times_secs));
+        let radius = FOLDED_SIZE * mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
+        if branch.constant {
+            shape.bar(self.seen_points(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
+        } else {
+            for times_secs in [&times_secs[..chosen.start], &times_secs[chosen.end..]] {
+                shape.add_hollow(times_secs, &self.axis, y, radius, tokens.muted.gamma_multiply(0.85));
+            }
+        }
+        shape.add_hollow(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
+    }
+
+    /// What is seen of a stretch of time.
+    fn seen_points(&self, first_secs: f32, last_secs: f32) -> Rangef {
+        let seen = self.axis.points().expand(END_ROOM);
+        Rangef::new(
+            seen.clamp(self.axis.x_of(first_secs)),
+            seen.clamp(self.axis.x_of(last_secs)),
+        )
+    }
+
     fn add_marks(
         &self,
         joint: JointIndex,
@@ -157,9 +219,7 @@ impl Sheet<'_> {
             .as_ref()
             .map_or(0..0, |key_box| key_box.part_of(joint, times_secs));
         if activity.constant && times_secs.len() > 1 {
-            let seen = self.axis.points().expand(END_ROOM);
-            let points = Rangef::new(seen.clamp(self.axis.x_of(first)), seen.clamp(self.axis.x_of(last)));
-            shape.bar(points, y, 1.0, tokens.faint.gamma_multiply(0.6));
+            shape.bar(self.seen_points(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
         } else {
             let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
             shape.add(&times_secs[..chosen.start], &self.axis, y, radius, tokens.muted);

@@ -27,11 +27,15 @@ impl KeyBox {
     }
 
     /// Takes the box to another corner.
-    pub(super) fn stretch(&mut self, (time_secs, row): (f32, f32), joint_at: impl Fn(usize) -> Option<JointIndex>) {
+    pub(super) fn stretch<'a>(
+        &mut self,
+        (time_secs, row): (f32, f32),
+        joints_of: impl Fn(usize) -> Option<&'a [JointIndex]>,
+    ) {
         let (from_secs, from_row) = self.from;
         self.span_secs = [from_secs.min(time_secs), from_secs.max(time_secs)];
         let [first, last] = [from_row.min(row), from_row.max(row)].map(|row| row.max(0.0) as usize);
-        self.joints = (first..=last).map_while(joint_at).collect();
+        self.joints = (first..=last).map_while(joints_of).flatten().copied().collect();
     }
 
     /// Those of a joint's key times that are in it.
@@ -39,6 +43,22 @@ impl KeyBox {
         if !self.joints.contains(&joint) {
             return 0..0;
         }
+        self.span_of(times_secs)
+    }
+
+    /// Those of key times of several joints that are in it, as far as it has any of those joints.
+    pub(super) fn part_of_any(
+        &self,
+        is_among: impl Fn(JointIndex) -> bool,
+        times_secs: &[f32],
+    ) -> std::ops::Range<usize> {
+        if !self.joints.iter().any(|&joint| is_among(joint)) {
+            return 0..0;
+        }
+        self.span_of(times_secs)
+    }
+
+    fn span_of(&self, times_secs: &[f32]) -> std::ops::Range<usize> {
         let [start_secs, end_secs] = self.span_secs;
         let first = times_secs.partition_point(|&secs| secs < start_secs);
         let end = times_secs.partition_point(|&secs| secs <= end_secs);

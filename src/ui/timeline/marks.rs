@@ -9,6 +9,10 @@ pub(super) const MERGE_POINTS: f32 = 3.0;
 /// How far a mark reaches at most.
 const MOST_RADIUS: f32 = 4.2;
 const LEAST_RADIUS: f32 = 1.6;
+/// Width of the outline of a hollow mark.
+const LINE_WIDTH: f32 = 1.2;
+/// A smaller mark has no room for a hollow.
+const LEAST_HOLLOW_RADIUS: f32 = 2.4;
 /// Half the height of a bar.
 const BAR_RADIUS: f32 = 1.5;
 
@@ -76,6 +80,15 @@ impl MarkShape {
         });
     }
 
+    /// Adds marks of which only the outline is drawn; bars are half as high.
+    pub(super) fn add_hollow(&mut self, times_secs: &[f32], axis: &TimeAxis, y: f32, radius: f32, color: Color32) {
+        marks(times_secs, axis, |mark| match mark {
+            Mark::Key(x) if radius >= LEAST_HOLLOW_RADIUS => self.outline(pos2(x, y), radius, color),
+            Mark::Key(x) => self.diamond(pos2(x, y), radius, color),
+            Mark::Run(points) => self.bar(points, y, 0.5 * BAR_RADIUS, color),
+        });
+    }
+
     /// Adds a bar.
     pub(super) fn bar(&mut self, points: Rangef, y: f32, radius: f32, color: Color32) {
         let rect = Rect::from_x_y_ranges(points.expand(0.5), Rangef::new(y - radius, y + radius));
@@ -83,21 +96,41 @@ impl MarkShape {
     }
 
     fn diamond(&mut self, center: Pos2, radius: f32, color: Color32) {
+        let inner = self.corners(center, radius - self.feather, color);
+        let outer = self.corners(center, radius + self.feather, Color32::TRANSPARENT);
+        self.mesh.add_triangle(inner, inner + 1, inner + 2);
+        self.mesh.add_triangle(inner, inner + 2, inner + 3);
+        self.ring(inner, outer);
+    }
+
+    fn outline(&mut self, center: Pos2, radius: f32, color: Color32) {
+        let rings = [
+            (radius - LINE_WIDTH - self.feather, Color32::TRANSPARENT),
+            (radius - LINE_WIDTH + self.feather, color),
+            (radius - self.feather, color),
+            (radius + self.feather, Color32::TRANSPARENT),
+        ];
+        let rings = rings.map(|(radius, color)| self.corners(center, radius.max(0.0), color));
+        for pair in rings.windows(2) {
+            self.ring(pair[0], pair[1]);
+        }
+    }
+
+    /// Four corners around a point. The number of the first.
+    fn corners(&mut self, center: Pos2, radius: f32, color: Color32) -> u32 {
         let first = self.mesh.vertices.len() as u32;
-        let mut corners = |radius: f32, color| {
-            for (x, y) in [(0.0, -radius), (radius, 0.0), (0.0, radius), (-radius, 0.0)] {
-                self.mesh.colored_vertex(pos2(center.x + x, center.y + y), color);
-            }
-        };
-        corners(radius - self.feather, color);
-        corners(radius + self.feather, Color32::TRANSPARENT);
-        self.mesh.add_triangle(first, first + 1, first + 2);
-        self.mesh.add_triangle(first, first + 2, first + 3);
+        for (x, y) in [(0.0, -radius), (radius, 0.0), (0.0, radius), (-radius, 0.0)] {
+            self.mesh.colored_vertex(pos2(center.x + x, center.y + y), color);
+        }
+        first
+    }
+
+    /// What lies between two sets of corners.
+    fn ring(&mut self, inner: u32, outer: u32) {
         for corner in 0..4 {
             let next = (corner + 1) % 4;
-            let [inner, inner_next] = [first + corner, first + next];
-            self.mesh.add_triangle(inner, inner + 4, inner_next);
-            self.mesh.add_triangle(inner_next, inner + 4, inner_next + 4);
+            self.mesh.add_triangle(inner + corner, outer + corner, inner + next);
+            self.mesh.add_triangle(inner + next, outer + corner, outer + next);
         }
     }
 

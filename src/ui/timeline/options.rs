@@ -6,7 +6,8 @@ use super::super::popover;
 use super::super::theme::{ROW_HEIGHT, Tokens};
 use super::super::widgets::{TypedValue, control_size, section_name, section_with_action, segmented, typed_number};
 use super::super::wording::trimmed;
-use super::seam;
+use super::TimelineState;
+use super::seam_list;
 use crate::anim::{LoopMode, WrapMode};
 use crate::session::{Command, SPEEDS, Session};
 
@@ -17,13 +18,17 @@ const IN_A_ROW: usize = 5;
 const FIELD_WIDTH: f32 = 78.0;
 
 /// The popover's contents.
-pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 4.0;
     speed(ui, session, commands);
     popover::gap(ui);
     at_the_end(ui, session, commands);
     popover::gap(ui);
     range(ui, session, commands);
+    if state.seam.loops() {
+        popover::gap(ui);
+        seam_list::show(ui, session, state, commands);
+    }
 }
 
 fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -59,12 +64,6 @@ fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         if let Some(mode) = segmented(ui, "Loop", &modes, Some(playback.wrap_mode())) {
             commands.push(Command::SetWrapMode(mode));
         }
-    }
-    if let Some(words) = seam::words(session) {
-        let (font, color) = (FontId::proportional(11.5), Tokens::of(ui).warning);
-        let galley = ui.painter().layout(words, font, color, ui.available_width());
-        let (rect, _) = ui.allocate_exact_size(galley.size() + vec2(0.0, 4.0), Sense::hover());
-        ui.painter().galley(rect.min + vec2(0.0, 4.0), galley, color);
     }
 }
 

@@ -1,5 +1,8 @@
 //! The joints as rows: as a tree whose branches fold, or by how much they move.
 
+use std::ops::Range;
+
+use super::folded::{FoldedBranch, FoldedBranches};
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{JointRow, OpenModel, Session};
@@ -15,6 +18,13 @@ pub(super) struct Row {
     pub(super) folded: bool,
 }
 
+/// A row that is seen, and what is folded away below it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SeenRow<'a> {
+    pub(super) row: &'a Row,
+    pub(super) folded: Option<&'a FoldedBranch>,
+}
+
 /// Rows of the clip on show, in buffers that are kept.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
@@ -24,14 +34,16 @@ pub(super) struct Rows {
     sorted: Vec<JointIndex>,
     tree: Vec<JointRow>,
     rows: Vec<Row>,
+    branches: FoldedBranches,
 }
 
 impl Rows {
-    /// The rows in order.
-    pub(super) fn update(&mut self, session: &Session, open: &OpenModel, clip: usize) -> &[Row] {
+    /// Orders the rows of a clip anew.
+    pub(super) fn update(&mut self, session: &Session, open: &OpenModel, clip: usize) {
+        self.branches.keep_of((session.clips_revision(), clip));
         self.rows.clear();
         if self.by_motion {
-            let of = Some((session.model_revision(), clip));
+            let of = Some((session.clips_revision(), clip));
             if self.sorted_of != of {
                 self.sorted_of = of;
                 sort_by_motion(open.activity(clip).unwrap_or_default(), &mut self.sorted);
@@ -52,8 +64,56 @@ impl Rows {
                 folded: row.folded,
             }));
         }
+    }
+
+    /// The rows in order.
+    pub(super) fn all(&self) -> &[Row] {
         &self.rows
     }
+
+    /// Merges what is folded away below the rows that are seen.
+    pub(super) fn merge_folded(&mut self, seen: Range<usize>, session: &Session, open: &OpenModel, clip_index: usize) {
+        let Some(clip) = open.model.clips.get(clip_index) else {
+            return;
+        };
+        let activity = open.activity(clip_index).unwrap_or_default();
+        for row in self.rows.get(seen).unwrap_or_default() {
+            if row.folded {
+                let below = below(session, row.joint);
+                let folded = self.rows.iter().filter(|row| row.folded).map(|row| row.joint);
+                self.branches.merge(row.joint, clip, below, activity, folded);
+            }
+        }
+    }
+
+    /// What is folded away below a row that is seen.
+    pub(super) fn folded_below(&self, row: &Row) -> Option<&FoldedBranch> {
+        self.branches.get(row.joint).filter(|_| row.folded)
+    }
+
+    /// The rows that are seen, once what is below them was merged.
+    pub(super) fn seen(&self, seen: Range<usize>) -> impl Iterator<Item = SeenRow<'_>> {
+        let rows = self.rows.get(seen).unwrap_or_default();
+        rows.iter().map(|row| SeenRow {
+            row,
+            folded: self.folded_below(row),
+        })
+    }
+
+    /// The joints that a row stands for: its own, and those folded away below it.
+    pub(super) fn joints_of<'a>(&'a self, session: &'a Session, index: usize) -> Option<&'a [JointIndex]> {
+        let row = self.rows.get(index)?;
+        Some(if row.folded {
+            session.joints().tree().branch(row.joint)
+        } else {
+            std::slice::from_ref(&row.joint)
+        })
+    }
+}
+
+/// The joints of a branch but for its topmost.
+fn below(session: &Session, joint: JointIndex) -> &[JointIndex] {
+    session.joints().tree().branch(joint).get(1..).unwrap_or_default()
 }
 
 /// What moves most first; of equal ones in the skeleton's order.

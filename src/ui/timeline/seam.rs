@@ -1,27 +1,138 @@
-//! What is seen where a loop begins again, in words.
+//! What is seen where a loop begins again: read when it changed, and told in words.
 
 use super::super::wording::measured;
-use crate::anim::LoopMode;
+use crate::anim::{JointSeam, Seam};
+use crate::model::JointIndex;
 use crate::session::Session;
 
-/// The seam of the clip on show in words: when it is seen, and the whole clip plays in a loop.
-pub(super) fn words(session: &Session) -> Option<String> {
-    let playback = session.playback();
-    if playback.loop_mode() != LoopMode::Loop || playback.range_secs().is_some() {
-        return None;
+/// A distance below this share of the model's size is none: files round their numbers to about six digits.
+const NO_SHARE: f32 = 1e-5;
+/// Less is 0 with two decimals.
+const LEAST_DEGREES: f32 = 0.005;
+/// Less is 0 per cent with one decimal.
+const LEAST_SCALE: f32 = 5e-4;
+
+/// The seam of what loops, as it is shown.
+#[derive(Debug, Default)]
+pub(super) struct SeamReading {
+    of: Option<ReadOf>,
+    seam: Seam,
+    /// All joints, the farthest travelled first; empty where nothing loops.
+    order: Vec<JointIndex>,
+    words: Option<String>,
+    decimals: usize,
+    jumps: bool,
+}
+
+/// What the reading depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ReadOf {
+    clips: u64,
+    names: u64,
+    clip: Option<usize>,
+    seam_secs: Option<[f32; 2]>,
+}
+
+impl SeamReading {
+    /// Reads the seam when there is another one.
+    pub(super) fn update(&mut self, session: &Session) {
+        let of = Some(ReadOf {
+            clips: session.clips_revision(),
+            names: session.joint_names_revision(),
+            clip: session.clip_index(),
+            seam_secs: session.playback().seam_secs(),
+        });
+        if self.of == of {
+            return;
+        }
+        self.of = of;
+        self.seam = session.loop_seam().map(|seam| seam.into_owned()).unwrap_or_default();
+        self.order = self.seam.by_travel();
+        let size = session.open_model().map_or(1.0, |open| open.size());
+        self.decimals = (-(size * NO_SHARE).log10()).ceil().clamp(0.0, 9.0) as usize;
+        self.jumps = self.seam.joints.iter().any(|joint| {
+            joint.travel >= self.least_distance()
+                || joint.rotation_degrees >= LEAST_DEGREES
+                || joint.scale >= LEAST_SCALE
+        });
+        self.words = self.told(session);
     }
-    let seam = session.open_model()?.seam(session.clip_index()?)?;
-    let worst = seam.worst.filter(|_| seam.visible)?;
-    let jump = seam.joints.get(worst.index())?;
-    let numbers = [
-        (jump.rotation_degrees >= 0.05).then(|| format!("turns by {:.1}°", jump.rotation_degrees)),
-        (jump.translation > 0.0).then(|| format!("moves by {}", measured(jump.translation))),
-        (jump.scale >= 5e-4).then(|| format!("scales by {:.1} %", jump.scale * 100.0)),
-    ];
-    let numbers: Vec<String> = numbers.into_iter().flatten().collect();
-    Some(format!(
-        "The loop's seam is seen: {} {} from the last pose to the first",
-        session.joint_label(worst),
-        numbers.join(", "),
-    ))
+
+    /// Whether something loops.
+    pub(super) fn loops(&self) -> bool {
+        self.of.is_some_and(|of| of.seam_secs.is_some())
+    }
+
+    /// Where the loop ends, in seconds, when its seam is seen.
+    pub(super) fn seen_at_secs(&self) -> Option<f32> {
+        let [_, last_secs] = self.of?.seam_secs?;
+        self.seam.visible.then_some(last_secs)
+    }
+
+    /// The seam in words, when it is seen.
+    pub(super) fn words(&self) -> Option<&str> {
+        self.words.as_deref()
+    }
+
+    /// Whether some joint has a number that is not nothing.
+    pub(super) fn any_jumps(&self) -> bool {
+        self.jumps
+    }
+
+    /// All joints, the farthest travelled first.
+    pub(super) fn order(&self) -> &[JointIndex] {
+        &self.order
+    }
+
+    /// The jump of a joint; none of a joint that is not there.
+    pub(super) fn of_joint(&self, joint: JointIndex) -> JointSeam {
+        self.seam.joints.get(joint.index()).copied().unwrap_or_default()
+    }
+
+    /// Whether a joint is seen to jump by its way.
+    pub(super) fn travel_is_seen(&self, joint: &JointSeam) -> bool {
+        joint.travel >= self.seam.visible_travel
+    }
+
+    /// A distance with as many decimals as all of this model have; `None` where that is nothing.
+    pub(super) fn distance(&self, distance: f32) -> Option<String> {
+        let decimals = self.decimals;
+        (distance >= self.least_distance()).then(|| format!("{distance:.decimals$}"))
+    }
+
+    /// What is less is 0 with as many decimals.
+    fn least_distance(&self) -> f32 {
+        0.5 * 10.0_f32.powi(-(self.decimals as i32))
+    }
+
+    fn told(&self, session: &Session) -> Option<String> {
+        let worst = self.seam.worst.filter(|_| self.seam.visible)?;
+        let jump = self.of_joint(worst);
+        let numbers = [
+            (jump.rotation_degrees >= 0.05).then(|| format!("turns by {:.1}°", jump.rotation_degrees)),
+            (jump.translation > 0.0).then(|| format!("moves by {}", measured(jump.translation))),
+            scale(jump.scale).map(|scale| format!("scales by {scale}")),
+        ];
+        let numbers: Vec<String> = numbers.into_iter().flatten().collect();
+        let poses = if session.playback().range_secs().is_some() {
+            "the range's last pose to its first"
+        } else {
+            "the last pose to the first"
+        };
+        Some(format!(
+            "The loop's seam is seen: {} {} from {poses}",
+            session.joint_label(worst),
+            numbers.join(", "),
+        ))
+    }
+}
+
+/// A change of scale in per cent; `None` where that is nothing.
+pub(super) fn scale(share: f32) -> Option<String> {
+    (share >= LEAST_SCALE).then(|| format!("{:.1} %", share * 100.0))
+}
+
+/// An angle in degrees; `None` where that is nothing.
+pub(super) fn angle(degrees: f32) -> Option<String> {
+    (degrees >= LEAST_DEGREES).then(|| format!("{degrees:.2}°"))
 }

@@ -6,6 +6,7 @@ use super::axis::TimeWindow;
 use super::curves::Curves;
 use super::key_box::KeyBox;
 use super::rows::Rows;
+use super::seam::SeamReading;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
 
@@ -36,6 +37,7 @@ pub(in crate::ui) struct TimelineState {
     pub(super) rows: Rows,
     pub(super) curves: Curves,
     pub(super) key_box: Option<KeyBox>,
+    pub(super) seam: SeamReading,
     /// The joint whose row is under the pointer in this pass.
     pub(super) hovered: Option<JointIndex>,
     /// The selected joint whose row was brought into sight.
@@ -48,10 +50,11 @@ impl TimelineState {
     /// Forgets what belonged to another clip, or to another model, and turns the page when the time leaves it.
     pub(in crate::ui) fn update(&mut self, session: &Session) {
         self.hovered = None;
+        self.seam.update(session);
         let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
             return;
         };
-        let of = Some((session.model_revision(), index));
+        let of = Some((session.clips_revision(), index));
         if self.of != of {
             self.window.show_all();
             self.key_box = None;

@@ -9,7 +9,7 @@ use super::super::theme::{CONTROL_RADIUS, Tokens};
 use super::super::widgets::{control_size, icon_button};
 use super::super::wording::trimmed;
 use super::readouts::{self, ReadoutWidths};
-use super::{bar, clips, controls, options, strip_height};
+use super::{TimelineState, bar, clips, controls, options, strip_height};
 use crate::anim::{Direction, LoopMode};
 use crate::session::{Command, Session};
 
@@ -51,10 +51,10 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         let widths = ReadoutWidths::of(ui, clip);
         let right_width = widths.time + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
         let bar_width = (ui.available_width() - right_width).max(60.0);
-        bar::show(ui, session, vec2(bar_width, 30.0), commands);
+        bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 30.0), commands);
         readouts::time(ui, session, widths.time, commands);
         readouts::frame(ui, session, clip, widths.frame, commands);
-        speed_button(ui, session, 48.0, commands);
+        speed_button(ui, session, &mut state.timeline, 48.0, commands);
         loop_button(ui, session, commands);
         let open = state.timeline.open;
         let label = if open {
@@ -75,7 +75,7 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, session: &Session, state: &mut UiState,
         ui.spacing_mut().item_spacing.x = 10.0;
         controls::play_button(ui, session, 44.0, commands);
         let bar_width = ui.available_width() - control_size(ui) - 10.0;
-        bar::show(ui, session, vec2(bar_width, 44.0), commands);
+        bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 44.0), commands);
         let open = state.sheet == Some(SheetPage::Timeline);
         let label = if open {
             "Shut the dope sheet"
@@ -105,13 +105,13 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, session: &Session, state: &mut UiState,
         if shows_frame {
             readouts::frame(ui, session, clip, widths.frame, commands);
         }
-        speed_button(ui, session, 52.0, commands);
+        speed_button(ui, session, &mut state.timeline, 52.0, commands);
         loop_button(ui, session, commands);
     });
 }
 
 /// The speed, and behind it all about how a clip plays.
-fn speed_button(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
+fn speed_button(ui: &mut Ui, session: &Session, state: &mut TimelineState, width: f32, commands: &mut Vec<Command>) {
     let speed = session.playback().speed();
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
@@ -128,8 +128,10 @@ fn speed_button(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<C
     ui.painter()
         .text(rect.center(), Align2::CENTER_CENTER, &text, font, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
-    let response = response.on_hover_text("Speed ([ slower, ] faster, \\ as the file), loop and range");
-    popover::show_above(ui, &response, options::WIDTH, |ui| options::show(ui, session, commands));
+    let response = response.on_hover_text("Speed ([ slower, ] faster, \\ as the file), range and seam");
+    popover::show_above(ui, &response, options::WIDTH, |ui| {
+        options::show(ui, session, state, commands);
+    });
 }
 
 fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

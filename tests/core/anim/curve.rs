@@ -1,6 +1,6 @@
 //! Curves of one joint.
 
-use bindpose::anim::{CurvePoint, CurveSpace, LocalPose, PoseBuffers, curve, sample};
+use bindpose::anim::{Curve, CurvePoint, CurveSpace, LocalPose, PoseBuffers, sample};
 use bindpose::model::{JointIndex, Model};
 use glam::{EulerRot, Quat, Vec3};
 
@@ -17,7 +17,8 @@ fn points(
 ) -> Vec<CurvePoint> {
     let mut out = vec![CurvePoint::default(); count];
     let clip = &model.clips[clip];
-    curve(&model.skeleton, clip, JointIndex(joint), space, span_secs, &mut out);
+    let curve = Curve::new(&model.skeleton, clip, JointIndex(joint), space);
+    curve.sample(&model.skeleton, clip, span_secs, &mut out);
     out
 }
 
@@ -153,5 +154,59 @@ fn angles_go_straight_through_the_poles() {
                 point.euler_degrees
             );
         }
+    }
+}
+
+/// What is said of a time is the same to the bit whatever stretch is looked at, with whatever steps.
+#[test]
+fn looking_at_another_stretch_changes_no_value() {
+    let mut document = arm();
+    // More than two turns about an axis askew, so that quaternions change sides and each angle goes beyond 180°.
+    for (bone, keys) in document.clips[0].bones.iter_mut().enumerate() {
+        let axis = Vec3::new(0.3 + bone as f32, 0.2, 1.0).normalize();
+        let turned = (0..=20).map(|index| {
+            let rotation = Quat::from_axis_angle(axis, index as f32 * 0.75).to_array();
+            bindpose::format::Keyframe {
+                rotation,
+                ..key(index as f32 * 0.5, [0.0; 3])
+            }
+        });
+        *keys = track(turned.collect::<Vec<_>>());
+    }
+    let (model, _) = model_of(&document);
+    let clip = &model.clips[0];
+    for (joint, space) in [(0, CurveSpace::Local), (2, CurveSpace::Local), (2, CurveSpace::Model)] {
+        let curve = Curve::new(&model.skeleton, clip, JointIndex(joint), space);
+        let whole = points(&model, 0, joint, space, [0.0, 10.0], 641);
+        for (start_secs, end_secs, count) in [(0.0, 5.0, 321), (3.75, 6.25, 161), (6.25, 10.0, 61), (8.75, 8.75, 1)] {
+            for point in points(&model, 0, joint, space, [start_secs, end_secs], count) {
+                let place = (point.time_secs * 64.0) as usize;
+                assert_eq!(point, whole[place], "{joint} {space:?} from {start_secs}");
+                assert_eq!(point, curve.at(&model.skeleton, clip, point.time_secs));
+            }
+        }
+        // And it is one line: no step is a jump. The arm's tip turns by 2.25 in half a second at most.
+        let most = 2.25 / 32.0 * 1.5;
+        for pair in whole.windows(2) {
+            assert!(pair[0].rotation.dot(pair[1].rotation) > 0.0);
+            let step = (pair[1].euler_degrees - pair[0].euler_degrees).abs().max_element();
+            // Angles go faster than the joint as y comes near a pole.
+            let cosine = pair[0].euler_degrees.y.to_radians().cos().abs().max(0.05);
+            assert!(step.to_radians() < most / cosine, "{joint} {space:?}: {pair:?}");
+        }
+    }
+}
+
+#[test]
+fn a_chain_that_turns_half_a_turn_a_joint_is_followed_from_key_to_key() {
+    let mut document = arm();
+    for keys in &mut document.clips[0].bones {
+        *keys = track([0, 1, 2].map(|index| turned(key(index as f32, [0.0; 3]), index as f32 * 2.5)));
+    }
+    let (model, _) = model_of(&document);
+    let ends = points(&model, 0, 2, CurveSpace::Model, [0.0, 2.0], 3);
+    for (point, expected) in ends.iter().zip([0.0_f32, 7.5, 15.0]) {
+        let z = point.euler_degrees.z;
+        assert!((z - expected.to_degrees()).abs() < 0.05, "{z}");
     }
 }

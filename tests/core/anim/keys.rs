@@ -1,6 +1,6 @@
 //! Key times: rows of marks, and steps from key to key.
 
-use bindpose::anim::{key_times, merged_key_times, next_key, previous_key};
+use bindpose::anim::{key_times, merged_key_times, merged_key_times_of, next_key, previous_key};
 use bindpose::model::JointIndex;
 
 use crate::documents::{REAL_FILES, arm, key, model_of, real_file, track};
@@ -29,7 +29,15 @@ fn times_that_nobody_tells_apart_count_once() {
     }
     let (model, _) = model_of(&document);
     // A twentieth of a frame is 5 ms here.
-    assert_eq!(merged_key_times(&model.clips[0]), [0.0, 0.05, 0.099_999, 0.106, 0.2]);
+    let clip = &model.clips[0];
+    assert_eq!(merged_key_times(clip), [0.0, 0.05, 0.099_999, 0.106, 0.2]);
+    let of = |joints: &[u32]| {
+        let joints: Vec<_> = joints.iter().copied().map(JointIndex).collect();
+        merged_key_times_of(clip, &joints)
+    };
+    assert_eq!(of(&[2, 1]), [0.000_001, 0.05, 0.099_999, 0.106, 0.200_001]);
+    assert_eq!(of(&[0, 1, 2]), merged_key_times(clip));
+    assert_eq!((of(&[]), of(&[9])), (vec![], vec![]), "nobody has no keys");
 }
 
 #[test]

@@ -22,7 +22,12 @@ fn arm_that_ends(translation: [[f32; 3]; 3], angle_radians: [f32; 3]) -> Model {
 }
 
 fn seam_of(model: &Model, size: f32) -> Seam {
-    seam(&model.skeleton, &model.clips[0], size)
+    whole_seam(model, 0, size)
+}
+
+fn whole_seam(model: &Model, clip: usize, size: f32) -> Seam {
+    let clip = &model.clips[clip];
+    seam(&model.skeleton, clip, [clip.start_secs, clip.end_secs], size)
 }
 
 #[test]
@@ -116,13 +121,18 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
     let seam = seam_of(&model, 2.0);
     assert!(seam.joints[0].rotation_degrees < 1e-3, "a whole turn is none");
     assert_eq!((seam.joints[1].scale, seam.worst), (0.5, Some(JointIndex(1))));
+    assert_eq!(
+        seam.by_travel()[1],
+        JointIndex(1),
+        "after the first, whose turn is rounded"
+    );
 }
 
 #[test]
 fn every_size_of_skeleton_has_its_seam() {
     for bones in JOINT_COUNTS {
         let model = rigs::model(bones);
-        let [ragged, single, even] = [0, 1, 2].map(|clip| seam(&model.skeleton, &model.clips[clip], 5.0));
+        let [ragged, single, even] = [0, 1, 2].map(|clip| whole_seam(&model, clip, 5.0));
         assert_eq!(ragged.joints.len(), bones as usize);
         assert!(ragged.visible && ragged.worst.is_some());
         assert!(!single.visible && single.worst.is_none(), "one key has no seam");
@@ -139,8 +149,8 @@ fn the_figure_loops_without_a_seam_that_is_seen() {
     let (model, _) = model_of(&bindpose::sample::figure());
     let bounds = model.bind_bounds();
     assert!(model.clips.len() > 1);
-    for clip in &model.clips {
-        let seam = seam(&model.skeleton, clip, bounds.min.distance(bounds.max));
+    for (index, clip) in model.clips.iter().enumerate() {
+        let seam = whole_seam(&model, index, bounds.min.distance(bounds.max));
         assert!(
             !seam.visible,
             "{}: {:?}",
@@ -156,8 +166,8 @@ fn seams_of_real_files_are_those_of_their_poses() {
         let Some(parsed) = real_file(name) else { continue };
         let (model, _) = Model::from_parsed(&parsed).expect("sound");
         let bounds = model.bind_bounds();
-        for clip in &model.clips {
-            let seam = seam(&model.skeleton, clip, bounds.min.distance(bounds.max));
+        for (index, clip) in model.clips.iter().enumerate() {
+            let seam = whole_seam(&model, index, bounds.min.distance(bounds.max));
             let places = |time_secs| {
                 let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
                 pose.evaluate(&model.skeleton, clip, time_secs);
@@ -174,4 +184,47 @@ fn seams_of_real_files_are_those_of_their_poses() {
             }
         }
     }
+}
+
+#[test]
+fn a_range_has_the_seam_between_its_own_ends() {
+    let model = rigs::model(12);
+    let clip = &model.clips[2];
+    let span_secs = [3.3, 4.1];
+    let seam = seam(&model.skeleton, clip, span_secs, 5.0);
+    let [first, last] = span_secs.map(|time_secs| {
+        let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+        pose.evaluate(&model.skeleton, clip, time_secs);
+        pose
+    });
+    for (joint, found) in seam.joints.iter().enumerate() {
+        let [a, b] = [&first, &last].map(|pose| pose.model.0[joint].translation);
+        assert_eq!(found.travel, a.distance(b));
+        let [a, b] = [&first, &last].map(|pose| pose.local.joints().nth(joint).expect("a joint").rotation.as_dquat());
+        let turned = 2.0 * a.dot(b).abs().min(1.0).acos().to_degrees();
+        // The oracle's cosine loses what is below a thousandth of a degree.
+        assert!(
+            (f64::from(found.rotation_degrees) - turned).abs() < 0.05,
+            "{joint}: {found:?} {turned}"
+        );
+    }
+    assert!(seam.visible && seam.joints[0].travel > 0.5);
+    let nothing = bindpose::anim::seam(&model.skeleton, clip, [3.3, 3.3], 5.0);
+    assert!(!nothing.visible && nothing.worst.is_none());
+}
+
+#[test]
+fn the_farthest_travelled_joint_is_first_and_of_equal_ones_the_one_that_turns_more() {
+    let model = arm_that_ends([[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.2, 0.0]], [0.0, 0.0, 0.5]);
+    let joints = |order: [u32; 3]| order.map(JointIndex);
+    assert_eq!(seam_of(&model, 2.0).by_travel(), joints([2, 1, 0]));
+    let model = arm_that_ends([[0.0; 3], [0.3, 0.0, 0.0], [0.0; 3]], [0.0, 0.0, 0.5]);
+    assert_eq!(
+        seam_of(&model, 2.0).by_travel(),
+        joints([2, 1, 0]),
+        "the last one turns"
+    );
+    let model = arm_that_ends([[0.0; 3]; 3], [0.0; 3]);
+    assert_eq!(seam_of(&model, 2.0).by_travel(), joints([0, 1, 2]));
+    assert_eq!(seam_of(&model, 2.0).visible_travel, 2.0 * VISIBLE_SHARE);
 }

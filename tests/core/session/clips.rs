@@ -1,7 +1,11 @@
 //! What panels show of clips.
 
+use std::borrow::Cow;
+
+use bindpose::anim::{LoopMode, WrapMode, seam};
 use bindpose::format::Document;
 use bindpose::model::JointIndex;
+use bindpose::session::Command;
 
 use super::{models, opened};
 use crate::rigs;
@@ -64,4 +68,35 @@ fn a_model_has_a_size_with_a_mesh_and_without() {
         ..bones
     };
     assert_eq!(size(&point), 1.0);
+}
+
+#[test]
+fn the_seam_is_that_of_what_loops() {
+    let clips = vec![rigs::even("even", 3, -1.0, 9, 4.0), rigs::single("one", 3)];
+    let mut session = opened(models::file("a.m3d", &rigs::rig(3, clips)));
+    let between = |span_secs| {
+        let session = opened(models::file(
+            "a.m3d",
+            &rigs::rig(3, vec![rigs::even("even", 3, -1.0, 9, 4.0)]),
+        ));
+        let open = session.open_model().expect("open");
+        seam(&open.model.skeleton, &open.model.clips[0], span_secs, open.size())
+    };
+    assert!(matches!(session.loop_seam(), Some(Cow::Borrowed(_))), "found once");
+    assert_eq!(session.loop_seam().as_deref(), Some(&between([-1.0, 1.0])));
+    session.apply(Command::SetRangeStart(Some(-0.3)));
+    session.apply(Command::SetRangeEnd(Some(0.6)));
+    assert_eq!(session.loop_seam().as_deref(), Some(&between([-0.3, 0.6])));
+    // The demo begins again at 0, and backward at the end.
+    session.apply(Command::SetWrapMode(WrapMode::BookDemo));
+    assert_eq!(session.playback().seam_secs(), Some([0.0, 0.6]));
+    session.apply(Command::TogglePlayBackward);
+    assert_eq!(session.playback().seam_secs(), Some([-0.3, 0.6]));
+    for mode in [LoopMode::Once, LoopMode::PingPong] {
+        session.apply(Command::SetLoopMode(mode));
+        assert_eq!(session.loop_seam(), None, "{mode:?} never jumps");
+    }
+    session.apply(Command::SetLoopMode(LoopMode::Loop));
+    session.apply(Command::SelectClip(1));
+    assert_eq!(session.loop_seam(), None, "one pose loops nowhere");
 }

@@ -81,7 +81,7 @@ fn clips_join_with_free_names_and_their_files_and_nothing_is_uploaded_again() {
             ("walk (2)", "run.m3d"),
         ])
     );
-    assert_eq!(session.take_events(), []);
+    assert_eq!(session.take_events(), [Event::PlaybackChange]);
     for clip in 1..5 {
         session.apply(Command::SelectClip(clip));
         session.advance(0.1);
@@ -207,7 +207,10 @@ fn clips_come_to_a_model_that_had_none_and_play() {
     )]));
     assert_eq!((session.clip_index(), session.playback().time_secs()), (Some(0), 3.0));
     assert!(session.is_animating());
-    assert_eq!(session.take_events(), [Event::Play, Event::TimeUpdate]);
+    assert_eq!(
+        session.take_events(),
+        [Event::Play, Event::TimeUpdate, Event::PlaybackChange]
+    );
 }
 
 #[test]
@@ -281,4 +284,149 @@ fn a_real_file_joins_itself() {
             .message
             .starts_with("box.m3d has 2 bones and soldier.m3d has ")
     }));
+}
+
+/// A file of clips; each of a second more than the one before it, from 0 s.
+fn guest(path: &str, names: &[&str], keys: u32) -> File {
+    let clips = (0..)
+        .zip(names)
+        .map(|(index, name)| rigs::even(name, 12, 0.0, keys + 4 * index, 4.0));
+    file(path, &rigs::rig(12, clips.collect()))
+}
+
+#[test]
+fn a_file_that_is_added_again_replaces_its_clips_where_they_stood() {
+    let mut session = hero();
+    let add = |session: &mut Session, file| session.apply(Command::AddClips(vec![file]));
+    add(&mut session, guest("walk.m3d", &["walk", "idle"], 5));
+    add(&mut session, guest("run.m3d", &["run"], 5));
+    let model = (session.model_revision(), session.clips_revision());
+    session.apply(Command::SelectClip(3));
+    session.apply(Command::SetBlend { clip: 1, share: 0.25 });
+    session.apply(Command::Seek { time_secs: 0.5 });
+    session.take_events();
+    let picture = session.picture_revision();
+    add(&mut session, guest("elsewhere/walk.m3d", &["walk", "trot", "idle"], 9));
+    let listed = [
+        ("idle", "hero.m3d"),
+        ("walk", "walk.m3d"),
+        ("trot", "walk.m3d"),
+        ("idle (2)", "walk.m3d"),
+        ("run", "run.m3d"),
+    ];
+    assert_eq!(list(&session), pairs(&listed));
+    assert_eq!(session.model_revision(), model.0, "nothing is uploaded again");
+    assert!(session.clips_revision() > model.1 && session.picture_revision() > picture);
+    assert_eq!(
+        (session.clip_index(), session.playback().time_secs()),
+        (Some(4), 0.5),
+        "the clip on show is found under its new number"
+    );
+    assert_eq!(session.blend().map(|blend| (blend.clip, blend.share)), Some((1, 0.25)));
+    assert!(session.is_animating());
+    assert_eq!(session.take_events(), [Event::PlaybackChange]);
+    let told = |session: &Session| {
+        let notices = session.notices().filter(|notice| notice.code == "clips-replaced");
+        notices
+            .map(|notice| (notice.severity, notice.subject, notice.message.clone()))
+            .collect::<Vec<_>>()
+    };
+    let note = |message: &str| vec![(Severity::Note, Some(Subject::Clip(1)), message.to_owned())];
+    assert_eq!(
+        told(&session),
+        note("walk.m3d was added before; its 3 clips replace the 2 clips from then.")
+    );
+    add(&mut session, guest("walk.m3d", &["walk"], 5));
+    assert_eq!(
+        told(&session),
+        note("walk.m3d was added before; its 1 clip replaces the 3 clips from then."),
+        "what was said of clips that are gone is gone"
+    );
+    // What the model's own file brought stays, and a file of another name joins.
+    add(&mut session, guest("hero.m3d", &["jump"], 5));
+    assert_eq!(list(&session).len(), 4);
+    // They come back in their order with the model.
+    let joined = list(&session);
+    let own = session.open_model().expect("open").file.clone();
+    session.apply(Command::AddFiles(vec![own]));
+    assert_eq!(list(&session), joined);
+}
+
+#[test]
+fn the_clip_on_show_goes_on_as_far_as_its_replacement_has_it() {
+    for (names, keys, shown, time_secs, range_secs) in [
+        // As long as before.
+        (&["walk", "trot"][..], 9, 1, 1.5, Some([0.5, 1.75])),
+        // Under another number.
+        (&["trot", "walk"], 5, 2, 1.5, Some([0.5, 1.75])),
+        // Shorter: one second.
+        (&["walk"], 5, 1, 1.0, Some([0.5, 1.0])),
+        // Gone: what stands in its place, from its start.
+        (&["trot"], 9, 1, 0.0, None),
+    ] {
+        let mut session = hero();
+        session.apply(Command::AddClips(vec![guest("walk.m3d", &["walk"], 9)]));
+        session.apply(Command::SelectClip(1));
+        session.apply(Command::SetRangeStart(Some(0.5)));
+        session.apply(Command::SetRangeEnd(Some(1.75)));
+        session.apply(Command::Seek { time_secs: 1.5 });
+        session.apply(Command::Pause);
+        let before = session.frame().palette.0.clone();
+        session.apply(Command::AddClips(vec![guest("walk.m3d", names, keys)]));
+        assert_eq!(session.clip_index(), Some(shown), "{names:?}");
+        assert_eq!(session.playback().time_secs(), time_secs, "{names:?}");
+        assert_eq!(session.playback().range_secs(), range_secs, "{names:?}");
+        let clip = session.clip().expect("on show");
+        assert_eq!(session.playback().end_secs(), clip.end_secs);
+        assert!(!session.is_animating() && !session.is_fading());
+        if (names, keys) == (&["walk", "trot"], 9) {
+            assert!(session.frame().palette.0 == before, "the same pose");
+        } else {
+            assert_eq!(session.frame().palette.0.len(), before.len());
+        }
+    }
+}
+
+#[test]
+fn findings_follow_the_clips_that_they_are_about() {
+    let mut session = hero();
+    let unsorted = |path: &str, name: &str| {
+        let mut clip = rigs::even(name, 12, 0.0, 5, 4.0);
+        clip.bones[3].keyframes.push(key(0.1, [0.0; 3]));
+        let mut document = rigs::rig(12, vec![clip]);
+        document.bone_offsets[5][13] -= 0.3;
+        file(path, &document)
+    };
+    session.apply(Command::AddClips(vec![unsorted("a.m3d", "a")]));
+    session.apply(Command::AddClips(vec![unsorted("b.m3d", "b")]));
+    session.apply(Command::AddClips(vec![guest("a.m3d", &["one", "two", "three"], 5)]));
+    let subjects = |code: &str| {
+        let notices = session.notices().filter(|notice| notice.code == code);
+        notices
+            .map(|notice| (notice.subject, notice.message[..5].to_owned()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        subjects("keys-not-sorted"),
+        [(Some(Subject::Clip(4)), "b.m3d".to_owned())]
+    );
+    assert_eq!(
+        subjects("clips-offsets-differ").len(),
+        1,
+        "that of a.m3d is not true any more"
+    );
+}
+
+#[test]
+fn files_of_one_name_in_one_drop_all_join() {
+    let mut session = hero();
+    let both = || vec![guest("walk/clip.m3d", &["walk"], 5), guest("run/clip.m3d", &["run"], 5)];
+    session.apply(Command::AddClips(both()));
+    let listed = pairs(&[("idle", "hero.m3d"), ("walk", "clip.m3d"), ("run", "clip.m3d")]);
+    assert_eq!(list(&session), listed);
+    session.apply(Command::AddClips(both()));
+    assert_eq!(list(&session).len(), 3, "and both are replaced");
+    // What cannot be read replaces nothing.
+    session.apply(Command::AddClips(vec![models::broken("clip.m3d")]));
+    assert!(session.error().is_some() && list(&session).len() == 3);
 }

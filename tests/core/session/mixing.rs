@@ -56,12 +56,44 @@ fn smooth(part: f32) -> f32 {
 #[test]
 fn without_a_crossfade_clips_change_at_once() {
     let mut session = playing(3);
-    assert_eq!(session.crossfade_secs(), 0.0);
+    session.apply(Command::SetCrossfade(0.0));
     session.advance(0.2);
     session.apply(Command::SelectClip(2));
     assert!(!session.is_fading());
     let expected = pose(&session, 2, 3.0);
     assert_shows(&mut session, expected);
+}
+
+#[test]
+fn unless_told_otherwise_a_clip_that_plays_fades_for_three_tenths_of_a_second() {
+    let mut session = playing(3);
+    assert_eq!(session.crossfade_secs(), 0.3);
+    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(Command::SelectClip(2));
+    session.advance(0.15);
+    let half = mixed(&pose(&session, 0, 0.65), &pose(&session, 2, 3.15), 0.5);
+    assert!(session.is_fading());
+    assert_shows(&mut session, half);
+    session.advance(0.16);
+    assert!(!session.is_fading());
+}
+
+#[test]
+fn paused_and_under_reduced_motion_another_clip_is_there_at_once() {
+    let mut paused = playing(3);
+    paused.apply(Command::Pause);
+    let mut calm = Session::new(true);
+    let file = paused.open_model().expect("open").file.clone();
+    calm.apply(Command::AddFiles(vec![file]));
+    calm.apply(Command::Play);
+    for mut session in [paused, calm] {
+        session.apply(Command::Seek { time_secs: 0.5 });
+        let picture = session.picture_revision();
+        session.apply(Command::SelectClip(2));
+        assert!(!session.is_fading() && session.picture_revision() > picture);
+        let there = pose(&session, 2, 3.0);
+        assert_shows(&mut session, there);
+    }
 }
 
 #[test]

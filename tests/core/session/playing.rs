@@ -1,6 +1,6 @@
 //! Time: playing, seeking, stepping, scrubbing, clips, speeds, loop modes, and what listeners hear of it.
 
-use bindpose::anim::LoopMode;
+use bindpose::anim::{LoopMode, WrapMode};
 use bindpose::session::{Command, Event, SPEEDS, Session};
 
 use super::models::{self, KEYS_PER_SEC, jointed, moving, still};
@@ -122,6 +122,34 @@ fn a_model_that_comes_while_the_time_is_held_plays() {
 }
 
 #[test]
+fn listeners_hear_of_another_clip_range_speed_or_way_to_end_and_of_nothing_that_is_as_it_was() {
+    let mut session = opened(moving("a.m3d"));
+    let other_clip = vec![Event::TimeUpdate, Event::PlaybackChange];
+    for (command, heard) in [
+        (Command::SetSpeed(2.0), vec![Event::PlaybackChange]),
+        (Command::SetSpeed(2.0), vec![]),
+        (Command::Slower, vec![Event::PlaybackChange]),
+        (Command::CycleLoopMode, vec![Event::PlaybackChange]),
+        (Command::SetLoopMode(LoopMode::PingPong), vec![]),
+        (Command::SetWrapMode(WrapMode::BookDemo), vec![Event::PlaybackChange]),
+        (Command::SetRangeEnd(Some(0.5)), vec![Event::PlaybackChange]),
+        (Command::SetRangeEnd(Some(0.5)), vec![]),
+        (Command::ClearRange, vec![Event::PlaybackChange]),
+        (Command::SelectClip(1), other_clip),
+        (Command::SelectClip(1), vec![]),
+        (Command::ResetCamera, vec![]),
+    ] {
+        session.apply(command.clone());
+        assert_eq!(session.take_events(), heard, "{command:?}");
+    }
+    session.apply(Command::AddFiles(vec![moving("b.m3d")]));
+    assert!(
+        !session.take_events().contains(&Event::PlaybackChange),
+        "that is a load"
+    );
+}
+
+#[test]
 fn each_loop_mode_ends_in_its_way() {
     for (mode, after_secs, time, playing) in [
         (LoopMode::Once, 1.25, 1.0, false),
@@ -131,6 +159,7 @@ fn each_loop_mode_ends_in_its_way() {
     ] {
         let mut session = opened(moving("a.m3d"));
         session.apply(Command::SetLoopMode(mode));
+        session.take_events();
         session.advance(after_secs);
         assert_near(time_secs(&session), time);
         assert_eq!(session.playback().is_playing(), playing, "{mode:?}");

@@ -376,7 +376,7 @@ proptest! {
                 match event {
                     Event::Play => playing = true,
                     Event::Pause => playing = false,
-                    Event::Load | Event::Error | Event::TimeUpdate => {}
+                    Event::Load | Event::Error | Event::TimeUpdate | Event::PlaybackChange => {}
                 }
             }
             prop_assert_eq!(playing, session.playback().is_playing());
