@@ -27,7 +27,7 @@ const KEYS: [&[(&str, &str)]; 4] = [
     ],
     &[
         ("Drag", "orbit"),
-        ("Right drag", "pan"),
+        ("Right drag", "pan; middle drag too"),
         ("Right + WASD", "fly; Q E down, up"),
         ("Wheel", "zoom to the pointer"),
         ("One finger", "orbit"),
