@@ -5,6 +5,7 @@ mod drag_trail;
 mod error_card;
 mod excerpt;
 mod flight;
+mod free_room;
 mod help;
 mod icons;
 mod inspector;
@@ -35,13 +36,13 @@ mod wording;
 
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
-use crate::scene::{Insets, Theme};
+use crate::scene::Theme;
 use crate::session::{Command, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 pub use state::{Request, SheetPage, UiState};
 
-use layout::{SIDE_WIDTH, bar_height};
+use layout::bar_height;
 use panel::Panel;
 use theme::{MARGIN, NARROW_WIDTH};
 
@@ -110,21 +111,8 @@ fn set_theme(ui: &Ui) -> Command {
 
 /// What the panels leave free is where the model is framed.
 fn set_viewport(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> Command {
-    let top = (bar_height(ui) + MARGIN) / window.height();
-    let bottom = timeline::covered_height(ui, session, &state.timeline, narrow) / window.height();
-    let left = if narrow {
-        0.0
-    } else {
-        (MARGIN * 2.0 + SIDE_WIDTH) / window.width()
-    };
-    let insets = Insets {
-        left,
-        top: top.clamp(0.0, 0.3),
-        bottom: bottom.clamp(0.0, 0.6),
-        ..Insets::default()
-    };
     Command::SetViewport {
         aspect: window.width() / window.height().max(1.0),
-        insets,
+        insets: free_room::insets(ui, session, state, window, narrow),
     }
 }

@@ -16,7 +16,7 @@ mod vertex_panel;
 use egui::{Rect, Ui};
 
 pub(super) use joint_panel::show as show_inspector;
-pub(super) use legend::show as show_legend;
+pub(super) use legend::{CARD_HEIGHT, LegendShape, STRIP_HEIGHT, has_legend, show as show_legend};
 pub(super) use marks::show as show_marks;
 pub(super) use overlay_rows::{any_shown, show as show_overlay_rows};
 pub(super) use tree::show as show_tree;
