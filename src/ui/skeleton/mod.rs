@@ -1,5 +1,7 @@
 //! The skeleton and the skin: tree, numbers, marks in the view, what is drawn of them.
 
+mod digits;
+mod formula;
 mod joint_panel;
 mod key_table;
 pub(super) mod keys;
@@ -12,6 +14,7 @@ mod reading;
 mod tree;
 mod tree_row;
 mod vertex_panel;
+mod vertex_sum;
 
 use egui::{Rect, Ui};
 
@@ -51,6 +54,8 @@ pub(super) struct SkeletonState {
     space: Space,
     key_part: KeyPart,
     explains: bool,
+    /// Influences of the explained vertex whose matrices are shown, by slot: the next vertex looks like this one.
+    unfolded: [bool; 4],
     /// The joint whose row or link is under the pointer in this pass.
     hovered: Option<JointIndex>,
     /// Where the pointer is over the view itself: x right, y up, −1…1.
