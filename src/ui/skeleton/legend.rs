@@ -135,13 +135,13 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
                 None => view.label().to_owned(),
             };
             // It stays while a bone is merely looked at in advance, so that the card keeps its height.
-            let selected = session.joints().selected();
-            (
-                title,
-                selected
-                    .is_none()
-                    .then_some("Select a bone in the tree, or a vertex on the skin."),
-            )
+            let joints = session.joints();
+            let hint = match (joints.selected(), joints.selected_vertex()) {
+                (Some(_), _) => None,
+                (None, Some(_)) => Some("Choose one of the bones of the vertex, or another in the tree."),
+                (None, None) => Some("Select a bone in the tree, or a vertex on the skin."),
+            };
+            (title, hint)
         }
         SkinView::DominantJoint => (view.label().to_owned(), Some(COLORS_IN_TREE)),
         SkinView::Stretch => (view.label().to_owned(), Some("Edge lengths now, bind pose = 1.")),

@@ -2,7 +2,7 @@
 //! `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`, row vectors.
 
 use egui::text::LayoutJob;
-use egui::{Align2, FontId, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::Vec3;
 
 use super::SkeletonState;
@@ -13,7 +13,9 @@ use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::model::JointIndex;
 use crate::session::Session;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{focus_ring, is_touch, paint_elided, pressed_row_height, section_with_labelled_action};
+use crate::ui::widgets::{
+    focus_ring, is_touch, paint_elided, paint_fold_mark, pressed_row_height, section_with_labelled_action,
+};
 
 /// Size of formulas that stand before numbers, and of the one that stands above all.
 const LABEL_SIZE: f32 = 12.0;
@@ -152,14 +154,8 @@ fn influence_row(
     }
     focus_ring(ui, around, &response);
     let center = rect.left_center() + vec2(4.0, 0.0);
-    let corners: [Vec2; 3] = if unfolded {
-        [vec2(-3.4, -1.7), vec2(0.0, 1.7), vec2(3.4, -1.7)]
-    } else {
-        [vec2(-1.7, -3.4), vec2(1.7, 0.0), vec2(-1.7, 3.4)]
-    };
-    let corners = corners.map(|corner| center + corner).to_vec();
-    let stroke = Stroke::new(1.4, tokens.muted_to_text(over || response.has_focus()));
-    ui.painter().add(Shape::line(corners, stroke));
+    let color = tokens.muted_to_text(over || response.has_focus());
+    paint_fold_mark(ui.painter(), center, !unfolded, color);
 
     let weight = format!("{:.3}", influence.weight);
     let (right, font) = (rect.right_center(), theme::mono(11.0));
