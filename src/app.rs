@@ -51,8 +51,13 @@ impl App {
         let window = ui.max_rect();
         ui.painter()
             .add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
+        let marked = session.joints().marked();
         for command in ui::show(ui, &mut session, &mut self.state) {
             session.apply(command);
+        }
+        if session.joints().marked() != marked {
+            // A panel that moved under the pointer may have done that: no input follows by which the others would be told.
+            ui.ctx().request_repaint();
         }
 
         let requests = self.state.take_requests();

@@ -87,7 +87,7 @@ impl VertexExplanation {
     pub fn to_text<'a>(&self, name_of: impl Fn(JointIndex) -> Option<&'a str>) -> String {
         let mut text = format!(
             "vertex {}: row vectors, matrices row by row as in the file\n\
-             p' = sum of weight · (p · finalTransform)    finalTransform = offset · toRoot\n\n",
+             v' = sum of weight · (v · finalTransform)    finalTransform = offset · toRoot\n\n",
             self.vertex
         );
         let mut points = vec![self.bind_position, self.position];
@@ -104,7 +104,7 @@ impl VertexExplanation {
                 .collect::<Vec<_>>(),
         );
         // Writing into a String cannot fail.
-        let _ = writeln!(text, "p                  = [ {}  1 ]", points[0]);
+        let _ = writeln!(text, "v                  = [ {}  1 ]", points[0]);
         for (influence, points) in self.influences.iter().zip(points[2..].chunks(2)) {
             let name = name_of(influence.joint);
             let name = name.map(|name| format!(" \"{name}\"")).unwrap_or_default();
@@ -115,7 +115,7 @@ impl VertexExplanation {
                 number(influence.weight)
             );
             text.push_str(&influence.product());
-            let _ = writeln!(text, "p · finalTransform = [ {}  1 ]", points[0]);
+            let _ = writeln!(text, "v · finalTransform = [ {}  1 ]", points[0]);
             let _ = writeln!(text, "        · weight   = [ {} ]", points[1]);
         }
         let why = if self.influences.is_empty() {
@@ -123,7 +123,7 @@ impl VertexExplanation {
         } else {
             ""
         };
-        let _ = writeln!(text, "\n{why}p'                 = [ {}  1 ]", points[1]);
+        let _ = writeln!(text, "\n{why}v'                 = [ {}  1 ]", points[1]);
         text
     }
 }

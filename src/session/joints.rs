@@ -130,6 +130,11 @@ impl Joints {
         self.marked
     }
 
+    /// The one whose weights the skin shows: the pointer over another one looks ahead.
+    pub fn weighed(&self) -> Option<JointIndex> {
+        self.marked.hovered.or(self.marked.selected)
+    }
+
     /// The vertex that was selected.
     pub fn selected_vertex(&self) -> Option<&SelectedVertex> {
         self.vertex.as_ref()

@@ -152,17 +152,21 @@ impl Session {
         }
         let from = self.camera;
         // Sent again on its way, it goes from here to where it would have been sent from there.
-        if let Some(glide) = self.motion.glide {
+        if let Some(glide) = self.motion.glide.take() {
             self.camera = glide.to;
         }
         let effect = self.perform(command);
         let to = std::mem::replace(&mut self.camera, from);
         self.camera.projection = to.projection;
-        self.motion.glide = (self.camera != to).then_some(Glide {
-            from,
-            to,
-            elapsed_secs: 0.0,
-        });
+        if self.camera != to {
+            // One way at a time.
+            self.motion.interrupt();
+            self.motion.glide = Some(Glide {
+                from,
+                to,
+                elapsed_secs: 0.0,
+            });
+        }
         effect
     }
 
@@ -239,6 +243,7 @@ impl Command {
                 | Self::FrameSelection
                 | Self::LookFrom(_)
                 | Self::ResetCamera
+                | Self::SetViewport { .. }
         )
     }
 }

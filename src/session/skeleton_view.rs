@@ -132,13 +132,13 @@ impl Session {
         Some(SkinColorsKey {
             view,
             model: self.model_revision,
-            joint: self.joints.selected().filter(|_| view == SkinView::Weight),
+            joint: self.joints.weighed().filter(|_| view == SkinView::Weight),
             pose: (view == SkinView::Stretch).then(|| self.on_show()),
         })
     }
 
-    /// A colour for each vertex, sRGB, in the caller's buffer; empty while the skin is shown as it is. Weights are those of the
-    /// selected joint, all 0 when none is.
+    /// A colour for each vertex, sRGB, in the caller's buffer; empty while the skin is shown as it is. Weights are those of
+    /// [`Joints::weighed`](super::Joints::weighed), all 0 without one.
     pub fn skin_colors(&mut self, colors_srgb: &mut Vec<[u8; 4]>) {
         colors_srgb.clear();
         let Some(view) = self.joints.skin_view() else { return };
@@ -150,7 +150,7 @@ impl Session {
         let skin = &mut self.skeleton_view.skin;
         match view {
             SkinView::Weight => {
-                match self.joints.selected() {
+                match self.joints.weighed() {
                     Some(joint) => joint_weights(mesh, joint, &mut skin.values),
                     None => {
                         skin.values.clear();

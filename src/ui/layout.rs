@@ -2,13 +2,13 @@
 
 use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
 
-use super::panel::{Panel, scrolled, shown_rect};
+use super::panel::{Panel, scrolled};
 use super::skeleton::SidePage;
 use super::state::{SheetPage, UiState};
 use super::theme::MARGIN;
 use super::{
-    diagnostics_panel, inspector, light, model_panel, overlays, picture, skeleton, timeline, title_bar, toolbar,
-    view_modes, widgets,
+    diagnostics_panel, free_room, inspector, light, model_panel, overlays, picture, skeleton, timeline, title_bar,
+    toolbar, view_modes, widgets,
 };
 use crate::session::{Command, Session};
 
@@ -16,6 +16,8 @@ use crate::session::{Command, Session};
 pub(super) const SIDE_WIDTH: f32 = 246.0;
 /// Width of the inspector on the right.
 const INSPECTOR_WIDTH: f32 = 288.0;
+/// Share of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
+const PAGE_SHARE: f32 = 0.47;
 /// Margin around the controls of the bars at the top.
 const BAR_MARGIN: f32 = 4.0;
 
@@ -45,15 +47,14 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
     let covered = timeline::covered_height(ui, session, &state.timeline, false);
     let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
     let side_room = window.max.y - covered.max(MARGIN) - side_top.y - 26.0;
+    let panel_room = side_room - free_room::covered_by_card(ui, session, state, window);
     if session.open_model().is_some() {
         Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {
             ui.set_width(SIDE_WIDTH - 26.0);
-            side_panel(ui, "model", session, state, side_room, commands);
+            side_panel(ui, "model", session, state, panel_room, commands);
         });
     }
-    // Beside the panel on the left, which may be as high as the window.
-    let legend_at = pos2(left_top.x + SIDE_WIDTH + MARGIN, window.max.y - covered.max(MARGIN));
-    skeleton::show_legend(ui, session, legend_at, true);
+    show_legend(ui, session, state, window, false);
     let inspects_joint = skeleton::is_inspected(session);
     let inspects = session.subsets().selected().is_some() || inspects_joint;
     if state.diagnostics_open {
@@ -130,8 +131,13 @@ pub(super) fn narrow(ui: &Ui, session: &Session, state: &mut UiState, window: Re
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
         sheet(ui, session, state, window, commands);
     }
-    let sheet_top = shown_rect(ui, "sheet").map_or(window.max.y, |sheet| sheet.min.y);
-    skeleton::show_legend(ui, session, pos2(left_top.x, sheet_top - MARGIN), false);
+    show_legend(ui, session, state, window, true);
+}
+
+fn show_legend(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) {
+    if let Some((at, shape)) = free_room::legend_place(ui, session, state, window, narrow) {
+        skeleton::show_legend(ui, session, at, shape);
+    }
 }
 
 /// The timeline, and below it what was opened.
@@ -160,7 +166,7 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands
                 ui.add_space(10.0);
                 let covered =
                     bar_height(ui) + timeline::covered_height(ui, session, &state.timeline, true) + 3.0 * MARGIN;
-                let room = (window.height() * 0.5).min(window.height() - covered);
+                let room = (window.height() * PAGE_SHARE).min(window.height() - covered);
                 if page == SheetPage::Model && is_side_page(session, state) {
                     side_panel(ui, "sheet", session, state, room, commands);
                 } else {

@@ -5,6 +5,7 @@ mod drag_trail;
 mod error_card;
 mod excerpt;
 mod flight;
+mod free_room;
 mod help;
 mod icons;
 mod inspector;
@@ -35,13 +36,14 @@ mod wording;
 
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
-use crate::scene::{Insets, Theme};
+use crate::scene::Theme;
 use crate::session::{Command, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
+use state::Framed;
 pub use state::{Request, SheetPage, UiState};
 
-use layout::{SIDE_WIDTH, bar_height};
+use layout::bar_height;
 use panel::Panel;
 use theme::{MARGIN, NARROW_WIDTH};
 
@@ -63,7 +65,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
-    commands.push(set_viewport(ui, session, state, window, narrow));
+    commands.extend(set_viewport(ui, session, state, window, narrow));
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
@@ -108,23 +110,25 @@ fn set_theme(ui: &Ui) -> Command {
     })
 }
 
-/// What the panels leave free is where the model is framed.
-fn set_viewport(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> Command {
-    let top = (bar_height(ui) + MARGIN) / window.height();
-    let bottom = timeline::covered_height(ui, session, &state.timeline, narrow) / window.height();
-    let left = if narrow {
-        0.0
-    } else {
-        (MARGIN * 2.0 + SIDE_WIDTH) / window.width()
-    };
-    let insets = Insets {
-        left,
-        top: top.clamp(0.0, 0.3),
-        bottom: bottom.clamp(0.0, 0.6),
-        ..Insets::default()
-    };
-    Command::SetViewport {
-        aspect: window.width() / window.height().max(1.0),
+/// What the panels leave free is where the model is framed. A window of another size and another model are framed at once;
+/// where a panel opened or shut the camera goes there.
+fn set_viewport(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, narrow: bool) -> Option<Command> {
+    let insets = free_room::insets(ui, session, state, window, narrow);
+    let aspect = window.width() / window.height().max(1.0);
+    let now = Framed {
+        window,
+        model: session.model_revision(),
         insets,
+    };
+    let before = state.framed.replace(now);
+    if before == Some(now) {
+        return None;
     }
+    let command = Command::SetViewport { aspect, insets };
+    let same_picture = before.is_some_and(|before| (before.window, before.model) == (window, now.model));
+    Some(if same_picture {
+        Command::Glide(Box::new(command))
+    } else {
+        command
+    })
 }

@@ -82,7 +82,8 @@ impl Panel {
         let frame: Frame = theme::panel_frame(&Tokens::of(ui))
             .inner_margin(self.margin)
             .corner_radius(self.corner_radius);
-        Area::new(id_of(self.name))
+        let before = ui.memory(|memory| memory.area_rect(id_of(self.name)));
+        let now = Area::new(id_of(self.name))
             .order(self.order)
             .pivot(self.pivot)
             .fixed_pos(self.at)
@@ -92,6 +93,11 @@ impl Panel {
             .fade_in(false)
             .show(ui.ctx(), |ui| frame.show(ui, contents))
             .response
-            .rect
+            .rect;
+        // A panel stands by the size that it had, and others and the model stand beside it: the next pass puts all right.
+        if before.is_none_or(|before| before.size() != now.size()) {
+            ui.ctx().request_repaint();
+        }
+        now
     }
 }

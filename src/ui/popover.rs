@@ -1,33 +1,46 @@
 //! Panels that hang from a button of the toolbar. They stay while something in them is changed, and while the view is turned.
 //! Like the toolbar they end at the window's right margin, where they cover the least of the model.
 
-use egui::{Popup, PopupCloseBehavior, RectAlign, Response, Ui, pos2};
+use egui::{Frame, Popup, PopupCloseBehavior, RectAlign, Response, Ui, pos2};
 
 use super::layout::bar_height;
-use super::panel::scrolled;
+use super::panel::{scrolled, shown_rect};
 use super::theme::{self, MARGIN, Tokens};
+use super::timeline::{STRIP_AROUND, strip_height};
 use super::widgets::rule;
 
 /// Margin inside a popover.
 const POPOVER_MARGIN: f32 = 12.0;
+/// With less room than this above the sheet of a phone a popover stands over the sheet.
+const LEAST_ABOVE_SHEET: f32 = 180.0;
 
 /// Opens and shuts with the button; a click elsewhere or Esc shuts it.
 pub(super) fn show(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
     let tokens = Tokens::of(ui);
     let window = ui.ctx().content_rect();
     let top = window.min.y + 2.0 * MARGIN + bar_height(ui);
-    let room = window.max.y - top - MARGIN - 2.0 * POPOVER_MARGIN;
+    // Time can be moved while a popover is open: the strip stays free, though not a sheet above it.
+    let strip = shown_rect(ui, "timeline").map(|timeline| timeline.max.y - strip_height(ui, false) - STRIP_AROUND);
+    let bottom = strip.unwrap_or(window.max.y) - MARGIN;
+    let room = bottom - top - 2.0 * (POPOVER_MARGIN + 1.0);
     Popup::from_toggle_button_response(button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .at_position(pos2(window.max.x - MARGIN, top))
         .align(RectAlign::BOTTOM_END)
         .align_alternatives(&[])
         .gap(0.0)
-        .frame(theme::panel_frame(&tokens).inner_margin(POPOVER_MARGIN))
+        .frame(frame(&tokens))
         .show(|ui| {
             ui.set_width(width);
             scrolled("popover", room.max(120.0)).show(ui, contents);
         });
+}
+
+/// A panel through which nothing is seen, since it lies over other words.
+fn frame(tokens: &Tokens) -> Frame {
+    theme::panel_frame(tokens)
+        .fill(tokens.panel.to_opaque())
+        .inner_margin(POPOVER_MARGIN)
 }
 
 /// A hairline between the parts of a popover.
@@ -39,8 +52,14 @@ pub(super) fn gap(ui: &mut Ui) {
 pub(super) fn show_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
     let tokens = Tokens::of(ui);
     let window = ui.ctx().content_rect().shrink(MARGIN);
-    let bottom = button.rect.min.y - MARGIN - 4.0;
-    let room = bottom - window.min.y - 2.0 * POPOVER_MARGIN;
+    // On a phone the strip has two rows: what hangs from the lower one stands over both, unless the sheet leaves no room there.
+    let above = |top: f32| top - MARGIN - 4.0;
+    let sheet = shown_rect(ui, "sheet").map(|sheet| above(sheet.min.y));
+    let least = window.min.y + LEAST_ABOVE_SHEET;
+    let bottom = sheet
+        .filter(|&bottom| bottom >= least)
+        .unwrap_or(above(button.rect.min.y));
+    let room = bottom - window.min.y - 2.0 * (POPOVER_MARGIN + 1.0);
     // Margins and border.
     let around = 2.0 * (POPOVER_MARGIN + 1.0);
     let width = width.min(window.width() - around);
@@ -51,7 +70,7 @@ pub(super) fn show_above(ui: &Ui, button: &Response, width: f32, contents: impl 
         .align(RectAlign::TOP_START)
         .align_alternatives(&[])
         .gap(0.0)
-        .frame(theme::panel_frame(&tokens).inner_margin(POPOVER_MARGIN))
+        .frame(frame(&tokens))
         .show(|ui| {
             ui.set_width(width);
             scrolled("popover", room.max(120.0)).show(ui, contents);

@@ -1,6 +1,6 @@
 //! What of the interface is open, and what it asks of the page around.
 
-use egui::Ui;
+use egui::{Rect, Ui};
 
 use super::inspector::VertexCount;
 use super::picture::PictureChoice;
@@ -8,7 +8,7 @@ use super::skeleton::SkeletonState;
 use super::thumbnails::Thumbnails;
 use super::timeline::TimelineState;
 use super::viewport::ViewHold;
-use crate::scene::Theme;
+use crate::scene::{Insets, Theme};
 
 /// What only the page around the interface can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +49,14 @@ pub enum SheetPage {
     Timeline,
 }
 
+/// What the model was framed in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Framed {
+    pub(super) window: Rect,
+    pub(super) model: u64,
+    pub(super) insets: Insets,
+}
+
 /// Which panels are open. Nothing here changes the model or the picture of it.
 #[derive(Debug, Default)]
 pub struct UiState {
@@ -61,6 +69,7 @@ pub struct UiState {
     pub(super) coarse_pointer: bool,
     pub(super) shown_finding: Option<usize>,
     pub(super) shown_model: u64,
+    pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,
     pub(super) picture: PictureChoice,
     pub(super) thumbnails: Thumbnails,

@@ -38,7 +38,7 @@ export const GROUND = [600, 510];
 export const BONES = { 19: [508, 318], 24: [452, 205], 4: [492, 195] };
 
 /** The bar of the legend that explains the colours of the skin. */
-export const LEGEND_BAR = { x: 283, y: 489, width: 208, height: 3 };
+export const LEGEND_BAR = { x: 25, y: 489, width: 220, height: 3 };
 
 /** The bar with the keys in the strip: where its first and its last frame are, and what holds the ends of the range. */
 export const TIME_BAR = { first: 328, last: 648, y: 561 };

@@ -1,9 +1,11 @@
 //! Nothing is drawn while nothing changes.
 
-use bindpose::session::{Command, File};
+use bindpose::anim::SkinView;
+use bindpose::session::{Command, File, JointCommand};
 
 use crate::models::{moving, still};
 use crate::page::{WIDE, Window, phone, window};
+use crate::skeleton::chains;
 
 /// Passes until no other is asked for.
 #[track_caller]
@@ -75,5 +77,24 @@ fn what_was_touched_settles() {
     ] {
         window.click(label);
         assert_settles(&mut window);
+    }
+}
+
+#[test]
+fn an_explained_vertex_and_a_pointer_that_rests_on_its_bones_settle() {
+    for mut window in [window(WIDE, chains(5)), phone(chains(5))] {
+        if window.shows("Model facts") {
+            window.click("Model facts");
+        }
+        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
+        window.apply(JointCommand::SelectVertex(Some(4)).into());
+        for row in ["Bone 1: weight", "Unfold the matrices of Bone 0"] {
+            if row.starts_with("Unfold") {
+                window.click("Explain this vertex");
+            }
+            let at = window.rect(row).center();
+            window.harness.hover_at(at);
+            assert_settles(&mut window);
+        }
     }
 }

@@ -1,10 +1,12 @@
 //! Numbers of the joint and of the vertex that are inspected.
 
+use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{Command, JointCommand};
 use egui::{Event, Modifiers, OutputCommand, PointerButton, vec2};
 
-use crate::page::{WIDE, Window, phone, window};
+use crate::layout::assert_between_sides;
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
 use crate::skeleton::{chains, selected, tree};
 
 /// What a click copies.
@@ -107,4 +109,113 @@ fn a_vertex_shows_its_weights_and_explains_its_place() {
         assert_eq!(selected(&window), Some(1), "its weights can be seen");
         assert!(window.session().joints().selected_vertex().is_some());
     }
+}
+
+/// The last three numbers of a line.
+fn numbers_of(line: &str) -> [f32; 3] {
+    let words: Vec<&str> = line.split(' ').collect();
+    let [.., x, y, z] = words[..] else { panic!("{line}") };
+    [x, y, z].map(|word| word.parse().unwrap_or_else(|_| panic!("{line}")))
+}
+
+#[track_caller]
+fn line(window: &Window, start: &str) -> [f32; 3] {
+    let found = window.named(|name| name.starts_with(start));
+    let [(name, _)] = &found[..] else {
+        panic!("{start}: {found:?}")
+    };
+    numbers_of(name)
+}
+
+#[test]
+fn the_formula_can_be_followed_through_the_matrices_to_what_is_drawn() {
+    let mut window = window(vec2(1440.0, 1200.0), chains(5));
+    window.apply(JointCommand::SelectVertex(Some(4)).into());
+    window.click("Explain this vertex");
+    assert!(window.shows("v' = w0·v·F0 + w1·v·F1"));
+    assert!(!window.shows("Fold the matrices of Bone 0, weight 0.250"));
+    window.click("Unfold the matrices of Bone 0, ");
+    window.click("Unfold the matrices of Bone 1, ");
+    for time_secs in [0.0, 0.3, 0.8] {
+        window.apply(Command::Seek { time_secs });
+        let bind = line(&window, "Bind ");
+        let mut sum = [0.0; 3];
+        for (bone, weight) in [("Bone 0", 0.25), ("Bone 1", 0.75)] {
+            for matrix in ["offset", "toRoot"] {
+                for row in 1..=4 {
+                    line(&window, &format!("{bone}: {matrix}, row {row}: "));
+                }
+            }
+            let rows = [1, 2, 3, 4].map(|row| line(&window, &format!("{bone}: F, row {row}: ")));
+            let moved = line(&window, &format!("{bone}: v·F "));
+            let weighted = line(&window, &format!("{bone}: w·v·F "));
+            for axis in 0..3 {
+                let product: f32 = (0..3).map(|row| bind[row] * rows[row][axis]).sum();
+                assert!((product + rows[3][axis] - moved[axis]).abs() < 2e-4, "{bone} {axis}");
+                assert!((moved[axis] * weight - weighted[axis]).abs() < 2e-4);
+                sum[axis] += weighted[axis];
+            }
+        }
+        // The name of the section begins alike.
+        let place = window.named(|name| name.starts_with("Place ") && name != "Place now");
+        let place = numbers_of(&place[0].0);
+        let drawn = window.harness.state_mut().session.explain_vertex().expect("selected");
+        for axis in 0..3 {
+            assert!((sum[axis] - place[axis]).abs() < 2e-4, "{sum:?} {place:?}");
+            assert!((drawn.position[axis] - place[axis]).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
+    for size in [vec2(320.0, 900.0), PHONE, vec2(900.0, 1200.0)] {
+        let mut window = if size.x < 900.0 {
+            touch_window(size, chains(5))
+        } else {
+            window(size, chains(5))
+        };
+        window.apply(JointCommand::SelectVertex(Some(4)).into());
+        if window.shows("Model facts") {
+            window.click("Model facts");
+        }
+        window.click("Explain this vertex");
+        window.click("Unfold the matrices of Bone 0, ");
+        assert_between_sides(&window, size);
+        let places = |window: &Window| {
+            let lines = window.named(|name| name.contains("F, row") || name.contains("v·F") || name.contains("toRoot"));
+            lines.into_iter().map(|(_, rect)| rect).collect::<Vec<_>>()
+        };
+        let before = places(&window);
+        assert!(before.len() >= 10, "{}", before.len());
+        for time_secs in [0.2, 0.55, 1.0] {
+            window.apply(Command::Seek { time_secs });
+            assert_eq!(places(&window), before, "{time_secs}");
+        }
+        // The next vertex is looked at in the same way.
+        window.apply(JointCommand::SelectVertex(Some(5)).into());
+        assert!(!window.named(|name| name.starts_with("Fold the matrices")).is_empty());
+    }
+}
+
+#[test]
+fn the_pointer_over_a_bone_shows_its_weights_and_leaves_those_of_the_selected_one() {
+    let mut window = window(vec2(1440.0, 1200.0), chains(5));
+    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
+    window.apply(JointCommand::Select(Some(JointIndex(2))).into());
+    window.apply(JointCommand::SelectVertex(Some(4)).into());
+    let shown = |window: &Window| (window.session().joints().weighed(), window.session().skin_colors_key());
+    let selected = shown(&window);
+    assert_eq!(selected.0, Some(JointIndex(2)));
+    let at = window.rect("Bone 1: weight").center();
+    window.harness.hover_at(at);
+    window.pass_on();
+    let looked_at = shown(&window);
+    assert_eq!(looked_at.0, Some(JointIndex(1)));
+    assert_ne!(looked_at.1, selected.1, "the skin is coloured anew");
+    assert!(window.shows("Legend: Weight of Bone 1"));
+    window.harness.hover_at(egui::pos2(700.0, 20.0));
+    window.pass_on();
+    assert_eq!(shown(&window), selected);
+    assert!(window.shows("Legend: Weight of Bone 2"));
 }

@@ -1,7 +1,9 @@
 //! Where things are: inside the window, off each other, large enough, and still while values change.
 
-use bindpose::session::{Command, SubsetCommand};
-use egui::{Rect, Vec2, vec2};
+use bindpose::anim::SkinView;
+use bindpose::model::JointIndex;
+use bindpose::session::{Command, JointCommand, SubsetCommand};
+use egui::{Rect, Vec2, pos2, vec2};
 
 use crate::models::{self, broken, moving, still};
 use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
@@ -196,6 +198,83 @@ fn the_error_card_and_the_keys_fit_the_window() {
             Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(help),
             "{help}"
         );
+    }
+}
+
+/// Where the model is in the window, by the corners of the box that it keeps inside of.
+fn model_rect(window: &mut Window, size: Vec2) -> Rect {
+    let session = &mut window.harness.state_mut().session;
+    let bounds = session.world_bounds();
+    let camera = session.camera();
+    let clip_from_world = camera.clip_from_view(size.x / size.y, &bounds) * camera.view_from_world();
+    let corners = bounds.corners().map(|corner| {
+        let clip = clip_from_world.project_point3(corner);
+        pos2((0.5 + 0.5 * clip.x) * size.x, (0.5 - 0.5 * clip.y) * size.y)
+    });
+    Rect::from_points(&corners)
+}
+
+#[test]
+fn the_legend_lies_on_no_panel_and_not_on_the_model() {
+    for (size, touch) in [
+        (PHONE, true),
+        (vec2(320.0, 700.0), true),
+        (vec2(844.0, 390.0), true),
+        (vec2(900.0, 700.0), false),
+        (vec2(1100.0, 700.0), false),
+        (WIDE, false),
+    ] {
+        for view in SkinView::ALL {
+            let open = if touch { touch_window } else { window };
+            let mut window = open(size, vec![moving("a.m3d")]);
+            window.apply(JointCommand::SetSkinView(Some(view)).into());
+            let base: &[&str] = if size.x < 900.0 {
+                &["title", "sheet", "legend"]
+            } else {
+                &["title", "toolbar", "model", "timeline", "legend"]
+            };
+            assert_apart(&window, base);
+            assert_inside(&window, size);
+            assert_model_is_free(&mut window, size);
+
+            window.apply(JointCommand::Select(Some(JointIndex(0))).into());
+            if size.x < 900.0 {
+                window.click("Model facts");
+            }
+            // A phone on its side has room for the sheet alone.
+            if size.y >= 600.0 {
+                assert_model_is_free(&mut window, size);
+            }
+        }
+    }
+}
+
+#[track_caller]
+fn assert_model_is_free(window: &mut Window, size: Vec2) {
+    let model = model_rect(window, size).shrink(4.0);
+    let panels = panels(window);
+    let covering = panels
+        .iter()
+        .filter(|(name, _)| ["legend", "sheet", "timeline", "model"].contains(name));
+    for (name, rect) in covering {
+        assert!(
+            !rect.intersects(model),
+            "{name} {rect} of {size} lies on the model, {model}"
+        );
+    }
+}
+
+#[test]
+fn an_open_dope_sheet_leaves_the_better_half_to_the_model() {
+    for (size, height) in [(vec2(900.0, 700.0), 183.0), (vec2(900.0, 600.0), 138.0), (WIDE, 264.0)] {
+        let mut window = window(size, vec![moving("a.m3d")]);
+        let before = panel(&window, "timeline").height();
+        window.click("Dope sheet and");
+        let timeline = panel(&window, "timeline");
+        assert_eq!(timeline.height() - before, height + 8.0, "{size}");
+        let model = model_rect(&mut window, size);
+        assert!(model.max.y < timeline.min.y + 2.0, "{model} under {timeline}");
+        assert!(model.height() > 0.48 * size.y, "{model} is small in {size}");
     }
 }
 

@@ -305,6 +305,33 @@ fn a_vertex_explained_in_a_small_window() {
 }
 
 #[test]
+fn a_vertex_explained_with_the_matrices_of_a_bone() {
+    let then = vec![
+        JointCommand::SetBonesVisible(true).into(),
+        JointCommand::SelectVertex(Some(4_962)).into(),
+    ];
+    let clicks = ["Explain", "Unfold the matrices of Bone 10"];
+    compare("wide-dark-vertex", &draw_after(WIDE, Theme::Dark, false, then, &clicks));
+}
+
+#[test]
+fn a_vertex_explained_in_the_sheet_of_a_phone() {
+    let then = vec![JointCommand::SelectVertex(Some(4_962)).into()];
+    let clicks = ["Model facts", "Explain", "Unfold the matrices of Bone 15"];
+    // Higher than a phone, so that all of it is seen without scrolling.
+    let size = Vec2::new(PHONE.x, 1_800.0);
+    compare(
+        "phone-light-vertex",
+        &draw_after(size, Theme::Light, true, then, &clicks),
+    );
+}
+
+#[test]
+fn weights_and_what_their_colours_mean_on_a_phone() {
+    compare("phone-dark-weights", &draw(PHONE, Theme::Dark, true, inspected()));
+}
+
+#[test]
 fn the_tree_in_the_sheet_of_a_phone() {
     let mut then = inspected();
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));

@@ -1,12 +1,12 @@
 //! What the toolbar opens: inside the window, off the panels, large enough for fingers.
 
 use bindpose::scene::ViewMode;
-use bindpose::session::{LookCommand, SubsetCommand};
-use egui::vec2;
+use bindpose::session::{JointCommand, LookCommand, SubsetCommand};
+use egui::{Order, Rect, vec2};
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside};
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, touch_window, window};
 
 /// What hangs from each button of the toolbar, and something in it.
 const POPOVERS: [(&str, &str); 5] = [
@@ -68,5 +68,51 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
         assert!(last.max.x <= size.x - 14.0, "{last} leaves the sheet's margin");
         assert_between_sides(&window, size);
         assert_apart(&window, &["title", "sheet"]);
+    }
+}
+
+/// What hangs from buttons now.
+fn popovers(window: &Window) -> Vec<Rect> {
+    window.harness.ctx.memory(|memory| {
+        let layers = memory.areas().visible_layer_ids().into_iter();
+        let hanging = layers.filter(|layer| layer.order == Order::Foreground);
+        hanging.filter_map(|layer| memory.area_rect(layer.id)).collect()
+    })
+}
+
+#[test]
+fn what_hangs_over_the_timeline_leaves_the_transport_free() {
+    for (size, touch) in [
+        (PHONE, true),
+        (vec2(320.0, 568.0), true),
+        (vec2(844.0, 390.0), true),
+        (vec2(900.0, 700.0), false),
+        (WIDE, false),
+    ] {
+        let open = if touch { touch_window } else { window };
+        let mut window = open(size, vec![moving("a.m3d")]);
+        window.apply(JointCommand::SetBonesVisible(true).into());
+        let mut buttons = vec!["Clip ", "Speed "];
+        if size.x >= 900.0 {
+            buttons.extend(["Lighting", "Lines over the model", "Picture"]);
+        }
+        for button in buttons {
+            window.click(button);
+            let shown = popovers(&window);
+            assert!(!shown.is_empty(), "{button} of {size}");
+            for rect in shown {
+                assert!(
+                    Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(rect),
+                    "{button} of {size}: {rect}"
+                );
+                for control in ["Play", "Time in seconds"] {
+                    assert!(
+                        !rect.intersects(window.rect(control)),
+                        "{button} of {size} lies on {control}"
+                    );
+                }
+            }
+            window.press(egui::Modifiers::NONE, egui::Key::Escape);
+        }
     }
 }

@@ -82,7 +82,8 @@ fn show_joint(
         state.space = space;
     }
     ui.add_space(4.0);
-    numbers::show_parts(ui, parts);
+    let digits = state.reading.digits;
+    numbers::show_parts(ui, parts, digits);
     let matrices = [
         ("Offset", "offset", &readout.offset),
         (
@@ -97,7 +98,7 @@ fn show_joint(
         if section_with_labelled_action(ui, name, Some(("Copy", &label))) {
             ui.ctx().copy_text(matrix.to_text(in_books));
         }
-        numbers::show_matrix(ui, name, matrix);
+        numbers::show_matrix(ui, name, matrix, digits);
     }
     ui.add_space(8.0);
     let all = TextButton::new("Copy all numbers", "Copy all numbers of the bone");

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::numbers::fitted;
+use super::digits::fitted;
 use crate::anim::{KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
 use crate::session::{Command, Session};

@@ -1,62 +1,149 @@
 //! What the colours of the skin mean.
 
-use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Role, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Margin, Mesh, Pos2, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use crate::anim::SkinView;
 use crate::scene::{LegendStop, legend};
 use crate::session::Session;
+use crate::ui::layout::SIDE_WIDTH;
 use crate::ui::panel::Panel;
 use crate::ui::theme::{self, Tokens};
+use crate::ui::widgets::paint_elided;
 use crate::ui::wording::{shortened, trimmed};
 
-/// Width of the legend's contents.
-const WIDTH: f32 = 208.0;
+/// Width of a card's contents: that of the panel on the left.
+const WIDTH: f32 = SIDE_WIDTH - 26.0;
+/// Height of the colours, and of them with their values.
 const BAR_HEIGHT: f32 = 8.0;
+const COLORS_HEIGHT: f32 = BAR_HEIGHT + 22.0;
+/// What is said of colours that are too many for a legend.
+const COLORS_IN_TREE: &str = "Colours as in the skeleton's tree";
+/// Type of the values, and the least room between two.
+const VALUE_SIZE: f32 = 11.0;
+const VALUE_GAP: f32 = 6.0;
+/// The most that a strip's contents are wide, and the part of it that the colours have.
+const STRIP_MOST: f32 = 336.0;
+const STRIP_SHARE: f32 = 0.55;
+const STRIP_MARGIN: Margin = Margin {
+    left: 14,
+    right: 14,
+    top: 7,
+    bottom: 5,
+};
+/// Height of a card without a sentence, with its margins and border.
+pub(in crate::ui) const CARD_HEIGHT: f32 = 17.0 + COLORS_HEIGHT + 26.0;
+/// Height of a strip with its margins and border.
+pub(in crate::ui) const STRIP_HEIGHT: f32 = COLORS_HEIGHT + 14.0;
 
-/// A panel whose lower left corner is at a point. Nothing while the skin is shown as it is. `explained`: with a sentence
-/// where the colours alone do not say all.
-pub(in crate::ui) fn show(ui: &Ui, session: &Session, at: Pos2, explained: bool) {
-    let Some(view) = session.joints().skin_view().filter(|_| session.open_model().is_some()) else {
-        return;
-    };
-    Panel::new("legend", Align2::LEFT_BOTTOM, at).show(ui, |ui| {
-        ui.set_width(WIDTH);
-        let (title, hint) = words(session, view);
-        let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, 17.0), Sense::hover());
-        let tokens = Tokens::of(ui);
-        let font = theme::semibold(12.0);
-        ui.painter()
-            .text(rect.left_center(), Align2::LEFT_CENTER, &title, font, tokens.text);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Legend: {title}")));
-        let stops = legend(view);
-        match view {
-            SkinView::InfluenceCount => swatches(ui, stops),
-            SkinView::Weight | SkinView::Stretch => gradient(ui, stops),
-            SkinView::DominantJoint => {}
-        }
-        if let Some(hint) = hint.filter(|_| explained) {
-            ui.add_space(2.0);
-            ui.label(egui::RichText::new(hint).color(tokens.muted).size(12.0));
-        }
-    });
+/// The shape of a legend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::ui) enum LegendShape {
+    /// Colours below the title, and a sentence where they do not say all. For a corner where there is room.
+    Card,
+    /// Colours beside the title, so wide: a line of its own between the model and what is below.
+    Strip {
+        /// In points, with margins and border.
+        width: f32,
+    },
 }
 
+/// Whether there are colours to explain.
+pub(in crate::ui) fn has_legend(session: &Session) -> bool {
+    view_on_show(session).is_some()
+}
+
+fn view_on_show(session: &Session) -> Option<SkinView> {
+    session.joints().skin_view().filter(|_| session.open_model().is_some())
+}
+
+/// A panel whose lower left corner is at a point. Nothing while the skin is shown as it is.
+pub(in crate::ui) fn show(ui: &Ui, session: &Session, at: Pos2, shape: LegendShape) {
+    let Some(view) = view_on_show(session) else { return };
+    let panel = Panel::new("legend", Align2::LEFT_BOTTOM, at);
+    let (title, hint) = words(session, view);
+    match shape {
+        LegendShape::Card => {
+            panel.show(ui, |ui| card(ui, view, &title, hint));
+        }
+        LegendShape::Strip { width } => {
+            let width = (width - 2.0 * (f32::from(STRIP_MARGIN.left) + 1.0)).min(STRIP_MOST);
+            panel.margin(STRIP_MARGIN).show(ui, |ui| strip(ui, view, &title, width));
+        }
+    }
+}
+
+fn card(ui: &mut Ui, view: SkinView, title: &str, hint: Option<&str>) {
+    ui.set_width(WIDTH);
+    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, 17.0), Sense::hover());
+    show_title(ui, rect, title);
+    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, colors_height(view)), Sense::hover());
+    show_colors(ui, rect, view);
+    if let Some(hint) = hint {
+        ui.add_space(2.0);
+        ui.label(egui::RichText::new(hint).color(Tokens::of(ui).muted).size(12.0));
+    }
+}
+
+fn strip(ui: &mut Ui, view: SkinView, title: &str, width: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(width, COLORS_HEIGHT), Sense::hover());
+    let (left, right) = rect.split_left_right_at_fraction(1.0 - STRIP_SHARE);
+    show_title(ui, left, title);
+    if view == SkinView::DominantJoint {
+        let (font, color) = (FontId::proportional(12.0), Tokens::of(ui).muted);
+        ui.painter()
+            .text(right.right_center(), Align2::RIGHT_CENTER, COLORS_IN_TREE, font, color);
+    } else {
+        show_colors(ui, right, view);
+    }
+}
+
+fn show_title(ui: &mut Ui, rect: Rect, title: &str) {
+    let color = Tokens::of(ui).text;
+    let room = rect.width() - 8.0;
+    paint_elided(
+        ui.painter(),
+        rect.left_center(),
+        title,
+        theme::semibold(12.0),
+        color,
+        room,
+    );
+    let response = ui.interact(rect, ui.scope_id().with("legend title"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Legend: {title}")));
+}
+
+/// Joints have their colours in the tree.
+fn colors_height(view: SkinView) -> f32 {
+    match view {
+        SkinView::DominantJoint => 0.0,
+        SkinView::InfluenceCount | SkinView::Weight | SkinView::Stretch => COLORS_HEIGHT,
+    }
+}
+
+fn show_colors(ui: &mut Ui, rect: Rect, view: SkinView) {
+    match view {
+        SkinView::InfluenceCount => swatches(ui, rect, legend(view)),
+        SkinView::Weight | SkinView::Stretch => gradient(ui, rect, legend(view)),
+        SkinView::DominantJoint => {}
+    }
+}
 fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
     match view {
-        SkinView::Weight => match session.joints().selected() {
-            Some(joint) => (
-                format!("Weight of {}", shortened(&session.joint_label(joint), 20)),
-                None,
-            ),
-            None => (
-                view.label().to_owned(),
-                Some("Select a bone in the tree, or a vertex on the skin."),
-            ),
-        },
-        SkinView::DominantJoint => (
-            view.label().to_owned(),
-            Some("Each bone has its colour; it stands beside its name in the tree."),
-        ),
+        SkinView::Weight => {
+            let title = match session.joints().weighed() {
+                Some(joint) => format!("Weight of {}", shortened(&session.joint_label(joint), 20)),
+                None => view.label().to_owned(),
+            };
+            // It stays while a bone is merely looked at in advance, so that the card keeps its height.
+            let joints = session.joints();
+            let hint = match (joints.selected(), joints.selected_vertex()) {
+                (Some(_), _) => None,
+                (None, Some(_)) => Some("Choose one of the bones of the vertex, or another in the tree."),
+                (None, None) => Some("Select a bone in the tree, or a vertex on the skin."),
+            };
+            (title, hint)
+        }
+        SkinView::DominantJoint => (view.label().to_owned(), Some(COLORS_IN_TREE)),
         SkinView::Stretch => (view.label().to_owned(), Some("Edge lengths now, bind pose = 1.")),
         SkinView::InfluenceCount => (view.label().to_owned(), None),
     }
@@ -68,12 +155,11 @@ fn color_of(stop: &LegendStop) -> Color32 {
 }
 
 /// Values where their colours stand: as far apart as they differ.
-fn gradient(ui: &mut Ui, stops: &[LegendStop]) {
+fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
         return;
     };
-    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, BAR_HEIGHT + 22.0), Sense::hover());
-    let bar = Rect::from_min_size(rect.min + vec2(0.0, 5.0), vec2(WIDTH, BAR_HEIGHT));
+    let bar = Rect::from_min_size(rect.min + vec2(0.0, 5.0), vec2(rect.width(), BAR_HEIGHT));
     let x_of = |value: f32| bar.min.x + (value - first.value) / (last.value - first.value) * bar.width();
     let mut mesh = Mesh::default();
     for (index, stop) in (0u32..).zip(stops) {
@@ -87,23 +173,24 @@ fn gradient(ui: &mut Ui, stops: &[LegendStop]) {
         }
     }
     ui.painter().add(Shape::mesh(mesh));
-    for (index, stop) in stops.iter().enumerate() {
-        let anchor = match index {
-            0 => Align2::LEFT_TOP,
-            index if index + 1 == stops.len() => Align2::RIGHT_TOP,
-            _ => Align2::CENTER_TOP,
-        };
+    // The ends are always named; a value between them where it has room.
+    let end = value(ui, pos2(bar.max.x, bar.max.y + 3.0), Align2::RIGHT_TOP, last.value);
+    let mut taken = value(ui, bar.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, first.value);
+    for stop in &stops[1..stops.len() - 1] {
         let at = pos2(x_of(stop.value), bar.max.y + 3.0);
-        value(ui, at, anchor, stop.value);
+        let place = Align2::CENTER_TOP.anchor_size(at, value_size(ui, stop.value));
+        if place.min.x >= taken.max.x + VALUE_GAP && place.max.x <= end.min.x - VALUE_GAP {
+            taken = value(ui, at, Align2::CENTER_TOP, stop.value);
+        }
     }
+    let response = ui.interact(rect, ui.scope_id().with("legend colours"), Sense::hover());
     let range = format!("{} to {}", trimmed(first.value), trimmed(last.value));
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Colours from {range}")));
 }
 
 /// A field for each value, since there is nothing between them.
-fn swatches(ui: &mut Ui, stops: &[LegendStop]) {
-    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, BAR_HEIGHT + 22.0), Sense::hover());
-    let width = WIDTH / stops.len().max(1) as f32;
+fn swatches(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
+    let width = rect.width() / stops.len().max(1) as f32;
     for (index, stop) in stops.iter().enumerate() {
         let left = rect.min + vec2(index as f32 * width, 5.0);
         let field = Rect::from_min_size(left, vec2(width - 3.0, BAR_HEIGHT));
@@ -111,12 +198,21 @@ fn swatches(ui: &mut Ui, stops: &[LegendStop]) {
         let at = pos2(field.center().x, field.max.y + 3.0);
         value(ui, at, Align2::CENTER_TOP, stop.value);
     }
+    let response = ui.interact(rect, ui.scope_id().with("legend colours"), Sense::hover());
     let count = stops.len().saturating_sub(1);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Colours of 0 to {count} bones")));
 }
 
-fn value(ui: &Ui, at: Pos2, anchor: Align2, value: f32) {
-    let font = FontId::proportional(11.0);
+/// Writes a value. Where it came to be.
+fn value(ui: &Ui, at: Pos2, anchor: Align2, value: f32) -> Rect {
+    let color = Tokens::of(ui).muted;
     ui.painter()
-        .text(at, anchor, trimmed(value), font, Tokens::of(ui).muted);
+        .text(at, anchor, trimmed(value), FontId::proportional(VALUE_SIZE), color)
+}
+
+fn value_size(ui: &Ui, value: f32) -> Vec2 {
+    let font = FontId::proportional(VALUE_SIZE);
+    ui.painter()
+        .layout_no_wrap(trimmed(value), font, Color32::PLACEHOLDER)
+        .size()
 }

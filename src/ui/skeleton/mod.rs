@@ -1,5 +1,7 @@
 //! The skeleton and the skin: tree, numbers, marks in the view, what is drawn of them.
 
+mod digits;
+mod formula;
 mod joint_panel;
 mod key_table;
 pub(super) mod keys;
@@ -12,11 +14,12 @@ mod reading;
 mod tree;
 mod tree_row;
 mod vertex_panel;
+mod vertex_sum;
 
 use egui::{Rect, Ui};
 
 pub(super) use joint_panel::show as show_inspector;
-pub(super) use legend::show as show_legend;
+pub(super) use legend::{CARD_HEIGHT, LegendShape, STRIP_HEIGHT, has_legend, show as show_legend};
 pub(super) use marks::show as show_marks;
 pub(super) use overlay_rows::{any_shown, show as show_overlay_rows};
 pub(super) use tree::show as show_tree;
@@ -51,6 +54,8 @@ pub(super) struct SkeletonState {
     space: Space,
     key_part: KeyPart,
     explains: bool,
+    /// Influences of the explained vertex whose matrices are shown, by slot: the next vertex looks like this one.
+    unfolded: [bool; 4],
     /// The joint whose row or link is under the pointer in this pass.
     hovered: Option<JointIndex>,
     /// Where the pointer is over the view itself: x right, y up, −1…1.

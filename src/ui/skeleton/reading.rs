@@ -2,6 +2,7 @@
 
 use glam::Vec2;
 
+use super::digits::Digits;
 use crate::anim::{JointReadout, SkinView, VertexExplanation};
 use crate::scene::{LabelPlace, joint_colors};
 use crate::session::Session;
@@ -15,6 +16,8 @@ pub(super) struct Reading {
     pub(super) labels: Vec<LabelPlace>,
     pub(super) joint: Option<JointReadout>,
     pub(super) vertex: Option<VertexExplanation>,
+    /// How the numbers of joint and vertex are shown.
+    pub(super) digits: Digits,
     /// Where the vertex is in the picture: x right, y up, −1…1.
     pub(super) vertex_at: Option<Vec2>,
     /// Colour of each joint (sRGB), while the skin shows the strongest one of each vertex.
@@ -26,6 +29,8 @@ impl Reading {
     /// Reads a session whose picture is this high, in points.
     pub(super) fn take(&mut self, session: &mut Session, height: f32) {
         session.joint_labels(LABEL_SPACING / height.max(1.0), &mut self.labels);
+        let bounds = session.open_model().map(|open| &open.bind_bounds);
+        self.digits = bounds.map_or_else(Digits::default, Digits::for_bounds);
         let selected = session.joints().selected();
         self.joint = selected.and_then(|joint| session.inspect_joint(joint));
         self.vertex = session.explain_vertex();

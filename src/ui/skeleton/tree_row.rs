@@ -1,12 +1,12 @@
 //! One joint of the tree.
 
-use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::{SkeletonState, names};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{focus_ring, is_touch, paint_elided, pressed_row_height};
+use crate::ui::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark, pressed_row_height};
 use crate::ui::wording::grouped;
 
 /// Width of a digit of the column of numbers.
@@ -134,13 +134,7 @@ impl<'a> TreeRow<'a> {
         let response = ui.interact(place, row.id.with("fold"), Sense::click());
         let color = Tokens::of(ui).muted_to_text(response.hovered() || response.has_focus());
         let center = left + vec2(CHEVRON_WIDTH * 0.5 - 1.0, 0.0);
-        let corners = if self.row.folded {
-            [vec2(-1.7, -3.4), vec2(1.7, 0.0), vec2(-1.7, 3.4)]
-        } else {
-            [vec2(-3.4, -1.7), vec2(0.0, 1.7), vec2(3.4, -1.7)]
-        };
-        let corners = corners.map(|corner| center + corner).to_vec();
-        ui.painter().add(Shape::line(corners, Stroke::new(1.4, color)));
+        paint_fold_mark(ui.painter(), center, self.row.folded, color);
         let verb = if self.row.folded { "Unfold" } else { "Fold" };
         let label = format!("{verb} {}", self.label);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));

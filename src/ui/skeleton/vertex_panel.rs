@@ -2,9 +2,9 @@
 
 use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::SkeletonState;
 use super::joint_panel::heading;
-use super::numbers::{fitted, row, show_matrix};
+use super::numbers::row;
+use super::{SkeletonState, vertex_sum};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
@@ -46,13 +46,13 @@ pub(super) fn show(
     if section_with_labelled_action(ui, "Place now", Some(action)) {
         state.explains = !state.explains;
     }
-    let bind = explanation.bind_position.to_array();
-    row(ui, "Bind", &bind.map(|number| fitted(number, 4)));
     if state.explains {
-        explain(ui, session, explanation);
+        vertex_sum::show(ui, session, state, explanation);
+        return;
     }
-    let sum = explanation.position.to_array();
-    row(ui, "Place", &sum.map(|number| fitted(number, 4)));
+    let digits = state.reading.digits;
+    row(ui, "Bind", &digits.place(explanation.bind_position.to_array()));
+    row(ui, "Place", &digits.place(explanation.position.to_array()));
 }
 
 fn heading_of(ui: &mut Ui, vertex: u32) -> bool {
@@ -99,29 +99,5 @@ fn influence_bar(
     response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("{name}: weight {weight}")));
     if response.clicked() {
         commands.push(JointCommand::Select(Some(influence.joint)).into());
-    }
-}
-
-/// The sum of the book's chapter with the numbers of now.
-fn explain(ui: &mut Ui, session: &Session, explanation: &VertexExplanation) {
-    let tokens = Tokens::of(ui);
-    let words = egui::RichText::new("Each bone moves the bind place by offset · toRoot; the weighted places add up.");
-    ui.label(words.color(tokens.muted).size(12.0));
-    for influence in &explanation.influences {
-        let name = session.joint_label(influence.joint);
-        ui.add_space(6.0);
-        section_name(ui, &name);
-        show_matrix(ui, &format!("{name}: offset · toRoot"), &influence.final_transform);
-        row(ui, "Moved", &influence.moved.to_array().map(|number| fitted(number, 4)));
-        let weighted = influence.weighted.to_array().map(|number| fitted(number, 4));
-        row(ui, &format!("× {:.3}", influence.weight), &weighted);
-    }
-    ui.add_space(6.0);
-    let copy = ("Copy as text", "Copy: the sum of the vertex as text");
-    if section_with_labelled_action(ui, "Sum", Some(copy)) {
-        let skeleton = session.open_model().map(|open| &open.model.skeleton);
-        let bone_of = |joint: crate::model::JointIndex| skeleton?.file_bones().get(joint.index()).copied();
-        let name_of = |joint| session.joint_names().get(bone_of(joint)?);
-        ui.ctx().copy_text(explanation.to_text(name_of));
     }
 }

@@ -39,7 +39,7 @@ use crate::session::{Command, Session};
 /// Room between sheet and transport.
 const SHEET_GAP: f32 = 8.0;
 /// Border and margins of the panel, above and below together.
-const AROUND: f32 = 2.0 * 9.0;
+pub(super) const STRIP_AROUND: f32 = 2.0 * 9.0;
 
 /// Height of the strip's content.
 pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
@@ -67,5 +67,5 @@ pub(super) fn covered_height(ui: &Ui, session: &Session, state: &TimelineState, 
         return 0.0;
     }
     let sheet = state.sheet_height(ui).filter(|_| !narrow);
-    strip_height(ui, narrow) + sheet.map_or(0.0, |height| height + SHEET_GAP) + AROUND + MARGIN * 2.0
+    strip_height(ui, narrow) + sheet.map_or(0.0, |height| height + SHEET_GAP) + STRIP_AROUND + MARGIN * 2.0
 }

@@ -10,8 +10,12 @@ use super::seam::SeamReading;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
 
-/// Height of the sheet until somebody drags its edge.
+/// Height of the sheet until somebody drags its edge …
 const FIRST_HEIGHT: f32 = 264.0;
+/// … or less, so that what is between the bars above and the strip below keeps the better half of a small window.
+const FIRST_SHARE: f32 = 0.45;
+/// Height of the bars above and of the strip below, with the room around them.
+const BARS_HEIGHT: f32 = 132.0;
 /// Below this height a sheet shows nothing.
 const LEAST_HEIGHT: f32 = 132.0;
 /// The view keeps the rest of the window.
@@ -96,8 +100,10 @@ impl TimelineState {
 
     /// Height of the sheet in a wide window, while it is open.
     pub(super) fn sheet_height(&self, ui: &Ui) -> Option<f32> {
-        let most = (ui.ctx().content_rect().height() * MOST_SHARE - 100.0).max(LEAST_HEIGHT);
-        let height = self.dragged_height.unwrap_or(FIRST_HEIGHT);
+        let window_height = ui.ctx().content_rect().height();
+        let most = (window_height * MOST_SHARE - 100.0).max(LEAST_HEIGHT);
+        let first = || FIRST_HEIGHT.min(window_height * FIRST_SHARE - BARS_HEIGHT);
+        let height = self.dragged_height.unwrap_or_else(first);
         self.open.then(|| height.clamp(LEAST_HEIGHT, most))
     }
 

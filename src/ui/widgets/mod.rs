@@ -13,7 +13,8 @@ mod typed;
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Stroke, StrokeKind, Ui, Vec2,
+    Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Shape, Stroke, StrokeKind,
+    Ui, Vec2,
 };
 
 pub(super) use button::{TextButton, icon_button, keyed_menu_item, menu_item, valued_menu_item};
@@ -80,6 +81,17 @@ pub(super) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId
     job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
     let galley = painter.layout_job(job);
     painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
+}
+
+/// The mark before something that folds: it points to the right while folded, or else down.
+pub(super) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, color: Color32) {
+    let corners = if folded {
+        [Vec2::new(-1.7, -3.4), Vec2::new(1.7, 0.0), Vec2::new(-1.7, 3.4)]
+    } else {
+        [Vec2::new(-3.4, -1.7), Vec2::new(0.0, 1.7), Vec2::new(3.4, -1.7)]
+    };
+    let corners = corners.map(|corner| center + corner).to_vec();
+    painter.add(Shape::line(corners, Stroke::new(1.4, color)));
 }
 
 /// Steps that arrow keys ask of a control that has the keyboard: right and up count up. They are taken, so that nothing else

@@ -93,9 +93,9 @@ fn the_text_is_the_formula_in_columns() {
     let text = explained.to_text(|joint| (joint.0 == 1).then_some("elbow"));
     let expected = "\
 vertex 3: row vectors, matrices row by row as in the file
-p' = sum of weight · (p · finalTransform)    finalTransform = offset · toRoot
+v' = sum of weight · (v · finalTransform)    finalTransform = offset · toRoot
 
-p                  = [  0.250000  0.500000  0.000000  1 ]
+v                  = [  0.250000  0.500000  0.000000  1 ]
 
 bone 0, weight 0.500000
                   offset                                       toRoot                                    finalTransform
@@ -103,7 +103,7 @@ bone 0, weight 0.500000
 [ 0.000000  1.000000  0.000000  0.000000 ] · [ -1.000000  0.000000  0.000000  0.000000 ] = [ -1.000000  0.000000  0.000000  0.000000 ]
 [ 0.000000  0.000000  1.000000  0.000000 ]   [  0.000000  0.000000  1.000000  0.000000 ]   [  0.000000  0.000000  1.000000  0.000000 ]
 [ 0.000000  0.000000  0.000000  1.000000 ]   [  0.000000  0.000000  0.000000  1.000000 ]   [  0.000000  0.000000  0.000000  1.000000 ]
-p · finalTransform = [ -0.500000  0.250000  0.000000  1 ]
+v · finalTransform = [ -0.500000  0.250000  0.000000  1 ]
         · weight   = [ -0.250000  0.125000  0.000000 ]
 
 bone 1 \"elbow\", weight 0.500000
@@ -111,7 +111,7 @@ bone 1 \"elbow\", weight 0.500000
     assert!(text.starts_with(expected), "{text}");
     let last = text.lines().last().expect("lines");
     assert_eq!(
-        last, "p'                 = [ -0.875000  0.375000  0.000000  1 ]",
+        last, "v'                 = [ -0.875000  0.375000  0.000000  1 ]",
         "{text}"
     );
 }
@@ -129,7 +129,7 @@ fn a_vertex_that_nothing_moves_stays_and_one_that_is_not_there_is_none() {
         let explained = explain_vertex(&model, &pose, vertex).expect("there");
         assert!(explained.influences.is_empty());
         assert_eq!(explained.position, model.mesh.positions[vertex as usize]);
-        assert!(explained.to_text(|_| None).contains("no bone has weight: p'"));
+        assert!(explained.to_text(|_| None).contains("no bone has weight: v'"));
         assert_eq!(explain_vertex(&model, &pose, model.mesh.vertex_count() as u32), None);
     }
 }

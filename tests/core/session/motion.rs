@@ -207,6 +207,38 @@ fn a_window_that_changes_on_the_way_changes_the_goal() {
 }
 
 #[test]
+fn the_camera_glides_out_of_the_way_of_a_panel_and_turns_round_on_its_way() {
+    let covered = |bottom| Command::SetViewport {
+        aspect: 1.0,
+        insets: Insets {
+            bottom,
+            ..Insets::default()
+        },
+    };
+    let mut there = opened(still("a.m3d"));
+    there.apply(covered(0.5));
+    let mut session = opened(still("a.m3d"));
+    let first = *session.camera();
+    session.apply(fling(1.0, 0.0));
+    session.apply(glide(covered(0.5)));
+    assert_eq!(session.camera(), &first, "no jump");
+    session.advance(STEP_SECS);
+    let here = *session.camera();
+    assert!(here.distance > first.distance && here.distance < there.camera().distance);
+    session.apply(glide(covered(0.0)));
+    assert_eq!(session.camera(), &here);
+    run_out(&mut session, STEP_SECS);
+    assert!(close(session.camera(), &first));
+    session.apply(glide(covered(0.5)));
+    run_out(&mut session, STEP_SECS);
+    assert!(close(session.camera(), there.camera()));
+    // Who went elsewhere is left there.
+    session.apply(Command::Pan { drag: Vec2::ONE });
+    session.apply(glide(covered(0.0)));
+    assert!(!session.is_moving());
+}
+
+#[test]
 fn a_projection_that_changes_on_the_way_stays_changed() {
     let mut session = opened(still("a.m3d"));
     session.apply(glide(Command::LookFrom(ViewPreset::Back)));
