@@ -384,7 +384,6 @@ fn on_a_phone_it_is_a_page_of_the_sheet_with_buttons_for_time() {
         "Fold all",
         "Shut the dope sheet",
         "Bone 1, ",
-        "Range in",
         "Time 0",
         "Frame 0",
     ] {
@@ -393,6 +392,10 @@ fn on_a_phone_it_is_a_page_of_the_sheet_with_buttons_for_time() {
     }
     window.click("One frame on");
     assert!((window.time_secs() - 1.0 / 30.0).abs() < 1e-6);
+    // A finger on the play head means the time; away from it the ends of the range are as large as everything.
+    window.click("Last frame");
+    let [near, far] = ["Range out", "Range in"].map(|end| window.rect(end).width());
+    assert!(near < far && far >= 44.0, "{near} and {far}");
     window.click("Sheet: Curves");
     assert_inside(&window, PHONE);
     window.click("Shut the dope sheet");

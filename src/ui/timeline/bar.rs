@@ -15,8 +15,9 @@ use crate::session::{Command, Session};
 const END_ROOM: f32 = 12.0;
 /// How far an end of the range can be taken hold of: outside and inside of it.
 const GRIP: [f32; 2] = [11.0, 4.0];
-/// A finger on the play head means the time, also where the play head stands at an end: only what is outside holds the end.
-const TOUCH_GRIP: [f32; 2] = [32.0, -4.0];
+const TOUCH_GRIP: [f32; 2] = [28.0, 16.0];
+/// A finger on the play head means the time, also where the play head stands at an end: then only what is outside holds the end.
+const TOUCH_GRIP_BY_HEAD: [f32; 2] = [32.0, -4.0];
 
 /// An end of the range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,12 +71,17 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
     if clip.last_frame() == 0 {
         return;
     }
-    let [outside, inside] = if is_touch(ui) { TOUCH_GRIP } else { GRIP };
     let (secs, sign, name) = match end {
         End::In => (in_secs, 1.0, "Range in"),
         End::Out => (out_secs, -1.0, "Range out"),
     };
     let x = axis.x_of(secs);
+    let head = axis.x_of(session.playback().time_secs());
+    let [outside, inside] = match is_touch(ui) {
+        true if (head - x).abs() < 2.0 * TOUCH_GRIP[1] => TOUCH_GRIP_BY_HEAD,
+        true => TOUCH_GRIP,
+        false => GRIP,
+    };
     let (from, to) = (x - sign * outside, x + sign * inside);
     let target = Rect::from_x_y_ranges(from.min(to)..=from.max(to), rect.y_range());
     let response = ui
