@@ -39,5 +39,5 @@ pub use pose::{LocalPose, ModelPose, Palette, PoseBuffers};
 pub use sample::{sample, sample_joint};
 pub use seam::{JointSeam, Seam, VISIBLE_SHARE, seam};
 pub use skin::{SkinnedVertices, skin, skin_positions};
-pub use skin_view::{SkinView, Stretch, dominant_joints, influence_counts, joint_weights};
+pub use skin_view::{SkinView, Stretch, dominant_joint, dominant_joints, influence_counts, joint_weights};
 pub use trails::{GhostPlan, Trails, ghost_times, palettes_at};

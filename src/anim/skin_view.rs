@@ -75,13 +75,16 @@ pub fn influence_counts(mesh: &Mesh, counts: &mut Vec<u8>) {
 /// The joint with the greatest weight at each vertex, the first of equals; none without weight.
 pub fn dominant_joints(mesh: &Mesh, joints: &mut Vec<Option<JointIndex>>) {
     joints.clear();
-    joints.extend(influences(mesh).map(|influences| {
-        let slots = influences.joints.into_iter().zip(influences.weights);
-        let greatest = slots.reduce(|most, slot| if slot.1 > most.1 { slot } else { most });
-        greatest
-            .filter(|&(_, weight)| weight > 0.0)
-            .map(|(joint, _)| JointIndex(joint))
-    }));
+    joints.extend(influences(mesh).map(|influences| dominant_joint(&influences)));
+}
+
+/// The joint with the greatest weight, the first of equals; none without weight.
+pub fn dominant_joint(influences: &Influences) -> Option<JointIndex> {
+    let slots = influences.joints.into_iter().zip(influences.weights);
+    let greatest = slots.reduce(|most, slot| if slot.1 > most.1 { slot } else { most });
+    greatest
+        .filter(|&(_, weight)| weight > 0.0)
+        .map(|(joint, _)| JointIndex(joint))
 }
 
 /// Edges of a mesh with their lengths in the bind pose, found once.

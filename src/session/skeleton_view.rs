@@ -132,25 +132,26 @@ impl Session {
         Some(SkinColorsKey {
             view,
             model: self.model_revision,
-            joint: self.joints.weighed().filter(|_| view == SkinView::Weight),
+            joint: self.weighed_joint().filter(|_| view == SkinView::Weight),
             pose: (view == SkinView::Stretch).then(|| self.on_show()),
         })
     }
 
     /// A colour for each vertex, sRGB, in the caller's buffer; empty while the skin is shown as it is. Weights are those of
-    /// [`Joints::weighed`](super::Joints::weighed), all 0 without one.
+    /// [`Session::weighed_joint`], all 0 without one.
     pub fn skin_colors(&mut self, colors_srgb: &mut Vec<[u8; 4]>) {
         colors_srgb.clear();
         let Some(view) = self.joints.skin_view() else { return };
         if view == SkinView::Stretch {
             self.pose_vertices();
         }
+        let weighed = self.weighed_joint();
         let Some(open) = &self.open else { return };
         let (mesh, skeleton) = (&open.model.mesh, &open.model.skeleton);
         let skin = &mut self.skeleton_view.skin;
         match view {
             SkinView::Weight => {
-                match self.joints.weighed() {
+                match weighed {
                     Some(joint) => joint_weights(mesh, joint, &mut skin.values),
                     None => {
                         skin.values.clear();

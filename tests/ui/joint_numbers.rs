@@ -204,7 +204,7 @@ fn the_pointer_over_a_bone_shows_its_weights_and_leaves_those_of_the_selected_on
     window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
     window.apply(JointCommand::Select(Some(JointIndex(2))).into());
     window.apply(JointCommand::SelectVertex(Some(4)).into());
-    let shown = |window: &Window| (window.session().joints().weighed(), window.session().skin_colors_key());
+    let shown = |window: &Window| (window.session().weighed_joint(), window.session().skin_colors_key());
     let selected = shown(&window);
     assert_eq!(selected.0, Some(JointIndex(2)));
     let at = window.rect("Bone 1: weight").center();

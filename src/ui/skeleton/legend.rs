@@ -130,7 +130,7 @@ fn show_colors(ui: &mut Ui, rect: Rect, view: SkinView) {
 fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
     match view {
         SkinView::Weight => {
-            let title = match session.joints().weighed() {
+            let title = match session.weighed_joint() {
                 Some(joint) => format!("Weight of {}", shortened(&session.joint_label(joint), 20)),
                 None => view.label().to_owned(),
             };
@@ -138,7 +138,7 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
             let joints = session.joints();
             let hint = match (joints.selected(), joints.selected_vertex()) {
                 (Some(_), _) => None,
-                (None, Some(_)) => Some("Choose one of the bones of the vertex, or another in the tree."),
+                (None, Some(_)) => Some("The strongest bone of the vertex. Choose another there or in the tree."),
                 (None, None) => Some("Select a bone in the tree, or a vertex on the skin."),
             };
             (title, hint)

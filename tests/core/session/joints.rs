@@ -424,6 +424,21 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     colors_of_values(legend(SkinView::Weight), &heights, &mut expected);
     assert_eq!(colors, expected, "the upper joint's weight grows with height");
     assert_eq!(Session::new(false).skin_colors_key(), None);
+
+    // Of a vertex the strongest joint, where nothing else was chosen.
+    let mesh = &session.open_model().expect("open").model.mesh;
+    let [lowest, highest] = [0.0, 4.0].map(|y| {
+        let place = mesh.positions.iter().position(|position| position.y == y);
+        place.expect("the box is four high") as u32
+    });
+    session.apply(joint(SelectVertex(Some(lowest))));
+    assert_eq!(session.weighed_joint(), Some(JointIndex(1)), "the selected joint stays");
+    session.apply(joint(Select(None)));
+    assert_eq!(session.weighed_joint(), Some(JointIndex(0)));
+    session.apply(joint(SelectVertex(Some(highest))));
+    assert_eq!(session.weighed_joint(), Some(JointIndex(1)));
+    session.skin_colors(&mut colors);
+    assert_eq!(colors, expected);
 }
 
 #[test]
