@@ -168,6 +168,7 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
         let clip = clip.and_then(|clip| open.model.clips.get(clip));
         clip.map_or("", |clip| clip.name.as_str())
     });
+    popover::gap(ui);
     if section_with_action(ui, "Blend", Some("End")) {
         commands.push(Command::ClearBlend);
     }
