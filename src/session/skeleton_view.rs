@@ -118,10 +118,7 @@ impl Session {
     /// The same as text to copy, with the names that were given.
     pub fn explain_vertex_text(&mut self) -> Option<String> {
         let explanation = self.explain_vertex()?;
-        let skeleton = &self.open.as_ref()?.model.skeleton;
-        let bone_of = |joint: JointIndex| skeleton.file_bones().get(joint.index()).copied();
-        let name_of = |joint| bone_of(joint).and_then(|bone| self.joint_names().get(bone));
-        Some(explanation.to_text(name_of))
+        Some(explanation.to_text(|joint| self.joint_name(joint)))
     }
 
     /// What the colours of the skin depend on now: as long as it stays, they need not be asked for. None while the skin is shown

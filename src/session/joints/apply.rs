@@ -39,6 +39,12 @@ impl Session {
         Some(self.joints.names.saved(&open.model.skeleton))
     }
 
+    /// The name that was given to a joint.
+    pub fn joint_name(&self, joint: JointIndex) -> Option<&str> {
+        let bones = self.open_model()?.model.skeleton.file_bones();
+        self.joints.names.get(*bones.get(joint.index())?)
+    }
+
     /// What a joint is called: its name, or `Bone 12` by its number in the file.
     pub fn joint_label(&self, joint: JointIndex) -> String {
         let bones = self.open_model().map(|open| open.model.skeleton.file_bones());

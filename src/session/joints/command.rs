@@ -42,7 +42,7 @@ pub enum JointCommand {
         /// What it is called.
         name: String,
     },
-    /// Takes the names of [`Session::proposed_names`].
+    /// Takes the names of [`Session::proposed_names`](crate::session::Session::proposed_names).
     AcceptMirrorNames,
     /// Takes names that were kept, if they belong to a hierarchy like this one. They replace those that are there.
     ImportNames(SavedNames),

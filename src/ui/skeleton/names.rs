@@ -21,12 +21,9 @@ pub(super) struct Naming {
 impl Naming {
     /// Lets a joint be named.
     pub(super) fn begin(&mut self, session: &Session, joint: JointIndex) {
-        let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
-        let bone = bones.and_then(|bones| bones.get(joint.index()));
-        let name = bone.and_then(|&bone| session.joint_names().get(bone));
         *self = Self {
             of: Some(joint),
-            text: name.unwrap_or_default().to_owned(),
+            text: session.joint_name(joint).unwrap_or_default().to_owned(),
             begins: true,
             proposing: false,
         };

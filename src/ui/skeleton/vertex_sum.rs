@@ -10,7 +10,6 @@ use super::digits::Digits;
 use super::formula::Formula;
 use super::numbers::{LINE_HEIGHT, number_column, rule_over_numbers, show_line, show_matrix};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
-use crate::model::JointIndex;
 use crate::session::Session;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{
@@ -47,10 +46,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, ex
     ui.add_space(8.0);
     let copy = ("Copy as text", "Copy: the sum of the vertex as text");
     if section_with_labelled_action(ui, "All numbers", Some(copy)) {
-        let skeleton = session.open_model().map(|open| &open.model.skeleton);
-        let bone_of = |joint: JointIndex| skeleton?.file_bones().get(joint.index()).copied();
-        let name_of = |joint| session.joint_names().get(bone_of(joint)?);
-        ui.ctx().copy_text(explanation.to_text(name_of));
+        ui.ctx()
+            .copy_text(explanation.to_text(|joint| session.joint_name(joint)));
     }
 }
 
