@@ -3,8 +3,11 @@
 
 import { createApi } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
-import { clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showPanic, wordsOf } from "./fault.js";
+import {
+  clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
+} from "./fault.js";
 import { saveFile } from "./save.js";
+import { runsProgram } from "./support.js";
 import { letTabLeave, mirrorTransport } from "./transport.js";
 
 /** A GPU that goes away more often than this within the time below does not come back for good. */
@@ -58,6 +61,11 @@ element("notice-close").addEventListener("click", clearNotice);
 boot();
 
 async function boot() {
+  if (!runsProgram()) {
+    fail(new Error("WebAssembly with SIMD is missing"));
+    showOldBrowser();
+    return;
+  }
   const opensAtOnce = fetchOpening();
   try {
     viewer = await load();

@@ -62,6 +62,16 @@ export function showGpuLoss(error, gpu) {
   );
 }
 
+/** The browser lacks what the program is built for. */
+export function showOldBrowser() {
+  showFault(
+    "This browser is too old",
+    "Bindpose needs WebAssembly with SIMD: Chrome or Edge 91, Firefox 89, Safari 16.4, or a newer one.",
+    navigator.userAgent,
+    [reload("Try again")],
+  );
+}
+
 /** The program could not be fetched or compiled. */
 export function showDownloadFailure(error) {
   showFault(

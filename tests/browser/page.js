@@ -161,6 +161,18 @@ test("a viewer that does not arrive is said so, with a way on", {
   await until(page, ({ model }) => model !== null);
 });
 
+test("a browser that is too old is told which are not", {
+  bare: true,
+  expectErrors: true,
+  prepare: (page) => page.addInitScript(() => (WebAssembly.validate = () => false)),
+}, async (page) => {
+  await page.waitForSelector("#fault:not([hidden])");
+  await keep(page, "fault-browser");
+  assert.match(await page.textContent("#fault-words"), /Firefox 89/);
+  const told = await page.evaluate(() => bindpose.ready.then(() => "it runs", ({ message }) => message));
+  assert.match(told, /SIMD/, "programs hear of it too");
+});
+
 test("a browser without graphics is told which other way there is", {
   bare: true,
   expectErrors: true,
