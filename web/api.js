@@ -5,7 +5,7 @@ const EMPTY = { backend: null, model: null, clip: null, timeSecs: 0, playing: fa
 
 /**
  * Makes the object that programs see, and beside it what only the page may do with it:
- * `attach(viewer)` when the viewer runs, `fail(error)` when it never will again, `emit(type, detail)` for its events.
+ * `give(files, how)` for what a person opens, `attach(viewer)` when the viewer runs, `fail(error)` when it never will again, `emit(type, detail)` for its events.
  */
 export function createApi() {
   let viewer = null;
@@ -17,8 +17,8 @@ export function createApi() {
   // Whoever waits for it hears of a failure; nobody has to wait.
   ready.catch(() => {});
 
+  /** Opens files, or adds their clips, one call after the other. */
   const give = (files, how) => {
-    used = true;
     // A FileList empties itself when its input is used again, so it is copied before anything waits.
     const given = Array.from(files);
     const opened = opening.then(async () => {
@@ -27,6 +27,12 @@ export function createApi() {
     });
     opening = opened.catch(() => {});
     return opened;
+  };
+
+  /** The same for programs. */
+  const asked = (how) => (files) => {
+    used = true;
+    return give(files, how);
   };
 
   /** Now, or as soon as the viewer runs. */
@@ -55,10 +61,10 @@ export function createApi() {
     setWrap: command("setWrap"),
 
     /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
-    open: (files) => give(files, "open"),
+    open: asked("open"),
 
     /** The same, but the clips of models with the same bones join those of the open one. */
-    addClips: (files) => give(files, "addClips"),
+    addClips: asked("addClips"),
 
     /** A picture of the current view: a PNG `Blob`, as large as the canvas unless told otherwise. */
     async snapshot(options = {}) {
@@ -71,8 +77,9 @@ export function createApi() {
 
   return {
     bindpose,
-    /** Whether anything was asked to open. */
+    /** Whether a program asked to open anything. */
     wasUsed: () => used,
+    give,
     attach(running) {
       viewer = running;
       resolve(running);

@@ -6,6 +6,7 @@ import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
 } from "./fault.js";
+import { rememberGiven } from "./given.js";
 import { saveFile } from "./save.js";
 import { runsProgram } from "./support.js";
 import { letTabLeave, mirrorTransport } from "./transport.js";
@@ -31,7 +32,7 @@ const element = (id) => document.getElementById(id);
 const view = element("view");
 /** What the address asks for, before the `#` or after it. */
 const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
-const { bindpose, wasUsed, attach, fail, emit } = createApi();
+const { bindpose, wasUsed, give, attach, fail, emit } = createApi();
 globalThis.bindpose = bindpose;
 
 let viewer = null; // The wasm module's exports.
@@ -42,13 +43,12 @@ let restarting = false;
 let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
 
 const refuse = (words) => showNotice("Some files could not be read", words);
-let received = null; // What was dropped or chosen last, for another reading.
+const given = rememberGiven();
 const receive = async (files, addsClips = false) => {
   clearNotice();
-  if (!addsClips) received = files;
+  given.add(files, addsClips);
   if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
-  const given = addsClips ? bindpose.addClips(files) : bindpose.open(files);
-  await given.catch((error) => refuse(wordsOf(error)));
+  await give(files, addsClips ? "addClips" : "open").catch((error) => refuse(wordsOf(error)));
 };
 const pick = takeChoices({ receive, refuse });
 takeDrops({ receive, refuse, openModel: () => bindpose.state().model?.name });
@@ -87,7 +87,7 @@ async function boot() {
   element("shell").classList.add("leaving");
   setTimeout(() => (element("shell").hidden = true), 200);
   const files = await opensAtOnce;
-  if (files && !wasUsed()) await bindpose.open(files).catch((error) => refuse(wordsOf(error)));
+  if (files && !wasUsed() && given.isEmpty()) await give(files, "open").catch((error) => refuse(wordsOf(error)));
   refreshTransport();
 }
 
@@ -116,7 +116,7 @@ function showProgress(arrived, total) {
   const part = total ? Math.min(arrived / total, 1) : 0;
   element("bar").setAttribute("aria-valuenow", Math.round(part * 100));
   element("bar-fill").style.transform = `scaleX(${part})`;
-  if (!wasUsed()) {
+  if (!wasUsed() && given.isEmpty()) {
     const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
     const words = part < 1 ? `Loading the viewer · ${megabytes(arrived)} of ${megabytes(total)} MB` : "Starting";
     element("progress-words").textContent = words;
@@ -201,11 +201,11 @@ function onEvent(type, detail) {
 /** Opens what is open once more, as it is on disk or on the server now. */
 async function readAgain() {
   // What a script opened is the script's to open again.
-  if (!received && wasUsed()) return;
+  if (!given.hasModel() && wasUsed()) return;
   try {
-    const fresh = async (item) => ({ ...item, file: item.again ? await item.again() : item.file });
-    const files = received ? await Promise.all(received.map(fresh)) : await fetchOpening();
-    if (files) await bindpose.open(files);
+    const { files, clips } = await given.readAgain(fetchOpening);
+    if (files.length) await give(files, "open");
+    if (clips.length) await give(clips, "addClips");
   } catch (error) {
     refuse(`${wordsOf(error)}\nA file that was changed after it was chosen in a dialog has to be chosen again.`);
   }

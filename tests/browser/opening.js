@@ -101,7 +101,7 @@ test("a drop with Shift adds the clips of a model, and so does the dialog for cl
     assert.match(words, /^Drop to add clips\s+1 item · its clips join those of figure\.m3d$/);
   };
   await drop(page, [path], { look, shift: true });
-  const joined = await until(page, ({ model }) => model.clips.length > 4);
+  const joined = await until(page, ({ model }) => model.clips.length > count);
   assert.equal(joined.model.name, "figure.m3d", "the model stays");
   assert.equal(joined.model.clips.length, 2 * count);
   await page.setInputFiles("#clips", path);
@@ -147,6 +147,37 @@ test("R reads the files again as they are on disk now", { reducedMotion: "reduce
   await page.keyboard.press("r");
   const mended = await until(page, ({ model }) => model.clips[0].name === "March");
   assert.equal(mended.error, null);
+});
+
+test("R reads the sample again, and with a model the maps and clips that joined it later", { reducedMotion: "reduce" }, async (page) => {
+  const loads = () => page.evaluate(() => globalThis.loads);
+  await page.evaluate(() => {
+    globalThis.loads = 0;
+    bindpose.addEventListener("load", () => (loads += 1));
+  });
+  await page.mouse.click(...GROUND);
+  await settled(page);
+  await page.keyboard.press("r");
+  await page.waitForFunction(() => loads === 1);
+  assert.equal((await state(page)).model.name, "figure.m3d");
+
+  const { folder, path } = copyOfSample("hero.m3d");
+  writeFileSync(path, readFileSync(path, "latin1").replace(/^DiffuseMap:.*$/m, "DiffuseMap: late.png"), "latin1");
+  const [clips, map] = [join(folder, "more.m3d"), join(folder, "late.png")];
+  copyFileSync(SAMPLE, clips);
+  copyFileSync(join(SAMPLE, "../suit_diff.png"), map);
+  await dropAndWait(page, [path]);
+  await drop(page, [map]);
+  await until(page, ({ textures }) => !textures.missing.includes("late.png"));
+  await drop(page, [clips], { shift: true });
+  const { model } = await until(page, ({ model }) => model.clips.length > 4);
+  const before = await loads();
+  writeFileSync(clips, readFileSync(clips, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll"), "latin1");
+  await page.keyboard.press("r");
+  const again = await until(page, ({ model }) => model.clips.some(({ name }) => name === "Stroll"));
+  assert.equal(await loads(), before + 1, "the model was read too");
+  assert.deepEqual([again.model.name, again.model.clips.length, again.error], ["hero.m3d", model.clips.length, null]);
+  assert.ok(!again.textures.missing.includes("late.png"), "the map is there");
 });
 
 test("R tells of a file from the dialog that has changed since", { reducedMotion: "reduce", expectErrors: true }, async (page) => {
