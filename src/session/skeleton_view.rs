@@ -115,12 +115,6 @@ impl Session {
         explain_vertex(&self.open.as_ref()?.model, &self.pose, vertex)
     }
 
-    /// The same as text to copy, with the names that were given.
-    pub fn explain_vertex_text(&mut self) -> Option<String> {
-        let explanation = self.explain_vertex()?;
-        Some(explanation.to_text(|joint| self.joint_name(joint)))
-    }
-
     /// What the colours of the skin depend on now: as long as it stays, they need not be asked for. None while the skin is shown
     /// as it is.
     pub fn skin_colors_key(&self) -> Option<SkinColorsKey> {

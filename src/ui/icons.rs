@@ -70,8 +70,6 @@ pub(super) enum Icon {
     Close,
     /// Opens a list below.
     ChevronDown,
-    /// Something is folded away.
-    ChevronRight,
     /// More.
     Dots,
 }
@@ -273,7 +271,6 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             line(&[(8.0, 3.4), (8.0, 12.6)]);
             line(&[(3.4, 8.0), (12.6, 8.0)]);
         }
-        Icon::ChevronRight => line(&[(6.4, 4.6), (9.8, 8.0), (6.4, 11.4)]),
         Icon::ChevronDown => line(&[(4.6, 6.4), (8.0, 9.8), (11.4, 6.4)]),
         Icon::Dots => {
             for x in [3.6, 8.0, 12.4] {

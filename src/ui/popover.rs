@@ -1,7 +1,7 @@
 //! Panels that hang from a button of the toolbar. They stay while something in them is changed, and while the view is turned.
 //! Like the toolbar they end at the window's right margin, where they cover the least of the model.
 
-use egui::{Frame, Popup, PopupCloseBehavior, RectAlign, Response, Ui, pos2};
+use egui::{Frame, Popup, PopupCloseBehavior, Pos2, RectAlign, Response, Ui, Vec2, pos2, vec2};
 
 use super::layout::bar_height;
 use super::panel::{scrolled, shown_rect};
@@ -16,23 +16,28 @@ const LEAST_ABOVE_SHEET: f32 = 180.0;
 
 /// Opens and shuts with the button; a click elsewhere or Esc shuts it.
 pub(super) fn show(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
-    let tokens = Tokens::of(ui);
     let window = ui.ctx().content_rect();
     let top = window.min.y + 2.0 * MARGIN + bar_height(ui);
     // Time can be moved while a popover is open: the strip stays free, though not a sheet above it.
     let strip = shown_rect(ui, "timeline").map(|timeline| timeline.max.y - strip_height(ui, false) - STRIP_AROUND);
     let bottom = strip.unwrap_or(window.max.y) - MARGIN;
     let room = bottom - top - 2.0 * (POPOVER_MARGIN + 1.0);
+    let corner = (pos2(window.max.x - MARGIN, top), RectAlign::BOTTOM_END);
+    hang(ui, button, corner, vec2(width, room), contents);
+}
+
+/// Shows the contents, `size` at most, from a corner on.
+fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui)) {
     Popup::from_toggle_button_response(button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
-        .at_position(pos2(window.max.x - MARGIN, top))
-        .align(RectAlign::BOTTOM_END)
+        .at_position(at)
+        .align(align)
         .align_alternatives(&[])
         .gap(0.0)
-        .frame(frame(&tokens))
+        .frame(frame(&Tokens::of(ui)))
         .show(|ui| {
-            ui.set_width(width);
-            scrolled("popover", room.max(120.0)).show(ui, contents);
+            ui.set_width(size.x);
+            scrolled("popover", size.y.max(120.0)).show(ui, contents);
         });
 }
 
@@ -50,7 +55,6 @@ pub(super) fn gap(ui: &mut Ui) {
 
 /// Stands over a button at the window's lower edge, as far from the window's sides as the panels are.
 pub(super) fn show_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
-    let tokens = Tokens::of(ui);
     let window = ui.ctx().content_rect().shrink(MARGIN);
     // On a phone the strip has two rows: what hangs from the lower one stands over both, unless the sheet leaves no room there.
     let above = |top: f32| top - MARGIN - 4.0;
@@ -64,15 +68,6 @@ pub(super) fn show_above(ui: &Ui, button: &Response, width: f32, contents: impl 
     let around = 2.0 * (POPOVER_MARGIN + 1.0);
     let width = width.min(window.width() - around);
     let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);
-    Popup::from_toggle_button_response(button)
-        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
-        .at_position(pos2(left, bottom))
-        .align(RectAlign::TOP_START)
-        .align_alternatives(&[])
-        .gap(0.0)
-        .frame(frame(&tokens))
-        .show(|ui| {
-            ui.set_width(width);
-            scrolled("popover", room.max(120.0)).show(ui, contents);
-        });
+    let corner = (pos2(left, bottom), RectAlign::TOP_START);
+    hang(ui, button, corner, vec2(width, room), contents);
 }

@@ -1,6 +1,6 @@
 //! What the colours of the skin mean.
 
-use egui::{Align2, Color32, FontId, Margin, Mesh, Pos2, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Margin, Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use crate::anim::SkinView;
 use crate::scene::{LegendStop, legend};
@@ -8,7 +8,7 @@ use crate::session::Session;
 use crate::ui::layout::SIDE_WIDTH;
 use crate::ui::panel::Panel;
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::paint_elided;
+use crate::ui::widgets::{gradient_shape, paint_elided};
 use crate::ui::wording::{shortened, trimmed};
 
 /// Width of a card's contents: that of the panel on the left.
@@ -127,6 +127,8 @@ fn show_colors(ui: &mut Ui, rect: Rect, view: SkinView) {
         SkinView::DominantJoint => {}
     }
 }
+
+/// The title, and a sentence where the colours do not say all.
 fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
     match view {
         SkinView::Weight => {
@@ -161,18 +163,8 @@ fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     };
     let bar = Rect::from_min_size(rect.min + vec2(0.0, 5.0), vec2(rect.width(), BAR_HEIGHT));
     let x_of = |value: f32| bar.min.x + (value - first.value) / (last.value - first.value) * bar.width();
-    let mut mesh = Mesh::default();
-    for (index, stop) in (0u32..).zip(stops) {
-        let (x, color) = (x_of(stop.value), color_of(stop));
-        mesh.colored_vertex(pos2(x, bar.min.y), color);
-        mesh.colored_vertex(pos2(x, bar.max.y), color);
-        if index > 0 {
-            let here = 2 * index;
-            mesh.add_triangle(here - 2, here - 1, here);
-            mesh.add_triangle(here - 1, here, here + 1);
-        }
-    }
-    ui.painter().add(Shape::mesh(mesh));
+    let colors = stops.iter().map(|stop| (x_of(stop.value), color_of(stop)));
+    ui.painter().add(gradient_shape(bar.y_range(), colors));
     // The ends are always named; a value between them where it has room.
     let end = value(ui, pos2(bar.max.x, bar.max.y + 3.0), Align2::RIGHT_TOP, last.value);
     let mut taken = value(ui, bar.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, first.value);

@@ -2,9 +2,8 @@
 
 use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::super::icons::{self, Icon};
 use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::super::widgets::{focus_ring, is_touch, paint_elided};
+use super::super::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark};
 use super::super::wording::counted;
 use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
@@ -147,12 +146,8 @@ impl Sheet<'_> {
             place
         };
         let response = ui.interact(target, ui.scope_id().with(("fold", row.joint.0)), Sense::click());
-        let icon = if row.folded {
-            Icon::ChevronRight
-        } else {
-            Icon::ChevronDown
-        };
-        icons::paint(ui.painter(), place, icon, tokens.muted_to_text(response.hovered()));
+        let color = tokens.muted_to_text(response.hovered());
+        paint_fold_mark(ui.painter(), place.center(), row.folded, color);
         let verb = if row.folded { "Unfold" } else { "Fold" };
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
         if response.clicked() {

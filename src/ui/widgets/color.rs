@@ -1,8 +1,8 @@
 //! Choosing a colour: a square of saturation and value, a bar of hues, the hexadecimal number.
 
 use egui::{
-    Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Response, Role, Sense, Shape, Stroke,
-    StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Rangef, Response, Role, Sense, Shape,
+    Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
 use super::super::theme::{CONTROL_RADIUS, Tokens};
@@ -92,24 +92,30 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     Some([hue, at.x.clamp(0.0, 1.0), 1.0 - at.y.clamp(0.0, 1.0)])
 }
 
-fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv> {
-    let height = if control_size(ui) > MOUSE_CONTROL { 28.0 } else { 14.0 };
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
-    let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+/// A band of colours that go over into each other, from left to right.
+pub(crate) fn gradient_shape(height: Rangef, colors: impl Iterator<Item = (f32, Color32)>) -> Shape {
     let mut mesh = Mesh::default();
-    for sixth in 0..=6 {
-        let share = sixth as f32 / 6.0;
-        let x = lerp(rect.x_range(), share);
-        let color = color32(srgb_from_hsv([share, 1.0, 1.0]));
-        mesh.colored_vertex(pos2(x, rect.min.y), color);
-        mesh.colored_vertex(pos2(x, rect.max.y), color);
-        if sixth > 0 {
-            let here = 2 * sixth;
+    for (index, (x, color)) in (0u32..).zip(colors) {
+        mesh.colored_vertex(pos2(x, height.min), color);
+        mesh.colored_vertex(pos2(x, height.max), color);
+        if index > 0 {
+            let here = 2 * index;
             mesh.add_triangle(here - 2, here - 1, here);
             mesh.add_triangle(here - 1, here, here + 1);
         }
     }
-    ui.painter().add(Shape::mesh(mesh));
+    Shape::mesh(mesh)
+}
+
+fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv> {
+    let height = if control_size(ui) > MOUSE_CONTROL { 28.0 } else { 14.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
+    let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+    let colors = (0..=6).map(|sixth| {
+        let share = sixth as f32 / 6.0;
+        (lerp(rect.x_range(), share), color32(srgb_from_hsv([share, 1.0, 1.0])))
+    });
+    ui.painter().add(gradient_shape(rect.y_range(), colors));
     let at = pos2(lerp(rect.x_range(), hue), rect.center().y);
     mark(ui, at, color32(srgb_from_hsv([hue, 1.0, 1.0])));
     response.widget_info(|| WidgetInfo::slider(true, f64::from(hue), format!("{label}: hue")));

@@ -19,7 +19,7 @@ use egui::{
 
 pub(super) use button::{TextButton, icon_button, keyed_menu_item, menu_item, valued_menu_item};
 pub(super) use chip::{chip, chip_size, paint_chip};
-pub(super) use color::{color_button, color_picker, color32_from_linear};
+pub(super) use color::{color_button, color_picker, color32_from_linear, gradient_shape};
 pub(super) use number::number_field;
 pub(super) use row::{
     choice_row, closable_heading, keyed_section_name, rule, section_name, section_with_action,

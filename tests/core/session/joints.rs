@@ -181,12 +181,11 @@ fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_
     }
     assert_ne!(places[0], places[1], "in another pose");
     rename(&mut session, 1, "upper");
-    assert!(
-        session
-            .explain_vertex_text()
-            .expect("selected")
-            .contains("bone 1 \"upper\", weight")
-    );
+    let text = session
+        .explain_vertex()
+        .expect("selected")
+        .to_text(|joint| session.joint_name(joint));
+    assert!(text.contains("bone 1 \"upper\", weight"), "{text}");
     session.apply(joint(SelectVertexAt(Vec2::splat(0.999))));
     assert_eq!(session.joints().selected_vertex(), None, "beside the skin");
 }
@@ -576,6 +575,16 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     assert!(session.camera().distance > 1.5 * near.distance);
     session.apply(joint(Select(None)));
     session.apply(SubsetCommand::Select(Some(0)).into());
+    session.apply(Command::Zoom {
+        factor: 8.0,
+        pointer: Vec2::ZERO,
+    });
+    let far = session.camera().distance;
     session.apply(Command::FrameSelection);
-    assert!(session.camera().distance.is_finite());
+    // The subset is all of the mesh.
+    let distance = session.camera().distance;
+    assert!(
+        distance < 0.5 * far && distance > 0.5 * whole.distance,
+        "{distance} from {far}"
+    );
 }
