@@ -2,7 +2,7 @@
 
 use egui::{Pos2, Rect, Ui, pos2};
 
-use super::layout::{SIDE_WIDTH, bar_height};
+use super::layout::{Arrangement, SIDE_WIDTH, bar_height, page_width, shut_sheet_height};
 use super::panel::shown_rect;
 use super::skeleton::{self, LegendShape};
 use super::state::UiState;
@@ -18,24 +18,32 @@ const LEAST_WITH_CARD: f32 = 220.0;
 const LEAST_WITH_STRIP: f32 = 180.0;
 
 /// Shares of the window that are covered.
-pub(super) fn insets(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> Insets {
+pub(super) fn insets(ui: &Ui, session: &Session, state: &UiState, window: Rect, arrangement: Arrangement) -> Insets {
     let top = (bar_height(ui) + MARGIN) / window.height();
-    let strip = match legend_place(ui, session, state, window, narrow) {
+    let strip = match legend_place(ui, session, state, window, arrangement) {
         Some((_, LegendShape::Strip { .. })) => skeleton::STRIP_HEIGHT + MARGIN,
         Some((_, LegendShape::Card)) | None => 0.0,
     };
-    let bottom = (covered_below(ui, session, state, window, narrow) + strip) / window.height();
-    let left = if narrow {
-        0.0
-    } else {
-        (MARGIN * 2.0 + SIDE_WIDTH) / window.width()
+    let bottom = (covered_below(ui, session, state, window, arrangement) + strip) / window.height();
+    let left = match arrangement {
+        Arrangement::Wide => (free_left(window, arrangement) - window.min.x) / window.width(),
+        Arrangement::Narrow | Arrangement::Low => 0.0,
     };
     Insets {
         left,
+        right: covered_beside(state, window, arrangement) / window.width(),
         top: top.clamp(0.0, 0.3),
         bottom: bottom.clamp(0.0, 0.75),
-        ..Insets::default()
     }
+}
+
+/// Where the panel on the left ends, with a margin.
+pub(super) fn free_left(window: Rect, arrangement: Arrangement) -> f32 {
+    let side = match arrangement {
+        Arrangement::Wide => SIDE_WIDTH + MARGIN,
+        Arrangement::Narrow | Arrangement::Low => 0.0,
+    };
+    window.min.x + MARGIN + side
 }
 
 /// Where the lower left corner of the legend is, and its shape. A card stands below the panel on the left, and in a narrow
@@ -46,23 +54,24 @@ pub(super) fn legend_place(
     session: &Session,
     state: &UiState,
     window: Rect,
-    narrow: bool,
+    arrangement: Arrangement,
 ) -> Option<(Pos2, LegendShape)> {
     if !skeleton::has_legend(session) {
         return None;
     }
     let left = window.min.x + MARGIN;
-    let bottom = match shown_rect(ui, "sheet").filter(|_| narrow) {
+    let bottom = match shown_rect(ui, "sheet").filter(|_| arrangement != Arrangement::Wide) {
         Some(sheet) => sheet.min.y - MARGIN,
-        None => window.max.y - covered_below(ui, session, state, window, narrow).max(MARGIN),
+        None => window.max.y - covered_below(ui, session, state, window, arrangement).max(MARGIN),
     };
     let room = bottom - (window.min.y + 2.0 * MARGIN + bar_height(ui));
-    let (shape, least) = if !narrow {
+    let free = window.with_max_x(window.max.x - covered_beside(state, window, arrangement));
+    let (shape, least) = if arrangement == Arrangement::Wide {
         (LegendShape::Card, LEAST_WITH_CARD)
-    } else if left + SIDE_WIDTH + FIGURE_REACH <= window.center().x {
+    } else if left + SIDE_WIDTH + FIGURE_REACH <= free.center().x {
         (LegendShape::Card, skeleton::CARD_HEIGHT)
     } else {
-        let width = window.width() - 2.0 * MARGIN;
+        let width = free.width() - 2.0 * MARGIN;
         (LegendShape::Strip { width }, LEAST_WITH_STRIP)
     };
     (room >= least).then_some((pos2(left, bottom), shape))
@@ -70,16 +79,30 @@ pub(super) fn legend_place(
 
 /// Room that the legend takes from the panel on the left, with the margin between them.
 pub(super) fn covered_by_card(ui: &Ui, session: &Session, state: &UiState, window: Rect) -> f32 {
-    let shown = legend_place(ui, session, state, window, false);
+    let shown = legend_place(ui, session, state, window, Arrangement::Wide);
     shown.map_or(0.0, |_| {
         shown_rect(ui, "legend").map_or(skeleton::CARD_HEIGHT, |card| card.height()) + MARGIN
     })
 }
 
 /// Room that timeline and sheet take from the window's lower edge, with a margin.
-fn covered_below(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) -> f32 {
-    let timeline = timeline::covered_height(ui, session, &state.timeline, narrow);
+fn covered_below(ui: &Ui, session: &Session, state: &UiState, window: Rect, arrangement: Arrangement) -> f32 {
+    let timeline = covered_by_timeline(ui, session, state, arrangement);
     // As it was shown last: the contents of its page say how high it is.
-    let sheet = shown_rect(ui, "sheet").filter(|_| narrow && state.sheet.is_some());
+    let sheet = shown_rect(ui, "sheet").filter(|_| arrangement != Arrangement::Wide && state.sheet.is_some());
     timeline.max(sheet.map_or(0.0, |sheet| window.max.y - sheet.min.y + MARGIN))
+}
+
+/// Room that the timeline alone takes from the window's lower edge, with a margin.
+pub(super) fn covered_by_timeline(ui: &Ui, session: &Session, state: &UiState, arrangement: Arrangement) -> f32 {
+    match arrangement {
+        Arrangement::Wide => timeline::covered_height(ui, session, &state.timeline),
+        Arrangement::Narrow | Arrangement::Low => shut_sheet_height(ui, session, arrangement) + MARGIN,
+    }
+}
+
+/// Room that a page beside the model takes from the window's right side, with its margins.
+fn covered_beside(state: &UiState, window: Rect, arrangement: Arrangement) -> f32 {
+    let page = state.sheet.filter(|_| arrangement == Arrangement::Low);
+    page.map_or(0.0, |page| page_width(page, window) + 2.0 * MARGIN)
 }

@@ -1,11 +1,12 @@
-//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one.
+//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. Where a narrow window is low, as on
+//! a phone on its side, what was opened stands beside the model instead of below it.
 
 use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
 
-use super::panel::{Panel, scrolled};
+use super::panel::{PANEL_AROUND, Panel, scrolled};
 use super::skeleton::SidePage;
 use super::state::{SheetPage, UiState};
-use super::theme::MARGIN;
+use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
 use super::{
     diagnostics_panel, free_room, inspector, light, model_panel, overlays, picture, skeleton, timeline, title_bar,
     toolbar, view_modes, widgets,
@@ -18,8 +19,37 @@ pub(super) const SIDE_WIDTH: f32 = 246.0;
 const INSPECTOR_WIDTH: f32 = 288.0;
 /// Share of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
 const PAGE_SHARE: f32 = 0.47;
+/// Share of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
+const BESIDE_SHARE: f32 = 0.44;
+const TIMELINE_BESIDE_SHARE: f32 = 0.62;
+const MOST_BESIDE: f32 = 560.0;
+/// Margin in the sheet, but for its upper edge.
+const SHEET_MARGIN: i8 = 14;
 /// Margin around the controls of the bars at the top.
 const BAR_MARGIN: f32 = 4.0;
+
+/// How the panels share the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Arrangement {
+    /// Panels around the view.
+    Wide,
+    /// A bar above, below a sheet with the timeline and with what was opened.
+    Narrow,
+    /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
+    Low,
+}
+
+impl Arrangement {
+    pub(super) fn of(window: Rect) -> Self {
+        if window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH {
+            Self::Low
+        } else if window.width() >= NARROW_WIDTH {
+            Self::Wide
+        } else {
+            Self::Narrow
+        }
+    }
+}
 
 /// Height of the bars at the top.
 pub(super) fn bar_height(ui: &Ui) -> f32 {
@@ -41,34 +71,34 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
         .show(ui, |ui| {
             ui.set_height(widgets::control_size(ui) - 6.0);
             // What the toolbar leaves, without the panel's own margins and border.
-            let most = toolbar.min.x - MARGIN - left_top.x - 26.0;
+            let most = toolbar.min.x - MARGIN - left_top.x - PANEL_AROUND;
             title_bar::show(ui, session, most, true);
         });
-    let covered = timeline::covered_height(ui, session, &state.timeline, false);
+    let covered = timeline::covered_height(ui, session, &state.timeline);
     let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
-    let side_room = window.max.y - covered.max(MARGIN) - side_top.y - 26.0;
+    let side_room = window.max.y - covered.max(MARGIN) - side_top.y - PANEL_AROUND;
     let panel_room = side_room - free_room::covered_by_card(ui, session, state, window);
     if session.open_model().is_some() {
         Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {
-            ui.set_width(SIDE_WIDTH - 26.0);
+            ui.set_width(SIDE_WIDTH - PANEL_AROUND);
             side_panel(ui, "model", session, state, panel_room, commands);
         });
     }
-    show_legend(ui, session, state, window, false);
+    show_legend(ui, session, state, window, Arrangement::Wide);
     let inspects_joint = skeleton::is_inspected(session);
     let inspects = session.subsets().selected().is_some() || inspects_joint;
     if state.diagnostics_open {
         let at = side_top + vec2(SIDE_WIDTH + MARGIN, 0.0);
         let right = window.max.x - if inspects { MARGIN + INSPECTOR_WIDTH } else { 0.0 };
         Panel::new("diagnostics", Align2::LEFT_TOP, at).show(ui, |ui| {
-            ui.set_width(430.0_f32.min(right - MARGIN - at.x - 26.0));
+            ui.set_width(430.0_f32.min(right - MARGIN - at.x - PANEL_AROUND));
             diagnostics_panel::show(ui, session, state, side_room - 50.0);
         });
     }
     if inspects {
         let at = pos2(window.max.x - MARGIN, side_top.y);
         Panel::new("inspector", Align2::RIGHT_TOP, at).show(ui, |ui| {
-            ui.set_width(INSPECTOR_WIDTH - 26.0);
+            ui.set_width(INSPECTOR_WIDTH - PANEL_AROUND);
             scrolled("inspector", side_room).show(ui, |ui| {
                 if inspects_joint {
                     skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
@@ -111,8 +141,15 @@ fn side_panel(
     }
 }
 
-/// Phones and slim windows: one bar above, one sheet below.
-pub(super) fn narrow(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
+/// Phones and slim windows: one bar above, one sheet below; with `low` what is opened stands between them.
+pub(super) fn narrow(
+    ui: &Ui,
+    session: &Session,
+    state: &mut UiState,
+    window: Rect,
+    low: bool,
+    commands: &mut Vec<Command>,
+) {
     let left_top = window.min + Vec2::splat(MARGIN);
     Panel::new("title", Align2::LEFT_TOP, left_top)
         .margin(Margin::same(4))
@@ -129,24 +166,35 @@ pub(super) fn narrow(ui: &Ui, session: &Session, state: &mut UiState, window: Re
             });
         });
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
-        sheet(ui, session, state, window, commands);
+        let sheet = sheet(ui, session, state, window, low, commands);
+        if let Some(page) = state.sheet.filter(|_| low) {
+            page_beside(ui, page, session, state, window, sheet.min.y, commands);
+        }
     }
-    show_legend(ui, session, state, window, true);
+    let arrangement = if low { Arrangement::Low } else { Arrangement::Narrow };
+    show_legend(ui, session, state, window, arrangement);
 }
 
-fn show_legend(ui: &Ui, session: &Session, state: &UiState, window: Rect, narrow: bool) {
-    if let Some((at, shape)) = free_room::legend_place(ui, session, state, window, narrow) {
+fn show_legend(ui: &Ui, session: &Session, state: &UiState, window: Rect, arrangement: Arrangement) {
+    if let Some((at, shape)) = free_room::legend_place(ui, session, state, window, arrangement) {
         skeleton::show_legend(ui, session, at, shape);
     }
 }
 
-/// The timeline, and below it what was opened.
-fn sheet(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
+/// The timeline, and below it what was opened, unless it stands beside the model. Where it came to be.
+fn sheet(
+    ui: &Ui,
+    session: &Session,
+    state: &mut UiState,
+    window: Rect,
+    low: bool,
+    commands: &mut Vec<Command>,
+) -> Rect {
     let margin = Margin {
-        left: 14,
-        right: 14,
+        left: SHEET_MARGIN,
+        right: SHEET_MARGIN,
         top: 0,
-        bottom: 14,
+        bottom: SHEET_MARGIN,
     };
     Panel::new("sheet", Align2::LEFT_BOTTOM, window.left_bottom())
         .sheet()
@@ -160,22 +208,74 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands
                 };
             }
             if session.clip().is_some() {
-                timeline::narrow(ui, session, state, commands);
+                timeline::narrow(ui, session, state, low, commands);
             }
-            if let Some(page) = state.sheet {
+            if let Some(page) = state.sheet.filter(|_| !low) {
                 ui.add_space(10.0);
-                let covered =
-                    bar_height(ui) + timeline::covered_height(ui, session, &state.timeline, true) + 3.0 * MARGIN;
+                let shut = shut_sheet_height(ui, session, Arrangement::Narrow);
+                let covered = bar_height(ui) + shut + 3.0 * MARGIN;
                 let room = (window.height() * PAGE_SHARE).min(window.height() - covered);
-                if page == SheetPage::Model && is_side_page(session, state) {
-                    side_panel(ui, "sheet", session, state, room, commands);
-                } else {
-                    scrolled("sheet", room).show(ui, |ui| {
-                        sheet_page(ui, page, session, state, room, commands);
-                    });
-                }
+                show_page(ui, page, session, state, room, commands);
             }
+        })
+}
+
+/// Height of the sheet while nothing is open in it, with its border.
+pub(super) fn shut_sheet_height(ui: &Ui, session: &Session, arrangement: Arrangement) -> f32 {
+    let strip = session.clip().map_or(0.0, |_| timeline::strip_height(ui, arrangement));
+    widgets::SHEET_HANDLE_HEIGHT + strip + f32::from(SHEET_MARGIN) + 2.0
+}
+
+/// What was opened, beside the model: from the bar to the timeline's upper edge.
+fn page_beside(
+    ui: &Ui,
+    page: SheetPage,
+    session: &Session,
+    state: &mut UiState,
+    window: Rect,
+    bottom: f32,
+    commands: &mut Vec<Command>,
+) {
+    let at = window.right_top() + vec2(-MARGIN, 2.0 * MARGIN + bar_height(ui));
+    Panel::new("page", Align2::RIGHT_TOP, at).show(ui, |ui| {
+        ui.set_width(page_width(page, window) - PANEL_AROUND);
+        show_page(
+            ui,
+            page,
+            session,
+            state,
+            bottom - MARGIN - at.y - PANEL_AROUND,
+            commands,
+        );
+    });
+}
+
+/// Width of a page beside the model.
+pub(super) fn page_width(page: SheetPage, window: Rect) -> f32 {
+    let share = if page == SheetPage::Timeline {
+        TIMELINE_BESIDE_SHARE
+    } else {
+        BESIDE_SHARE
+    };
+    (share * window.width()).min(MOST_BESIDE)
+}
+
+/// A page of the sheet, which scrolls when it is higher than its room.
+fn show_page(
+    ui: &mut Ui,
+    page: SheetPage,
+    session: &Session,
+    state: &mut UiState,
+    room: f32,
+    commands: &mut Vec<Command>,
+) {
+    if page == SheetPage::Model && is_side_page(session, state) {
+        side_panel(ui, "sheet", session, state, room, commands);
+    } else {
+        scrolled("sheet", room).show(ui, |ui| {
+            sheet_page(ui, page, session, state, room, commands);
         });
+    }
 }
 
 /// Whether the sheet has room for the side panel: nothing is inspected.

@@ -34,18 +34,21 @@ mod viewport;
 mod widgets;
 mod wording;
 
-use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
+use egui::{Align2, Popup, Rect, Ui, Vec2, pos2, vec2};
 
 use crate::scene::Theme;
-use crate::session::{Command, Session, SubsetCommand};
+use crate::session::{Command, LoadError, Session, SubsetCommand};
 pub use keys::owns_key;
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 use state::Framed;
 pub use state::{Request, SheetPage, UiState};
 
-use layout::bar_height;
-use panel::Panel;
-use theme::{MARGIN, NARROW_WIDTH};
+use layout::{Arrangement, bar_height};
+use panel::{PANEL_AROUND, Panel};
+use theme::MARGIN;
+
+/// Width of the card that tells why a file was not opened, where there is room for it.
+const ERROR_WIDTH: f32 = 562.0;
 
 /// One pass over the whole window. Returns what the person asked for, in order.
 ///
@@ -53,7 +56,7 @@ use theme::{MARGIN, NARROW_WIDTH};
 pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Command> {
     let mut commands = Vec::new();
     let window = ui.max_rect();
-    let narrow = window.width() < NARROW_WIDTH;
+    let arrangement = Arrangement::of(window);
     let touch = state.coarse_pointer || ui.input(egui::InputState::has_touch_screen);
     widgets::size_for_touch(ui.ctx(), touch);
     if state.shown_model != session.model_revision() {
@@ -65,7 +68,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
-    commands.extend(set_viewport(ui, session, state, window, narrow));
+    commands.extend(set_viewport(ui, session, state, window, arrangement));
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
@@ -74,32 +77,52 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.hovered_subset = None;
     state.timeline.update(session);
 
-    if narrow {
-        layout::narrow(ui, session, state, window, &mut commands);
-    } else {
-        layout::wide(ui, session, state, window, &mut commands);
+    match arrangement {
+        Arrangement::Wide => layout::wide(ui, session, state, window, &mut commands),
+        Arrangement::Narrow => layout::narrow(ui, session, state, window, false, &mut commands),
+        Arrangement::Low => layout::narrow(ui, session, state, window, true, &mut commands),
     }
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
     }
     state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
     if state.help_open {
-        let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
-        Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {
-            ui.set_width(300.0_f32.min(window.width() - 2.0 * MARGIN - 26.0));
-            help::show(ui, state);
-        });
+        show_help(ui, session, state, arrangement, touch);
     }
     if let Some(error) = session.error() {
-        let at = pos2(window.center().x, window.min.y + window.height() * 0.38);
-        Panel::new("error", Align2::CENTER_CENTER, at).on_top().show(ui, |ui| {
-            ui.set_width(536.0_f32.min(window.width() - 2.0 * MARGIN - 26.0));
-            error_card::show(ui, session, error, &mut commands);
-        });
+        show_error(ui, session, error, arrangement, &mut commands);
     }
     // Last, since a control that has the keyboard takes its keys first.
     keys::read(ui, session, state, popover_open, &mut commands);
     commands
+}
+
+/// The table of keys, off the panel on the left and the timeline.
+fn show_help(ui: &Ui, session: &Session, state: &mut UiState, arrangement: Arrangement, touch: bool) {
+    let window = ui.max_rect();
+    let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
+    let left = free_room::free_left(window, arrangement);
+    let bottom = window.max.y - free_room::covered_by_timeline(ui, session, state, arrangement).max(MARGIN);
+    let most = vec2(at.x - left, bottom - at.y) - Vec2::splat(PANEL_AROUND);
+    Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {
+        help::show(ui, state, most, touch);
+    });
+}
+
+/// Why a file was not opened: in the middle, or so far to the right that the panel on the left can be read.
+fn show_error(ui: &Ui, session: &Session, error: &LoadError, arrangement: Arrangement, commands: &mut Vec<Command>) {
+    let window = ui.max_rect();
+    let width = ERROR_WIDTH.min(window.width() - 2.0 * MARGIN);
+    let first = free_room::free_left(window, arrangement) + 0.5 * width;
+    let last = window.max.x - MARGIN - 0.5 * width;
+    let at = pos2(
+        window.center().x.max(first).min(last),
+        window.min.y + window.height() * 0.38,
+    );
+    Panel::new("error", Align2::CENTER_CENTER, at).on_top().show(ui, |ui| {
+        ui.set_width(width - PANEL_AROUND);
+        error_card::show(ui, session, error, commands);
+    });
 }
 
 fn set_theme(ui: &Ui) -> Command {
@@ -112,8 +135,14 @@ fn set_theme(ui: &Ui) -> Command {
 
 /// What the panels leave free is where the model is framed. A window of another size and another model are framed at once;
 /// where a panel opened or shut the camera goes there.
-fn set_viewport(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, narrow: bool) -> Option<Command> {
-    let insets = free_room::insets(ui, session, state, window, narrow);
+fn set_viewport(
+    ui: &Ui,
+    session: &Session,
+    state: &mut UiState,
+    window: Rect,
+    arrangement: Arrangement,
+) -> Option<Command> {
+    let insets = free_room::insets(ui, session, state, window, arrangement);
     let aspect = window.width() / window.height().max(1.0);
     let now = Framed {
         window,

@@ -26,6 +26,9 @@ fn id_of(name: &'static str) -> Id {
     Id::unique(("panel", name))
 }
 
+/// Border and margins of a panel, of two sides together, unless its margins are its own.
+pub(super) const PANEL_AROUND: f32 = 26.0;
+
 /// Where a panel is and what it looks like.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Panel {

@@ -16,6 +16,10 @@ pub const PANEL_RADIUS: u8 = 10;
 pub const CONTROL_RADIUS: u8 = 6;
 /// Below this width the panels become one bottom sheet.
 pub const NARROW_WIDTH: f32 = 900.0;
+/// Below this height a sheet would leave nothing of the model: what it shows stands beside the model …
+pub const LOW_HEIGHT: f32 = 480.0;
+/// … from this width on.
+pub const LOW_WIDTH: f32 = 600.0;
 
 /// Semibold family, for titles.
 pub const SEMIBOLD: &str = "semibold";

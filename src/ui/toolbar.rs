@@ -1,11 +1,10 @@
 //! Top right: what of the model is shown and in which light, from where, pictures, opening files, help.
 
-use egui::{Popup, Rangef, RectAlign, Ui};
+use egui::{Rangef, RectAlign, Ui};
 
 use super::icons::Icon;
 use super::skeleton::SkeletonState;
 use super::state::{Request, SheetPage, UiState};
-use super::theme::MARGIN;
 use super::widgets::{TextButton, control_size, icon_button, keyed_menu_item, menu_item, valued_menu_item};
 use super::{light, overlays, picture, popover, view_modes};
 use crate::scene::{Projection, Theme, ViewPreset};
@@ -15,8 +14,8 @@ use crate::session::{Command, Session};
 const LIGHT_WIDTH: f32 = 288.0;
 /// The light's button is as wide for either light, so that nothing beside it moves.
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
-/// From a button to its menu: as far from the bar as the panels are.
-const MENU_GAP: f32 = MARGIN + 4.0;
+/// Width of the menus of view modes and directions.
+const MENU_WIDTH: f32 = 190.0;
 /// Room between buttons.
 const SPACING: f32 = 4.0;
 
@@ -48,7 +47,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
     let dots = icon_button(ui, Icon::Dots, "More", false);
-    Popup::menu(&dots).show(|ui| more_menu(ui, session, state, commands));
+    popover::menu(ui, &dots, RectAlign::BOTTOM_END, 230.0, |ui| {
+        more_menu(ui, session, state, commands);
+    });
     open_button(ui, state);
     let shown = state.sheet == Some(SheetPage::Light);
     let button = icon_button(ui, Icon::Sun, &lighting(session), shown);
@@ -68,15 +69,11 @@ fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
     let button = button.on_hover_text("View mode (T)");
-    Popup::menu(&button)
-        .align(RectAlign::BOTTOM_START)
-        .gap(MENU_GAP)
-        .show(|ui| {
-            ui.set_width(190.0);
-            if view_modes::items(ui, session, commands) {
-                ui.close();
-            }
-        });
+    popover::menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
+        if view_modes::items(ui, session, commands) {
+            ui.close();
+        }
+    });
 }
 
 fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -124,15 +121,11 @@ fn theme_button(ui: &mut Ui, state: &mut UiState) {
 
 fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let cube = icon_button(ui, Icon::Cube, "View from…", false);
-    Popup::menu(&cube)
-        .align(RectAlign::BOTTOM_END)
-        .gap(MENU_GAP)
-        .show(|ui| {
-            ui.set_width(190.0);
-            if view_from_items(ui, session, commands) {
-                ui.close();
-            }
-        });
+    popover::menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
+        if view_from_items(ui, session, commands) {
+            ui.close();
+        }
+    });
 }
 
 /// The key of a direction; empty where there is none.
@@ -165,7 +158,6 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
 }
 
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    ui.set_width(230.0);
     let pages = [
         ("View mode", view_modes::shown(session), SheetPage::ViewMode),
         ("Light and background", light::label(session), SheetPage::Light),

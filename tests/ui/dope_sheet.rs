@@ -344,14 +344,20 @@ fn it_fits_windows_of_any_size() {
             assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
         }
     }
-    for size in [PHONE, vec2(320.0, 568.0), vec2(844.0, 390.0), vec2(899.0, 700.0)] {
+    let sheet: &[&str] = &["title", "sheet"];
+    for (size, panels) in [
+        (PHONE, sheet),
+        (vec2(320.0, 568.0), sheet),
+        (vec2(899.0, 700.0), sheet),
+        (vec2(844.0, 390.0), &["title", "sheet", "page"]),
+    ] {
         let mut window = touch_window(size, vec![rig(30, 31)]);
         open(&mut window);
         window.click("Bone 1, ");
         for tab in ["Sheet: Curves", "Sheet: Dope sheet"] {
             window.click(tab);
             assert_between_sides(&window, size);
-            assert_apart(&window, &["title", "sheet"]);
+            assert_apart(&window, panels);
         }
     }
 }

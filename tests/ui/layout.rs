@@ -57,6 +57,7 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
         "diagnostics",
         "timeline",
         "sheet",
+        "page",
         "help",
         "error",
         "legend",
@@ -75,8 +76,12 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
 
 #[track_caller]
 pub(crate) fn panel(window: &Window, wanted: &str) -> Rect {
+    shown_panel(window, wanted).unwrap_or_else(|| panic!("no panel {wanted}"))
+}
+
+pub(crate) fn shown_panel(window: &Window, wanted: &str) -> Option<Rect> {
     let found = panels(window).into_iter().find(|(name, _)| *name == wanted);
-    found.unwrap_or_else(|| panic!("no panel {wanted}")).1
+    found.map(|(_, rect)| rect)
 }
 
 #[track_caller]
@@ -143,7 +148,7 @@ fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
         }
     }
     // By touch all is larger.
-    for size in [PHONE, vec2(360.0, 640.0), vec2(320.0, 568.0), vec2(844.0, 390.0)] {
+    for size in [PHONE, vec2(360.0, 640.0), vec2(320.0, 568.0), vec2(480.0, 320.0)] {
         for files in [vec![moving("a.m3d")], vec![moving(LONG)], long_clip()] {
             let mut window = touch_window(size, files);
             assert_inside(&window, size);
@@ -157,10 +162,58 @@ fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
 }
 
 #[test]
+fn in_a_low_window_what_was_opened_stands_beside_the_model() {
+    for (size, touch) in [
+        (vec2(844.0, 390.0), true),
+        (vec2(932.0, 430.0), true),
+        (vec2(667.0, 375.0), true),
+        (vec2(600.0, 320.0), true),
+        (vec2(1200.0, 470.0), false),
+    ] {
+        let open = if touch { touch_window } else { window };
+        for files in [
+            vec![moving("a.m3d")],
+            vec![moving(LONG)],
+            vec![still("a.m3d")],
+            long_clip(),
+        ] {
+            let has_clip = !matches!(files.as_slice(), [file] if *file == still("a.m3d"));
+            let mut window = open(size, files);
+            assert_inside(&window, size);
+            assert_apart(&window, &["title", "sheet"]);
+            assert_model_is_free(&mut window, size);
+            window.click("Model facts");
+            assert_between_sides(&window, size);
+            assert_apart(&window, &["title", "sheet", "page"]);
+            assert!(panel(&window, "page").contains_rect(window.rect("Dialect")));
+            assert_model_is_free(&mut window, size);
+            window.apply(JointCommand::SetSkinView(Some(SkinView::Stretch)).into());
+            assert_model_is_free(&mut window, size);
+            window.apply(JointCommand::SetSkinView(None).into());
+            show_findings(&mut window);
+            assert_between_sides(&window, size);
+            window.click("Close the sheet");
+            assert!(!window.shows("Dialect D3D12 book"));
+            if has_clip {
+                window.click("Dope sheet and");
+                assert_between_sides(&window, size);
+                assert_apart(&window, &["title", "sheet", "page"]);
+                assert_model_is_free(&mut window, size);
+            }
+        }
+    }
+}
+
+#[test]
 fn the_error_card_and_the_keys_fit_the_window() {
     for (mut window, size) in [
         (window(WIDE, vec![moving("a.m3d")]), WIDE),
         (window(vec2(900.0, 600.0), vec![]), vec2(900.0, 600.0)),
+        (window(vec2(900.0, 700.0), vec![moving("a.m3d")]), vec2(900.0, 700.0)),
+        (
+            touch_window(vec2(844.0, 390.0), vec![moving("a.m3d")]),
+            vec2(844.0, 390.0),
+        ),
         (phone(vec![moving("a.m3d")]), PHONE),
     ] {
         window.apply(Command::AddFiles(vec![broken(LONG)]));
@@ -173,6 +226,7 @@ fn the_error_card_and_the_keys_fit_the_window() {
             Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(card),
             "{card}"
         );
+        assert_off(&window, card, &["model"]);
         for button in ["Copy the error", "Dismiss (Esc)"] {
             assert!(card.contains_rect(window.rect(button)), "{button}");
         }
@@ -198,6 +252,15 @@ fn the_error_card_and_the_keys_fit_the_window() {
             Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(help),
             "{help}"
         );
+        assert_off(&window, help, &["title", "toolbar", "model", "timeline", "sheet"]);
+    }
+}
+
+/// Those panels that are there stay to be read beside what came last.
+#[track_caller]
+fn assert_off(window: &Window, rect: Rect, names: &[&str]) {
+    for (name, covered) in panels(window).into_iter().filter(|(name, _)| names.contains(name)) {
+        assert!(!rect.intersects(covered), "{rect} lies on {name} {covered}");
     }
 }
 
@@ -228,7 +291,8 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
             let open = if touch { touch_window } else { window };
             let mut window = open(size, vec![moving("a.m3d")]);
             window.apply(JointCommand::SetSkinView(Some(view)).into());
-            let base: &[&str] = if size.x < 900.0 {
+            let narrow = size.x < 900.0;
+            let base: &[&str] = if narrow {
                 &["title", "sheet", "legend"]
             } else {
                 &["title", "toolbar", "model", "timeline", "legend"]
@@ -238,13 +302,10 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
             assert_model_is_free(&mut window, size);
 
             window.apply(JointCommand::Select(Some(JointIndex(0))).into());
-            if size.x < 900.0 {
+            if narrow {
                 window.click("Model facts");
             }
-            // A phone on its side has room for the sheet alone.
-            if size.y >= 600.0 {
-                assert_model_is_free(&mut window, size);
-            }
+            assert_model_is_free(&mut window, size);
         }
     }
 }
@@ -255,7 +316,7 @@ fn assert_model_is_free(window: &mut Window, size: Vec2) {
     let panels = panels(window);
     let covering = panels
         .iter()
-        .filter(|(name, _)| ["legend", "sheet", "timeline", "model"].contains(name));
+        .filter(|(name, _)| ["legend", "sheet", "page", "timeline", "model"].contains(name));
     for (name, rect) in covering {
         assert!(
             !rect.intersects(model),

@@ -332,6 +332,18 @@ fn weights_and_what_their_colours_mean_on_a_phone() {
 }
 
 #[test]
+fn what_is_opened_on_a_phone_on_its_side() {
+    let size = Vec2::new(844.0, 390.0);
+    compare(
+        "low-light-weights",
+        &draw_after(size, Theme::Light, true, inspected(), &["Model facts"]),
+    );
+    let then = vec![JointCommand::Select(Some(JointIndex(2))).into()];
+    let clicks = ["Dope sheet and", "Sheet: Curves"];
+    compare("low-dark-curves", &draw_after(size, Theme::Dark, true, then, &clicks));
+}
+
+#[test]
 fn the_tree_in_the_sheet_of_a_phone() {
     let mut then = inspected();
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));

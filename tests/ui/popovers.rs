@@ -1,10 +1,10 @@
 //! What the toolbar opens: inside the window, off the panels, large enough for fingers.
 
 use bindpose::scene::ViewMode;
-use bindpose::session::{JointCommand, LookCommand, SubsetCommand};
+use bindpose::session::{Command, JointCommand, LookCommand, SubsetCommand};
 use egui::{Order, Rect, vec2};
 
-use crate::layout::{assert_apart, assert_between_sides, assert_inside};
+use crate::layout::{assert_apart, assert_between_sides, assert_inside, shown_panel};
 use crate::models::moving;
 use crate::page::{PHONE, WIDE, Window, touch_window, window};
 
@@ -86,12 +86,16 @@ fn what_hangs_over_the_timeline_leaves_the_transport_free() {
         (PHONE, true),
         (vec2(320.0, 568.0), true),
         (vec2(844.0, 390.0), true),
+        (vec2(900.0, 480.0), true),
         (vec2(900.0, 700.0), false),
         (WIDE, false),
     ] {
         let open = if touch { touch_window } else { window };
         let mut window = open(size, vec![moving("a.m3d")]);
         window.apply(JointCommand::SetBonesVisible(true).into());
+        // A range whose seam is seen has the longest list.
+        window.apply(Command::SetRangeStart(Some(0.2)));
+        window.apply(Command::SetRangeEnd(Some(0.7)));
         let mut buttons = vec!["Clip ", "Speed "];
         if size.x >= 900.0 {
             buttons.extend(["Lighting", "Lines over the model", "Picture"]);
@@ -105,6 +109,11 @@ fn what_hangs_over_the_timeline_leaves_the_transport_free() {
                     Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(rect),
                     "{button} of {size}: {rect}"
                 );
+                for bar in ["title", "toolbar"].into_iter().filter(|_| size.y > 400.0) {
+                    if let Some(bar) = shown_panel(&window, bar) {
+                        assert!(!rect.intersects(bar), "{button} of {size} lies on the bars at the top");
+                    }
+                }
                 for control in ["Play", "Time in seconds"] {
                     assert!(
                         !rect.intersects(window.rect(control)),
@@ -114,5 +123,41 @@ fn what_hangs_over_the_timeline_leaves_the_transport_free() {
             }
             window.press(egui::Modifiers::NONE, egui::Key::Escape);
         }
+    }
+}
+
+#[test]
+fn a_menu_that_is_higher_than_the_window_scrolls_in_it() {
+    for (size, button, last) in [
+        (vec2(900.0, 480.0), "View mode", "Stretch"),
+        (vec2(900.0, 700.0), "View mode", "Stretch"),
+        (vec2(900.0, 480.0), "View from", "Orthographic"),
+        (vec2(844.0, 390.0), "More", "Keys"),
+        (vec2(320.0, 568.0), "More", "Keys"),
+    ] {
+        let mut window = touch_window(size, vec![moving("a.m3d")]);
+        window.click(button);
+        let shown = popovers(&window);
+        let page = Rect::from_min_size(egui::Pos2::ZERO, size);
+        assert_eq!(shown.len(), 1, "{button} of {size}");
+        assert!(page.contains_rect(shown[0]), "{button} of {size}: {}", shown[0]);
+        // Its last line comes into it.
+        let below = window.rect(last).max.y - shown[0].max.y;
+        window.harness.hover_at(shown[0].center());
+        window.harness.event(egui::Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
+            unit: egui::MouseWheelUnit::Point,
+            delta: vec2(0.0, -below.max(0.0) - 20.0),
+            phase: egui::TouchPhase::Move,
+            modifiers: egui::Modifiers::NONE,
+        });
+        window.wait(1.0);
+        let line = window.rect(last);
+        assert!(shown[0].contains_rect(line), "{last} of {size}: {line} in {}", shown[0]);
+        window.click(last);
+        assert!(
+            popovers(&window).iter().all(|rect| *rect != shown[0]),
+            "a choice shuts it"
+        );
     }
 }

@@ -31,6 +31,7 @@ pub(super) use transport::narrow;
 
 use egui::Ui;
 
+use super::layout::Arrangement;
 use super::state::UiState;
 use super::theme::MARGIN;
 use super::widgets::control_size;
@@ -42,12 +43,12 @@ const SHEET_GAP: f32 = 8.0;
 pub(super) const STRIP_AROUND: f32 = 2.0 * 9.0;
 
 /// Height of the strip's content.
-pub(super) fn strip_height(ui: &Ui, narrow: bool) -> f32 {
+pub(super) fn strip_height(ui: &Ui, arrangement: Arrangement) -> f32 {
     let control = control_size(ui);
-    if narrow {
-        44.0 + 8.0 + control
-    } else {
-        control.max(34.0)
+    match arrangement {
+        Arrangement::Wide => control.max(34.0),
+        Arrangement::Narrow => 44.0 + 8.0 + control,
+        Arrangement::Low => 44.0,
     }
 }
 
@@ -61,11 +62,11 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     transport::wide(ui, session, state, commands);
 }
 
-/// Room that the panel takes from the window's lower edge.
-pub(super) fn covered_height(ui: &Ui, session: &Session, state: &TimelineState, narrow: bool) -> f32 {
+/// Room that the panel takes from a wide window's lower edge, with margins.
+pub(super) fn covered_height(ui: &Ui, session: &Session, state: &TimelineState) -> f32 {
     if session.clip().is_none() {
         return 0.0;
     }
-    let sheet = state.sheet_height(ui).filter(|_| !narrow);
-    strip_height(ui, narrow) + sheet.map_or(0.0, |height| height + SHEET_GAP) + STRIP_AROUND + MARGIN * 2.0
+    let sheet = state.sheet_height(ui);
+    strip_height(ui, Arrangement::Wide) + sheet.map_or(0.0, |height| height + SHEET_GAP) + STRIP_AROUND + MARGIN * 2.0
 }

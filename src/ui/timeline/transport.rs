@@ -3,6 +3,7 @@
 use egui::{Align2, FontId, Rangef, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::super::icons::Icon;
+use super::super::layout::Arrangement;
 use super::super::popover;
 use super::super::state::{SheetPage, UiState};
 use super::super::theme::{CONTROL_RADIUS, Tokens};
@@ -11,11 +12,14 @@ use super::super::wording::trimmed;
 use super::readouts::{self, ReadoutWidths};
 use super::{TimelineState, bar, clips, controls, options, strip_height};
 use crate::anim::{Direction, LoopMode};
+use crate::model::Clip;
 use crate::session::{Command, Session};
 
 /// The least width of the clip's name on a phone.
 const CLIP_WIDTH_NARROW: f32 = 84.0;
-/// Room between controls in a wide window.
+/// The width of the speed on a phone.
+const SPEED_WIDTH_NARROW: f32 = 52.0;
+/// Room between controls, but for the large ones.
 const SPACING: f32 = 6.0;
 /// From this width on there are buttons for steps from key to key.
 const KEY_BUTTONS_WIDTH: f32 = 1060.0;
@@ -23,7 +27,7 @@ const KEY_BUTTONS_WIDTH: f32 = 1060.0;
 /// The strip in one row, for wide windows.
 pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(clip) = session.clip() else { return };
-    let height = strip_height(ui, false);
+    let height = strip_height(ui, Arrangement::Wide);
     let row = vec2(ui.available_width(), height);
     ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
@@ -56,58 +60,95 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         readouts::frame(ui, session, clip, widths.frame, commands);
         speed_button(ui, session, &mut state.timeline, 48.0, commands);
         loop_button(ui, session, commands);
-        let open = state.timeline.open;
-        let label = if open {
-            "Shut the dope sheet"
-        } else {
-            "Dope sheet and curves"
-        };
-        if icon_button(ui, Icon::DopeSheet, label, open).clicked() {
-            state.timeline.open = !open;
+        if sheet_button(ui, state.timeline.open) {
+            state.timeline.open = !state.timeline.open;
         }
     });
 }
 
-/// The strip in two rows, for phones: the bar above, large targets.
-pub(in crate::ui) fn narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+/// The strip for phones, with large targets: in two rows, the bar above, or in one where a window is `low`.
+pub(in crate::ui) fn narrow(
+    ui: &mut Ui,
+    session: &Session,
+    state: &mut UiState,
+    low: bool,
+    commands: &mut Vec<Command>,
+) {
     let Some(clip) = session.clip() else { return };
+    let end = EndOfStrip::of(ui, clip);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         controls::play_button(ui, session, 44.0, commands);
-        let bar_width = ui.available_width() - control_size(ui) - 10.0;
+        let mut bar_width = ui.available_width() - control_size(ui) - 10.0;
+        if low {
+            let before = ui.available_width();
+            clips::button(ui, session, state, Rangef::new(CLIP_WIDTH_NARROW, 140.0), commands);
+            bar_width -= before - ui.available_width() + end.width + 10.0;
+        }
         bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 44.0), commands);
+        if low {
+            ui.scope(|ui| end.show(ui, session, clip, &mut state.timeline, commands));
+        }
         let open = state.sheet == Some(SheetPage::Timeline);
-        let label = if open {
-            "Shut the dope sheet"
-        } else {
-            "Dope sheet and curves"
-        };
-        if icon_button(ui, Icon::DopeSheet, label, open).clicked() {
+        if sheet_button(ui, open) {
             state.sheet = (!open).then_some(SheetPage::Timeline);
         }
     });
+    if low {
+        return;
+    }
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        let widths = ReadoutWidths::of(ui, clip);
-        let spacing = ui.spacing().item_spacing.x;
-        let others_width = widths.time + 52.0 + control_size(ui) + 3.0 * spacing;
-        // The slimmest phones have room for the time alone.
-        let frame_width = widths.frame + spacing;
-        let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + others_width + frame_width;
-        let right_width = others_width + if shows_frame { frame_width } else { 0.0 };
-        let clip_width = Rangef::new(
-            CLIP_WIDTH_NARROW.min(ui.available_width() - right_width),
-            (ui.available_width() - right_width).max(0.0),
+        let most = (ui.available_width() - end.width - SPACING).max(0.0);
+        clips::button(
+            ui,
+            session,
+            state,
+            Rangef::new(CLIP_WIDTH_NARROW.min(most), most),
+            commands,
         );
-        clips::button(ui, session, state, clip_width, commands);
-        ui.add_space((ui.available_width() - right_width).max(0.0));
-        readouts::time(ui, session, widths.time, commands);
-        if shows_frame {
-            readouts::frame(ui, session, clip, widths.frame, commands);
-        }
-        speed_button(ui, session, &mut state.timeline, 52.0, commands);
-        loop_button(ui, session, commands);
+        ui.add_space((ui.available_width() - end.width).max(0.0));
+        end.show(ui, session, clip, &mut state.timeline, commands);
     });
+}
+
+/// What is read and how it plays, on a phone.
+struct EndOfStrip {
+    widths: ReadoutWidths,
+    shows_frame: bool,
+    width: f32,
+}
+
+impl EndOfStrip {
+    fn of(ui: &Ui, clip: &Clip) -> Self {
+        let widths = ReadoutWidths::of(ui, clip);
+        let least = widths.time + SPEED_WIDTH_NARROW + control_size(ui) + 2.0 * SPACING;
+        // The slimmest phones have room for the time alone.
+        let with_frame = least + widths.frame + SPACING;
+        let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + SPACING + with_frame;
+        Self {
+            widths,
+            shows_frame,
+            width: if shows_frame { with_frame } else { least },
+        }
+    }
+
+    fn show(
+        &self,
+        ui: &mut Ui,
+        session: &Session,
+        clip: &Clip,
+        state: &mut TimelineState,
+        commands: &mut Vec<Command>,
+    ) {
+        ui.spacing_mut().item_spacing.x = SPACING;
+        readouts::time(ui, session, self.widths.time, commands);
+        if self.shows_frame {
+            readouts::frame(ui, session, clip, self.widths.frame, commands);
+        }
+        speed_button(ui, session, state, SPEED_WIDTH_NARROW, commands);
+        loop_button(ui, session, commands);
+    }
 }
 
 /// The speed, and behind it all about how a clip plays.
@@ -132,6 +173,16 @@ fn speed_button(ui: &mut Ui, session: &Session, state: &mut TimelineState, width
     popover::show_above(ui, &response, options::WIDTH, |ui| {
         options::show(ui, session, state, commands);
     });
+}
+
+/// Whether it was pressed.
+fn sheet_button(ui: &mut Ui, open: bool) -> bool {
+    let label = if open {
+        "Shut the dope sheet"
+    } else {
+        "Dope sheet and curves"
+    };
+    icon_button(ui, Icon::DopeSheet, label, open).clicked()
 }
 
 fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

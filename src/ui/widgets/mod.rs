@@ -22,7 +22,7 @@ pub(super) use chip::{chip, chip_size, paint_chip};
 pub(super) use color::{color_button, color_picker, color32_from_linear, gradient_shape};
 pub(super) use number::number_field;
 pub(super) use row::{
-    choice_row, closable_heading, keyed_section_name, rule, section_name, section_with_action,
+    SHEET_HANDLE_HEIGHT, choice_row, closable_heading, keyed_section_name, rule, section_name, section_with_action,
     section_with_labelled_action, sheet_handle, value_row,
 };
 pub(super) use segmented::segmented;

@@ -140,10 +140,13 @@ pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
     ui.add_space(7.0);
 }
 
+/// Height of the handle of a sheet.
+pub(crate) const SHEET_HANDLE_HEIGHT: f32 = 24.0;
+
 /// The grip of the bottom sheet.
 pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SHEET_HANDLE_HEIGHT), Sense::hover());
     // A finger may also take hold of it a little above the sheet.
     let above = (control_size(ui) - rect.height()).max(0.0);
     let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
