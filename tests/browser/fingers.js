@@ -1,8 +1,8 @@
 // The view under fingers: one turns it, two move it and bring it nearer, and a finger on the bar carries the time.
 
 import assert from "node:assert/strict";
-import { atRest, call, keep, settled, state, test, until } from "./harness.js";
-import { PHONE_TIME_BAR } from "./widgets.js";
+import { atRest, call, keep, settled, state, test, turnPhone, until } from "./harness.js";
+import { LOW_SHEET_BUTTON, LOW_TIME_BAR, PHONE_TIME_BAR } from "./widgets.js";
 
 const PHONE = { phone: true, reducedMotion: "reduce" };
 const STEPS = 6;
@@ -61,4 +61,21 @@ test("a finger on the bar carries the time", PHONE, async (page) => {
   assert.equal(playing, false);
   await call(page, "play");
   await until(page, (now) => now.timeSecs !== timeSecs);
+});
+
+test("on a phone that is turned on its side the model makes way for what is opened beside it", PHONE, async (page) => {
+  const { camera: upright, model } = await atRest(page);
+  await turnPhone(page, 844, 390);
+  const { camera: low } = await until(page, ({ camera }) => camera.distance !== upright.distance);
+  assert.ok(near(apart(low, upright), 0, 0.2 * upright.distance), "it is framed anew");
+  await page.touchscreen.tap(...LOW_SHEET_BUTTON);
+  const { camera: beside } = await until(page, ({ camera }) => apart(camera, low) > 0.2 * low.distance);
+  await atRest(page);
+  await keep(page, "phone-on-its-side");
+  const { first, last, y } = LOW_TIME_BAR;
+  const { timeSecs, camera } = await fingers(page, [[first, y], [last, y]]);
+  assert.ok(near(timeSecs, model.clips[0].endSecs, 0.02), `${timeSecs}`);
+  assert.deepEqual(camera, beside, "the model stays where it is");
+  await page.touchscreen.tap(...LOW_SHEET_BUTTON);
+  await until(page, ({ camera }) => near(apart(camera, low), 0, 1e-3));
 });

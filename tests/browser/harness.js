@@ -74,12 +74,20 @@ async function browserAt(scale) {
   return browsers.get(scale);
 }
 
+/** What sets the size of a phone's page. */
+const screens = new WeakMap();
+
 /** A page on a small screen with two pixels to the point, touched by fingers. */
 async function phonePage(context) {
   const page = await context.newPage();
-  const devtools = await context.newCDPSession(page);
-  await devtools.send("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 0, mobile: false });
+  screens.set(page, await context.newCDPSession(page));
+  await turnPhone(page, 390, 844);
   return page;
+}
+
+/** Gives the screen of a phone another shape. */
+export async function turnPhone(page, width, height) {
+  await screens.get(page).send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 0, mobile: false });
 }
 
 /**
