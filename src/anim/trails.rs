@@ -29,6 +29,19 @@ impl Trails {
     /// Follows joints through a clip. `pose` is a buffer to keep; it is left at the end of the clip. A joint that the skeleton
     /// has not stays at the origin.
     pub fn follow(&mut self, skeleton: &Skeleton, clip: &Clip, joints: &[JointIndex], pose: &mut PoseBuffers) {
+        self.follow_posed(clip, joints, pose, |time_secs, pose| {
+            pose.evaluate(skeleton, clip, time_secs);
+        });
+    }
+
+    /// The same for any poses at the times of a clip: `pose_at` puts that of a time into the buffer.
+    pub fn follow_posed(
+        &mut self,
+        clip: &Clip,
+        joints: &[JointIndex],
+        pose: &mut PoseBuffers,
+        mut pose_at: impl FnMut(f32, &mut PoseBuffers),
+    ) {
         let last = clip.last_frame();
         let steps = last.min(MOST_POINTS - 1);
         self.point_count = steps as usize + 1;
@@ -43,7 +56,7 @@ impl Trails {
             } else {
                 clip.start_secs + clip.duration_secs() * (step as f32 / steps as f32)
             };
-            pose.evaluate(skeleton, clip, time_secs);
+            pose_at(time_secs, pose);
             for (trail, joint) in joints.iter().enumerate() {
                 if let Some(model_from_joint) = pose.model.0.get(joint.index()) {
                     self.points[trail * self.point_count + step as usize] = model_from_joint.translation.into();
@@ -82,16 +95,16 @@ pub fn ghost_times(clip: &Clip, time_secs: f32, plan: GhostPlan, times_secs: &mu
 }
 
 /// A palette for each time, in the caller's buffers: palettes that are there are written over, those beyond the times go.
+/// `pose_at` puts the pose of a time into the buffer.
 pub fn palettes_at(
-    skeleton: &Skeleton,
-    clip: &Clip,
     times_secs: &[f32],
     pose: &mut PoseBuffers,
     palettes: &mut Vec<Palette>,
+    mut pose_at: impl FnMut(f32, &mut PoseBuffers),
 ) {
     palettes.resize_with(times_secs.len(), Palette::default);
     for (&time_secs, palette) in times_secs.iter().zip(palettes) {
-        pose.evaluate(skeleton, clip, time_secs);
+        pose_at(time_secs, pose);
         palette.0.clone_from(&pose.palette.0);
     }
 }

@@ -128,6 +128,15 @@ impl Mix {
     }
 }
 
+impl Mix {
+    /// The pose of the clip on show with what is blended into it, in `buffers`: of another time than now, at which nothing fades.
+    pub(super) fn pose_unfaded(&mut self, open: &OpenModel, shown: &Clip, time_secs: f32, buffers: &mut PoseBuffers) {
+        self.scratch.pose_layer(&open.model.clips, shown, self.blend, time_secs);
+        std::mem::swap(&mut self.scratch.layer, &mut buffers.local);
+        buffers.place(&open.model.skeleton);
+    }
+}
+
 impl Scratch {
     /// A clip and what is blended into it, in `layer`.
     fn pose_layer(&mut self, clips: &[Clip], clip: &Clip, with: Option<Blend>, time_secs: f32) {

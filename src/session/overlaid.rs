@@ -2,6 +2,7 @@
 //! filled again only when what they show is another thing.
 
 use super::Session;
+use super::mixing::Blend;
 use super::pose::OnShow;
 use super::skeleton_view::SkinColorsKey;
 use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
@@ -38,6 +39,7 @@ pub(super) struct Overlaid {
 struct TrailsKey {
     clips: u64,
     clip: Option<usize>,
+    blend: Option<Blend>,
     joints: Vec<JointIndex>,
 }
 
@@ -117,22 +119,21 @@ impl Session {
         overlaid.ghosts_for = Some(wanted);
         overlaid.ghost_colors_srgb.clear();
         overlaid.times_secs.clear();
-        let Some(open) = &self.open else {
+        let Self { open, mix, .. } = self;
+        let Some(open) = open else {
             overlaid.palettes.clear();
             return;
         };
         let skeleton = &open.model.skeleton;
-        if let (Some(plan), Some(clip)) = (overlaid.ghost_plan, self.clip()) {
+        let clip = self.clip.and_then(|clip| open.model.clips.get(clip));
+        if let (Some(plan), Some(clip)) = (overlaid.ghost_plan, clip) {
             let now_secs = self.playback.time_secs();
             ghost_times(clip, now_secs, plan, &mut overlaid.times_secs);
             let times_secs = &overlaid.times_secs;
-            palettes_at(
-                skeleton,
-                clip,
-                times_secs,
-                &mut overlaid.scratch,
-                &mut overlaid.palettes,
-            );
+            let (scratch, palettes) = (&mut overlaid.scratch, &mut overlaid.palettes);
+            palettes_at(times_secs, scratch, palettes, |time_secs, pose| {
+                mix.pose_unfaded(open, clip, time_secs, pose);
+            });
             let past = times_secs.iter().filter(|&&time_secs| time_secs < now_secs).count();
             let colors = (0..times_secs.len()).map(|ghost| ghost_color(ghost, past, times_secs.len()));
             overlaid.ghost_colors_srgb.extend(colors);
@@ -153,6 +154,7 @@ impl Session {
         let wanted = TrailsKey {
             clips: self.clips_revision,
             clip: self.clip,
+            blend: self.blend(),
             joints: self.joints.trails().to_vec(),
         };
         if overlaid.trails_for.as_ref() != Some(&wanted) {

@@ -170,12 +170,19 @@ impl Session {
         }
     }
 
-    /// The ways of the chosen joints through the clip on show, model space, in the caller's buffers. It poses the clip at each
-    /// frame: ask again only when the model, the clip or the choice changed.
-    pub fn follow_trails(&self, trails: &mut Trails, pose: &mut anim::PoseBuffers) {
-        match (self.open_model(), self.clip()) {
-            (Some(open), Some(clip)) => trails.follow(&open.model.skeleton, clip, self.joints.trails(), pose),
-            _ => *trails = Trails::default(),
+    /// The ways of the chosen joints through the clip on show and what is blended into it, model space, in the caller's buffers.
+    /// It poses the clip at each frame: ask again only when the model, the clip, the blend or the choice changed.
+    pub fn follow_trails(&mut self, trails: &mut Trails, pose: &mut anim::PoseBuffers) {
+        let Self { open, mix, joints, .. } = self;
+        let Some(open) = open else {
+            *trails = Trails::default();
+            return;
+        };
+        match self.clip.and_then(|clip| open.model.clips.get(clip)) {
+            Some(clip) => trails.follow_posed(clip, joints.trails(), pose, |time_secs, pose| {
+                mix.pose_unfaded(open, clip, time_secs, pose);
+            }),
+            None => *trails = Trails::default(),
         }
     }
 }

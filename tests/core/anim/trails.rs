@@ -84,7 +84,9 @@ fn each_ghost_has_the_palette_of_its_time() {
     let model = mirrored_model(300);
     let (clip, times) = (&model.clips[0], [0.1, 0.9]);
     let (mut pose, mut palettes) = (PoseBuffers::default(), vec![bindpose::anim::Palette::default(); 5]);
-    palettes_at(&model.skeleton, clip, &times, &mut pose, &mut palettes);
+    palettes_at(&times, &mut pose, &mut palettes, |time_secs, pose| {
+        pose.evaluate(&model.skeleton, clip, time_secs);
+    });
     assert_eq!(palettes.len(), 2);
     for (palette, time_secs) in palettes.iter().zip(times) {
         pose.evaluate(&model.skeleton, clip, time_secs);

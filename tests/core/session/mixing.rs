@@ -1,7 +1,8 @@
 //! Crossfades from clip to clip, and two clips blended.
 
-use bindpose::anim::{LocalPose, LoopMode, Playback, PoseBuffers, blend, sample};
-use bindpose::session::{Blend, Command, MAX_CROSSFADE_SECS, Session};
+use bindpose::anim::{GhostPlan, LocalPose, LoopMode, Playback, PoseBuffers, blend, sample};
+use bindpose::model::JointIndex;
+use bindpose::session::{Blend, Command, JointCommand, MAX_CROSSFADE_SECS, Session};
 use glam::Affine3A;
 
 use super::{models, opened};
@@ -309,4 +310,59 @@ fn the_box_holds_all_clips_in_the_pose() {
     );
     session.apply(Command::ClearBlend);
     assert_eq!(session.world_bounds(), still);
+}
+
+#[test]
+fn ghosts_and_trails_are_of_what_is_on_show_a_blend_too() {
+    let mut session = playing(3);
+    session.apply(Command::Pause);
+    let plan = GhostPlan {
+        before: 1,
+        after: 1,
+        step_frames: 1,
+    };
+    session.apply(Command::SetGhosts(Some(plan)));
+    session.apply(JointCommand::ToggleTrail(JointIndex(2)).into());
+    let clip = session.open_model().expect("open").model.clips[0].clone();
+    let (away_secs, now_secs) = (1.0 / clip.keys_per_sec, 0.5 * (clip.start_secs + clip.end_secs));
+    session.apply(Command::Seek { time_secs: now_secs });
+    let trail = |session: &mut Session| session.frame().over_model.expect("lines").lines.clone();
+    let alone = trail(&mut session);
+    assert_eq!(
+        alone.len(),
+        2 * clip.last_frame() as usize,
+        "a line from frame to frame"
+    );
+
+    let mut trails = Vec::new();
+    for share in [0.0, 0.5] {
+        session.apply(Command::SetBlend { clip: 2, share });
+        let expected = [-away_secs, away_secs].map(|by_secs| {
+            let time_secs = now_secs + by_secs;
+            let part = (time_secs - clip.start_secs) / (clip.end_secs - clip.start_secs);
+            let local = mixed(
+                &pose(&session, 0, time_secs),
+                &pose(&session, 2, 3.0 + 2.0 * part),
+                share,
+            );
+            palette(&session, local)
+        });
+        let ghosts: Vec<_> = session
+            .frame()
+            .ghosts
+            .palettes
+            .iter()
+            .map(|palette| palette.0.clone())
+            .collect();
+        assert_eq!(ghosts.len(), 2);
+        for (ghost, expected) in ghosts.iter().flatten().zip(expected.iter().flatten()) {
+            assert!(
+                ghost.abs_diff_eq(*expected, 1e-5),
+                "blend {share}: {ghost} instead of {expected}"
+            );
+        }
+        trails.push(trail(&mut session));
+    }
+    assert!(trails[0] == alone, "a share of nothing changes nothing");
+    assert!(trails[1] != alone, "the way of the blend is another");
 }
