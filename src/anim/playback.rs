@@ -19,6 +19,17 @@ pub enum LoopMode {
     PingPong,
 }
 
+impl LoopMode {
+    /// The word for people.
+    pub const fn label(self) -> &'static str {
+        match self {
+            Self::Once => "Once",
+            Self::Loop => "Loop",
+            Self::PingPong => "There and back",
+        }
+    }
+}
+
 /// How [`LoopMode::Loop`] goes on from the other end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum WrapMode {
@@ -208,10 +219,12 @@ impl Playback {
         }
     }
 
-    /// Lets time run backward, or forward.
+    /// Lets time run backward, or forward. The way back of a ping-pong stays one, unless the direction is another.
     pub fn set_backward(&mut self, backward: bool) {
-        self.backward = backward;
-        self.returning = false;
+        if self.backward != backward {
+            self.backward = backward;
+            self.returning = false;
+        }
     }
 
     /// Sets what happens at the end of the range.

@@ -5,65 +5,103 @@ use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use super::UiState;
 use super::panel::scrolled;
 use super::theme::{self, ROW_HEIGHT, Tokens};
+use super::view_modes;
 use super::widgets::{closable_heading, rule};
+use super::wording::trimmed;
+use crate::anim::SkinView;
+use crate::scene::{Overlay, Projection};
+use crate::session::Session;
 
-/// What does something, and what it does.
-type Row = (&'static str, &'static str);
+/// What does something, what it does, and what of that is in force now.
+#[derive(Clone, Copy)]
+struct Row {
+    keys: &'static str,
+    does: &'static str,
+    now: fn(&Session) -> Option<String>,
+}
+
+const fn row(keys: &'static str, does: &'static str) -> Row {
+    Row {
+        keys,
+        does,
+        now: |_| None,
+    }
+}
+
+impl Row {
+    const fn now(self, now: fn(&Session) -> Option<String>) -> Self {
+        Self { now, ..self }
+    }
+}
+
+fn on(is_on: bool) -> Option<String> {
+    is_on.then(|| "on".to_owned())
+}
+
+fn overlay(session: &Session, overlay: Overlay) -> Option<String> {
+    on(session.look().overlays.has(overlay))
+}
+
+fn plays(session: &Session, backward: bool) -> Option<String> {
+    let playback = session.playback();
+    on(playback.is_playing() && playback.is_backward() == backward)
+}
 
 const TIME: &[Row] = &[
-    ("Space", "play or pause"),
-    ("Shift Space", "play backward"),
-    ("← →", "one frame"),
-    ("Shift ← →", "ten frames"),
-    ("↑ ↓", "next, previous key"),
-    ("Home End", "first, last frame"),
-    ("I O", "range in, out"),
-    ("Shift I", "no range"),
-    ("[ ] \\", "slower, faster, 1×"),
-    ("L", "once, loop, there and back"),
-    ("C", "next clip"),
-    ("Shift C", "previous clip"),
-    ("Ctrl wheel", "over keys: zoom in time"),
-    ("Shift wheel", "over keys: pan in time"),
+    row("Space", "play or pause").now(|session| plays(session, false)),
+    row("Shift Space", "play backward").now(|session| plays(session, true)),
+    row("← →", "one frame"),
+    row("Shift ← →", "ten frames"),
+    row("↑ ↓", "next, previous key"),
+    row("Home End", "first, last frame"),
+    row("I O", "range in, out").now(|session| on(session.playback().range_secs().is_some())),
+    row("Shift I", "no range"),
+    row("[ ] \\", "slower, faster, 1×").now(|session| Some(format!("{}×", trimmed(session.playback().speed())))),
+    row("L", "next loop mode").now(|session| Some(session.playback().loop_mode().label().to_owned())),
+    row("C", "next clip"),
+    row("Shift C", "previous clip"),
+    row("Ctrl wheel", "over keys: zoom in time"),
+    row("Shift wheel", "over keys: pan in time"),
 ];
 const CAMERA: &[Row] = &[
-    ("Drag", "orbit"),
-    ("Right drag", "pan; middle drag too"),
-    ("Right + WASD", "fly; Q E down, up"),
-    ("Wheel", "zoom to the pointer"),
-    ("F, Shift F", "frame the selection, all"),
-    ("1 3 7", "front, right, top"),
-    ("Ctrl 1 3 7", "the opposite side"),
-    ("5", "orthographic"),
-    ("9 0", "isometric, reset"),
+    row("Drag", "orbit"),
+    row("Right drag", "pan; middle drag too"),
+    row("Right + WASD", "fly; Q E down, up"),
+    row("Wheel", "zoom to the pointer"),
+    row("F, Shift F", "frame the selection, all"),
+    row("1 3 7", "front, right, top"),
+    row("Ctrl 1 3 7", "the opposite side"),
+    row("5", "orthographic").now(|session| on(session.camera().projection == Projection::Orthographic)),
+    row("9 0", "isometric, reset"),
 ];
 const FINGERS: &[Row] = &[
-    ("One finger", "orbit"),
-    ("Two fingers", "pan and zoom"),
-    ("Tap", "select what is shown"),
+    row("One finger", "orbit"),
+    row("Two fingers", "pan and zoom"),
+    row("Tap", "select what is shown"),
 ];
 const BONES: &[Row] = &[
-    ("B", "bones"),
-    ("Shift B", "names of bones"),
-    ("W", "weights of the bone"),
-    ("K", "bind pose, clip"),
-    ("F2", "name the bone"),
+    row("B", "bones").now(|session| on(session.joints().bones_visible())),
+    row("Shift B", "names of bones").now(|session| on(session.joints().labels_visible())),
+    row("W", "weights of the bone").now(|session| on(session.joints().skin_view() == Some(SkinView::Weight))),
+    row("K", "bind pose, clip").now(|session| on(session.bind_share() >= 1.0)),
+    row("F2", "name the bone"),
 ];
 const PICTURE: &[Row] = &[
-    ("T", "next view mode"),
-    ("Shift T", "previous view mode"),
-    ("V", "studio light, book light"),
-    ("Alt drag", "turn the surroundings"),
-    ("Click", "select what is shown"),
-    ("Alt click", "in the list: show alone"),
-    ("G", "ground grid"),
-    ("Z", "wireframe"),
-    ("N X", "vertex normals, axes"),
-    ("R", "read the files again"),
-    ("P", "save a picture"),
-    ("Shift P", "with transparent ground"),
-    ("?", "this table"),
-    ("Esc", "close, then leave with Tab"),
+    row("T", "next view mode").now(|session| Some(view_modes::shown(session).to_owned())),
+    row("Shift T", "previous view mode"),
+    row("V", "the other light").now(|session| Some(session.look().light.label().to_owned())),
+    row("Alt drag", "turn the surroundings"),
+    row("Click", "select what is shown"),
+    row("Alt click", "in the list: show alone"),
+    row("G", "ground grid").now(|session| overlay(session, Overlay::Grid)),
+    row("Z", "wireframe").now(|session| overlay(session, Overlay::Wireframe)),
+    row("N", "vertex normals").now(|session| overlay(session, Overlay::Normals)),
+    row("X", "axes").now(|session| overlay(session, Overlay::Axes)),
+    row("R", "read the files again"),
+    row("P", "save a picture"),
+    row("Shift P", "with transparent ground"),
+    row("?", "this table"),
+    row("Esc", "close, then leave with Tab"),
 ];
 
 /// Groups in two columns that are about as long, or all in one. Where there are fingers they come first.
@@ -79,7 +117,7 @@ const BETWEEN: f32 = 20.0;
 const HEADING: f32 = 40.0;
 
 /// The table, of a size of `most`: in two columns where there is room for them, else in one that scrolls.
-pub(super) fn show(ui: &mut Ui, state: &mut UiState, most: Vec2, touch: bool) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, most: Vec2, touch: bool) {
     let in_two = most.x >= 2.0 * COLUMN_WIDTH + BETWEEN;
     ui.set_width(if in_two {
         2.0 * COLUMN_WIDTH + BETWEEN
@@ -96,29 +134,34 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState, most: Vec2, touch: bool) {
                 for column in if touch { COLUMNS_BY_TOUCH } else { COLUMNS } {
                     ui.vertical(|ui| {
                         ui.set_width(COLUMN_WIDTH);
-                        groups(ui, column);
+                        groups(ui, session, column);
                     });
                 }
             });
         } else {
-            groups(ui, if touch { LIST_BY_TOUCH } else { LIST });
+            groups(ui, session, if touch { LIST_BY_TOUCH } else { LIST });
         }
     });
 }
 
-fn groups(ui: &mut Ui, groups: &[&[Row]]) {
+fn groups(ui: &mut Ui, session: &Session, groups: &[&[Row]]) {
     let tokens = Tokens::of(ui);
     for group in groups {
         rule(ui, 12.0);
-        for (keys, does) in *group {
+        for Row { keys, does, now } in *group {
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
+            let now = now(session);
             let painter = ui.painter();
             let at = rect.left_center();
             painter.text(at, Align2::LEFT_CENTER, *keys, theme::mono(12.0), tokens.text);
             let at = at + vec2(112.0, 0.0);
             let font = FontId::proportional(13.0);
-            painter.text(at, Align2::LEFT_CENTER, *does, font, tokens.muted);
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{keys}: {does}")));
+            painter.text(at, Align2::LEFT_CENTER, *does, font.clone(), tokens.muted);
+            if let Some(now) = &now {
+                painter.text(rect.right_center(), Align2::RIGHT_CENTER, now, font, tokens.accent);
+            }
+            let now = now.map_or_else(String::new, |now| format!(", now {now}"));
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{keys}: {does}{now}")));
         }
     }
 }

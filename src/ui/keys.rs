@@ -17,14 +17,21 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
     let events = ui.input(|input| input.events.clone());
     // Space and Enter belong to a focused control.
     let control_focused = ui.memory(|memory| memory.focused().is_some());
+    let mut held = false;
     for event in events {
         match event {
             Event::Key {
                 key,
                 pressed: true,
+                repeat,
                 modifiers,
                 ..
             } => {
+                held = repeat;
+                // A key that is held steps on; what it switches or asks for is meant once.
+                if held && !command_for(key, modifiers).is_some_and(|command| steps(&command)) {
+                    continue;
+                }
                 if control_focused && matches!(key, Key::Space | Key::Enter) {
                     continue;
                 }
@@ -43,10 +50,18 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 }
             }
             // The question mark is on different keys of different keyboards.
-            Event::Text(text) if text == "?" => state.help_open = !state.help_open,
+            Event::Text(text) if text == "?" && !held => state.help_open = !state.help_open,
             _ => {}
         }
     }
+}
+
+/// Whether it goes on a little way, so that doing it again goes on farther.
+fn steps(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::StepFrames(_) | Command::StepKey { .. } | Command::Slower | Command::Faster
+    )
 }
 
 /// Steps from key to key are of the joint that was chosen.

@@ -105,7 +105,7 @@ fn show_help(ui: &Ui, session: &Session, state: &mut UiState, arrangement: Arran
     let bottom = window.max.y - free_room::covered_by_timeline(ui, session, state, arrangement).max(MARGIN);
     let most = vec2(at.x - left, bottom - at.y) - Vec2::splat(PANEL_AROUND);
     Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {
-        help::show(ui, state, most, touch);
+        help::show(ui, session, state, most, touch);
     });
 }
 

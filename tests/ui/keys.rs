@@ -2,7 +2,7 @@
 
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
-use bindpose::session::{Command, File, SubsetCommand};
+use bindpose::session::{Command, File, SPEEDS, SubsetCommand};
 use bindpose::ui::Request;
 use egui::{Key, Modifiers};
 
@@ -32,6 +32,43 @@ fn space_plays_and_pauses_and_shift_space_plays_backward() {
     assert!(!window.session().is_animating());
     window.press(SHIFT, Key::Space);
     assert!(window.session().is_animating() && window.session().playback().is_backward());
+}
+
+#[test]
+fn a_key_that_is_held_steps_on_and_switches_once() {
+    let mut window = open();
+    let hold = |window: &mut Window, key: Key| {
+        for _ in 0..4 {
+            let pressed = true;
+            window.harness.event(egui::Event::Key {
+                key,
+                physical_key: None,
+                pressed,
+                repeat: false,
+                modifiers: PLAIN,
+            });
+            window.pass_on();
+        }
+        window.harness.event(egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: false,
+            repeat: false,
+            modifiers: PLAIN,
+        });
+        window.pass_on();
+    };
+    hold(&mut window, Key::ArrowRight);
+    assert_frame(&window, 4.0);
+    hold(&mut window, Key::OpenBracket);
+    assert_eq!(window.session().playback().speed(), SPEEDS[1], "four down from 1");
+    let grid = window.session().look().overlays.has(Overlay::Grid);
+    hold(&mut window, Key::G);
+    assert_eq!(window.session().look().overlays.has(Overlay::Grid), !grid);
+    hold(&mut window, Key::P);
+    assert_eq!(window.harness.state().requests.len(), 1, "one picture");
+    hold(&mut window, Key::R);
+    assert_eq!(window.harness.state().requests.len(), 2, "read once");
 }
 
 #[test]
@@ -224,6 +261,37 @@ fn the_question_mark_shows_the_table_and_escape_takes_it_away() {
     window.harness.event(egui::Event::Text("?".to_owned()));
     window.pass_on();
     assert!(!window.shows("Space: play or pause"));
+}
+
+#[test]
+fn the_table_says_what_is_in_force_now() {
+    let mut window = open();
+    window.harness.event(egui::Event::Text("?".to_owned()));
+    window.pass_on();
+    for (key, off, on) in [
+        (Key::Z, "Z: wireframe", "Z: wireframe, now on"),
+        (Key::B, "B: bones", "B: bones, now on"),
+        (Key::I, "I O: range in, out", "I O: range in, out, now on"),
+        (
+            Key::L,
+            "L: next loop mode, now Loop",
+            "L: next loop mode, now There and back",
+        ),
+        (
+            Key::T,
+            "T: next view mode, now Lit",
+            "T: next view mode, now Base colour",
+        ),
+        (Key::V, "V: the other light, now Studio", "V: the other light, now Book"),
+    ] {
+        let shows = |window: &Window, wanted: &str| !window.named(|name| name == wanted).is_empty();
+        assert!(shows(&window, off), "{off}");
+        if key == Key::I {
+            window.apply(Command::Seek { time_secs: 0.5 });
+        }
+        window.press(PLAIN, key);
+        assert!(shows(&window, on), "{on}");
+    }
 }
 
 #[test]

@@ -173,6 +173,23 @@ fn each_loop_mode_ends_in_its_way() {
 }
 
 #[test]
+fn a_pause_on_the_way_back_goes_on_back() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(Command::SetLoopMode(LoopMode::PingPong));
+    session.advance(1.25);
+    for command in [Command::TogglePlay, Command::TogglePlay] {
+        session.apply(command);
+    }
+    session.advance(0.25);
+    assert_near(time_secs(&session), 0.5);
+    // Backward it turns around.
+    session.apply(Command::TogglePlayBackward);
+    session.advance(0.25);
+    assert_near(time_secs(&session), 0.25);
+    assert!(session.playback().is_backward());
+}
+
+#[test]
 fn what_stopped_at_its_end_starts_over() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::SetLoopMode(LoopMode::Once));
