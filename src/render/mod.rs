@@ -292,7 +292,8 @@ fn parts(frame: &RenderFrame<'_>, [width, _]: [u32; 2]) -> Vec<Columns> {
         return vec![(frame.options.light, 0..width)];
     };
     let at = ((share.clamp(0.0, 1.0) * width as f32).round() as u32).min(width);
-    let mut parts = vec![(Light::Book, 0..at), (Light::Studio, at..width)];
+    let light = frame.options.light;
+    let mut parts = vec![(light.other(), 0..at), (light, at..width)];
     parts.retain(|(_, columns)| !columns.is_empty());
     parts
 }

@@ -32,7 +32,7 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<
     if active {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
-    paint(ui, window, handle, active || grip.has_focus());
+    paint(ui, window, handle, session.look().light, active || grip.has_focus());
 
     let steps = arrow_steps(ui, &grip);
     let asked = if line.double_clicked() || grip.double_clicked() {
@@ -63,7 +63,7 @@ fn dragged_to(part: &Response) -> Option<f32> {
     Some(pointer.x)
 }
 
-fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, active: bool) {
+fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, light: Light, active: bool) {
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
     // Over any picture the line is seen: light, with a dark edge.
@@ -94,10 +94,7 @@ fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, active: bool) {
     }
 
     let y = window.min.y + 2.0 * MARGIN + bar_height(ui);
-    let sides = [
-        (Light::Book, Align2::RIGHT_TOP, -8.0),
-        (Light::Studio, Align2::LEFT_TOP, 8.0),
-    ];
+    let sides = [(light.other(), Align2::RIGHT_TOP, -8.0), (light, Align2::LEFT_TOP, 8.0)];
     for (light, anchor, away) in sides {
         let at = pos2(handle.x + away, y);
         paint_chip(painter, at, anchor, light.label(), tokens.text, tokens.panel);

@@ -203,13 +203,17 @@ on_both_backends! {
                 scene.options.light = light;
                 easel.draw(&scene)
             });
-            for (share, left) in [(0.0, 0), (0.43, 50), (0.5, 59), (1.0, 117)] {
-                scene.options.split = Some(share);
-                let split = easel.draw(&scene);
-                for y in 0..height {
-                    for x in 0..width {
-                        let expected = if x < left { &book } else { &studio };
-                        assert_eq!(split.pixel(x, y), expected.pixel(x, y), "{mode:?} at ({x}, {y}), split {share}");
+            // The light in force is on the right.
+            for (light, on_left, on_right) in [(Light::Studio, &book, &studio), (Light::Book, &studio, &book)] {
+                scene.options.light = light;
+                for (share, left) in [(0.0, 0), (0.43, 50), (0.5, 59), (1.0, 117)] {
+                    scene.options.split = Some(share);
+                    let split = easel.draw(&scene);
+                    for y in 0..height {
+                        for x in 0..width {
+                            let expected = if x < left { on_left } else { on_right };
+                            assert_eq!(split.pixel(x, y), expected.pixel(x, y), "{mode:?} at ({x}, {y}), split {share}");
+                        }
                     }
                 }
             }

@@ -124,6 +124,13 @@ on_both_backends! {
         let mut scene = showing(card_once(), ViewMode::Roughness);
         scene.model.materials[0].reflectance = Reflectance::Fresnel { fresnel0: [0.04; 3], roughness: 0.4 };
         assert_shows(&gpu.draw(&scene, WIDTH, HEIGHT), [102; 3]);
+        // The book's gloss, (1 - 0.4) * 128 / 255, is in the alpha of the normal map; the studio has no use for it.
+        for (light, grey) in [(Light::Studio, 102), (Light::Book, 178)] {
+            scene.options.light = light;
+            let glossy = plain([128, 128, 255, 128]);
+            assert_shows(&gpu.draw_with_maps(&scene, &normal(&glossy), WIDTH, HEIGHT), [grey; 3]);
+        }
+        scene.options.light = Light::Studio;
         // Of a power: (2 / (30 + 2)) to the fourth root is 1/2.
         scene.model.materials[0].reflectance = Reflectance::Phong {
             ambient: [0.5; 3],
