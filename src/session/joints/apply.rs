@@ -47,15 +47,25 @@ impl Session {
 
     /// What a joint is called: its name, or `Bone 12` by its number in the file.
     pub fn joint_label(&self, joint: JointIndex) -> String {
-        let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
-        let bone = bones
-            .and_then(|bones| bones.get(joint.index()))
-            .copied()
-            .unwrap_or(joint.0);
-        match self.joints.names.get(bone) {
+        match self.joint_name(joint) {
             Some(name) => name.to_owned(),
-            None => format!("Bone {bone}"),
+            None => format!("Bone {}", self.bone_number(joint)),
         }
+    }
+
+    /// Number and name of a joint, `12 Left hand`; without a name `Bone 12`.
+    pub fn numbered_joint_label(&self, joint: JointIndex) -> String {
+        match self.joint_name(joint) {
+            Some(name) => format!("{} {name}", self.bone_number(joint)),
+            None => self.joint_label(joint),
+        }
+    }
+
+    /// The number of a joint in the file.
+    fn bone_number(&self, joint: JointIndex) -> u32 {
+        let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
+        let bone = bones.and_then(|bones| bones.get(joint.index()));
+        bone.copied().unwrap_or(joint.0)
     }
 
     /// Joints that mirror each other in the bind pose.

@@ -33,7 +33,7 @@ pub(in crate::ui) fn show(ui: &Ui, session: &Session, state: &SkeletonState, win
     for label in &state.reading.labels {
         let marked = joints.selected() == Some(label.joint) || joints.hovered() == Some(label.joint);
         let color = if marked { tokens.accent } else { tokens.text };
-        let name = shortened(&session.joint_label(label.joint), MOST_CHARS);
+        let name = shortened(&session.numbered_joint_label(label.joint), MOST_CHARS);
         let font = if marked {
             theme::semibold(12.0)
         } else {
