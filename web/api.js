@@ -17,13 +17,17 @@ export function createApi() {
   // Whoever waits for it hears of a failure; nobody has to wait.
   ready.catch(() => {});
 
-  /** Opens files, or adds their clips, one call after the other. */
-  const give = (files, how) => {
+  /** Opens files, or adds their clips, one call after the other. `then(before, after)` hears of the states around it. */
+  const give = (files, how, then = () => {}) => {
     // A FileList empties itself when its input is used again, so it is copied before anything waits.
     const given = Array.from(files);
     const opened = opening.then(async () => {
       const records = await Promise.all(given.map(read));
-      return (await ready)[how](records);
+      const running = await ready;
+      const before = running.state();
+      const after = running[how](records);
+      then(before, after);
+      return after;
     });
     opening = opened.catch(() => {});
     return opened;

@@ -6,7 +6,7 @@ import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
 } from "./fault.js";
-import { rememberGiven } from "./given.js";
+import { freshly, rememberGiven } from "./given.js";
 import { saveFile } from "./save.js";
 import { runsProgram } from "./support.js";
 import { letTabLeave, mirrorTransport } from "./transport.js";
@@ -44,11 +44,21 @@ let lostMeanwhile = null; // Why the GPU went away again while a restart was und
 
 const refuse = (words) => showNotice("Some files could not be read", words);
 const given = rememberGiven();
+let received = false; // Whether a person gave anything, be it sound or not.
 const receive = async (files, addsClips = false) => {
   clearNotice();
-  given.add(files, addsClips);
+  received = true;
   if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
-  await give(files, addsClips ? "addClips" : "open").catch((error) => refuse(wordsOf(error)));
+  await hand(files, addsClips);
+};
+/** Hands files of the person to the viewer, and remembers what became of them. */
+const hand = async (files, addsClips) => {
+  try {
+    // Without a model to join, a file of clips is opened.
+    await give(files, addsClips ? "addClips" : "open", (before, { error }) => given.add(files, addsClips && Boolean(before.model), !error));
+  } catch (error) {
+    refuse(wordsOf(error));
+  }
 };
 const pick = takeChoices({ receive, refuse });
 takeDrops({ receive, refuse, openModel: () => bindpose.state().model?.name });
@@ -87,7 +97,7 @@ async function boot() {
   element("shell").classList.add("leaving");
   setTimeout(() => (element("shell").hidden = true), 200);
   const files = await opensAtOnce;
-  if (files && !wasUsed() && given.isEmpty()) await give(files, "open").catch((error) => refuse(wordsOf(error)));
+  if (files && !wasUsed() && !received) await give(files, "open").catch((error) => refuse(wordsOf(error)));
   refreshTransport();
 }
 
@@ -116,7 +126,7 @@ function showProgress(arrived, total) {
   const part = total ? Math.min(arrived / total, 1) : 0;
   element("bar").setAttribute("aria-valuenow", Math.round(part * 100));
   element("bar-fill").style.transform = `scaleX(${part})`;
-  if (!wasUsed() && given.isEmpty()) {
+  if (!wasUsed() && !received) {
     const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
     const words = part < 1 ? `Loading the viewer · ${megabytes(arrived)} of ${megabytes(total)} MB` : "Starting";
     element("progress-words").textContent = words;
@@ -198,11 +208,13 @@ function onEvent(type, detail) {
   emit(type, detail);
 }
 
-/** Opens what is open once more, as it is on disk or on the server now. */
+/** Opens what is open once more, as it is on disk or on the server now; while an error is shown, what it is about. */
 async function readAgain() {
+  const refused = bindpose.state().error && given.refused();
   // What a script opened is the script's to open again.
-  if (!given.hasModel() && wasUsed()) return;
+  if (!refused && !given.hasModel() && wasUsed()) return;
   try {
+    if (refused) return await hand(await freshly(refused.files), refused.addsClips);
     const { files, clips } = await given.readAgain(fetchOpening);
     if (files.length) await give(files, "open");
     if (clips.length) await give(clips, "addClips");

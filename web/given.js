@@ -5,26 +5,30 @@ const MODEL = /\.(m3d|a3d)$/i;
 /** Those that were there, but for the ones that come again under the same name, and these. */
 const joined = (before, files) => [...before.filter(({ name }) => !files.some((file) => file.name === name)), ...files];
 
-/** A `{name, file}` record with the file as it is now, where the page may ask for it again. */
-const fresh = async (item) => ({ ...item, file: item.again ? await item.again() : item.file });
+/** `{name, file}` records with the files as they are now, where the page may ask for them again. */
+export const freshly = (files) =>
+  Promise.all(files.map(async (item) => ({ ...item, file: item.again ? await item.again() : item.file })));
 
-/** Keeps what is given until another model comes. */
+/** Keeps what is given until another model comes, and what was refused until something is not. */
 export function rememberGiven() {
   let model = null; // The files that brought it.
   let beside = []; // Maps and skies that came later.
   let clips = []; // Files whose clips were added.
+  let refused = null; // What came last and could not be opened: on disk it may be mended.
   return {
-    add(files, addsClips) {
+    add(files, addsClips, opened) {
+      refused = opened ? null : { files, addsClips };
+      if (!opened) return;
       if (addsClips) clips = joined(clips, files);
       else if (files.some(({ name }) => MODEL.test(name))) [model, beside, clips] = [files, [], []];
       else beside = joined(beside, files);
     },
-    isEmpty: () => !model && !beside.length && !clips.length,
+    refused: () => refused,
     hasModel: () => Boolean(model),
     /** All of it as it is now: what is opened, `own` in place of a model that was not given, and what adds its clips. */
     async readAgain(own) {
-      const opened = model ? await Promise.all(model.map(fresh)) : await own();
-      const rest = await Promise.all([beside, clips].map((files) => Promise.all(files.map(fresh))));
+      const opened = model ? await freshly(model) : await own();
+      const rest = await Promise.all([beside, clips].map(freshly));
       return { files: [...(opened ?? []), ...rest[0]], clips: rest[1] };
     },
   };

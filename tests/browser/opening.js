@@ -8,7 +8,7 @@ import {
   FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
 import { assertDrawn, difference, picture } from "./picture.js";
-import { GROUND } from "./widgets.js";
+import { GROUND, LAST_OF_DROP } from "./widgets.js";
 
 /** A copy of the sample under another name, in a folder of its own. */
 function copyOfSample(...parts) {
@@ -186,6 +186,59 @@ test("R reads the sample again, and with a model the maps and clips that joined 
   assert.equal(await loads(), before + 1, "the model was read too");
   assert.deepEqual([again.model.name, again.model.clips.length, again.error], ["hero.m3d", model.clips.length, null]);
   assert.ok(!again.textures.missing.includes("late.png"), "the map is there");
+});
+
+test("R tries again what was refused while its error is shown, and what is open when it is not", { reducedMotion: "reduce" }, async (page) => {
+  const { folder, path } = copyOfSample("open.m3d");
+  const rewrite = (file, from, to) => writeFileSync(file, readFileSync(file, "latin1").replace(from, to), "latin1");
+  const press = async (key) => {
+    await page.mouse.click(...GROUND);
+    await settled(page);
+    await page.keyboard.press(key);
+  };
+  await dropAndWait(page, [path]);
+  const other = join(folder, "other.m3d");
+  copyFileSync(SAMPLE, other);
+  rewrite(other, "#Bones 39", "#Bones many");
+  assert.equal((await dropAndWait(page, [other])).outcome, "error");
+  // Its error sent away, what is open is what R is about.
+  await press("Escape");
+  await until(page, ({ error }) => error === null);
+  rewrite(path, "AnimationClip Walk", "AnimationClip Stroll");
+  await press("r");
+  assert.equal((await until(page, ({ model }) => model.clips[0].name === "Stroll")).model.name, "open.m3d");
+  // Clips that were refused are not asked for again.
+  const less = join(folder, "less.m3d");
+  copyFileSync(join(FIXTURES, "good/d3d12_skinned.m3d"), less);
+  await drop(page, [less], { shift: true });
+  await until(page, ({ error }) => error !== null);
+  await press("Escape");
+  await until(page, ({ error }) => error === null);
+  rewrite(path, "AnimationClip Stroll", "AnimationClip March");
+  await press("r");
+  assert.equal((await until(page, ({ model }) => model.clips[0].name === "March")).error, null);
+  // Mended on disk, what was refused opens.
+  assert.equal((await dropAndWait(page, [other])).outcome, "error");
+  rewrite(other, "#Bones many", "#Bones 39");
+  await page.keyboard.press("r");
+  assert.equal((await until(page, ({ model }) => model.name === "other.m3d")).error, null);
+});
+
+test("R opens again the model of a folder that was chosen", { reducedMotion: "reduce" }, async (page) => {
+  const { folder, path } = copyOfSample("pack", "small.m3d");
+  writeFileSync(join(folder, "pack", "large.m3d"), `${readFileSync(path, "utf8")}\n\n\n\n`);
+  await dropAndWait(page, [join(folder, "pack")]);
+  assert.equal((await state(page)).model.name, "large.m3d");
+  await page.mouse.move(...LAST_OF_DROP);
+  await page.mouse.wheel(0, 4000);
+  await settled(page);
+  await page.mouse.click(...LAST_OF_DROP);
+  await until(page, ({ model }) => model.name === "small.m3d");
+  writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll"), "latin1");
+  await page.mouse.click(...GROUND);
+  await settled(page);
+  await page.keyboard.press("r");
+  assert.equal((await until(page, ({ model }) => model.clips[0].name === "Stroll")).model.name, "small.m3d");
 });
 
 test("R tells of a file from the dialog that has changed since", { reducedMotion: "reduce", expectErrors: true }, async (page) => {

@@ -15,6 +15,9 @@ export const LIGHT_POPOVER = {
 export const TRIM_ROW = [100, 388];
 export const TRIM_EYE = [238, 388];
 
+/** The last of two models of a drop, once the panel is scrolled to its end. */
+export const LAST_OF_DROP = [70, 459];
+
 /** The panel's other page: its tree of bones, and in it the bone that hangs from the root. */
 export const SKELETON_PAGE = [190, 87];
 export const TREE = { x: 14, y: 140, width: 240, height: 300 };
