@@ -58,7 +58,7 @@ use crate::model::{self, Clip, Handedness, UpAxis};
 use crate::scene::{Aabb, Camera, Insets, Overlay, RenderFrame, Theme};
 
 /// Speeds of the slower and faster keys.
-pub const SPEEDS: [f32; 9] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
+pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
 
 /// The viewer's state, without window, clock or GPU.
 #[derive(Debug, Default)]

@@ -101,6 +101,11 @@ fn a_click_on_a_key_goes_there_and_chooses_its_bone() {
     let key_secs = 20.0 / 30.0;
     assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
     assert_eq!(window.session().joints().selected(), Some(JointIndex(3)));
+    // A clip that plays would leave it at once.
+    window.apply(Command::Play);
+    press(&mut window, at);
+    assert!(!window.session().playback().is_playing());
+    assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
     // Up and down go from key to key of that bone.
     window.press(Modifiers::NONE, Key::ArrowUp);
     assert!((window.time_secs() - 21.0 / 30.0).abs() < 1e-6);
@@ -435,6 +440,35 @@ fn two_fingers_zoom_in_time_and_one_pans_and_scrolls() {
     assert_ne!(rows(&window)[0], first, "rows follow the finger");
     assert!(!window.shows("As range"), "a finger draws no box");
     assert_eq!(window.time_secs(), 0.0);
+}
+
+#[test]
+fn a_finger_on_ruler_and_curves_carries_the_time_and_what_is_seen_stays() {
+    let mut window = phone(vec![rig(5, 301)]);
+    open(&mut window);
+    window.click("Bone 1, ");
+    let middle = window.rect("Keys of all bones").center();
+    let pinch = |apart: f32| vec![middle - vec2(apart, 0.0), middle + vec2(apart, 0.0)];
+    gesture(&mut window, &[20.0, 30.0, 40.0, 60.0, 80.0].map(pinch));
+    assert!(window.shows("All of the time"));
+    for (tab, place) in [
+        ("Sheet: Dope sheet", "Ruler in seconds"),
+        ("Sheet: Curves", "Curves of Bone 1"),
+    ] {
+        window.click(tab);
+        let rect = window.rect(place);
+        let at = |share: f32| vec![pos2(rect.min.x + share * rect.width(), rect.center().y)];
+        let mut times = Vec::new();
+        for way in [[0.2, 0.3, 0.45, 0.6], [0.6, 0.45, 0.3, 0.2], [0.2, 0.3, 0.45, 0.6]] {
+            gesture(&mut window, &way.map(at));
+            times.push(window.time_secs());
+        }
+        assert!(times[0] > times[1] + 0.5, "{place}: {times:?}");
+        assert!(
+            (times[0] - times[2]).abs() < 1e-3,
+            "{place}: what is seen moved, {times:?}"
+        );
+    }
 }
 
 #[test]

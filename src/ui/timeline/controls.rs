@@ -4,7 +4,7 @@ use egui::{Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::super::icons::{self, Icon};
 use super::super::theme::Tokens;
-use super::super::widgets::icon_button;
+use super::super::widgets::{control_size, icon_button};
 use crate::anim::Direction;
 use crate::model::JointIndex;
 use crate::session::{Command, Session};
@@ -88,4 +88,27 @@ pub(super) fn key_button(
         commands.push(Command::StepKey { direction, joint });
     }
     response
+}
+
+/// All buttons that move the time but play, spread over the width: for where a strip has no room for them.
+pub(super) fn all_steps(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let joint = session.joints().selected();
+    // The slimmest phones reach the ends on the bar alone.
+    let with_ends = ui.available_width() >= 7.0 * control_size(ui);
+    let count = if with_ends { 7.0 } else { 5.0 };
+    ui.horizontal(|ui| {
+        let free = ui.available_width() - count * control_size(ui);
+        ui.spacing_mut().item_spacing.x = (free / (count - 1.0)).clamp(0.0, 24.0);
+        if with_ends {
+            end_button(ui, Direction::Backward, commands);
+        }
+        key_button(ui, Direction::Backward, joint, commands);
+        frame_button(ui, Direction::Backward, commands);
+        backward_button(ui, session, commands);
+        frame_button(ui, Direction::Forward, commands);
+        key_button(ui, Direction::Forward, joint, commands);
+        if with_ends {
+            end_button(ui, Direction::Forward, commands);
+        }
+    });
 }

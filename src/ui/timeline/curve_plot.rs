@@ -9,7 +9,7 @@ use super::marks::MERGE_POINTS;
 use super::plot::ValueAxis;
 use super::ruler::RULER_HEIGHT;
 use crate::anim::CurvePoint;
-use crate::model::{Clip, JointIndex};
+use crate::model::JointIndex;
 use crate::session::Session;
 
 /// Room that names and values take left of the lines.
@@ -66,27 +66,18 @@ pub(super) fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect,
 }
 
 /// A dot at each key, where there is room for dots.
-pub(super) fn paint_keys(
-    ui: &Ui,
-    curves: &Curves,
-    clip: &Clip,
-    times_secs: &[f32],
-    axis: &TimeAxis,
-    values: &ValueAxis,
-) {
-    let spacing = axis.points_per_sec() / clip.keys_per_sec;
+pub(super) fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, values: &ValueAxis) {
+    let seen = axis.points().expand(1.0);
+    let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
+    let count = times_secs[first..].partition_point(|&secs| axis.x_of(secs) <= seen.max);
+    let spacing = seen.span() / count.max(1) as f32;
     if spacing < 2.0 * MERGE_POINTS {
         return;
     }
     let radius = (0.2 * spacing).clamp(1.4, 2.4);
-    let seen = axis.points().expand(1.0);
-    let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
     let mut before = f32::NEG_INFINITY;
-    for &time_secs in &times_secs[first..] {
+    for &time_secs in &times_secs[first..first + count] {
         let x = axis.x_of(time_secs);
-        if x > seen.max {
-            break;
-        }
         if x - before < MERGE_POINTS {
             continue;
         }

@@ -189,7 +189,6 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     paint_keys(
         ui,
         &state.curves,
-        clip,
         open.key_times(clip_index, Some(joint)),
         &axis,
         &values,
@@ -208,6 +207,6 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     paint_legend(ui, session, &state.curves, joint, &read, area, split);
     time_area::paint_pointer(ui, &response, &axis, lines_rect.y_range());
     time_area::paint_head_below_ruler(ui, session, &axis, ruler_rect, plot.max.y);
-    time_area::navigate(ui, &response, clip, &axis, state);
-    time_area::navigate(ui, &ruler, clip, &axis, state);
+    time_area::navigate(ui, &response, clip, &axis, state, false);
+    time_area::navigate(ui, &ruler, clip, &axis, state, false);
 }

@@ -3,7 +3,7 @@
 use egui::{Align2, FontId, Rangef, Rect, Role, ScrollArea, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::super::widgets::{is_touch, pressed_row_height};
+use super::super::widgets::{by_finger, pressed_row_height};
 use super::super::wording::counted;
 use super::axis::{END_ROOM, TimeAxis};
 use super::marks::MarkShape;
@@ -71,7 +71,7 @@ impl Sheet<'_> {
         self.paint_box_span(ui, state, ruler_rect);
         ruler::paint(ui, self.clip, &self.axis, ruler_rect, area.max.y);
         let response = time_area::ruler(ui, self.session, &self.axis, ruler_rect, commands);
-        time_area::navigate(ui, &response, self.clip, &self.axis, state);
+        time_area::navigate(ui, &response, self.clip, &self.axis, state, false);
 
         let body = Rect::from_min_max(pos2(area.min.x, ruler_rect.max.y), area.max);
         self.show_rows(ui, body, state, commands);
@@ -109,8 +109,8 @@ impl Sheet<'_> {
                 }
                 shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
                 self.press_keys(ui, &response, &rows, top, state, commands);
-                time_area::navigate(ui, &response, self.clip, &self.axis, state);
-                if is_touch(ui) && response.dragged() {
+                time_area::navigate(ui, &response, self.clip, &self.axis, state, true);
+                if by_finger(ui) && response.dragged() {
                     ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
                 }
                 if !response.dragged() {

@@ -3,7 +3,7 @@
 use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Stroke, StrokeKind, Ui, pos2};
 
 use super::super::theme::Tokens;
-use super::super::widgets::is_touch;
+use super::super::widgets::{by_finger, is_touch};
 use super::dope_sheet::Sheet;
 use super::key_box::KeyBox;
 use super::rows::{Row, Rows};
@@ -28,7 +28,7 @@ impl Sheet<'_> {
         let row_at = |at: Pos2| (at.y - top) / self.row_height;
         let corner = |at: Pos2| (self.axis.seen_time_at(at.x), row_at(at));
         let pointer = response.interact_pointer_pos();
-        let boxes = !is_touch(ui);
+        let boxes = !by_finger(ui);
         if response.drag_started_by(PointerButton::Primary)
             && boxes
             && let Some(origin) = ui.input(|input| input.pointer.press_origin())
@@ -57,6 +57,8 @@ impl Sheet<'_> {
             if response.clicked() {
                 state.revealed = Some(joint);
                 commands.push(JointCommand::Select(Some(joint)).into());
+                // Played on, the key would be left at once.
+                commands.push(Command::Pause);
                 commands.push(Command::Seek { time_secs });
             }
         }

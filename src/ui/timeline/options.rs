@@ -6,8 +6,7 @@ use super::super::popover;
 use super::super::theme::{ROW_HEIGHT, Tokens};
 use super::super::widgets::{TypedValue, control_size, section_name, section_with_action, segmented, typed_number};
 use super::super::wording::trimmed;
-use super::TimelineState;
-use super::seam_list;
+use super::{TimelineState, controls, seam_list};
 use crate::anim::{LoopMode, WrapMode};
 use crate::session::{Command, SPEEDS, Session};
 
@@ -17,9 +16,19 @@ pub(super) const WIDTH: f32 = 300.0;
 const IN_A_ROW: usize = 5;
 const FIELD_WIDTH: f32 = 78.0;
 
-/// The popover's contents.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
+/// The popover's contents. `with_steps`: the strip has not room for all buttons that move the time, so they are here.
+pub(super) fn show(
+    ui: &mut Ui,
+    session: &Session,
+    state: &mut TimelineState,
+    with_steps: bool,
+    commands: &mut Vec<Command>,
+) {
     ui.spacing_mut().item_spacing.y = 4.0;
+    if with_steps {
+        controls::all_steps(ui, session, commands);
+        popover::gap(ui);
+    }
     speed(ui, session, commands);
     popover::gap(ui);
     at_the_end(ui, session, commands);
@@ -51,11 +60,7 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let playback = session.playback();
     section_name(ui, "At the end");
-    let modes = [
-        (LoopMode::Once, "Once"),
-        (LoopMode::Loop, "Loop"),
-        (LoopMode::PingPong, "There and back"),
-    ];
+    let modes = [LoopMode::Once, LoopMode::Loop, LoopMode::PingPong].map(|mode| (mode, mode.label()));
     if let Some(mode) = segmented(ui, "At the end", &modes, Some(playback.loop_mode())) {
         commands.push(Command::SetLoopMode(mode));
     }

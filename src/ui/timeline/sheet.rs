@@ -9,7 +9,6 @@ use super::super::widgets::{TextButton, control_size, icon_button, segmented};
 use super::super::wording::counted;
 use super::state::{SheetTab, TimelineState};
 use super::{controls, curves, dope_sheet};
-use crate::anim::Direction;
 use crate::session::{Command, JointCommand, Session};
 
 /// Room between the controls and what they control.
@@ -35,33 +34,10 @@ pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, r
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), room), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
     if room >= WITH_TRANSPORT {
-        page_transport(&mut child, session, commands);
+        controls::all_steps(&mut child, session, commands);
         child.add_space(GAP);
     }
     contents(&mut child, session, &mut state.timeline, commands);
-}
-
-/// The buttons for which the strip of a narrow window has no room, spread over the width.
-fn page_transport(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let joint = session.joints().selected();
-    // The slimmest phones reach the ends on the bar alone.
-    let with_ends = ui.available_width() >= 7.0 * control_size(ui);
-    let count = if with_ends { 7.0 } else { 5.0 };
-    ui.horizontal(|ui| {
-        let free = ui.available_width() - count * control_size(ui);
-        ui.spacing_mut().item_spacing.x = (free / (count - 1.0)).clamp(0.0, 24.0);
-        if with_ends {
-            controls::end_button(ui, Direction::Backward, commands);
-        }
-        controls::key_button(ui, Direction::Backward, joint, commands);
-        controls::frame_button(ui, Direction::Backward, commands);
-        controls::backward_button(ui, session, commands);
-        controls::frame_button(ui, Direction::Forward, commands);
-        controls::key_button(ui, Direction::Forward, joint, commands);
-        if with_ends {
-            controls::end_button(ui, Direction::Forward, commands);
-        }
-    });
 }
 
 fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {

@@ -3,18 +3,20 @@
 use egui::{PointerButton, Rangef, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2};
 
 use super::super::theme::Tokens;
-use super::super::widgets::is_touch;
+use super::super::widgets::{by_finger, is_touch};
 use super::TimelineState;
 use super::axis::TimeAxis;
 use crate::model::Clip;
 use crate::session::{Command, Session};
 
-/// The pointer carries the time.
+/// The pointer carries the time; two fingers move what is seen of it instead.
 pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Command>) {
     if response.drag_started_by(PointerButton::Primary) {
         commands.push(Command::BeginScrub);
     }
+    let two_fingers = response.ctx.input(egui::InputState::multi_touch).is_some();
     if let Some(pointer) = response.interact_pointer_pos()
+        && !two_fingers
         && (response.dragged_by(PointerButton::Primary) || response.clicked())
     {
         let time_secs = axis.seen_time_at(pointer.x);
@@ -62,12 +64,24 @@ pub(super) fn ruler(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect, com
     response
 }
 
-/// Wheel with Ctrl, pinch, wheel with Shift, middle drag and, by touch, a drag: what of the time is seen.
-pub(super) fn navigate(ui: &Ui, response: &Response, clip: &Clip, axis: &TimeAxis, state: &mut TimelineState) {
+/// Wheel with Ctrl, pinch, wheel with Shift, middle drag and two fingers: what of the time is seen. With `finger_pans` a drag of
+/// one finger too, where it carries nothing else.
+pub(super) fn navigate(
+    ui: &Ui,
+    response: &Response,
+    clip: &Clip,
+    axis: &TimeAxis,
+    state: &mut TimelineState,
+    finger_pans: bool,
+) {
     let whole_secs = [clip.start_secs, clip.end_secs];
     let frame_secs = 1.0 / clip.keys_per_sec;
-    let pans = response.dragged_by(PointerButton::Middle) || (is_touch(ui) && response.dragged());
+    let pans = response.dragged_by(PointerButton::Middle) || (finger_pans && by_finger(ui) && response.dragged());
     let mut pan_points = if pans { response.drag_delta().x } else { 0.0 };
+    let fingers = ui
+        .input(egui::InputState::multi_touch)
+        .filter(|_| response.dragged() && !pans);
+    pan_points += fingers.map_or(0.0, |fingers| fingers.translation_delta.x);
     let pointer = response.hover_pos().or(response.interact_pointer_pos());
     if let Some(pointer) = pointer.filter(|_| response.contains_pointer() || response.dragged()) {
         let (zoom, scroll) = ui.input(|input| (input.zoom_delta(), input.smooth_scroll_delta().x));

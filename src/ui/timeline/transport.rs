@@ -19,6 +19,8 @@ use crate::session::{Command, Session};
 const CLIP_WIDTH_NARROW: f32 = 84.0;
 /// The width of the speed on a phone.
 const SPEED_WIDTH_NARROW: f32 = 52.0;
+/// The least width of the bar beside buttons for frames.
+const LEAST_BAR_WITH_FRAMES: f32 = 200.0;
 /// Room between controls, but for the large ones.
 const SPACING: f32 = 6.0;
 /// From this width on there are buttons for steps from key to key.
@@ -58,7 +60,7 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 30.0), commands);
         readouts::time(ui, session, widths.time, commands);
         readouts::frame(ui, session, clip, widths.frame, commands);
-        speed_button(ui, session, &mut state.timeline, 48.0, commands);
+        speed_button(ui, session, &mut state.timeline, 48.0, !with_keys, commands);
         loop_button(ui, session, commands);
         if sheet_button(ui, state.timeline.open) {
             state.timeline.open = !state.timeline.open;
@@ -75,11 +77,21 @@ pub(in crate::ui) fn narrow(
     commands: &mut Vec<Command>,
 ) {
     let Some(clip) = session.clip() else { return };
-    let end = EndOfStrip::of(ui, clip);
+    let end = EndOfStrip::of(ui, clip, low);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
+        let button = control_size(ui) + ui.spacing().item_spacing.x;
+        // In one row, with two frame buttons, the clip and the read-outs, as long as the bar stays long enough to scrub on.
+        let others = 44.0 + CLIP_WIDTH_NARROW + end.width + 4.0 * button;
+        let with_frames = low && ui.available_width() - others >= LEAST_BAR_WITH_FRAMES;
+        if with_frames {
+            controls::frame_button(ui, Direction::Backward, commands);
+        }
         controls::play_button(ui, session, 44.0, commands);
-        let mut bar_width = ui.available_width() - control_size(ui) - 10.0;
+        if with_frames {
+            controls::frame_button(ui, Direction::Forward, commands);
+        }
+        let mut bar_width = ui.available_width() - button;
         if low {
             let before = ui.available_width();
             clips::button(ui, session, state, Rangef::new(CLIP_WIDTH_NARROW, 140.0), commands);
@@ -116,11 +128,13 @@ pub(in crate::ui) fn narrow(
 struct EndOfStrip {
     widths: ReadoutWidths,
     shows_frame: bool,
+    /// Whether its popover has the buttons for steps. An upright phone has them in the page of the dope sheet.
+    with_steps: bool,
     width: f32,
 }
 
 impl EndOfStrip {
-    fn of(ui: &Ui, clip: &Clip) -> Self {
+    fn of(ui: &Ui, clip: &Clip, low: bool) -> Self {
         let widths = ReadoutWidths::of(ui, clip);
         let least = widths.time + SPEED_WIDTH_NARROW + control_size(ui) + 2.0 * SPACING;
         // The slimmest phones have room for the time alone.
@@ -129,6 +143,7 @@ impl EndOfStrip {
         Self {
             widths,
             shows_frame,
+            with_steps: low,
             width: if shows_frame { with_frame } else { least },
         }
     }
@@ -146,13 +161,20 @@ impl EndOfStrip {
         if self.shows_frame {
             readouts::frame(ui, session, clip, self.widths.frame, commands);
         }
-        speed_button(ui, session, state, SPEED_WIDTH_NARROW, commands);
+        speed_button(ui, session, state, SPEED_WIDTH_NARROW, self.with_steps, commands);
         loop_button(ui, session, commands);
     }
 }
 
-/// The speed, and behind it all about how a clip plays.
-fn speed_button(ui: &mut Ui, session: &Session, state: &mut TimelineState, width: f32, commands: &mut Vec<Command>) {
+/// The speed, and behind it all about how a clip plays, `with_steps` that the strip has not.
+fn speed_button(
+    ui: &mut Ui,
+    session: &Session,
+    state: &mut TimelineState,
+    width: f32,
+    with_steps: bool,
+    commands: &mut Vec<Command>,
+) {
     let speed = session.playback().speed();
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
@@ -171,7 +193,7 @@ fn speed_button(ui: &mut Ui, session: &Session, state: &mut TimelineState, width
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
     let response = response.on_hover_text("Speed ([ slower, ] faster, \\ as the file), range and seam");
     popover::show_above(ui, &response, options::WIDTH, |ui| {
-        options::show(ui, session, state, commands);
+        options::show(ui, session, state, with_steps, commands);
     });
 }
 

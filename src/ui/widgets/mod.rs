@@ -56,6 +56,17 @@ pub(super) fn is_touch(ui: &Ui) -> bool {
     control_size(ui) > MOUSE_CONTROL
 }
 
+/// Whether the pointer is a finger. A screen that was touched may have a mouse too, which keeps what it can do.
+pub(super) fn by_finger(ui: &Ui) -> bool {
+    ui.input(|input| {
+        if input.has_touch_screen() {
+            input.any_touches()
+        } else {
+            is_touch(ui)
+        }
+    })
+}
+
 /// A key to show beside what it does: fingers have none.
 pub(super) fn key_hint<'a>(ui: &Ui, key: &'a str) -> &'a str {
     if is_touch(ui) { "" } else { key }
