@@ -9,7 +9,7 @@ pub(super) struct LookArguments {
     /// The light: `studio` or `book`.
     #[arg(long, value_name = "LIGHT", value_parser = light, default_value = "studio")]
     light: Light,
-    /// Divide the picture at a share of its width: the book's light on the left, the studio's on the right.
+    /// Divide the picture at a share of its width: the light that `--light` says on the right, the other on the left.
     #[arg(long, value_name = "SHARE", value_parser = share)]
     split: Option<f32>,
     /// What of the surface to show: lit, base-color, normal-map, normal, tangent, uv, roughness, material, depth, ao, shadow.

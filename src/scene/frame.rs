@@ -22,8 +22,7 @@ pub struct FrameOptions {
     pub theme: Theme,
     /// How surfaces are lit.
     pub light: Light,
-    /// Where the picture is divided, as a share of its width: the book's light on the left, the studio's on the right,
-    /// whatever `light` says.
+    /// Where the picture is divided, as a share of its width: `light` on the right, the other on the left.
     pub split: Option<f32>,
     /// What of a surface is shown.
     pub view_mode: ViewMode,
