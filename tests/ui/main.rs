@@ -1,5 +1,6 @@
 //! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
 
+mod browser_golden;
 mod camera_motion;
 #[path = "../core/chains.rs"]
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]

@@ -26,7 +26,7 @@ const TOLERANCE: u8 = 10;
 const SHARE: f64 = 0.001;
 
 /// The figure as the page opens it.
-fn sample_with_its_maps() -> Vec<File> {
+pub(crate) fn sample_with_its_maps() -> Vec<File> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("web/sample");
     let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let mut paths: Vec<_> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
@@ -103,7 +103,7 @@ fn compare(name: &str, actual: &RgbaImage) {
     let expected = image::open(&path)
         .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
         .into_rgba8();
-    let differs = share_that_differs(&actual, &expected);
+    let differs = share_that_differs(&actual, &expected, TOLERANCE);
     assert!(
         differs <= SHARE,
         "{:.2} % of {name} differ by more than {TOLERANCE}; see {}. \
@@ -113,11 +113,12 @@ fn compare(name: &str, actual: &RgbaImage) {
     );
 }
 
-fn share_that_differs(a: &RgbaImage, b: &RgbaImage) -> f64 {
+/// The part of the pixels, 0…1, of which a channel differs by more than `tolerance`.
+pub(crate) fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
     let differs =
-        |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > TOLERANCE);
-    a.pixels().zip(b.pixels()).filter(differs).count() as f64 / (a.width() * a.height()) as f64
+        |(a, b): &(&image::Rgba<u8>, &image::Rgba<u8>)| a.0.iter().zip(&b.0).any(|(a, b)| a.abs_diff(*b) > tolerance);
+    a.pixels().zip(b.pixels()).filter(differs).count() as f64 / f64::from(a.width() * a.height())
 }
 
 #[test]
@@ -363,5 +364,5 @@ fn a_missing_panel_would_be_seen() {
             without.put_pixel(x, y, backdrop);
         }
     }
-    assert!(share_that_differs(&with, &without) > 2.0 * SHARE);
+    assert!(share_that_differs(&with, &without, TOLERANCE) > 2.0 * SHARE);
 }
