@@ -1,9 +1,10 @@
-//! Frame time of the renderer on a software GPU: with everything, with one pass left out at a time, under each light, split, and as
-//! a property. A software GPU draws with the CPU, so only the ratios of one run tell something.
+//! Frame time of the renderer on software GPUs, Vulkan's and GL's: with everything, with one pass left out at a time, under each
+//! light, split, and as a property. A software GPU draws with the CPU, so only the ratios of one run tell something.
 //!
 //! criterion repeats too often for frames of a tenth of a second; this takes the ways in turn, so that what else the machine does
 //! falls on all of them, and shows the least time of each, which it disturbed least, beside the median.
 
+use std::path::Path;
 use std::time::Instant;
 
 use bindpose::render::device::{self, Backend};
@@ -31,20 +32,24 @@ fn ways(options: FrameOptions) -> Vec<Way> {
             millis: Vec::new(),
         }
     };
-    let mut ways = vec![
-        way("studio, all passes off", &|options| options.passes = Passes::none()),
-        way("studio", &|_| ()),
-    ];
-    for pass in Pass::ALL {
-        ways.push(way(&format!("studio without {}", pass.name()), &|options| {
-            options.passes = Passes::all().with(pass, false);
-        }));
+    let mut ways = Vec::new();
+    for light in Light::ALL {
+        let name = light.name();
+        let mut with = |name: &str, passes: Passes| {
+            ways.push(way(name, &|options| {
+                options.light = light;
+                options.passes = passes;
+            }));
+        };
+        with(&format!("{name}, all passes off"), Passes::none());
+        with(name, Passes::all());
+        for pass in Pass::ALL {
+            with(
+                &format!("{name} without {}", pass.name()),
+                Passes::all().with(pass, false),
+            );
+        }
     }
-    ways.push(way("book", &|options| options.light = Light::Book));
-    ways.push(way("book, all passes off", &|options| {
-        options.light = Light::Book;
-        options.passes = Passes::none();
-    }));
     ways.push(way("split in the middle", &|options| options.split = Some(0.5)));
     for mode in [ViewMode::BaseColor, ViewMode::AmbientOcclusion] {
         ways.push(way(&format!("property {}", mode.name()), &|options| {
@@ -54,26 +59,43 @@ fn ways(options: FrameOptions) -> Vec<Way> {
     ways
 }
 
-/// The soldier where it is at hand, else the sample figure, a second into its first clip.
+/// The soldier where it is at hand, else the sample figure, a second into its first clip, with its maps.
 fn session() -> (&'static str, Session) {
     let mut session = Session::new(true);
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models/d3d12/soldier.m3d");
-    let (name, file) = match std::fs::read(path) {
-        Ok(bytes) => ("soldier", File::new("soldier.m3d", bytes)),
-        Err(_) => {
-            let figure = bindpose::format::write(&bindpose::sample::figure());
-            ("sample figure", File::new("figure.m3d", figure.into_bytes()))
-        }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let soldier = root.join("../shared/models/d3d12/soldier.m3d");
+    let (name, files) = if soldier.exists() {
+        let mut files = files_in(&root.join("../shared/textures/soldier"));
+        files.extend(file(&soldier));
+        ("soldier", files)
+    } else {
+        ("sample figure", files_in(&root.join("web/sample")))
     };
-    session.apply(Command::AddFiles(vec![file]));
+    session.apply(Command::AddFiles(files));
     session.apply(Command::Seek { time_secs: 1.0 });
     (name, session)
 }
 
-#[expect(clippy::print_stdout, reason = "the times are what the benchmark is for")]
+fn file(path: &Path) -> Option<File> {
+    let name = path.file_name()?.to_string_lossy();
+    Some(File::new(&name, std::fs::read(path).ok()?))
+}
+
+fn files_in(folder: &Path) -> Vec<File> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    entries.flatten().filter_map(|entry| file(&entry.path())).collect()
+}
+
 fn main() {
+    for backend in [Backend::Vulkan, Backend::Gl] {
+        measure(backend);
+    }
+}
+
+#[expect(clippy::print_stdout, reason = "the times are what the benchmark is for")]
+fn measure(backend: Backend) {
     let (name, mut session) = session();
-    let gpu = pollster::block_on(device::headless(Backend::Vulkan)).unwrap_or_else(|error| panic!("{error}"));
+    let gpu = pollster::block_on(device::headless(backend)).unwrap_or_else(|error| panic!("{error}"));
     let mut renderer = Renderer::with_samples(&gpu.device, &gpu.queue, gpu.samples);
     let open = session.open_model().expect("the input is sound");
     renderer.set_model(&open.model).expect("it is small");
@@ -82,6 +104,11 @@ fn main() {
         .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
         .collect();
     renderer.set_maps(&images);
+    let map_count = images
+        .iter()
+        .flat_map(|maps| [maps.diffuse, maps.normal])
+        .flatten()
+        .count();
     let [width, height] = SIZE;
     let mut target = Target::with_samples(&gpu.device, width, height, gpu.samples);
 
@@ -103,7 +130,8 @@ fn main() {
     }
 
     println!(
-        "frame/{name}, {width} x {height}, {}: least and median of {ROUNDS}, least in relation to the first",
+        "frame/{name} with {map_count} maps, {width} x {height}, {backend:?}, {}: least and median of {ROUNDS}, least in \
+         relation to the first",
         gpu.info.name
     );
     for way in &mut ways {

@@ -1,5 +1,6 @@
 //! What was recorded plays again: the same commands and times give the same state, to the bit.
 
+use bindpose::anim::Palette;
 use bindpose::session::{Command, File, Session};
 use proptest::prelude::*;
 
@@ -16,14 +17,20 @@ enum Step {
 
 /// All that a session shows, numbers to the bit: the shortest digits of a float name it alone.
 fn snapshot(session: &mut Session) -> String {
-    let pose: Vec<[u32; 12]> = {
+    let (pose, over) = {
         let frame = session.frame();
-        frame
-            .palette
-            .0
-            .iter()
-            .map(|matrix| matrix.to_cols_array().map(f32::to_bits))
-            .collect()
+        let bits = |palette: &Palette| -> Vec<[u32; 12]> {
+            let matrices = palette.0.iter();
+            matrices
+                .map(|matrix| matrix.to_cols_array().map(f32::to_bits))
+                .collect()
+        };
+        let ghosts: Vec<_> = frame.ghosts.palettes.iter().map(bits).collect();
+        let over = format!(
+            "{ghosts:?} {:?} {:?} {:?}",
+            frame.ghosts.colors_srgb, frame.over_model, frame.vertex_colors
+        );
+        (bits(frame.palette), over)
     };
     let events = session.take_events();
     let session = &*session;
@@ -40,6 +47,14 @@ fn snapshot(session: &mut Session) -> String {
         session.subsets(),
         session.quality(),
     );
+    let skeleton = (
+        session.joints(),
+        session.weighed_joint(),
+        session.ghost_plan(),
+        session.bind_ghost(),
+        session.bind_share(),
+    );
+    let look = (session.look(), session.sky_file().map(|file| &file.path));
     let revisions = (
         session.model_revision(),
         session.maps_revision(),
@@ -48,7 +63,7 @@ fn snapshot(session: &mut Session) -> String {
     let clips: Vec<_> = session.open_model().iter().flat_map(|open| open.clip_list()).collect();
     let notices: Vec<_> = session.notices().collect();
     format!(
-        "{pose:?} {events:?} {time:?} {:?} {:?} {view:?} {revisions:?} {clips:?} {notices:?} {:?} {:?}",
+        "{pose:?} {over} {events:?} {time:?} {:?} {:?} {view:?} {skeleton:?} {look:?} {revisions:?} {clips:?} {notices:?} {:?} {:?}",
         session.clip_index(),
         (session.crossfade_secs(), session.is_fading(), session.is_moving()),
         session.error(),
