@@ -81,6 +81,7 @@ mod document;
 mod error;
 mod excerpt;
 mod label;
+mod likeness;
 mod notice;
 mod number;
 mod quick;
@@ -94,6 +95,7 @@ pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
 pub use excerpt::{Excerpt, excerpt, is_printable};
 pub use label::Section;
+pub use likeness::begins_like_model;
 pub use relatives::Stranger;
 pub use write::write;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::image;
+use crate::{format, image};
 
 /// One file: where it lay relative to what was dropped, and its bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,12 +76,16 @@ impl FileSet {
     }
 
     /// Files that are models by their name, the largest first. When there is none, any file that is no picture
-    /// counts, so that a renamed model opens and any other file is told what it is.
+    /// counts, so that a renamed model opens and any other file is told what it is; but beside pictures, which come with
+    /// notes and sources, only one that begins like a model.
     pub fn models(&self) -> Vec<&File> {
         let by_name = |wanted: fn(&File) -> bool| self.files.iter().filter(|file| wanted(file)).collect::<Vec<_>>();
         let mut models = by_name(|file| file.extension() == "m3d");
         if models.is_empty() {
             models = by_name(|file| !file.is_image());
+            if models.len() < self.files.len() {
+                models.retain(|file| format::begins_like_model(&file.bytes));
+            }
         }
         models.sort_by_key(|file| std::cmp::Reverse(file.bytes.len()));
         models
@@ -139,13 +143,20 @@ mod tests {
     }
 
     #[test]
-    fn without_a_model_by_name_anything_but_pictures_is_tried() {
-        let set = FileSet::new([file("a.png", 3), file("model.txt", 1)]);
-        assert_eq!(
-            set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(),
-            ["model.txt"]
-        );
-        assert!(FileSet::new([file("a.png", 3)]).models().is_empty());
+    fn without_a_model_by_name_anything_but_pictures_is_tried_and_beside_them_what_begins_like_one() {
+        let names = |files: &[File]| {
+            let set = FileSet::new(files.iter().cloned());
+            set.models()
+                .iter()
+                .map(|f| f.base_name().to_owned())
+                .collect::<Vec<_>>()
+        };
+        let model = File::new("model.txt", *b"***m3d-File-Header***\n#Materials 1\n");
+        let (picture, notes) = (file("a.png", 3), file("notes.txt", 100));
+        assert_eq!(names(&[notes.clone(), model.clone()]), ["notes.txt", "model.txt"]);
+        assert_eq!(names(&[picture.clone(), notes.clone(), model]), ["model.txt"]);
+        assert!(names(&[picture.clone(), notes]).is_empty());
+        assert!(names(&[picture]).is_empty());
     }
 
     #[test]

@@ -28,9 +28,7 @@ impl Session {
         let had_clips = !open.model.clips.is_empty();
         let set = FileSet::new(files);
         let models = set.models();
-        let mut refused = models
-            .is_empty()
-            .then(|| Box::new(LoadError::no_model(set.files().len())));
+        let mut refused = models.is_empty().then(|| Box::new(LoadError::no_model(&set)));
         // In the order of the drop, which the list of the largest first has lost.
         let mut joined: Vec<&str> = Vec::new();
         let mut replaced = false;

@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::scene::Aabb;
 
 use super::clips::ClipFacts;
-use super::files::File;
+use super::files::{File, FileSet};
 
 /// A model that is on screen, with the file it came from.
 #[derive(Clone, Debug)]
@@ -61,11 +61,18 @@ pub struct LoadError {
 
 impl LoadError {
     /// A drop without any file that could be a model.
-    pub fn no_model(file_count: usize) -> Self {
-        let message = match file_count {
+    pub fn no_model(files: &FileSet) -> Self {
+        let files = files.files();
+        let message = match files.len() {
             0 => "No file was dropped.",
             1 => "No .m3d model was dropped: the file is a picture. Drop it together with its model.",
-            _ => "No .m3d model was dropped: the files are all pictures. Drop them together with their model.",
+            _ if files.iter().all(File::is_image) => {
+                "No .m3d model was dropped: the files are all pictures. Drop them together with their model."
+            }
+            _ => {
+                "No .m3d model was dropped: there are pictures, and no other file begins like a model. Drop them together \
+                 with their model."
+            }
         }
         .to_owned();
         Self {

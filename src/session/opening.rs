@@ -33,9 +33,9 @@ impl Session {
                 }
                 self.error = None;
             }
-            None if has_maps => self.fail(LoadError::no_model(files.files().len())),
+            None if has_maps => self.fail(LoadError::no_model(files)),
             _ if has_cubes => self.error = None,
-            _ => self.fail(LoadError::no_model(files.files().len())),
+            _ => self.fail(LoadError::no_model(files)),
         }
         self.take_up_sky(files.cubes().cloned().collect());
     }

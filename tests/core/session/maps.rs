@@ -85,6 +85,31 @@ fn pictures_dropped_later_join_the_open_model() {
 }
 
 #[test]
+fn pictures_join_whatever_notes_come_with_them() {
+    let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
+    let model = session.model_revision();
+    session.apply(Command::AddFiles(vec![
+        File::new("readme.txt", *b"Maps by somebody."),
+        File::new("source.psd", *b"8BPS and layers"),
+        picture("a.png", [1, 2, 3, 255]),
+    ]));
+    assert_eq!((session.error(), session.model_revision()), (None, model));
+    assert_eq!(first_pixel(&session, MapSlot::Diffuse), Some(vec![1, 2, 3, 255]));
+
+    session.apply(Command::AddFiles(vec![File::new("readme.txt", *b"Maps by somebody.")]));
+    let error = session.error().expect("alone it is told what it is");
+    assert_eq!(
+        (error.diagnostic.code, error.file_name.as_str()),
+        ("not-m3d", "readme.txt")
+    );
+
+    let renamed = models::still("model.txt");
+    session.apply(Command::AddFiles(vec![renamed, picture("a.png", [1, 2, 3, 255])]));
+    assert_eq!(session.error(), None);
+    assert!(session.model_revision() > model, "a renamed model opens with its maps");
+}
+
+#[test]
 fn a_picture_that_cannot_be_read_is_a_finding_and_the_model_shows_on() {
     let mut file = picture("a.png", [9; 4]);
     file.bytes = file.bytes[..20].into();

@@ -221,6 +221,10 @@ fn a_drop_of_pictures_has_no_model_to_join() {
     for (files, message) in [
         (vec![picture("a.dds")], "the file is a picture."),
         (vec![picture("a.dds"), picture("b.PNG")], "the files are all pictures."),
+        (
+            vec![picture("a.dds"), File::new("readme.txt", *b"By somebody.")],
+            "no other file begins like a model.",
+        ),
     ] {
         let mut session = Session::new(false);
         assert!(!session.apply(Command::AddFiles(files)).model_replaced);
