@@ -1,5 +1,7 @@
 //! Taking up what was dropped.
 
+use std::collections::BTreeSet;
+
 use super::{Event, File, FileSet, LoadError, Maps, OpenModel, Session, load};
 use crate::anim::{Playback, PoseBuffers};
 use crate::scene::Camera;
@@ -7,7 +9,7 @@ use crate::scene::Camera;
 impl Session {
     pub(super) fn add_files(&mut self, files: Vec<File>) -> bool {
         let files = FileSet::new(files);
-        let Some(path) = files.models().first().map(|file| file.path.clone()) else {
+        let Some(path) = self.wanted_model(&files) else {
             self.add_pictures(&files);
             return false;
         };
@@ -20,6 +22,22 @@ impl Session {
             self.files = previous;
         }
         opened
+    }
+
+    /// The path of the model to open: the largest, but where the models of the open drop come again, the one that is on screen.
+    fn wanted_model(&self, files: &FileSet) -> Option<String> {
+        let paths = |set: &FileSet| {
+            set.models()
+                .iter()
+                .map(|file| file.path.clone())
+                .collect::<BTreeSet<_>>()
+        };
+        let on_screen = self.open.as_ref().map(|open| &open.file.path);
+        let again = on_screen.filter(|&path| {
+            let models = paths(files);
+            models.contains(path) && models == paths(&self.files)
+        });
+        again.or(files.models().first().map(|file| &file.path)).cloned()
     }
 
     /// A drop without a model: maps join the open one, and a cube map needs none.

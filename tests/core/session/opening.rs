@@ -207,6 +207,26 @@ fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
 }
 
 #[test]
+fn the_same_drop_again_opens_the_model_that_was_chosen_of_it() {
+    let drop = || vec![still("x/small.m3d"), moving("x/large.m3d")];
+    let mut session = Session::new(false);
+    session.apply(Command::AddFiles(drop()));
+    session.apply(Command::OpenFile("x/small.m3d".to_owned()));
+    let mut with_a_map = drop();
+    with_a_map.push(picture("skin.png"));
+    session.apply(Command::AddFiles(with_a_map));
+    assert_eq!(open_path(&session), Some("x/small.m3d"));
+
+    let mut others = drop();
+    others.push(still("x/third.m3d"));
+    session.apply(Command::AddFiles(others));
+    assert_eq!(open_path(&session), Some("x/large.m3d"), "another drop");
+    session.apply(Command::OpenFile("x/small.m3d".to_owned()));
+    session.apply(Command::AddFiles(vec![still("y/small.m3d"), moving("y/large.m3d")]));
+    assert_eq!(open_path(&session), Some("y/large.m3d"), "of another folder");
+}
+
+#[test]
 fn the_list_of_a_drop_outlives_a_drop_that_failed() {
     let mut session = Session::new(false);
     session.apply(Command::AddFiles(vec![still("small.m3d"), moving("large.m3d")]));
