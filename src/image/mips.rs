@@ -29,21 +29,65 @@ impl Image {
     /// where a side is odd.
     #[must_use]
     pub fn with_mips(self, map_kind: MapKind) -> Self {
+        self.mipped(map_kind).unwrap_or(self)
+    }
+
+    /// [`with_mips`](Self::with_mips) for a picture that stays; `None` where that is as it is.
+    pub(crate) fn mipped(&self, map_kind: MapKind) -> Option<Self> {
         let level_count = full_level_count(self.width, self.height);
         if self.level_count > 1 || level_count == 1 {
-            return self;
+            return None;
         }
-        let coding = Coding::of(&self, map_kind);
+        let coding = Coding::of(self, map_kind);
         let mut data = Vec::new();
         for face in 0..self.face_count() {
-            coding.append_chain(&mut data, &self, face, level_count);
+            coding.append_chain(&mut data, self, face, level_count);
         }
+        Some(self.remade(coding, [self.width, self.height], level_count, data))
+    }
+
+    /// One level by itself, averaged down by halves until no side has more than `limit` texels, as
+    /// [`with_mips`](Self::with_mips) does. `None` where there is no such level. `limit` is not 0.
+    #[must_use]
+    pub fn reduced(&self, level: u32, map_kind: MapKind, limit: u32) -> Option<Self> {
+        if level >= self.level_count {
+            return None;
+        }
+        let coding = Coding::of(self, map_kind);
+        let (width, height) = self.level_size(level);
+        let size_after = |halvings| level_size(width, height, halvings);
+        let halvings = (0..u32::BITS).find(|&halvings| {
+            let (width, height) = size_after(halvings);
+            width.max(height) <= limit
+        })?;
+        let mut data = Vec::new();
+        for face in 0..self.face_count() {
+            let (bytes, mut texels) = coding.level_and_half(self, face, level);
+            if halvings == 0 {
+                data.extend(bytes);
+                continue;
+            }
+            for halved in 1..halvings {
+                let (width, height) = size_after(halved);
+                texels = halve(width, height, |index| texels[index]);
+            }
+            coding.append(&mut data, &texels);
+        }
+        Some(self.remade(coding, size_after(halvings).into(), 1, data))
+    }
+
+    /// The same picture of other texels.
+    fn remade(&self, coding: Coding, [width, height]: [u32; 2], level_count: u32, data: Vec<u8>) -> Self {
         Self {
-            format: coding.format(),
+            width,
+            height,
             level_count,
+            kind: self.kind,
+            format: coding.format(),
+            channels: self.channels,
+            source: self.source.clone(),
             mips_generated: true,
             data,
-            ..self
         }
     }
 }
@@ -80,28 +124,35 @@ impl Coding {
 
     /// Writes a face of at least two levels: the largest as it is, then all smaller ones.
     fn append_chain(self, data: &mut Vec<u8>, image: &Image, face: u32, level_count: u32) {
-        let (width, height) = (image.width, image.height);
-        let mut halve_bytes = |read: &dyn Fn([u8; 4]) -> Texel| {
-            let values = image.to_rgba8(face, 0).unwrap_or_default();
-            data.extend(&values);
-            let texels = values.as_chunks::<4>().0;
-            halve(width, height, |index| read(texels[index]))
-        };
-        let mut texels = match self {
-            Self::Srgb => halve_bytes(&read_colour),
-            Self::Direction { two_channels } => halve_bytes(&|texel| read_direction(texel, two_channels)),
-            Self::Half => {
-                let values = image.to_rgba32f(face, 0).unwrap_or_default();
-                data.extend(values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes()));
-                let texels = values.as_chunks::<4>().0;
-                halve(width, height, |index| texels[index])
-            }
-        };
+        let (bytes, mut texels) = self.level_and_half(image, face, 0);
+        data.extend(bytes);
         for level in 1..level_count {
             self.append(data, &texels);
             // From the level before rounding, so that errors do not add up.
-            let (width, height) = level_size(width, height, level);
+            let (width, height) = image.level_size(level);
             texels = halve(width, height, |index| texels[index]);
+        }
+    }
+
+    /// A level that is there, as the bytes of this coding's format, and the next smaller one.
+    fn level_and_half(self, image: &Image, face: u32, level: u32) -> (Vec<u8>, Vec<Texel>) {
+        let (width, height) = image.level_size(level);
+        let halve_bytes = |read: &dyn Fn([u8; 4]) -> Texel| {
+            let values = image.to_rgba8(face, level).unwrap_or_default();
+            let texels = values.as_chunks::<4>().0;
+            let half = halve(width, height, |index| read(texels[index]));
+            (values, half)
+        };
+        match self {
+            Self::Srgb => halve_bytes(&read_colour),
+            Self::Direction { two_channels } => halve_bytes(&|texel| read_direction(texel, two_channels)),
+            Self::Half => {
+                let values = image.to_rgba32f(face, level).unwrap_or_default();
+                let texels = values.as_chunks::<4>().0;
+                let half = halve(width, height, |index| texels[index]);
+                let bytes = values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes());
+                (bytes.collect(), half)
+            }
         }
     }
 

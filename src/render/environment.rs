@@ -1,9 +1,10 @@
 //! What surrounds the model, in GPU memory: the studio or a sky that was dropped, blurred for every roughness, and the cube that
 //! is seen and mirrored.
 
+use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use crate::image::{Image, ImageKind};
+use crate::image::{Image, ImageKind, MapKind};
 use crate::light::{BrdfTable, Environment, Prefiltered};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
@@ -149,13 +150,20 @@ struct Cube {
 }
 
 impl Cube {
-    /// The picture's largest level that fits, decoded.
+    /// The picture's largest level that fits, decoded; where all are too large, the smallest, averaged down.
     fn of(device: &wgpu::Device, image: &Image) -> Option<Self> {
         if image.kind() != ImageKind::Cube {
             return None;
         }
         let limit = device.limits().max_texture_dimension_2d.min(MAX_SKY_SIDE);
-        let level = (0..image.level_count()).find(|&level| image.level_size(level).0 <= limit)?;
+        let fits = (0..image.level_count()).find(|&level| image.level_size(level).0 <= limit);
+        let (image, level) = match fits {
+            Some(level) => (Cow::Borrowed(image), level),
+            None => {
+                let smallest = image.reduced(image.level_count() - 1, MapKind::Diffuse, limit)?;
+                (Cow::Owned(smallest), 0)
+            }
+        };
         let (side, height) = image.level_size(level);
         if side != height {
             return None;

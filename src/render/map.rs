@@ -113,12 +113,10 @@ fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
         return Cow::Borrowed(image);
     }
     if last == 0 {
-        return Cow::Owned(image.clone().with_mips(kind));
+        return image.mipped(kind).map_or(Cow::Borrowed(image), Cow::Owned);
     }
     // A file that brings a few levels, all of them too large: the smallest of them is where its others start.
-    let smallest = image
-        .to_rgba8(0, last)
-        .and_then(|texels| Image::from_rgba8(width, height, texels, "").ok());
+    let smallest = image.reduced(last, kind, limit);
     smallest.map_or(Cow::Borrowed(image), |smallest| Cow::Owned(smallest.with_mips(kind)))
 }
 
@@ -149,8 +147,9 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_with_levels_is_not_copied() {
-        let image = grey(64, 8).with_mips(MapKind::Normal);
-        assert!(matches!(fitting(&image, MapKind::Normal, 64), Cow::Borrowed(_)));
+    fn a_picture_with_all_its_levels_is_not_copied() {
+        for image in [grey(64, 8).with_mips(MapKind::Normal), grey(1, 1)] {
+            assert!(matches!(fitting(&image, MapKind::Normal, 64), Cow::Borrowed(_)));
+        }
     }
 }

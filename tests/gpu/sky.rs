@@ -92,6 +92,16 @@ on_both_backends! {
         assert!(FACES.iter().all(|&[red, green, blue]| difference(own, [red, green, blue, 255]) > 3), "{own:?}");
     }
 
+    /// Twice the side of the largest sky that is uploaded, and no mips.
+    fn a_sky_that_is_too_large_is_averaged_down(gpu) {
+        let mut easel = gpu.easel(&empty(Background::Sky, Light::Book, 0.0, 0.0), &[], SIZE);
+        assert!(easel.renderer.set_sky(Some(&cube(2048, FACES))));
+        for (yaw_radians, face) in [(FRAC_PI_2, FACES[0]), (-FRAC_PI_2, FACES[1]), (0.0, FACES[4]), (PI, FACES[5])] {
+            let picture = easel.draw(&empty(Background::Sky, Light::Book, yaw_radians, 0.0));
+            assert_color(&picture, face, "a large sky");
+        }
+    }
+
     fn a_flat_picture_is_no_sky(gpu) {
         let mut easel = gpu.easel(&empty(Background::Sky, Light::Book, 0.0, 0.0), &[], SIZE);
         let before = easel.draw(&empty(Background::Sky, Light::Book, 0.0, 0.0));

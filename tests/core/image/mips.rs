@@ -176,3 +176,52 @@ fn levels_of_the_file_are_kept() {
     let single = Image::from_rgba8(1, 1, vec![1, 2, 3, 4], "made").expect("the size fits");
     assert_eq!(single.clone().with_mips(MapKind::Normal), single);
 }
+
+#[test]
+fn a_level_is_reduced_to_a_limit_as_a_chain_would_be() {
+    let texels: Vec<_> = (0..64)
+        .map(|index| if index % 2 == 0 { BLACK } else { WHITE })
+        .collect();
+    let one = image(8, 8, &texels);
+    let chain = one.clone().with_mips(MapKind::Diffuse);
+    for (limit, side, level) in [(100, 8, 0), (8, 8, 0), (7, 4, 1), (2, 2, 2), (1, 1, 3)] {
+        let reduced = one.reduced(0, MapKind::Diffuse, limit).expect("there is a level");
+        assert_eq!(
+            (reduced.width(), reduced.height(), reduced.level_count()),
+            (side, side, 1)
+        );
+        assert_eq!(
+            level_texels(&reduced, 0, 0),
+            level_texels(&chain, 0, level),
+            "limit {limit}"
+        );
+    }
+    let of_second = chain.reduced(1, MapKind::Diffuse, 3).expect("there is a second level");
+    assert_eq!(level_texels(&of_second, 0, 0), vec![[188, 188, 188, 255]; 4]);
+    assert_eq!(one.reduced(1, MapKind::Diffuse, 4), None, "there is no second level");
+}
+
+#[test]
+fn all_faces_of_a_cube_are_reduced_and_floats_stay_floats() {
+    let cube = Dds {
+        caps2: CUBE_OF_SIX,
+        ..Dds::masked(LUMINANCE, 8, [0xff, 0, 0, 0], 4, 4)
+    };
+    let faces: Vec<u8> = (0..6).flat_map(|face| vec![40 * face; 16]).collect();
+    let cube = decode(&cube.file(&faces), "cube.dds").expect("the cube is sound");
+    let reduced = cube.reduced(0, MapKind::Diffuse, 2).expect("there is a level");
+    assert_eq!((reduced.kind(), reduced.width()), (cube.kind(), 2));
+    for face in 0..6 {
+        let grey = 40 * face as u8;
+        assert_eq!(level_texels(&reduced, face, 0), vec![[grey, grey, grey, 255]; 4]);
+    }
+
+    // Half floats: 0x3c00 is 1, 0x4200 is 3, 0x5000 is 32.
+    let rows = [[0x3c00_u16, 0x3c00, 0x5000, 0x3c00], [0x4200, 0x3c00, 0x5000, 0x3c00]];
+    let texels = rows.map(|texel| texel.repeat(2)).concat();
+    let texels: Vec<u8> = texels.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let bright = decode(&Dds::dxgi(10, 2, 2).file(&texels), "bright.dds").expect("the picture is sound");
+    let reduced = bright.reduced(0, MapKind::Diffuse, 1).expect("there is a level");
+    assert_eq!(reduced.format(), ImageFormat::Rgba16Float);
+    assert_eq!(reduced.to_rgba32f(0, 0), Some(vec![2.0, 1.0, 32.0, 1.0]));
+}
