@@ -2,14 +2,14 @@
 
 use std::io::Cursor;
 
-use image::{ColorType, ImageDecoder as _, ImageReader, Limits};
+use image::{ColorType, ImageDecoder, ImageReader, Limits};
 
 use super::MAX_SIDE;
 use super::error::{FileKind, ImageErrorKind};
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, ImageKind, check_size};
 
-/// Bytes that decoding may take: a picture of 8192 × 8192 with 4 channels, and its copy.
+/// Bytes that decoding may take: a picture of 8192 × 8192 with 4 channels of 8 bits as the file has it, and as RGBA.
 const MAX_DECODED_LEN: u64 = 512 << 20;
 
 /// No byte of a file stands for more texels: deflate makes at most 1032 bytes of one, and a PNG has 8 texels in a byte.
@@ -17,33 +17,8 @@ const MAX_TEXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Reads a picture of a kind other than DDS.
 pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKind> {
-    let undecodable = |error: image::ImageError| ImageErrorKind::Undecodable {
-        kind,
-        reason: error.to_string(),
-    };
-    // The decoder would fill up a picture that stops half-way with grey.
-    if kind == FileKind::Jpeg && memchr::memmem::rfind(bytes, b"\xff\xd9").is_none() {
-        return Err(ImageErrorKind::JpegCut);
-    }
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(MAX_DECODED_LEN);
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format_of(kind));
-    reader.limits(limits.clone());
-    let mut decoder = reader.into_decoder().map_err(undecodable)?;
-
+    let decoder = open(bytes, kind)?;
     let (width, height) = decoder.dimensions();
-    check_size(width, height)?;
-    if u64::from(width) * u64::from(height) > MAX_TEXELS_PER_BYTE * bytes.len() as u64 {
-        return Err(ImageErrorKind::Implausible {
-            width,
-            height,
-            bytes: bytes.len(),
-        });
-    }
-    limits.reserve(decoder.total_bytes()).map_err(undecodable)?;
-    decoder.set_limits(limits).map_err(undecodable)?;
     let channels = match decoder.color_type() {
         // A TGA says in the low half of its byte 17 how many bits of alpha it has, also where pixels have room for it.
         ColorType::Rgba8 if kind == FileKind::Tga && bytes.get(17).is_some_and(|bits| bits & 0xf == 0) => Channels::Rgb,
@@ -52,7 +27,7 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKi
         ColorType::Rgb8 | ColorType::Rgb16 | ColorType::Rgb32F => Channels::Rgb,
         _ => Channels::Rgba,
     };
-    let decoded = image::DynamicImage::from_decoder(decoder).map_err(undecodable)?;
+    let decoded = image::DynamicImage::from_decoder(decoder).map_err(|error| undecodable(kind, &error))?;
     let mut data = decoded.into_rgba8().into_raw();
     if !channels.has_alpha() {
         data.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = 255);
@@ -68,6 +43,50 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKi
         mips_generated: false,
         data,
     })
+}
+
+/// Reads the header, and says what is wrong with it, its size or the end of the file; the texels may still be damaged.
+fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErrorKind> {
+    let undecodable = |error: image::ImageError| undecodable(kind, &error);
+    // The decoder would fill up a picture that stops half-way with grey.
+    if kind == FileKind::Jpeg && memchr::memmem::rfind(bytes, b"\xff\xd9").is_none() {
+        return Err(ImageErrorKind::JpegCut);
+    }
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(MAX_DECODED_LEN);
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format_of(kind));
+    reader.limits(limits.clone());
+    let mut decoder = reader.into_decoder().map_err(undecodable)?;
+
+    let (width, height) = decoder.dimensions();
+    check_size(width, height)?;
+    let texel_count = u64::from(width) * u64::from(height);
+    if texel_count > MAX_TEXELS_PER_BYTE * bytes.len() as u64 {
+        return Err(ImageErrorKind::Implausible {
+            width,
+            height,
+            bytes: bytes.len(),
+        });
+    }
+    // What the file holds, as it holds it, and beside it the same as RGBA.
+    let decoded_len = decoder.total_bytes();
+    let rgba8_len = 4 * texel_count;
+    limits
+        .clone()
+        .reserve(decoded_len.saturating_add(rgba8_len))
+        .map_err(undecodable)?;
+    limits.reserve(decoded_len).map_err(undecodable)?;
+    decoder.set_limits(limits).map_err(undecodable)?;
+    Ok(decoder)
+}
+
+fn undecodable(kind: FileKind, error: &image::ImageError) -> ImageErrorKind {
+    ImageErrorKind::Undecodable {
+        kind,
+        reason: error.to_string(),
+    }
 }
 
 fn format_of(kind: FileKind) -> image::ImageFormat {

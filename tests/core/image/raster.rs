@@ -134,11 +134,7 @@ fn every_beginning_of_a_picture_is_an_error() {
 
 #[test]
 fn headers_that_promise_too_much_are_refused_before_anything_is_allocated() {
-    let mut png = encoded(ImageFormat::Png, ColorType::L8, 1, 1, &[0]);
-    png[16..24].copy_from_slice(&[0, 0, 0x40, 0, 0, 0, 0x40, 0]);
-    let mut crc = Crc::default();
-    crc.update(&png[12..29]);
-    png[29..33].copy_from_slice(&crc.value().to_be_bytes());
+    let png = grey_png_that_claims(16_384);
     let error = decode(&png, "bomb.png").expect_err("nothing packs so tightly");
     assert_eq!(error.code(), "image-implausible");
     let expected = format!(
@@ -171,6 +167,30 @@ fn a_jpeg_without_its_end_says_so() {
             "a.jpg: the JPEG file has no end marker: its last part is missing"
         )
     );
+}
+
+#[test]
+fn a_picture_counts_as_what_it_becomes_before_it_is_decoded() {
+    // Enough bytes for their texels; a grey one of 16 384 takes 256 MiB, and four times as much as RGBA.
+    for (side, is_too_large) in [(16_384, true), (8192, false)] {
+        let mut png = grey_png_that_claims(side);
+        png.extend([0; 1 << 16]);
+        let error = decode(&png, "grey.png").expect_err("its texels are missing");
+        assert_eq!(error.code(), "image-undecodable");
+        let about_memory = error.to_string().contains("Memory limit exceeded");
+        assert_eq!(about_memory, is_too_large, "{side}: {error}");
+    }
+}
+
+/// A sound header, and one texel for all of them.
+fn grey_png_that_claims(side: u32) -> Vec<u8> {
+    let mut png = encoded(ImageFormat::Png, ColorType::L8, 1, 1, &[0]);
+    png[16..20].copy_from_slice(&side.to_be_bytes());
+    png[20..24].copy_from_slice(&side.to_be_bytes());
+    let mut crc = Crc::default();
+    crc.update(&png[12..29]);
+    png[29..33].copy_from_slice(&crc.value().to_be_bytes());
+    png
 }
 
 /// The check sum of PNG chunks.
