@@ -137,6 +137,7 @@ impl Session {
             }
         } else {
             self.motion.take_up_model();
+            self.quality.take_up_model();
             self.bind_share = 0.0;
             self.handedness_override = None;
             self.up_axis_override = None;

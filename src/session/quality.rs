@@ -91,6 +91,12 @@ impl Quality {
         self.forgive();
     }
 
+    /// Another model may be drawn faster: what was given up for the one before is tried again.
+    pub(super) fn take_up_model(&mut self) {
+        self.given_up.clear();
+        self.forgive();
+    }
+
     /// Learns how long a frame took while the picture moved. Gives up one pass at a time, and waits to see what that brought.
     pub(super) fn note_frame(&mut self, frame_secs: f32) {
         if frame_secs <= SLOW_FRAME_SECS || frame_secs.is_nan() {

@@ -2,8 +2,8 @@
 
 use bindpose::anim::LoopMode;
 use bindpose::model::Handedness;
-use bindpose::scene::ViewPreset;
-use bindpose::session::{Command, Event, File, Session};
+use bindpose::scene::{Pass, ViewPreset};
+use bindpose::session::{Command, Event, File, PassChoice, Session};
 use glam::Vec2;
 
 use super::models::{self, broken, jointed, moving, still};
@@ -224,6 +224,22 @@ fn the_same_drop_again_opens_the_model_that_was_chosen_of_it() {
     session.apply(Command::OpenFile("x/small.m3d".to_owned()));
     session.apply(Command::AddFiles(vec![still("y/small.m3d"), moving("y/large.m3d")]));
     assert_eq!(open_path(&session), Some("y/large.m3d"), "of another folder");
+}
+
+#[test]
+fn what_was_too_slow_for_one_model_is_tried_again_with_the_next() {
+    let mut session = opened(still("a.m3d"));
+    session.apply(Command::SetPass(Pass::Shadow, PassChoice::Off));
+    let wanted = session.quality().passes();
+    for _ in 0..20 {
+        session.note_frame(1.0);
+    }
+    let given_up = session.quality().passes();
+    assert_ne!(given_up, wanted);
+    session.apply(Command::AddFiles(vec![still("a.m3d")]));
+    assert_eq!(session.quality().passes(), given_up, "the same again is as slow");
+    session.apply(Command::AddFiles(vec![still("b.m3d")]));
+    assert_eq!(session.quality().passes(), wanted, "what was chosen stays chosen");
 }
 
 #[test]
