@@ -88,7 +88,8 @@ pub(super) fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, 
 }
 
 /// The texture format that holds these blocks as they are. The others are decoded: one or two values as colours, since no
-/// format decodes those from sRGB, and signed values, so that shaders know one range.
+/// format decodes those from sRGB, and signed values, so that shaders know one range. Blocks may hold an alpha that the file
+/// says does not count; no material cuts by the alpha of a picture that has none, so they go up all the same.
 fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::TextureFormat> {
     use wgpu::TextureFormat as Gpu;
     match (format, kind) {

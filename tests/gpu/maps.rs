@@ -1,11 +1,14 @@
 //! What a diffuse map looks like on a surface.
 
 use bindpose::image::Image;
+use bindpose::scene::{Background, ViewMode};
 use glam::Vec2;
 
 use crate::gpu::{Gpu, Picture, difference, without_blocks};
 use crate::scenes::Scene;
-use crate::textures::{HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, linear, pixels_of_card, plain, square};
+use crate::textures::{
+    HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, linear, normal, pixels_of_card, plain, square,
+};
 
 const ONE: [u8; 3] = [200, 40, 90];
 const OTHER: [u8; 3] = [30, 120, 220];
@@ -123,6 +126,29 @@ on_both_backends! {
         assert_eq!(draw_now(&mut renderer), bare, "a new model starts without maps");
     }
 
+    /// A header of DirectX 10 may say that alpha does not count, whatever the blocks hold: they go up, and it is not asked for.
+    fn blocks_that_are_declared_opaque_have_no_holes(gpu) {
+        let mut scene = card_once();
+        scene.model.materials[0].alpha_clip = true;
+        // The colour of a hole in BC1 is black.
+        scene.options.background = Background::Color([255; 3]);
+        let decodes = without_blocks(gpu.backend);
+        for (dxgi, block_len) in [(71, 8), (74, 16), (77, 16), (98, 16)] {
+            let mut bytes = random_bytes(7, (16 + 4 + 3) * block_len);
+            for block in bytes.chunks_exact_mut(block_len) {
+                block[0] |= 0x40;
+            }
+            let [cut, opaque] = [0, 3].map(|alpha_mode| dds(b"DX10", [dxgi, alpha_mode], 16, &bytes));
+            assert!(cut.has_alpha() && !opaque.has_alpha());
+            let (read, decoded) = (draw_with(gpu, &scene, &opaque), draw_with(&decodes, &scene, &opaque));
+            assert_eq!(read.share_that_differs(&decoded, 2), 0.0, "{}", opaque.description());
+            let with_holes = draw_with(gpu, &scene, &cut);
+            // Little is clear enough to be cut away, and of BC7, which interpolates its alpha, nothing.
+            let share = read.share_that_differs(&with_holes, 20);
+            assert!(share > 1e-3 || dxgi == 98, "{}: {share}", cut.description());
+        }
+    }
+
     /// Any bits are blocks. A device that reads them shows what one shows for which they are decoded.
     fn blocks_look_the_same_decoded(gpu) {
         assert!(gpu.open.device.features().contains(wgpu::Features::TEXTURE_COMPRESSION_BC));
@@ -148,6 +174,42 @@ on_both_backends! {
             let (read, decoded) = (draw_with(gpu, &scene, &map), draw_with(&decodes, &scene, &map));
             assert_eq!(read.share_that_differs(&decoded, 2), 0.0, "{}", map.description());
             assert!(read.share_that_differs(&draw(gpu, &scene), 20) > 0.1, "{}", map.description());
+        }
+    }
+
+    /// The same of directions, whose two-channel blocks go up as they are.
+    fn blocks_of_directions_look_the_same_decoded(gpu) {
+        let decodes = without_blocks(gpu.backend);
+        let mut scene = card_once();
+        scene.options.view_mode = ViewMode::ShadingNormal;
+        for (code, dxgi, block_len) in [
+            (b"DXT1", [0; 2], 8),
+            (b"DXT3", [0; 2], 16),
+            (b"DXT5", [0; 2], 16),
+            (b"BC5U", [0; 2], 16),
+            (b"DX10", [98, 0], 16),
+        ] {
+            let mut bytes = random_bytes(7, (16 + 4 + 3) * block_len);
+            for block in bytes.chunks_exact_mut(block_len) {
+                block[0] |= 0x40;
+                if code == b"BC5U" {
+                    // Between 0.3 and 0.7, where z does not hang on the last digit of x and y.
+                    for end in [0, 1, 8, 9] {
+                        block[end] = 77 + block[end] % 102;
+                    }
+                    // Ends in falling order: six values between them, instead of 0 and 1 among them.
+                    for ends in [0, 8] {
+                        block[ends..ends + 2].sort_by(|a, b| b.cmp(a));
+                        block[ends] = block[ends].max(block[ends + 1] + 1);
+                    }
+                }
+            }
+            let map = dds(code, dxgi, 16, &bytes);
+            let [read, decoded] = [gpu, &decodes].map(|gpu| gpu.draw_with_maps(&scene, &normal(&map), WIDTH, HEIGHT));
+            // Where the three cancel each other nearly, a direction hangs on their last digits.
+            let share = read.share_that_differs(&decoded, 8);
+            assert!(share < 0.005, "{}: {share}", map.description());
+            assert!(read.share_that_differs(&draw(gpu, &scene), 10) > 0.1, "{}", map.description());
         }
     }
 
