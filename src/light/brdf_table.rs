@@ -7,6 +7,9 @@ use glam::{Vec2, Vec3};
 use super::low_discrepancy::hammersley;
 use crate::image::half;
 
+/// Entries along each edge of the table that the renderer uploads.
+pub const BRDF_TABLE_SIDE: usize = 64;
+
 /// Half vectors that are averaged for each entry.
 const HALF_VECTORS: u32 = 128;
 

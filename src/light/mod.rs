@@ -31,7 +31,7 @@ pub mod studio;
 mod studio_set;
 pub mod tone_map;
 
-pub use brdf_table::{BrdfTable, brdf_table};
+pub use brdf_table::{BRDF_TABLE_SIDE, BrdfTable, brdf_table};
 pub use environment::Environment;
 pub use irradiance::Irradiance;
 pub use prefilter::Prefiltered;

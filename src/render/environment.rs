@@ -5,12 +5,10 @@ use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use crate::image::{Image, ImageKind, MapKind};
-use crate::light::{BrdfTable, Environment, Prefiltered};
+use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
-/// Entries along each edge of the table of reflectances.
-const TABLE_SIDE: usize = 64;
 /// Skies are seen behind the model and in it, never closer than this many texels a side allow.
 const MAX_SKY_SIDE: u32 = 1024;
 
@@ -235,7 +233,7 @@ fn half_floats(texels: &[f32]) -> Vec<u8> {
 }
 
 fn table(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
-    static TABLE: LazyLock<BrdfTable> = LazyLock::new(|| BrdfTable::new(TABLE_SIDE));
+    static TABLE: LazyLock<BrdfTable> = LazyLock::new(|| BrdfTable::new(BRDF_TABLE_SIDE));
     let side = TABLE.side() as u32;
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("reflectances"),

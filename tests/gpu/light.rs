@@ -7,7 +7,7 @@ mod upload;
 use bindpose::light::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
 use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
 use bindpose::light::tone_map::{exposed, tone_mapped};
-use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use bindpose::render::device::Backend;
 use glam::{Vec2, Vec3};
 
@@ -135,7 +135,7 @@ on_both_backends! {
     fn formulas_and_lookups_agree_with_their_twins(gpu) {
         let room = Room {
             prefiltered: &Prefiltered::of(&Environment::studio()),
-            brdf_table: &BrdfTable::new(32),
+            brdf_table: &BrdfTable::new(BRDF_TABLE_SIDE),
             turn: (0.6, -0.8),
             intensity: 1.25,
             key_color: KEY_COLOR,
@@ -163,7 +163,7 @@ on_both_backends! {
     fn a_white_surface_vanishes_in_a_white_room(gpu) {
         let room = Room {
             prefiltered: &Prefiltered::of(&Environment::from_fn(16, |_| Vec3::ONE)),
-            brdf_table: &BrdfTable::new(32),
+            brdf_table: &BrdfTable::new(BRDF_TABLE_SIDE),
             turn: (0.8, 0.6),
             intensity: 1.0,
             key_color: Vec3::ZERO,

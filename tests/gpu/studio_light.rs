@@ -2,7 +2,7 @@
 
 use bindpose::light::studio::{StudioLights, StudioSurface, Surroundings};
 use bindpose::light::tone_map::{exposed, tone_mapped};
-use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use bindpose::model::{Material, Reflectance};
 use bindpose::scene::{Pass, Passes, srgb8_from_linear};
 use glam::Vec3;
@@ -20,7 +20,7 @@ const NORMAL: Vec3 = Vec3::new(-0.6, -0.36, -0.714);
 on_both_backends! {
     fn the_picture_has_the_colours_of_the_twin(gpu) {
         let prefiltered = Prefiltered::of(&Environment::studio());
-        let brdf_table = BrdfTable::new(64);
+        let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
         let surroundings = Surroundings {
             prefiltered: &prefiltered,
             brdf_table: &brdf_table,

@@ -94,10 +94,15 @@ on_both_backends! {
         // What lies outside the first tile is paler.
         let next = showing(card(WHITE, [Vec2::ONE, Vec2::splat(2.0)]), ViewMode::TexCoords);
         let next = gpu.draw(&next, WIDTH, HEIGHT);
-        let spread = |[red, green, blue, _]: [u8; 4]| red.max(green).max(blue) - red.min(green).min(blue);
+        let spread = |[red, green, blue, _]: [u8; 4]| u32::from(red.max(green).max(blue) - red.min(green).min(blue));
+        let mut sums = [0, 0];
         for (x, y, _) in pixels_of_card(&scene).step_by(97) {
-            assert!(spread(next.pixel(x, y)) <= spread(picture.pixel(x, y)).saturating_add(2), "({x}, {y})");
+            let [next, first] = [&next, &picture].map(|picture| spread(picture.pixel(x, y)));
+            assert!(next <= first + 2, "({x}, {y})");
+            sums = [sums[0] + next, sums[1] + first];
         }
+        let [next, first] = sums;
+        assert!(next > 0 && 4 * next < 3 * first, "{next} and {first}");
     }
 
     fn nearer_is_lighter(gpu) {

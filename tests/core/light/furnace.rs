@@ -4,11 +4,8 @@ use std::f32::consts::{PI, TAU};
 
 use bindpose::light::pbr::{ggx_distribution, reflectance, specular_lobe};
 use bindpose::light::studio::{StudioLights, StudioSurface, Surroundings};
-use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use glam::{Vec2, Vec3};
-
-/// The size that the renderer uploads.
-const TABLE_SIDE: usize = 32;
 
 const ANGLES: [f32; 9] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0];
 const ROUGHNESSES: [f32; 7] = [0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
@@ -31,7 +28,7 @@ fn dark() -> StudioLights {
 #[test]
 fn a_white_surface_vanishes_in_a_white_room() {
     let prefiltered = Prefiltered::of(&Environment::from_fn(16, |_| Vec3::ONE));
-    let brdf_table = BrdfTable::new(TABLE_SIDE);
+    let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
     let room = Surroundings {
         prefiltered: &prefiltered,
         brdf_table: &brdf_table,
@@ -91,11 +88,13 @@ fn directional_albedo(n_dot_v: f32, fresnel0: f32, alpha: f32) -> f32 {
 
 #[test]
 fn the_table_is_what_the_lobe_gives_back() {
-    let table = BrdfTable::new(TABLE_SIDE);
+    let table = BrdfTable::new(BRDF_TABLE_SIDE);
     // Where entries lie, so that what lies between them is not in question.
-    for column in [5, 10, 15, 22, 31] {
-        for row in [8, 12, 20, 31] {
-            let (n_dot_v, roughness) = ((column as f32 / 31.0).powi(2), row as f32 / 31.0);
+    let last = BRDF_TABLE_SIDE - 1;
+    let place = |entry: usize| entry as f32 / last as f32;
+    for column in [last / 6, last / 3, last / 2, last * 5 / 7, last] {
+        for row in [last.div_ceil(4), last * 2 / 5, last * 2 / 3, last] {
+            let (n_dot_v, roughness) = (place(column).powi(2), place(row));
             let Vec2 { x: scale, y: bias } = table.lookup(n_dot_v, roughness);
             for fresnel0 in [1.0, 0.04] {
                 let lobe = directional_albedo(n_dot_v, fresnel0, roughness * roughness);
@@ -112,7 +111,7 @@ fn the_table_is_what_the_lobe_gives_back() {
 
 #[test]
 fn a_direct_light_gives_no_more_than_it_has() {
-    let table = BrdfTable::new(TABLE_SIDE);
+    let table = BrdfTable::new(BRDF_TABLE_SIDE);
     for n_dot_v in ANGLES {
         for roughness in ROUGHNESSES {
             for fresnel0 in [0.04, 0.3, 0.7, 1.0] {
@@ -132,7 +131,7 @@ fn a_direct_light_gives_no_more_than_it_has() {
 
 #[test]
 fn what_is_mirrored_is_not_also_scattered() {
-    let table = BrdfTable::new(TABLE_SIDE);
+    let table = BrdfTable::new(BRDF_TABLE_SIDE);
     let shares = |fresnel0: f32| reflectance(Vec3::splat(0.5), Vec3::splat(fresnel0), table.lookup(0.8, 0.5));
     assert!(shares(0.04).diffuse.x > 0.45);
     assert!(shares(0.5).diffuse.x < 0.27);

@@ -2,7 +2,7 @@
 
 use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
 use bindpose::light::tone_map::tone_mapped;
-use bindpose::light::{BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use bindpose::scene::{Camera, Projection};
 use glam::Vec3;
 
@@ -20,7 +20,7 @@ impl Studio {
         Self {
             prefiltered: Prefiltered::of(&environment),
             environment,
-            brdf_table: BrdfTable::new(32),
+            brdf_table: BrdfTable::new(BRDF_TABLE_SIDE),
         }
     }
 
