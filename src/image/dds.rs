@@ -18,25 +18,14 @@ const MISC_CUBE: u32 = 0x4;
 
 /// Reads a DDS file. Bytes after the last texel are left alone.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
-    let header = Header::read(bytes)?;
-    let (width, height) = (header.width, header.height);
-    check_size(width, height)?;
-    let (kind, layer_count) = kind(&header)?;
-    if kind == ImageKind::Cube && width != height {
-        return Err(ImageErrorKind::CubeNotSquare { width, height });
-    }
-    let level_count = level_count(&header)?;
-    let layout = Layout::of(&header)?;
-
-    let extent = Extent {
-        texels: layout.texels,
+    let (extent, layout, shown) = open(bytes)?;
+    let Extent {
         width,
         height,
         level_count,
         kind,
-        layer_count,
-    };
-    let shown = extent.shown_texels(bytes, header.data_start)?;
+        ..
+    } = extent;
     let (format, data) = match layout.texels {
         Texels::Verbatim(format) => (format, shown.to_vec()),
         Texels::Masked(masks) => (ImageFormat::Rgba8, masks.to_rgba8(shown)),
@@ -61,6 +50,34 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
     } else {
         image
     })
+}
+
+/// Whether [`decode`] would read the file, without the work of it.
+pub(super) fn check(bytes: &[u8]) -> Result<(), ImageErrorKind> {
+    open(bytes).map(drop)
+}
+
+/// What a sound file holds, and the texels that are shown.
+fn open(bytes: &[u8]) -> Result<(Extent, Layout, &[u8]), ImageErrorKind> {
+    let header = Header::read(bytes)?;
+    let (width, height) = (header.width, header.height);
+    check_size(width, height)?;
+    let (kind, layer_count) = kind(&header)?;
+    if kind == ImageKind::Cube && width != height {
+        return Err(ImageErrorKind::CubeNotSquare { width, height });
+    }
+    let level_count = level_count(&header)?;
+    let layout = Layout::of(&header)?;
+    let extent = Extent {
+        texels: layout.texels,
+        width,
+        height,
+        level_count,
+        kind,
+        layer_count,
+    };
+    let shown = extent.shown_texels(bytes, header.data_start)?;
+    Ok((extent, layout, shown))
 }
 
 /// Texels a side of a cube map, by the header alone; the rest of the file may be damaged.

@@ -49,16 +49,39 @@ pub const MAX_SIDE: u32 = 16_384;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
-    let decoded = match FileKind::of(bytes, name) {
-        Some(FileKind::Dds) => dds::decode(bytes),
-        Some(kind) => raster::decode(bytes, kind),
-        None if bytes.is_empty() => Err(ImageErrorKind::Empty),
-        None => Err(ImageErrorKind::Unrecognized),
-    };
-    decoded.map_err(|kind| ImageError {
+    let decoded = kind_of(bytes, name).and_then(|kind| match kind {
+        FileKind::Dds => dds::decode(bytes),
+        kind => raster::decode(bytes, kind),
+    });
+    decoded.map_err(|kind| named(kind, name))
+}
+
+/// Looks whether [`decode`] can read a picture, without its texels: at the header, and whether the file is long enough for it.
+/// Only what is packed may still turn out to be damaged.
+///
+/// # Errors
+/// Those of [`decode`].
+pub fn check(bytes: &[u8], name: &str) -> Result<(), ImageError> {
+    let checked = kind_of(bytes, name).and_then(|kind| match kind {
+        FileKind::Dds => dds::check(bytes),
+        kind => raster::check(bytes, kind),
+    });
+    checked.map_err(|kind| named(kind, name))
+}
+
+fn kind_of(bytes: &[u8], name: &str) -> Result<FileKind, ImageErrorKind> {
+    FileKind::of(bytes, name).ok_or(if bytes.is_empty() {
+        ImageErrorKind::Empty
+    } else {
+        ImageErrorKind::Unrecognized
+    })
+}
+
+fn named(kind: ImageErrorKind, name: &str) -> ImageError {
+    ImageError {
         name: name.to_owned(),
         kind,
-    })
+    }
 }
 
 /// Texels a side of each face when a file begins like a cube map, whose texels may still be damaged; `None` for anything

@@ -45,6 +45,11 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKi
     })
 }
 
+/// Whether the header and the size of the file allow to decode it.
+pub(super) fn check(bytes: &[u8], kind: FileKind) -> Result<(), ImageErrorKind> {
+    open(bytes, kind).map(drop)
+}
+
 /// Reads the header, and says what is wrong with it, its size or the end of the file; the texels may still be damaged.
 fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErrorKind> {
     let undecodable = |error: image::ImageError| undecodable(kind, &error);

@@ -21,6 +21,7 @@ impl Session {
         if self.open.is_none() {
             return self.add_files(files);
         }
+        self.maps.forget_unused();
         let before = self.named_clips();
         let Some(open) = &mut self.open else {
             return false;

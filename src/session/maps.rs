@@ -7,13 +7,17 @@ use crate::image::{self, Image};
 use crate::model::Material;
 
 use super::files::File;
-use super::textures::{Checklist, MapSlot, MaterialMaps, find_maps, map_notices};
+use super::textures::{Checklist, MAP_UNUSED, MapSlot, MaterialMaps, find_maps, map_notices, unused_notice};
 
-/// Pictures, and what the materials make of them. Only pictures that a material names are decoded.
+/// Pictures, and what the materials make of them. Only pictures that a material names are decoded; of the others it is known
+/// whether they could be.
 #[derive(Debug, Default)]
 pub struct Maps {
     pictures: Vec<File>,
+    /// For each picture the number of the drop that it came with.
+    drops: Vec<u32>,
     decoded: Vec<Decoded>,
+    last_drop: u32,
     of_materials: Vec<MaterialMaps>,
     checklist: Checklist,
     notices: Vec<Diagnostic>,
@@ -22,76 +26,128 @@ pub struct Maps {
 /// What became of a picture.
 #[derive(Clone, Debug, Default)]
 enum Decoded {
-    /// No material names it.
+    /// Nobody has looked at it yet.
     #[default]
+    New,
+    /// No material names it.
     Unused,
     Image(Arc<Image>),
     Failed(Diagnostic),
 }
 
 impl Maps {
-    /// Finds and decodes what the materials name among these pictures.
-    pub fn new(materials: &[Material], pictures: Vec<File>) -> Self {
-        let mut maps = Self {
-            decoded: vec![Decoded::Unused; pictures.len()],
-            pictures,
-            ..Self::default()
-        };
-        maps.find(materials);
-        maps
+    /// Adds pictures that came with the model of these materials, which may be another one than before. Those that are there
+    /// already keep their turn: the drop may be one that was read again.
+    pub fn add(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
+        self.take_up(pictures, false);
+        self.find(materials);
     }
 
-    /// Adds pictures; one with a path that is there already takes its place. Whether anything is used otherwise than before.
-    pub fn add(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) -> bool {
+    /// Adds pictures that were dropped by themselves, which take the place of all that fit a name no better. Where none of them
+    /// is used, a note says so. Whether anything is used otherwise than before.
+    pub fn join(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) -> bool {
+        let (dropped, changed) = self.take_up(pictures, true);
+        let changed = self.find(materials) || changed;
+        if !dropped.iter().any(|&index| self.is_used(index)) {
+            let is_sound = |&&index: &&usize| matches!(self.decoded[index], Decoded::Unused);
+            let unused: Vec<_> = dropped
+                .iter()
+                .filter(is_sound)
+                .map(|&index| &self.pictures[index])
+                .collect();
+            self.notices.extend(unused_notice(materials, &unused));
+        }
+        changed
+    }
+
+    /// Takes back what was noted about the last drop alone, since another one came.
+    pub(super) fn forget_unused(&mut self) {
+        self.notices.retain(|notice| notice.code != MAP_UNUSED);
+    }
+
+    /// Keeps pictures as a drop of their own; one with a path that is there already takes its place. Their indices, and whether
+    /// one that was used is another now.
+    fn take_up(&mut self, pictures: impl IntoIterator<Item = File>, are_latest: bool) -> (Vec<usize>, bool) {
+        self.last_drop += 1;
+        let mut indices = Vec::new();
         let mut changed = false;
         for picture in pictures {
-            match self.pictures.iter().position(|known| known.path == picture.path) {
-                Some(known) if self.pictures[known].bytes == picture.bytes => {}
-                Some(known) => {
-                    changed |= !matches!(self.decoded[known], Decoded::Unused);
-                    self.pictures[known] = picture;
-                    self.decoded[known] = Decoded::Unused;
-                }
-                None => {
-                    self.pictures.push(picture);
-                    self.decoded.push(Decoded::Unused);
-                }
+            let known = self.pictures.iter().position(|known| known.path == picture.path);
+            let index = known.unwrap_or(self.pictures.len());
+            indices.push(index);
+            if known.is_none() {
+                self.pictures.push(picture);
+                self.drops.push(self.last_drop);
+                self.decoded.push(Decoded::New);
+                continue;
+            }
+            if are_latest {
+                self.drops[index] = self.last_drop;
+            }
+            if self.pictures[index].bytes != picture.bytes {
+                changed |= self.is_used(index);
+                self.pictures[index] = picture;
+                self.decoded[index] = Decoded::New;
             }
         }
-        let before = std::mem::take(&mut self.of_materials);
-        self.find(materials);
-        changed || before != self.of_materials
+        (indices, changed)
     }
 
-    fn find(&mut self, materials: &[Material]) {
-        self.of_materials = find_maps(materials, &self.pictures);
-        self.checklist = Checklist::new(materials, &self.of_materials);
-        let used: Vec<usize> = self
-            .of_materials
-            .iter()
-            .flat_map(|maps| MapSlot::ALL.map(|slot| maps.slot(slot).file()))
-            .flatten()
-            .collect();
-        for index in used {
+    /// Finds what the materials name and decodes it. Whether it is something else than before.
+    fn find(&mut self, materials: &[Material]) -> bool {
+        let found = find_maps(materials, &self.pictures, &self.drops);
+        let before = std::mem::replace(&mut self.of_materials, found);
+        for index in 0..self.pictures.len() {
             let picture = &self.pictures[index];
-            if matches!(self.decoded[index], Decoded::Unused) {
-                self.decoded[index] = match image::decode(&picture.bytes, picture.base_name()) {
+            let name = picture.base_name();
+            self.decoded[index] = match (std::mem::take(&mut self.decoded[index]), self.is_used(index)) {
+                (Decoded::New | Decoded::Unused, true) => match image::decode(&picture.bytes, name) {
                     Ok(image) => Decoded::Image(Arc::new(image)),
                     Err(error) => Decoded::Failed(error.diagnostic()),
-                };
-            }
+                },
+                (Decoded::New, false) => match image::check(&picture.bytes, name) {
+                    Ok(()) => Decoded::Unused,
+                    Err(error) => Decoded::Failed(error.diagnostic()),
+                },
+                (Decoded::Image(_), false) => Decoded::Unused,
+                (known, _) => known,
+            };
         }
+        let could_be_read = |index: usize| matches!(self.decoded[index], Decoded::Image(_));
+        self.checklist = Checklist::new(materials, &self.of_materials, could_be_read);
         // What is missing stands in the checklist; a list of findings that repeats it would hide the others.
         let ambiguous = map_notices(materials, &self.pictures, &self.of_materials);
         self.notices = ambiguous
             .into_iter()
             .filter(|notice| notice.code == "map-ambiguous")
             .collect();
-        self.notices
-            .extend(self.decoded.iter().filter_map(|decoded| match decoded {
-                Decoded::Failed(diagnostic) => Some(diagnostic.clone()),
-                Decoded::Unused | Decoded::Image(_) => None,
-            }));
+        let failed = (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
+            Decoded::Failed(finding) if !self.is_replaced(index) => Some(finding.clone()),
+            _ => None,
+        });
+        self.notices.extend(failed.collect::<Vec<_>>());
+        before != self.of_materials
+    }
+
+    fn is_used(&self, index: usize) -> bool {
+        self.users_of(index).next().is_some()
+    }
+
+    /// Whether a picture of the same name that could be read is used in place of this one, which is of no interest then.
+    fn is_replaced(&self, index: usize) -> bool {
+        let name = self.pictures[index].base_name().to_lowercase();
+        let mut used = self.used();
+        !self.is_used(index) && used.any(|map| map.file.base_name().to_lowercase() == name)
+    }
+
+    /// Materials that a picture is for, and what for.
+    fn users_of(&self, index: usize) -> impl Iterator<Item = (usize, MapSlot)> + '_ {
+        let materials = self.of_materials.iter().enumerate();
+        materials.flat_map(move |(material, maps)| {
+            let slots = MapSlot::ALL.into_iter();
+            let of_picture = slots.filter(move |slot| maps.slot(*slot).file() == Some(index));
+            of_picture.map(move |slot| (material, slot))
+        })
     }
 
     /// All pictures, used or not.
@@ -104,7 +160,7 @@ impl Maps {
         let file = self.of_materials.get(material)?.slot(slot).file()?;
         match self.decoded.get(file)? {
             Decoded::Image(image) => Some(image),
-            Decoded::Unused | Decoded::Failed(_) => None,
+            Decoded::New | Decoded::Unused | Decoded::Failed(_) => None,
         }
     }
 
@@ -115,24 +171,26 @@ impl Maps {
 
     /// Pictures that are used, with what they hold and which materials use them.
     pub fn used(&self) -> impl Iterator<Item = UsedMap<'_>> {
-        self.pictures
-            .iter()
-            .zip(&self.decoded)
-            .enumerate()
-            .filter_map(|(index, (file, decoded))| {
-                let Decoded::Image(image) = decoded else { return None };
-                let users = self.of_materials.iter().enumerate().flat_map(move |(material, maps)| {
-                    MapSlot::ALL
-                        .into_iter()
-                        .filter(move |slot| maps.slot(*slot).file() == Some(index))
-                        .map(move |slot| (material, slot))
-                });
-                Some(UsedMap {
-                    file,
-                    image,
-                    users: users.collect(),
-                })
-            })
+        (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
+            Decoded::Image(image) => Some(UsedMap {
+                file: &self.pictures[index],
+                image,
+                users: self.users_of(index).collect(),
+            }),
+            _ => None,
+        })
+    }
+
+    /// Pictures that materials name but that could not be read.
+    pub fn unreadable(&self) -> impl Iterator<Item = UnreadableMap<'_>> {
+        (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
+            Decoded::Failed(finding) if self.is_used(index) => Some(UnreadableMap {
+                file: &self.pictures[index],
+                finding,
+                users: self.users_of(index).collect(),
+            }),
+            _ => None,
+        })
     }
 
     /// How much of what the materials name is there.
@@ -140,7 +198,7 @@ impl Maps {
         &self.checklist
     }
 
-    /// Pictures that could not be read, and names that fit several files.
+    /// Pictures that could not be read, names that fit several files, and pictures of the last drop that fit none.
     pub fn notices(&self) -> &[Diagnostic] {
         &self.notices
     }
@@ -153,6 +211,17 @@ pub struct UsedMap<'a> {
     pub file: &'a File,
     /// What it holds.
     pub image: &'a Image,
+    /// Materials by index, and what for.
+    pub users: Vec<(usize, MapSlot)>,
+}
+
+/// A picture that a material names and that could not be read.
+#[derive(Clone, Debug)]
+pub struct UnreadableMap<'a> {
+    /// Where it came from.
+    pub file: &'a File,
+    /// What is wrong with it.
+    pub finding: &'a Diagnostic,
     /// Materials by index, and what for.
     pub users: Vec<(usize, MapSlot)>,
 }

@@ -34,7 +34,7 @@ pub use joint_rows::JointRow;
 pub use joints::{JointCommand, Joints, SelectedVertex};
 pub use load::{LoadError, OpenModel, load};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
-pub use maps::{Maps, UsedMap};
+pub use maps::{Maps, UnreadableMap, UsedMap};
 pub use materials::MAX_SPEC_POWER;
 pub use mixing::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality};

@@ -8,6 +8,7 @@ use crate::scene::Camera;
 
 impl Session {
     pub(super) fn add_files(&mut self, files: Vec<File>) -> bool {
+        self.maps.forget_unused();
         let files = FileSet::new(files);
         let Some(path) = self.wanted_model(&files) else {
             self.add_pictures(&files);
@@ -46,7 +47,7 @@ impl Session {
         let has_cubes = files.cubes().next().is_some();
         match &self.open {
             Some(open) if has_maps => {
-                if self.maps.add(&open.model.materials, files.images().cloned()) {
+                if self.maps.join(&open.model.materials, files.images().cloned()) {
                     self.maps_revision += 1;
                 }
                 self.error = None;
@@ -101,12 +102,9 @@ impl Session {
         self.clips_revision += 1;
         self.maps_revision += 1;
         // The model alone, dropped again, keeps the pictures that came before.
-        let kept = if again {
-            std::mem::take(&mut self.maps).pictures().to_vec()
-        } else {
-            Vec::new()
-        };
-        self.maps = Maps::new(&open.model.materials, kept);
+        if !again {
+            self.maps = Maps::default();
+        }
         self.maps.add(&open.model.materials, self.files.images().cloned());
         self.subsets.take_up(open.model.mesh.submeshes.len(), again);
         self.joints.take_up(&open.model, again);

@@ -1,5 +1,6 @@
 //! Which dropped file is which map: by base name, at any depth, without case, then without extension.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 use crate::diagnostic::{Diagnostic, Severity, Subject};
@@ -64,7 +65,7 @@ impl MapSource {
 pub struct FoundMap {
     /// Its index among the files.
     pub file: usize,
-    /// Files that fit the name as closely and lost by their folder or order, in the order of their merit.
+    /// Files of the same drop that fit the name as closely and lost by their folder or order, in the order of their merit.
     pub rivals: Vec<usize>,
 }
 
@@ -87,11 +88,13 @@ impl MaterialMaps {
     }
 }
 
-/// The maps of each material, in the order of the materials.
-pub fn find_maps(materials: &[Material], files: &[File]) -> Vec<MaterialMaps> {
+/// The maps of each material, in the order of the materials, as [`find_map`] finds them.
+pub fn find_maps(materials: &[Material], files: &[File], drops: &[u32]) -> Vec<MaterialMaps> {
     let source = |material, slot: MapSlot| match slot.name_in(material) {
         None => MapSource::NoneNamed,
-        Some(name) => find_map(name, files).map_or_else(|| MapSource::Missing(name.to_owned()), MapSource::Found),
+        Some(name) => {
+            find_map(name, files, drops).map_or_else(|| MapSource::Missing(name.to_owned()), MapSource::Found)
+        }
     };
     let maps = materials.iter().map(|material| MaterialMaps {
         diffuse: source(material, MapSlot::Diffuse),
@@ -103,9 +106,10 @@ pub fn find_maps(materials: &[Material], files: &[File]) -> Vec<MaterialMaps> {
 /// The picture that fits a name as a model gives it: a base name or a path, with `/` or `\`.
 ///
 /// Only the base name counts, without case. A file with the extension of the name comes before one with another; of
-/// several, the one that lies in the most folders that the name gives too, then the one with the shortest path, then the
-/// first.
-pub fn find_map(name: &str, files: &[File]) -> Option<FoundMap> {
+/// several, the one that was dropped last, then the one that lies in the most folders that the name gives too, then the one
+/// with the shortest path, then the first. `drops` has the number of the drop that each file came with; those that it does
+/// not reach came first.
+pub fn find_map(name: &str, files: &[File], drops: &[u32]) -> Option<FoundMap> {
     let wanted = parts(name);
     let base_name = wanted.first().filter(|base_name| !base_name.is_empty())?;
     let fits_without_extension = |file: &String| {
@@ -123,15 +127,17 @@ pub fn find_map(name: &str, files: &[File]) -> Option<FoundMap> {
             let exact = file_name == base_name;
             (exact || fits_without_extension(file_name)).then(|| {
                 let shared = path.iter().zip(&wanted).skip(1).take_while(|(a, b)| a == b).count();
-                let merit = (!exact, std::cmp::Reverse(shared), path.len(), file.path.len());
+                let drop = drops.get(index).copied().unwrap_or_default();
+                let rank = (!exact, Reverse(drop));
+                let merit = (rank, Reverse(shared), path.len(), file.path.len());
                 (merit, index)
             })
         })
         .collect();
     fitting.sort();
-    let &((other_extension, ..), file) = fitting.first()?;
+    let &((rank, ..), file) = fitting.first()?;
     let rivals = fitting.iter().skip(1);
-    let rivals = rivals.take_while(|((other, ..), _)| *other == other_extension);
+    let rivals = rivals.take_while(|((other, ..), _)| *other == rank);
     Some(FoundMap {
         file,
         rivals: rivals.map(|&(_, index)| index).collect(),
@@ -145,25 +151,38 @@ pub struct Checklist {
     pub named: usize,
     /// Names that no file fits, as the model has them, in alphabetical order.
     pub missing: Vec<String>,
+    /// Names whose file could not be read, in the same order.
+    pub unreadable: Vec<String>,
 }
 
 impl Checklist {
-    /// What [`find_maps`] found for these materials.
-    pub fn new(materials: &[Material], maps: &[MaterialMaps]) -> Self {
+    /// What [`find_maps`] found for these materials, and which of the files that it found could be read.
+    pub fn new(materials: &[Material], maps: &[MaterialMaps], is_readable: impl Fn(usize) -> bool) -> Self {
         let mut named = BTreeSet::new();
         let mut missing = BTreeSet::new();
+        let mut unreadable = BTreeSet::new();
         for (material, maps) in materials.iter().zip(maps) {
             for slot in MapSlot::ALL {
-                named.extend(slot.name_in(material));
-                if let MapSource::Missing(name) = maps.slot(slot) {
-                    missing.insert(name.clone());
+                let Some(name) = slot.name_in(material) else { continue };
+                named.insert(name);
+                match maps.slot(slot).file() {
+                    None => missing.extend([name]),
+                    Some(file) if !is_readable(file) => unreadable.extend([name]),
+                    Some(_) => {}
                 }
             }
         }
+        let list = |names: BTreeSet<&str>| names.into_iter().map(str::to_owned).collect();
         Self {
             named: named.len(),
-            missing: missing.into_iter().collect(),
+            missing: list(missing),
+            unreadable: list(unreadable),
         }
+    }
+
+    /// How many names have a file that could be read.
+    pub fn found(&self) -> usize {
+        self.named - self.missing.len() - self.unreadable.len()
     }
 }
 
@@ -206,6 +225,54 @@ pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]
         }
     }
     notices
+}
+
+/// What is noted of pictures that no material uses.
+pub(super) const MAP_UNUSED: &str = "map-unused";
+
+/// Names of files that a note spells out before it counts the rest.
+const NAMES_SPELT: usize = 3;
+
+/// A note about pictures that were dropped for a model that uses none of them, if there are any.
+pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Option<Diagnostic> {
+    let fits_a_name = |picture: &File| {
+        let names = materials
+            .iter()
+            .flat_map(|material| MapSlot::ALL.map(|slot| slot.name_in(material)));
+        let mut names = names.flatten();
+        names.any(|name| find_map(name, std::slice::from_ref(picture), &[]).is_some())
+    };
+    let (outdone, strange): (Vec<&File>, Vec<&File>) = pictures.iter().partition(|picture| fits_a_name(picture));
+    let (named, of_one, of_many) = if strange.is_empty() {
+        let because = "not used: there is a picture with the very name that the model gives.";
+        (outdone, format!("is {because}"), format!("are {because}"))
+    } else {
+        let name = "no name of the model's maps.";
+        (strange, format!("fits {name}"), format!("fit {name}"))
+    };
+    let spelt = named
+        .iter()
+        .take(NAMES_SPELT)
+        .map(|picture| picture.base_name().to_owned());
+    let mut spelt: Vec<String> = spelt.collect();
+    if named.len() > NAMES_SPELT {
+        spelt.push(format!("{} more", named.len() - NAMES_SPELT));
+    }
+    let message = match spelt.as_slice() {
+        [] => return None,
+        [only] => format!("{only} {of_one}"),
+        [others @ .., last] => format!("{} and {last} {of_many}", others.join(", ")),
+    };
+    Some(Diagnostic {
+        severity: Severity::Note,
+        code: MAP_UNUSED,
+        message,
+        expected: None,
+        found: None,
+        position: None,
+        length: 0,
+        subject: None,
+    })
 }
 
 /// Base name, then the folders from the innermost on, in lower case.

@@ -1,6 +1,6 @@
 //! Damaged and invented files: an error or a picture, never a panic.
 
-use bindpose::image::{MapKind, decode};
+use bindpose::image::{MapKind, check, decode};
 use proptest::prelude::*;
 
 use super::dds::{CUBE_OF_SIX, Dds, every_layout};
@@ -33,6 +33,21 @@ fn every_beginning_of_a_dds_file_is_an_error() {
             assert!(decode(&bytes[..len], &name).is_err(), "{name} cut to {len} bytes");
         }
     }
+}
+
+#[test]
+fn a_check_finds_what_decoding_would_but_for_damage_inside_of_what_is_packed() {
+    for (name, bytes) in sound_files().into_iter().chain(raster::sound_files()) {
+        assert_eq!(check(&bytes, &name), Ok(()), "{name}");
+        for len in 0..bytes.len() {
+            let (checked, decoded) = (check(&bytes[..len], &name), decode(&bytes[..len], &name).map(drop));
+            if checked.is_err() || name.ends_with(".dds") {
+                assert_eq!(checked, decoded, "{name} cut to {len} bytes");
+            }
+        }
+        assert!(check(&bytes[..16], &name).is_err(), "{name}");
+    }
+    assert!(check(b"", "a.png").is_err() && check(b"words", "a.png").is_err());
 }
 
 /// Decodes and, where that succeeds, uses every level in every way.

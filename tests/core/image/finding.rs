@@ -35,7 +35,7 @@ fn names_fit_without_case_extension_and_folders() {
         (" head_diff.dds ", "head_diff.dds"),
         ("Größe.dds", "GRÖSSE/GRÖßE.DDS"),
     ] {
-        let found = find_map(name, &files(&["soldier.m3d", path]));
+        let found = find_map(name, &files(&["soldier.m3d", path]), &[]);
         assert_eq!(
             found.map(|found| (found.file, found.rivals)),
             Some((1, vec![])),
@@ -55,7 +55,7 @@ fn other_names_do_not_fit() {
         ("textures/", "textures.dds"),
         ("", ".dds"),
     ] {
-        assert_eq!(find_map(name, &files(&[path])), None, "{name} {path}");
+        assert_eq!(find_map(name, &files(&[path]), &[]), None, "{name} {path}");
     }
 }
 
@@ -76,8 +76,21 @@ fn of_several_the_extension_then_the_folders_then_the_path_then_the_order_decide
             vec![0],
         ),
     ] {
-        let found = find_map(name, &files(&paths)).expect("both fit");
+        let found = find_map(name, &files(&paths), &[]).expect("both fit");
         assert_eq!((found.file, found.rivals), (file, rivals), "{name} {paths:?}");
+    }
+}
+
+#[test]
+fn what_was_dropped_later_wins_but_not_over_the_extension_of_the_name() {
+    for (paths, drops, file, rivals) in [
+        (["a.dds", "x/y/a.dds", "z/a.dds"], [1, 2, 1], 1, vec![]),
+        (["x/a.dds", "y/a.dds", "a.dds"], [2, 2, 1], 0, vec![1]),
+        (["a.dds", "a.png", "x/a.png"], [1, 2, 3], 0, vec![]),
+        (["a.tga", "a.png", "x/a.png"], [1, 1, 2], 2, vec![]),
+    ] {
+        let found = find_map("a.dds", &files(&paths), &drops).expect("all fit");
+        assert_eq!((found.file, found.rivals), (file, rivals), "{paths:?} {drops:?}");
     }
 }
 
@@ -95,7 +108,7 @@ fn each_material_learns_of_both_maps() {
         "m/jacket_norm.dds",
         "n/jacket_norm.dds",
     ]);
-    let maps = find_maps(&materials, &files);
+    let maps = find_maps(&materials, &files, &[]);
     let missing = |name: &str| MapSource::Missing(name.to_owned());
     assert_eq!(maps.len(), 4);
     assert_eq!(
@@ -113,9 +126,12 @@ fn each_material_learns_of_both_maps() {
     assert_eq!(maps[3].slot(MapSlot::Diffuse), &missing("head_diff.dds"));
 
     // Two materials share a name: it counts once.
-    let checklist = Checklist::new(&materials, &maps);
-    assert_eq!(checklist.named, 4);
+    let checklist = Checklist::new(&materials, &maps, |_| true);
+    assert_eq!((checklist.named, checklist.found()), (4, 2));
     assert_eq!(checklist.missing, ["head_diff.dds", "jacket_diff.dds"]);
+    let checklist = Checklist::new(&materials, &maps, |file| file != 2);
+    assert_eq!((checklist.found(), checklist.missing.len()), (1, 2));
+    assert_eq!(checklist.unreadable, ["jacket_norm.dds"]);
 
     let notices = map_notices(&materials, &files, &maps);
     assert!(notices.iter().all(|notice| notice.severity == Severity::Note));

@@ -5,6 +5,7 @@ use bindpose::image::encode_png;
 use bindpose::session::{Command, File, MapSlot, Session};
 
 use super::models;
+use crate::documents::shared_bytes;
 
 /// A picture of one colour.
 fn picture(path: &str, color: [u8; 4]) -> File {
@@ -133,4 +134,150 @@ fn the_model_alone_dropped_again_keeps_its_maps_and_another_model_does_not() {
     session.apply(Command::AddFiles(vec![mapped("other.m3d", "a.png", "b.png")]));
     assert!(session.maps().image(0, MapSlot::Diffuse).is_none());
     assert_eq!(session.maps().checklist().missing.len(), 2);
+}
+
+fn messages(session: &Session, code: &str) -> Vec<String> {
+    let notices = session.notices().filter(|notice| notice.code == code);
+    notices.map(|notice| notice.message.clone()).collect()
+}
+
+fn drop_pictures(session: &mut Session, pictures: Vec<File>) {
+    session.apply(Command::AddFiles(pictures));
+    assert_eq!(session.error(), None);
+}
+
+#[test]
+fn a_map_that_comes_later_wins_whatever_its_folder_and_still_does_when_all_is_read_again() {
+    let model = || mapped("model/box.m3d", "a.png", "b.png");
+    let (first, later) = (
+        picture("model/a.png", [1, 1, 1, 255]),
+        picture("a/longer/path/a.png", [2, 2, 2, 255]),
+    );
+    let mut session = opened(vec![model(), first.clone()]);
+    let maps = session.maps_revision();
+    drop_pictures(&mut session, vec![later.clone()]);
+    assert_eq!(first_pixel(&session, MapSlot::Diffuse), Some(vec![2, 2, 2, 255]));
+    assert!(session.maps_revision() > maps);
+    assert!(messages(&session, "map-ambiguous").is_empty(), "it was meant to win");
+
+    session.apply(Command::AddFiles(vec![model(), first.clone(), later]));
+    assert_eq!(first_pixel(&session, MapSlot::Diffuse), Some(vec![2, 2, 2, 255]));
+    drop_pictures(&mut session, vec![first]);
+    assert_eq!(
+        first_pixel(&session, MapSlot::Diffuse),
+        Some(vec![1, 1, 1, 255]),
+        "dropped by itself it is meant too"
+    );
+    let used: Vec<_> = session.maps().used().map(|map| map.file.path.clone()).collect();
+    assert_eq!(used, ["model/a.png"], "what lost its place is not in use");
+}
+
+#[test]
+fn what_cannot_be_read_is_noted_used_or_not_until_a_sound_one_takes_its_place() {
+    let broken = |path: &str| {
+        let mut file = picture(path, [9; 4]);
+        file.bytes = file.bytes[..20].into();
+        file
+    };
+    let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
+    drop_pictures(
+        &mut session,
+        vec![broken("in/a.png"), broken("stray.png"), File::new("empty.tga", [])],
+    );
+    let found = |session: &Session| -> Vec<String> {
+        let images = session.notices().filter(|notice| notice.code.starts_with("image-"));
+        images
+            .map(|notice| notice.message.split(':').next().unwrap_or_default().to_owned())
+            .collect()
+    };
+    assert_eq!(found(&session), ["a.png", "stray.png", "empty.tga"]);
+    assert!(
+        messages(&session, "map-unused").is_empty(),
+        "each has a note of its own"
+    );
+    let checklist = session.maps().checklist();
+    assert_eq!((checklist.found(), checklist.missing.len()), (0, 1));
+    assert_eq!(checklist.unreadable, ["a.png"]);
+    let unreadable: Vec<_> = session
+        .maps()
+        .unreadable()
+        .map(|map| (map.file.path.clone(), map.finding.code, map.users))
+        .collect();
+    let users = vec![(0, MapSlot::Diffuse)];
+    assert_eq!(unreadable, [("in/a.png".to_owned(), "image-undecodable", users)]);
+
+    drop_pictures(&mut session, vec![picture("out/A.png", [3, 3, 3, 255])]);
+    assert_eq!(first_pixel(&session, MapSlot::Diffuse), Some(vec![3, 3, 3, 255]));
+    assert_eq!(found(&session), ["stray.png", "empty.tga"]);
+    assert_eq!(
+        (session.maps().checklist().found(), session.maps().unreadable().count()),
+        (1, 0)
+    );
+}
+
+#[test]
+fn every_malformed_texture_is_noted_though_no_material_names_it() {
+    let names = [
+        "invalid-006b3057-841d-4c47-8af3-c352fd511b8d",
+        "invalid-3f308164-3aa4-4095-8fec-f48fa90ff471",
+        "invalid-4d9b027e-ab8b-4412-ae66-a49fe7e7120e",
+        "invalid-676e6dcc-38ae-42b6-bda7-da30d1ccdc4b",
+        "invalid-7bf16981-845f-4095-af74-bbb1244cd105",
+        "invalid-adc8f63c-279f-4f25-9641-3324b3838a12",
+        "invalid-dc141355-6459-4a70-b8f0-e3fcefbb2e39",
+        "unsupported-daab5194-837d-4578-932d-423a7338f4c4",
+    ];
+    let files = names.map(|name| {
+        Some(File::new(
+            name,
+            shared_bytes(&format!("textures/malformed/{name}.dds"))?,
+        ))
+    });
+    let Some(files) = files.into_iter().collect::<Option<Vec<_>>>() else {
+        return;
+    };
+    let files = files
+        .into_iter()
+        .map(|file| File::new(&format!("{}.dds", file.path), file.bytes));
+    let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
+    drop_pictures(&mut session, files.collect());
+    for name in names {
+        let noted = session.notices().filter(|notice| notice.message.contains(name)).count();
+        assert_eq!(noted, 1, "{name}");
+    }
+}
+
+#[test]
+fn pictures_that_fit_nothing_are_noted_until_the_next_drop() {
+    let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
+    let stray = |names: &[&str]| names.iter().map(|name| picture(name, [5; 4])).collect::<Vec<_>>();
+    for (names, message) in [
+        (vec!["in/coat2.png"], "coat2.png fits no name of the model's maps."),
+        (
+            vec!["c.png", "d.png"],
+            "c.png and d.png fit no name of the model's maps.",
+        ),
+        (
+            vec!["c.png", "d.png", "e.png", "f.png", "g.png"],
+            "c.png, d.png, e.png and 2 more fit no name of the model's maps.",
+        ),
+    ] {
+        drop_pictures(&mut session, stray(&names));
+        assert_eq!(messages(&session, "map-unused"), [message]);
+    }
+    drop_pictures(&mut session, stray(&["h.png", "a.png"]));
+    assert!(messages(&session, "map-unused").is_empty(), "one of them is used");
+    drop_pictures(&mut session, stray(&["a.tga", "a.jpg"]));
+    assert_eq!(
+        messages(&session, "map-unused"),
+        ["a.tga and a.jpg are not used: there is a picture with the very name that the model gives."]
+    );
+    drop_pictures(&mut session, vec![super::sky::cube("sky.dds", 4, [9; 4])]);
+    assert!(messages(&session, "map-unused").is_empty(), "another drop came");
+
+    let session = opened(vec![mapped("box.m3d", "a.png", "b.png"), picture("stray.png", [5; 4])]);
+    assert!(
+        messages(&session, "map-unused").is_empty(),
+        "a folder has more in it than one model's maps"
+    );
 }
