@@ -1,5 +1,6 @@
 //! Model facts, diagnostics, error card, the buttons of the bars.
 
+use bindpose::format::Material;
 use bindpose::model::{Handedness, UpAxis};
 use bindpose::scene::{Light, Projection, ViewMode, ViewPreset};
 use bindpose::session::{Command, File};
@@ -255,4 +256,35 @@ fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
     window.click("More");
     window.click("Keys");
     assert!(window.shows("Space: play or pause"));
+}
+
+#[test]
+fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
+    let mut document = models::document();
+    let painted = document.materials[0].clone();
+    document.materials = (0..10)
+        .map(|number| Material {
+            name: format!("Part {number}"),
+            diffuse_map: Some(format!("part{number}.png")),
+            normal_map: (number < 3).then(|| "shared.png".to_owned()),
+            ..painted.clone()
+        })
+        .collect();
+    let damaged = File::new("in/part0.png", *b"\x89PNG\r\n\x1a\n");
+    let mut window = window(WIDE, vec![models::file("a.m3d", &document), damaged]);
+    assert!(window.shows("Textures: 0 of 11 found, 10 missing, 1 unreadable"));
+    assert!(window.shows("part1.png is missing\ndiffuse map of Part 1"));
+    let rows = window.named(|name| name.contains(".png is missing\n"));
+    assert_eq!(rows.len(), 8, "{rows:?}");
+    assert!(window.shows("and 2 more") && window.shows("Drop them any time."));
+    let unreadable = window.named(|name| name.starts_with("in/part0.png could not be read\npart0.png: the PNG file"));
+    assert_eq!(unreadable.len(), 1);
+    assert!(unreadable[0].0.ends_with("\ndiffuse map of Part 0"), "{unreadable:?}");
+    let panel = rows.iter().chain(&unreadable).all(|(_, rect)| rect.width() < 240.0);
+    assert!(panel, "rows are as wide as the panel");
+
+    let picture = bindpose::image::encode_png(&[255; 16], 2, 2).expect("two by two pixels");
+    window.apply(Command::AddFiles(vec![File::new("shared.png", picture)]));
+    assert!(window.shows("Textures: 1 of 11 found, 9 missing, 1 unreadable"));
+    assert!(window.shows("and 1 more"));
 }

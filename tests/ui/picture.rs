@@ -151,6 +151,25 @@ fn both_lights_and_what_is_chosen_about_them() {
 }
 
 #[test]
+fn maps_that_are_missing_and_one_that_is_damaged() {
+    let mut files = sample_with_its_maps();
+    // As another model, so that the maps of the first do not stay.
+    let model = files
+        .iter_mut()
+        .find(|file| file.extension() == "m3d")
+        .expect("a model");
+    *model = File::new("other.m3d", model.bytes.clone());
+    let mut maps = files.iter_mut().filter(|file| file.is_image());
+    let damaged = maps.next().expect("a map");
+    damaged.bytes = damaged.bytes[..30].into();
+    let kept = maps.next().expect("another map").path.clone();
+    let damaged = damaged.path.clone();
+    files.retain(|file| !file.is_image() || [&kept, &damaged].contains(&&file.path));
+    let then = vec![Command::AddFiles(files), Command::Seek { time_secs: 0.4 }];
+    compare("wide-light-maps", &draw(WIDE, Theme::Light, false, then));
+}
+
+#[test]
 fn a_subset_inspected_in_a_small_window() {
     let size = Vec2::new(900.0, 700.0);
     let hidden = SubsetCommand::SetVisible {
