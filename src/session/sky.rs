@@ -50,7 +50,7 @@ impl Session {
         self.sky.revision
     }
 
-    /// Makes the largest of these cube maps the sky, and shows it. One that cannot be read is noted, and the next largest
+    /// Makes the largest of these cube maps the sky, and shows it. Those that cannot be read are noted, and the next largest
     /// taken. Without any everything stays.
     pub(super) fn take_up_sky(&mut self, mut cubes: Vec<File>) {
         if cubes.is_empty() {
@@ -58,10 +58,17 @@ impl Session {
         }
         cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
         self.sky.notices.clear();
+        let mut has_sky = false;
         for file in cubes {
+            if has_sky {
+                let unreadable = image::check(&file.bytes, file.base_name()).err();
+                self.sky.notices.extend(unreadable.map(|error| error.diagnostic()));
+                continue;
+            }
             if self.sky_file() == Some(&file) {
                 // The folder came again; what was chosen since stays.
-                return;
+                has_sky = true;
+                continue;
             }
             match image::decode(&file.bytes, file.base_name()) {
                 Ok(image) => {
@@ -73,7 +80,7 @@ impl Session {
                     });
                     self.sky.revision += 1;
                     self.look.background = Background::Sky;
-                    return;
+                    has_sky = true;
                 }
                 Err(error) => self.sky.notices.push(error.diagnostic()),
             }

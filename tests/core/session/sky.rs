@@ -139,9 +139,18 @@ fn of_several_cubes_the_largest_that_can_be_read_is_taken() {
         cube("large.dds", 8, [2; 4]),
         cut(cube("broken.dds", 16, [3; 4])),
         cube("middle.dds", 4, [4; 4]),
+        cut(cube("unwanted.dds", 7, [3; 4])),
     ]));
     assert_eq!(sky_name(&session), Some("large.dds"));
-    assert_eq!(codes(&session), ["image-cut"], "what could not be read is a finding");
+    let noted: Vec<_> = session
+        .notices()
+        .map(|notice| (notice.code, &notice.message[..6]))
+        .collect();
+    assert_eq!(
+        noted,
+        [("image-cut", "broken"), ("image-cut", "unwant")],
+        "what could not be read is a finding"
+    );
 }
 
 #[test]
