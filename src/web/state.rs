@@ -201,10 +201,11 @@ fn skeleton(session: &Session) -> JsValue {
 /// How many maps the materials name, and the names that no file fits.
 fn textures(session: &Session) -> JsValue {
     let checklist = session.maps().checklist();
-    let missing = checklist.missing.iter().map(|name| JsValue::from(&**name));
+    let list = |names: &[String]| names.iter().map(|name| JsValue::from(&**name)).collect::<Array>();
     Fields::new()
         .with("named", checklist.named as f64)
-        .with("missing", missing.collect::<Array>())
+        .with("missing", list(&checklist.missing))
+        .with("unreadable", list(&checklist.unreadable))
         .done()
 }
 

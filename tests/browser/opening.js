@@ -271,7 +271,7 @@ test("maps are found beside the model and join it later, and are drawn", {}, asy
   await call(page, "pause");
   await call(page, "seek", 0.25);
   await settled(page);
-  assert.deepEqual((await state(page)).textures, { named: 1, missing: ["C:\\art\\Coat.dds"] });
+  assert.deepEqual((await state(page)).textures, { named: 1, missing: ["C:\\art\\Coat.dds"], unreadable: [] });
   const without = await picture(page);
   await drop(page, [png]);
   await until(page, ({ textures }) => textures.missing.length === 0);

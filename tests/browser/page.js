@@ -21,7 +21,7 @@ test("the page opens the sample, draws it and logs no error", { viewport: LARGE 
 });
 
 test("the sample opens with all of its maps", {}, async (page) => {
-  assert.deepEqual((await state(page)).textures, { named: 8, missing: [] });
+  assert.deepEqual((await state(page)).textures, { named: 8, missing: [], unreadable: [] });
 });
 
 test("the sample opens although one of its maps does not arrive", {
@@ -31,7 +31,7 @@ test("the sample opens although one of its maps does not arrive", {
   const { model, error, textures } = await state(page);
   assert.equal(model.name, "figure.m3d");
   assert.equal(error, null);
-  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.png"] });
+  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.png"], unreadable: [] });
 });
 
 test("the light scheme is followed", { colorScheme: "light", viewport: LARGE }, async (page) => {

@@ -58,5 +58,5 @@ export const BLEND_END = [540, 458];
 /** The same bar on a phone, 390 × 844. */
 export const PHONE_TIME_BAR = { first: 81, last: 311, y: 754 };
 /** And on its side, 844 × 390, with the button of the dope sheet. */
-export const LOW_TIME_BAR = { first: 174, last: 498, y: 352 };
+export const LOW_TIME_BAR = { first: 283, last: 496, y: 352 };
 export const LOW_SHEET_BUTTON = [806, 352];
