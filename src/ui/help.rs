@@ -1,12 +1,12 @@
 //! What keys, pointer and fingers do.
 
-use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::UiState;
 use super::panel::scrolled;
 use super::theme::{self, ROW_HEIGHT, Tokens};
 use super::view_modes;
-use super::widgets::{closable_heading, rule};
+use super::widgets::{closable_heading, paint_elided, rule};
 use super::wording::trimmed;
 use crate::anim::SkinView;
 use crate::scene::{Overlay, Projection};
@@ -87,7 +87,7 @@ const BONES: &[Row] = &[
     row("F2", "name the bone"),
 ];
 const PICTURE: &[Row] = &[
-    row("T", "next view mode").now(|session| Some(view_modes::shown(session).to_owned())),
+    row("T", "view mode").now(|session| Some(view_modes::shown(session).to_owned())),
     row("Shift T", "previous view mode"),
     row("V", "the other light").now(|session| Some(session.look().light.label().to_owned())),
     row("Alt drag", "turn the surroundings"),
@@ -156,9 +156,15 @@ fn groups(ui: &mut Ui, session: &Session, groups: &[&[Row]]) {
             painter.text(at, Align2::LEFT_CENTER, *keys, theme::mono(12.0), tokens.text);
             let at = at + vec2(112.0, 0.0);
             let font = FontId::proportional(13.0);
-            painter.text(at, Align2::LEFT_CENTER, *does, font.clone(), tokens.muted);
+            let does_rect = painter.text(at, Align2::LEFT_CENTER, *does, font.clone(), tokens.muted);
             if let Some(now) = &now {
-                painter.text(rect.right_center(), Align2::RIGHT_CENTER, now, font, tokens.accent);
+                let width = painter
+                    .layout_no_wrap(now.clone(), font.clone(), tokens.accent)
+                    .size()
+                    .x;
+                let first = does_rect.max.x + 8.0;
+                let at = pos2((rect.max.x - width).max(first), rect.center().y);
+                paint_elided(painter, at, now, font, tokens.accent, rect.max.x - at.x);
             }
             let now = now.map_or_else(String::new, |now| format!(", now {now}"));
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{keys}: {does}{now}")));

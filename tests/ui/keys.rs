@@ -277,11 +277,7 @@ fn the_table_says_what_is_in_force_now() {
             "L: next loop mode, now Loop",
             "L: next loop mode, now There and back",
         ),
-        (
-            Key::T,
-            "T: next view mode, now Lit",
-            "T: next view mode, now Base colour",
-        ),
+        (Key::T, "T: view mode, now Lit", "T: view mode, now Base colour"),
         (Key::V, "V: the other light, now Studio", "V: the other light, now Book"),
     ] {
         let shows = |window: &Window, wanted: &str| !window.named(|name| name == wanted).is_empty();

@@ -371,6 +371,15 @@ fn the_tree_in_the_sheet_of_a_phone() {
     compare("phone-dark-tree", &draw_after(PHONE, Theme::Dark, true, then, &clicks));
 }
 
+#[test]
+fn the_table_of_keys_with_what_is_on() {
+    let size = Vec2::new(900.0, 700.0);
+    compare(
+        "small-dark-help",
+        &draw_after(size, Theme::Dark, false, inspected(), &["Keys (?)"]),
+    );
+}
+
 /// A golden that would let a panel go missing proves nothing.
 #[test]
 fn a_missing_panel_would_be_seen() {
