@@ -85,3 +85,19 @@ pub struct Diagnostic {
     /// The part of the model it is about.
     pub subject: Option<Subject>,
 }
+
+impl Diagnostic {
+    /// A finding that has no place in a file and is about no part of a model.
+    pub(crate) fn without_place(severity: Severity, code: &'static str, message: String) -> Self {
+        Self {
+            severity,
+            code,
+            message,
+            expected: None,
+            found: None,
+            position: None,
+            length: 0,
+            subject: None,
+        }
+    }
+}

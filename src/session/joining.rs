@@ -173,16 +173,7 @@ impl LoadError {
     fn refused(file: &File, code: &'static str, message: String) -> Self {
         Self {
             file_name: file.base_name().to_owned(),
-            diagnostic: Diagnostic {
-                severity: Severity::Error,
-                code,
-                message,
-                expected: None,
-                found: None,
-                position: None,
-                length: 0,
-                subject: None,
-            },
+            diagnostic: Diagnostic::without_place(Severity::Error, code, message),
             excerpt: None,
         }
     }

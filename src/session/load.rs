@@ -77,16 +77,7 @@ impl LoadError {
         .to_owned();
         Self {
             file_name: String::new(),
-            diagnostic: Diagnostic {
-                severity: Severity::Error,
-                code: "no-model",
-                message,
-                expected: None,
-                found: None,
-                position: None,
-                length: 0,
-                subject: None,
-            },
+            diagnostic: Diagnostic::without_place(Severity::Error, "no-model", message),
             excerpt: None,
         }
     }

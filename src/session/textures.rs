@@ -263,16 +263,7 @@ pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Optio
         [only] => format!("{only} {of_one}"),
         [others @ .., last] => format!("{} and {last} {of_many}", others.join(", ")),
     };
-    Some(Diagnostic {
-        severity: Severity::Note,
-        code: MAP_UNUSED,
-        message,
-        expected: None,
-        found: None,
-        position: None,
-        length: 0,
-        subject: None,
-    })
+    Some(Diagnostic::without_place(Severity::Note, MAP_UNUSED, message))
 }
 
 /// Base name, then the folders from the innermost on, in lower case.

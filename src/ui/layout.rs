@@ -1,5 +1,5 @@
-//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. Where a narrow window is low, as on
-//! a phone on its side, what was opened stands beside the model instead of below it.
+//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. Where a window is low, as on a phone
+//! on its side, what was opened stands beside the model instead of below it.
 
 use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
 
@@ -141,15 +141,16 @@ fn side_panel(
     }
 }
 
-/// Phones and slim windows: one bar above, one sheet below; with `low` what is opened stands between them.
+/// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them.
 pub(super) fn narrow(
     ui: &Ui,
     session: &Session,
     state: &mut UiState,
     window: Rect,
-    low: bool,
+    arrangement: Arrangement,
     commands: &mut Vec<Command>,
 ) {
+    let low = arrangement == Arrangement::Low;
     let left_top = window.min + Vec2::splat(MARGIN);
     Panel::new("title", Align2::LEFT_TOP, left_top)
         .margin(Margin::same(4))
@@ -166,12 +167,11 @@ pub(super) fn narrow(
             });
         });
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
-        let sheet = sheet(ui, session, state, window, low, commands);
+        let sheet = sheet(ui, session, state, window, arrangement, commands);
         if let Some(page) = state.sheet.filter(|_| low) {
             page_beside(ui, page, session, state, window, sheet.min.y, commands);
         }
     }
-    let arrangement = if low { Arrangement::Low } else { Arrangement::Narrow };
     show_legend(ui, session, state, window, arrangement);
 }
 
@@ -187,9 +187,10 @@ fn sheet(
     session: &Session,
     state: &mut UiState,
     window: Rect,
-    low: bool,
+    arrangement: Arrangement,
     commands: &mut Vec<Command>,
 ) -> Rect {
+    let low = arrangement == Arrangement::Low;
     let margin = Margin {
         left: SHEET_MARGIN,
         right: SHEET_MARGIN,
@@ -212,7 +213,7 @@ fn sheet(
             }
             if let Some(page) = state.sheet.filter(|_| !low) {
                 ui.add_space(10.0);
-                let shut = shut_sheet_height(ui, session, Arrangement::Narrow);
+                let shut = shut_sheet_height(ui, session, arrangement);
                 let covered = bar_height(ui) + shut + 3.0 * MARGIN;
                 let room = (window.height() * PAGE_SHARE).min(window.height() - covered);
                 show_page(ui, page, session, state, room, commands);

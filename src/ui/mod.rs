@@ -79,8 +79,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
 
     match arrangement {
         Arrangement::Wide => layout::wide(ui, session, state, window, &mut commands),
-        Arrangement::Narrow => layout::narrow(ui, session, state, window, false, &mut commands),
-        Arrangement::Low => layout::narrow(ui, session, state, window, true, &mut commands),
+        Arrangement::Narrow | Arrangement::Low => {
+            layout::narrow(ui, session, state, window, arrangement, &mut commands);
+        }
     }
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
