@@ -7,6 +7,8 @@ mod pipe;
 mod pose;
 mod program;
 mod render;
+#[path = "../shared.rs"]
+mod shared;
 #[path = "../core/textbook.rs"]
 mod textbook;
 mod wrong_use;

@@ -76,17 +76,9 @@ pub(crate) fn fixtures(folder: &str) -> Vec<PathBuf> {
 /// The sample: skinned, several clips, thousands of vertices.
 pub(crate) const FIGURE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/web/sample/figure.m3d");
 
-/// A file of the folder of real models, where that is beside the checkout.
+/// A file of the folder of real files, where that is beside the checkout.
 pub(crate) fn shared(path: &str) -> Option<String> {
-    let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/{}"), path);
-    if Path::new(&path).is_file() {
-        return Some(path);
-    }
-    #[allow(clippy::print_stderr, reason = "a test that did not run says so")]
-    {
-        eprintln!("skipped: {path} is not there");
-    }
-    None
+    crate::shared::shared(path).map(|path| path.display().to_string())
 }
 
 /// A path to write to, of this test alone.

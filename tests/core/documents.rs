@@ -5,6 +5,8 @@ use bindpose::format::{
 };
 use bindpose::model::Model;
 
+use crate::shared::shared;
+
 /// Real files, by folder and name.
 pub(crate) const REAL_FILES: [&str; 6] = [
     "d3d12/soldier",
@@ -15,23 +17,15 @@ pub(crate) const REAL_FILES: [&str; 6] = [
     "imm/column",
 ];
 
-/// A real file, or `None` with a line that says so where the files are not beside the project.
+/// A real file, where those are at hand.
 pub(crate) fn real_file(name: &str) -> Option<Parsed> {
     let bytes = shared_bytes(&format!("models/{name}.m3d"))?;
     Some(parse(&bytes).expect("a real file parses"))
 }
 
-/// The bytes of a file from elsewhere, or `None` with a line that says so where they are not beside the project.
-#[allow(clippy::print_stderr, reason = "a test that did not run says so")]
+/// The bytes of a real file, where those are at hand.
 pub(crate) fn shared_bytes(path: &str) -> Option<Vec<u8>> {
-    let path = format!(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/{}"), path);
-    match std::fs::read(&path) {
-        Ok(bytes) => Some(bytes),
-        Err(error) => {
-            eprintln!("skipped: {path}: {error}");
-            None
-        }
-    }
+    shared(path).map(|path| std::fs::read(path).expect("the file can be read"))
 }
 
 /// The model and the codes of its findings.

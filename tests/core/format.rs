@@ -46,15 +46,9 @@ fn good(name: &str) -> Vec<u8> {
     fixture.unwrap_or_else(|| panic!("no fixture good/{name}.m3d")).bytes
 }
 
-/// A real file, where those are at hand; says so where they are not.
-#[expect(clippy::print_stderr, reason = "a check that did not run must say so")]
+/// The bytes of a real file, where those are at hand.
 fn real_file(path: &str) -> Option<Vec<u8>> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared")).join(path);
-    let bytes = std::fs::read(&path).ok();
-    if bytes.is_none() {
-        eprintln!("skipped: {} is not there", path.display());
-    }
-    bytes
+    crate::documents::shared_bytes(path)
 }
 
 /// `severity[code] line:column: message`

@@ -12,4 +12,6 @@ mod sample;
 mod scene;
 mod session;
 mod shaders;
+#[path = "../shared.rs"]
+mod shared;
 mod textbook;
