@@ -70,7 +70,7 @@ impl App {
             }
         }
 
-        let points_to_pixels = ui.pixels_per_point();
+        let points_to_pixels = ui.pixels_per_point() * session.quality().render_scale().fraction();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
         self.stage
             .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
@@ -80,6 +80,19 @@ impl App {
             ui.ctx().request_repaint();
         }
         requests
+    }
+
+    /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.
+    pub fn start_over(&mut self, ctx: &egui::Context) {
+        self.state = UiState::new(self.state.coarse_pointer());
+        self.stage.forget();
+        ctx.memory_mut(|memory| {
+            let options = std::mem::take(&mut memory.options);
+            *memory = egui::Memory::default();
+            memory.options = options;
+        });
+        ctx.set_theme(egui::ThemePreference::System);
+        ui::theme::install(ctx);
     }
 
     /// How many pictures of the model were drawn: stands still while nothing changes.
@@ -141,6 +154,17 @@ impl Stage {
             was_moving: false,
             upload_error: None,
         }
+    }
+
+    /// Takes nothing of what is on the GPU for what the session has.
+    fn forget(&mut self) {
+        self.model = None;
+        self.maps = None;
+        self.materials = None;
+        self.sky = None;
+        self.drawn = None;
+        self.was_moving = false;
+        self.upload_error = None;
     }
 
     /// Draws when the picture would be another one than the last.

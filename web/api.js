@@ -63,6 +63,8 @@ export function createApi() {
     setSpeed: command("setSpeed"),
     setLoop: command("setLoop"),
     setWrap: command("setWrap"),
+    setPass: command("setPass"),
+    setRenderScale: command("setRenderScale"),
 
     /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
     open: asked("open"),

@@ -42,6 +42,14 @@ let restarts = [];
 let restarting = false;
 let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
 
+/** Begins anew, as a visit of the page does, but without loading the program. Resolves with the state after it. */
+bindpose.reset = async () => {
+  const files = (await fetchOpening()) ?? [];
+  given.forget();
+  clearNotice();
+  return give(files, "startOver");
+};
+
 const refuse = (words) => showNotice("Some files could not be read", words);
 const given = rememberGiven();
 let received = false; // Whether a person gave anything, be it sound or not.
@@ -143,8 +151,7 @@ async function start(backend) {
   const canvas = element("canvas");
   const mine = ++starts;
   canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost", mine), { once: true });
-  const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  gpu = await viewer.start(canvas, { backend, reducedMotion }, onEvent);
+  gpu = await viewer.start(canvas, { backend, renderScale: Number(options.get("scale") ?? 1) }, onEvent);
   view.classList.add("drawn");
 }
 

@@ -23,6 +23,7 @@ export function rememberGiven() {
       else if (files.some(({ name }) => MODEL.test(name))) [model, beside, clips] = [files, [], []];
       else beside = joined(beside, files);
     },
+    forget: () => ([model, beside, clips, refused] = [null, [], [], null]),
     refused: () => refused,
     hasModel: () => Boolean(model),
     /** All of it as it is now: what is opened, `own` in place of a model that was not given, and what adds its clips. */

@@ -173,6 +173,7 @@ impl Session {
             Command::SetBindGhost(visible) => self.overlaid.set_bind_ghost(visible),
             Command::Look(command) => self.look.apply(command),
             Command::SetPass(pass, choice) => self.quality.choose(pass, choice),
+            Command::SetRenderScale(scale) => self.quality.render_scale = scale,
             Command::SetTheme(theme) => self.theme = theme,
         }
         effect

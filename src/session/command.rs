@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::files::File;
 use super::joints::JointCommand;
 use super::look::LookCommand;
-use super::quality::PassChoice;
+use super::quality::{PassChoice, RenderScale};
 use super::subsets::SubsetCommand;
 use crate::anim::{Direction, GhostPlan, LoopMode, WrapMode};
 use crate::model::{Handedness, JointIndex, Material, UpAxis};
@@ -196,6 +196,8 @@ pub enum Command {
     Look(LookCommand),
     /// Whether a costly pass is drawn.
     SetPass(Pass, PassChoice),
+    /// How fine the picture in the window is.
+    SetRenderScale(RenderScale),
     /// Dark or light surroundings.
     SetTheme(Theme),
 }

@@ -37,7 +37,7 @@ pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UnreadableMap, UsedMap};
 pub use materials::MAX_SPEC_POWER;
 pub use mixing::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
-pub use quality::{PassChoice, PassState, Quality};
+pub use quality::{PassChoice, PassState, Quality, RenderScale};
 pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
@@ -111,6 +111,21 @@ impl Session {
             aspect: 1.0,
             ..Self::default()
         }
+    }
+
+    /// As a new one, but for the window that it is seen in: closes what is open and forgets what was chosen. What counts changes
+    /// counts on, so that nobody takes what comes next for what was there.
+    pub fn start_over(&mut self, reduced_motion: bool) {
+        *self = Self {
+            aspect: self.aspect,
+            insets: self.insets,
+            theme: self.theme,
+            model_revision: self.model_revision + 1,
+            clips_revision: self.clips_revision + 1,
+            maps_revision: self.maps_revision + 1,
+            picture_revision: self.picture_revision + 1,
+            ..Self::new(reduced_motion)
+        };
     }
 
     /// The model on screen.

@@ -44,9 +44,40 @@ impl PassState {
     }
 }
 
-/// The passes of a session.
+/// The size of the view's picture in the window, as a fraction of the window's width and height in pixels. What is smaller than 1
+/// is drawn faster and looks coarser. Pictures that are saved have the size that they are asked for in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RenderScale(f32);
+
+impl RenderScale {
+    /// Coarser than this nobody sees what it is.
+    pub const LEAST: f32 = 0.1;
+
+    /// Clamps to [`RenderScale::LEAST`] … 1. NaN is 1.
+    pub fn new(fraction: f32) -> Self {
+        Self(if fraction.is_nan() {
+            1.0
+        } else {
+            fraction.clamp(Self::LEAST, 1.0)
+        })
+    }
+
+    /// The fraction.
+    pub fn fraction(self) -> f32 {
+        self.0
+    }
+}
+
+impl Default for RenderScale {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+/// The passes of a session, and how fine its picture is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Quality {
+    pub(super) render_scale: RenderScale,
     choices: [PassChoice; Pass::ALL.len()],
     given_up: Vec<Pass>,
     slow_frames: u32,
@@ -82,6 +113,11 @@ impl Quality {
         Pass::ALL.into_iter().fold(Passes::none(), |passes, pass| {
             passes.with(pass, self.choice(pass) != PassChoice::Off)
         })
+    }
+
+    /// How fine the picture in the window is.
+    pub fn render_scale(&self) -> RenderScale {
+        self.render_scale
     }
 
     /// Chooses. A new choice of [`PassChoice::Auto`] gives the device another try.

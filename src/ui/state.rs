@@ -89,6 +89,11 @@ impl UiState {
         }
     }
 
+    /// Whether fingers are the device's pointer.
+    pub fn coarse_pointer(&self) -> bool {
+        self.coarse_pointer
+    }
+
     pub(super) fn read_again(&mut self) {
         self.requests.push(Request::ReadAgain);
     }

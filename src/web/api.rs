@@ -6,7 +6,8 @@ use wasm_bindgen::prelude::*;
 use super::picture::{longest_side, picture};
 use super::picture_look::PictureLook;
 use super::{PAGE, state, tell_events};
-use crate::session::{Command, File, Session};
+use crate::scene::Pass;
+use crate::session::{Command, File, PassChoice, RenderScale, Session};
 
 /// Applies a command and asks for a frame.
 pub(super) fn apply(command: Command) {
@@ -72,6 +73,27 @@ pub fn add_clips(files: &Array) -> Result<JsValue, JsError> {
     Ok(state())
 }
 
+/// Begins anew, as a visit of the page does: every choice is forgotten and these files are opened, an array as [`open`] takes
+/// it. What the GPU has compiled stays. Returns the state.
+///
+/// # Errors
+/// When an entry is not of that shape.
+#[wasm_bindgen(js_name = startOver)]
+pub fn start_over(files: &Array) -> Result<JsValue, JsError> {
+    let files = files_of(files)?;
+    PAGE.with_borrow(|page| {
+        let Some(page) = page else { return };
+        page.session.borrow_mut().start_over(super::reduced_motion());
+        if let Some(running) = &page.running
+            && let Some(app) = running.app.borrow_mut().as_mut()
+        {
+            app.start_over(&running.ctx);
+        }
+    });
+    apply(Command::AddFiles(files));
+    Ok(state())
+}
+
 /// Files of `{name, bytes}` records.
 fn files_of(files: &Array) -> Result<Vec<File>, JsError> {
     let mut given = Vec::new();
@@ -117,6 +139,23 @@ pub fn select_clip(name: &str) -> bool {
         apply(Command::SelectClip(index));
     }
     index.is_some()
+}
+
+/// Draws a pass or leaves it out: `shadow`, `reflections`, `contact` or `ao`. Returns whether the name is one of these.
+#[wasm_bindgen(js_name = setPass)]
+pub fn set_pass(name: &str, drawn: bool) -> bool {
+    let pass = Pass::from_name(name);
+    if let Some(pass) = pass {
+        let choice = if drawn { PassChoice::On } else { PassChoice::Off };
+        apply(Command::SetPass(pass, choice));
+    }
+    pass.is_some()
+}
+
+/// Draws the view in the window with this fraction of its width and height in pixels, from 0.1 to 1.
+#[wasm_bindgen(js_name = setRenderScale)]
+pub fn set_render_scale(fraction: f32) {
+    apply(Command::SetRenderScale(RenderScale::new(fraction)));
 }
 
 /// A picture of the view without the interface: `{width, height}` to the bytes of a PNG. `transparent`, `light`, `viewMode`,

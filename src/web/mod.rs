@@ -21,7 +21,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
 use crate::app::App;
-use crate::session::Session;
+use crate::session::{Command, RenderScale, Session};
 use crate::ui::Request;
 use backend::{Chosen, Preference};
 use kept_names::KeptNames;
@@ -69,7 +69,7 @@ fn detail(name: &str, value: &str) -> JsValue {
 
 /// Starts the viewer on a canvas that was never used. The session of an earlier start goes on.
 ///
-/// `options`: `{backend: "auto" | "webgpu" | "webgl2", reducedMotion: boolean}`. Resolves with `{backend, adapter}` when the first
+/// `options`: `{backend: "auto" | "webgpu" | "webgl2", renderScale: number}`; the scale is that of a session that begins. Resolves with `{backend, adapter}` when the first
 /// frame was drawn.
 ///
 /// # Errors
@@ -79,14 +79,18 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
     LISTENER.with_borrow_mut(|listener| *listener = Some(on_event));
     let option = |name: &str| Reflect::get(&options, &name.into()).unwrap_or(JsValue::UNDEFINED);
     let preference = Preference::from_name(&option("backend").as_string().unwrap_or_default());
-    let reduced_motion = option("reducedMotion").as_bool().unwrap_or(false);
 
     stop();
     STARTS.set(STARTS.get() + 1);
     let session = PAGE.with_borrow_mut(|page| {
-        let new_page = || Page {
-            session: Rc::new(RefCell::new(Session::new(reduced_motion))),
-            running: None,
+        let new_page = || {
+            let mut session = Session::new(reduced_motion());
+            let scale = option("renderScale").as_f64().unwrap_or(1.0);
+            session.apply(Command::SetRenderScale(RenderScale::new(scale as f32)));
+            Page {
+                session: Rc::new(RefCell::new(session)),
+                running: None,
+            }
         };
         Rc::clone(&page.get_or_insert_with(new_page).session)
     });
@@ -242,7 +246,16 @@ fn owns_event(event: &egui::Event) -> bool {
 
 /// Whether the browser says that the first pointer is a finger.
 fn coarse_pointer() -> bool {
-    let query = web_sys::window().and_then(|window| window.match_media("(pointer: coarse)").ok().flatten());
+    matches_media("(pointer: coarse)")
+}
+
+/// Whether the person wants things to stand still.
+fn reduced_motion() -> bool {
+    matches_media("(prefers-reduced-motion: reduce)")
+}
+
+fn matches_media(query: &str) -> bool {
+    let query = web_sys::window().and_then(|window| window.match_media(query).ok().flatten());
     query.is_some_and(|query| query.matches())
 }
 

@@ -151,6 +151,7 @@ fn look(session: &Session) -> JsValue {
         )
         .with("exposure", look.exposure_stops)
         .with("passes", passes.done())
+        .with("renderScale", quality.render_scale().fraction())
         .done()
 }
 
