@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::browsers::{BrowserRun, RUNS};
 use crate::failure::Failure;
 
 /// What `cargo xtask --help` prints.
@@ -13,10 +14,14 @@ Bindpose's own commands. Each does its set-up itself.
         --release   optimised, slower to build
         --watch     build again when a source file changes; reload the page to see it
 
-    cargo xtask test [--browser [webgpu | webgl2]]
-        Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests on WebGPU
-        and WebGL2. Stops at the first failure and prints the command that repeats it.
-        --browser   the browser tests alone, on both or on one
+    cargo xtask test [--browser [webgpu | webgl2 | firefox | webkit]]
+        Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests: all of them
+        in Chromium on WebGPU and on WebGL2, a few in Firefox and in WebKit. Stops at the first failure and prints the
+        command that repeats it.
+        --browser   the browser tests alone: all, or those in Chromium on one backend, or those in another browser
+
+    cargo xtask pictures
+        The README's pictures, drawn by the page in Chromium: assets/page/.
 
     cargo xtask dist
         The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
@@ -31,6 +36,7 @@ pub(crate) enum Task {
     Help,
     Serve(ServeOptions),
     Test(TestOptions),
+    Pictures,
     Dist,
 }
 
@@ -49,12 +55,9 @@ pub(crate) struct ServeOptions {
 pub(crate) struct TestOptions {
     /// Only the browser tests.
     pub(crate) browser_alone: bool,
-    /// What the browser draws with, in turn.
-    pub(crate) backends: Vec<&'static str>,
+    /// The browsers, in turn.
+    pub(crate) browsers: Vec<BrowserRun>,
 }
-
-/// Every backend that the page can draw with.
-pub(crate) const BACKENDS: [&str; 2] = ["webgpu", "webgl2"];
 
 /// Reads the arguments after the program's name.
 pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Failure> {
@@ -67,6 +70,7 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
     match name.as_str() {
         "serve" => serve_options(rest).map(Task::Serve),
         "test" => test_options(&rest).map(Task::Test),
+        "pictures" => nothing_more("pictures", &rest).map(|()| Task::Pictures),
         "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
         other => Err(Failure::Usage(format!("there is no command `{other}`"))),
     }
@@ -83,23 +87,23 @@ fn nothing_more(name: &str, rest: &[String]) -> Result<(), Failure> {
 
 fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
     let words: Vec<&str> = rest.iter().map(String::as_str).collect();
-    let both = BACKENDS.to_vec();
     match words[..] {
         [] => Ok(TestOptions {
             browser_alone: false,
-            backends: both,
+            browsers: RUNS.to_vec(),
         }),
         ["--browser"] => Ok(TestOptions {
             browser_alone: true,
-            backends: both,
+            browsers: RUNS.to_vec(),
         }),
-        ["--browser", name] => match BACKENDS.into_iter().find(|backend| *backend == name) {
-            Some(backend) => Ok(TestOptions {
+        ["--browser", name] => match RUNS.into_iter().find(|run| run.name() == name) {
+            Some(run) => Ok(TestOptions {
                 browser_alone: true,
-                backends: vec![backend],
+                browsers: vec![run],
             }),
             None => Err(Failure::Usage(format!(
-                "`--browser` takes webgpu or webgl2, but `{name}` was given"
+                "`--browser` takes {}, but `{name}` was given",
+                RUNS.map(BrowserRun::name).join(", ")
             ))),
         },
         _ => Err(Failure::Usage(format!("`test` does not know `{}`", words.join(" ")))),
@@ -164,12 +168,12 @@ mod tests {
         assert_eq!(parsed("serve --watch --port=0"), Ok(Task::Serve(expected)));
         let expected = TestOptions {
             browser_alone: true,
-            backends: vec!["webgl2"],
+            browsers: vec![RUNS[1]],
         };
         assert_eq!(parsed("test --browser webgl2"), Ok(Task::Test(expected)));
         let expected = TestOptions {
             browser_alone: false,
-            backends: vec!["webgpu", "webgl2"],
+            browsers: RUNS.to_vec(),
         };
         assert_eq!(parsed("test"), Ok(Task::Test(expected)));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));

@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use crate::absent::{self, Absent};
 use crate::args::TestOptions;
+use crate::browsers::{Browser, BrowserRun, RUNS};
 use crate::failure::Failure;
 use crate::prerequisites;
 use crate::process::Line;
@@ -16,35 +18,54 @@ const BROWSER_TESTS: &str = "tests/browser";
 /// Runs all of them, or those in the browser alone.
 pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     let mut steps = Steps::default();
+    let absent = Absent::new()?;
     steps.step("What the tests draw with", prerequisites::ensure)?;
     steps.step("The wasm target", wasm::ensure_target)?;
     if !options.browser_alone {
-        native(&mut steps)?;
+        native(&mut steps, &absent)?;
     }
+    let page = page(&mut steps)?;
+    let (here, elsewhere): (Vec<BrowserRun>, Vec<BrowserRun>) =
+        options.browsers.iter().partition(|run| run.browser.is_run_here());
+    for run in here {
+        steps.step(&format!("The page in {run}"), || browser(run, &page, &absent))?;
+    }
+    steps.summary();
+    for run in elsewhere {
+        eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");
+    }
+    absent.tell()
+}
+
+/// Draws the README's pictures.
+pub(crate) fn pictures() -> Result<(), Failure> {
+    let mut steps = Steps::default();
+    steps.step("What the pictures are drawn with", prerequisites::ensure)?;
+    let page = page(&mut steps)?;
+    let run = RUNS[1];
+    let tests = "tests/browser/readme.js";
+    steps.step("The pictures", || node(run, tests, &page).run())
+}
+
+/// Builds the page, serves it and brings what drives the browsers. Gives its address.
+fn page(steps: &mut Steps) -> Result<String, Failure> {
     let pkg = steps.step("The wasm", || wasm::build(Profile::Dev))?;
     let page = format!("http://{}/", serve::start(serve::listen(0)?, Site::new(pkg))?);
-    steps.step("What drives the browser", || {
+    steps.step("What drives the browsers", || {
         Line::new(prerequisites::NPM)
             .args(["ci", "--no-progress", "--prefix", BROWSER_TESTS])
             .run()
     })?;
-    for backend in &options.backends {
-        steps.step(&format!("The page in Chromium on {backend}"), || {
-            browser(backend, &page)
-        })?;
-    }
-    steps.summary();
-    Ok(())
+    Ok(page)
 }
 
 /// What needs no browser.
-fn native(steps: &mut Steps) -> Result<(), Failure> {
+fn native(steps: &mut Steps, absent: &Absent) -> Result<(), Failure> {
     steps.step("Formatting", || Line::cargo().args(["fmt", "--all", "--check"]).run())?;
-    steps.step("Lints: the core alone", || {
-        clippy(&["--no-default-features", "--all-targets"])
-    })?;
+    // The library only: its tests bring egui and wgpu, which would be checked once more with other features.
+    steps.step("Lints: the core alone", || clippy(&["--no-default-features", "--lib"]))?;
     steps.step("Lints: all that is native", || {
-        clippy(&["--workspace", "--all-targets", "--features", "viewer,cli"])
+        clippy(&["--workspace", "--all-targets"])
     })?;
     steps.step("Lints: the browser", || {
         clippy(&[
@@ -65,15 +86,13 @@ fn native(steps: &mut Steps) -> Result<(), Failure> {
     // The tests marked as needing a GPU run too: the software one is there by now.
     steps.step("Native tests", || {
         Line::cargo()
-            .args([
-                "test",
-                "--workspace",
-                "--features",
-                "viewer,cli",
-                "--",
-                "--include-ignored",
-            ])
+            .env(absent::VARIABLE, absent.list())
+            .args(["test", "--package", "bindpose", "--", "--include-ignored"])
             .run()
+    })?;
+    // Apart from the others: together, cargo would build what binds the wasm a second time, with the features of both.
+    steps.step("Tests of these commands", || {
+        Line::cargo().args(["test", "--package", "xtask"]).run()
     })
 }
 
@@ -85,17 +104,33 @@ fn clippy(what: &[&str]) -> Result<(), Failure> {
         .run()
 }
 
-fn browser(backend: &str, page: &str) -> Result<(), Failure> {
-    let outcome = Line::new("node")
-        .env("CHROMIUM", prerequisites::chromium().unwrap_or_default())
+/// The line that runs a file of tests in a browser.
+fn node(run: BrowserRun, tests: &str, page: &str) -> Line {
+    let node = ["--test", "--test-reporter=spec", tests];
+    let line = match run.browser {
+        Browser::Chromium => Line::new("node").args(node),
+        // These two draw in a window only, and on a GPU of software only when they are told so.
+        Browser::Firefox | Browser::Webkit => Line::new("xvfb-run")
+            .args(["--auto-servernum", "--server-args=-screen 0 1280x1024x24", "node"])
+            .args(node)
+            .env("LIBGL_ALWAYS_SOFTWARE", "1"),
+    };
+    line.env("BROWSER", run.browser.name())
+        .env("PROGRAM", prerequisites::program(run.browser).unwrap_or_default())
         .env("PAGE", page)
-        .env("BACKEND", backend)
-        .args(["--test", "--test-reporter=spec", "tests/browser/all.js"])
-        .run();
+        .env("BACKEND", run.backend)
+}
+
+fn browser(run: BrowserRun, page: &str, absent: &Absent) -> Result<(), Failure> {
+    let tests = match run.browser {
+        Browser::Chromium => "tests/browser/all.js",
+        Browser::Firefox | Browser::Webkit => "tests/browser/short.js",
+    };
+    let outcome = node(run, tests, page).env(absent::VARIABLE, absent.list()).run();
     outcome.map_err(|failure| match failure {
         // The page that was served here ends with this program, so node alone could not repeat it.
         Failure::Command { why, .. } => Failure::Command {
-            shown: format!("cargo xtask test --browser {backend}"),
+            shown: format!("cargo xtask test --browser {}", run.name()),
             why,
         },
         other => other,

@@ -1,4 +1,4 @@
-//! The project's own commands, run as `cargo xtask serve | test | dist`.
+//! The project's own commands, run as `cargo xtask serve | test | pictures | dist`.
 //!
 //! Each does all of its set-up itself, so that a fresh machine with rustup needs nothing else: the wasm target is added,
 //! wasm-bindgen is a library here rather than a tool to install, and what the tests draw with is installed or named.
@@ -11,10 +11,14 @@
 //! | [`serve`] | the site over HTTP on this machine alone |
 //! | [`http`] | as much of the protocol as that takes |
 //! | [`check`] | every check, in order |
+//! | [`browsers`] | which browsers the page is tested in, and what they draw with |
 //! | [`prerequisites`] | what the checks need beside Rust |
+//! | [`absent`] | which real files the tests could not look at |
 //! | [`dist`] | the static site: hashed names, compressed twice |
 
+mod absent;
 mod args;
+mod browsers;
 mod check;
 mod compress;
 mod dist;
@@ -41,6 +45,7 @@ fn main() -> ExitCode {
         }
         Task::Serve(options) => serve::run(&options),
         Task::Test(options) => check::run(&options),
+        Task::Pictures => check::pictures(),
         Task::Dist => dist::run(),
     });
     match outcome {

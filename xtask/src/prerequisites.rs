@@ -1,10 +1,11 @@
-//! What the checks need beside Rust: a software GPU, Chromium and Node.
+//! What the checks need beside Rust: a software GPU, three browsers, a display for two of them, and Node.
 //!
 //! Where something is missing it is installed when that is possible (Debian and its kin, as root); otherwise the command
 //! to run is named. Nothing is skipped.
 
 use std::path::{Path, PathBuf};
 
+use crate::browsers::Browser;
 use crate::failure::Failure;
 use crate::process::Line;
 
@@ -16,6 +17,17 @@ pub(crate) const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
 /// The names that Chromium goes by.
 const CHROMIUM_NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome"];
+
+/// The names that Firefox goes by.
+const FIREFOX_NAMES: [&str; 2] = ["firefox-esr", "firefox"];
+
+/// WebKit's own small browser, which Debian keeps beside the library, in a folder for each version of its interface.
+const MINI_BROWSERS: [&str; 4] = [
+    "/usr/lib/x86_64-linux-gnu/webkitgtk-6.0/MiniBrowser",
+    "/usr/lib/x86_64-linux-gnu/webkit2gtk-4.1/MiniBrowser",
+    "/usr/lib/aarch64-linux-gnu/webkitgtk-6.0/MiniBrowser",
+    "/usr/lib/aarch64-linux-gnu/webkit2gtk-4.1/MiniBrowser",
+];
 
 /// Where the Vulkan loader looks for drivers.
 const VULKAN_DRIVERS: [&str; 3] = [
@@ -31,7 +43,7 @@ struct Need {
     is_there: fn() -> bool,
 }
 
-const NEEDS: [Need; 4] = [
+const NEEDS: [Need; 7] = [
     Need {
         what: "a software Vulkan and GL driver (Mesa llvmpipe)",
         packages: &["mesa-vulkan-drivers", "libgl1-mesa-dri", "libegl1", "libgles2"],
@@ -40,7 +52,24 @@ const NEEDS: [Need; 4] = [
     Need {
         what: "Chromium",
         packages: &["chromium", "fonts-dejavu-core"],
-        is_there: || chromium().is_some(),
+        is_there: || program(Browser::Chromium).is_some(),
+    },
+    Need {
+        what: "Firefox",
+        packages: &["firefox-esr"],
+        is_there: || !Browser::Firefox.is_run_here() || program(Browser::Firefox).is_some(),
+    },
+    Need {
+        what: "WebKit's MiniBrowser with WebKitWebDriver",
+        packages: &["webkit2gtk-driver"],
+        is_there: || {
+            !Browser::Webkit.is_run_here() || program(Browser::Webkit).is_some() && on_path("WebKitWebDriver").is_some()
+        },
+    },
+    Need {
+        what: "a display without a screen (Xvfb)",
+        packages: &["xvfb", "xauth"],
+        is_there: || !cfg!(target_os = "linux") || on_path("xvfb-run").is_some() && on_path("xauth").is_some(),
     },
     Need {
         what: "Node 18 or newer",
@@ -101,17 +130,19 @@ fn remedy(packages: &[&str]) -> String {
     }
 }
 
-/// The Chromium to drive: what `CHROMIUM` names, else the first of its names on the `PATH`.
-pub(crate) fn chromium() -> Option<PathBuf> {
-    match std::env::var_os("CHROMIUM") {
-        Some(named) => Some(PathBuf::from(named)).filter(|path| path.is_file()),
-        None => {
-            let mac = PathBuf::from("/Applications/Chromium.app/Contents/MacOS/Chromium");
-            CHROMIUM_NAMES
-                .into_iter()
-                .find_map(on_path)
-                .or_else(|| Some(mac).filter(|path| path.is_file()))
-        }
+/// The program of a browser: what `CHROMIUM`, `FIREFOX` or `WEBKIT` names, else where it is found.
+pub(crate) fn program(browser: Browser) -> Option<PathBuf> {
+    if let Some(named) = std::env::var_os(browser.name().to_uppercase()) {
+        return Some(PathBuf::from(named)).filter(|path| path.is_file());
+    }
+    let first_file = |paths: &[&str]| paths.iter().map(PathBuf::from).find(|path: &PathBuf| path.is_file());
+    match browser {
+        Browser::Chromium => CHROMIUM_NAMES
+            .into_iter()
+            .find_map(on_path)
+            .or_else(|| first_file(&["/Applications/Chromium.app/Contents/MacOS/Chromium"])),
+        Browser::Firefox => FIREFOX_NAMES.into_iter().find_map(on_path),
+        Browser::Webkit => first_file(&MINI_BROWSERS),
     }
 }
 
