@@ -1,15 +1,15 @@
 // A real Chromium on one backend, and what the tests do with its pages.
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, readdirSync, rmSync } from "node:fs";
+import { appendFileSync, existsSync, mkdirSync, readdirSync, rmSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { after, test as nodeTest } from "node:test";
 import { chromium } from "playwright-core";
 
-/** Given by `cargo xtask test`: where the page is, what draws it and the browser's program. */
+/** Given by `cargo xtask test`: where the page is, what draws it and Chromium's program. */
 export const PAGE = required("PAGE");
 export const BACKEND = required("BACKEND");
-const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const PROGRAM = process.env.PROGRAM ?? "/usr/bin/chromium";
 
 const path = (relative) => fileURLToPath(new URL(relative, import.meta.url));
 
@@ -61,27 +61,46 @@ for (const picture of filesIn(OUT, ".png")) {
   if (picture.startsWith(`${OUT}${BACKEND}-`)) rmSync(picture);
 }
 mkdirSync(OUT, { recursive: true });
-const browsers = new Map();
-after(() => Promise.all(Array.from(browsers.values(), (browser) => browser.close())));
+/** Every pass that can be left out: a GPU of software draws several times as many frames without them. */
+const PASSES = ["shadow", "reflections", "contact", "ao"];
+/** And still more where the view has a twenty-fifth of its pixels. */
+const COARSE = 0.2;
 
-/** The browser with the screen's own scale: emulating it on a page leaves the size of a canvas in pixels as it was. */
-async function browserAt(scale) {
-  if (!browsers.has(scale)) {
+/** What differs between a desk and a phone is set when the browser starts: emulating a screen's scale on a page leaves the size of a canvas as it was. */
+const DEVICES = {
+  desk: { scale: 1, context: { viewport: VIEWPORT } },
+  phone: { scale: 2, context: { viewport: null, hasTouch: true } },
+};
+const started = new Map();
+after(() => Promise.all(Array.from(started.values(), async ({ browser }) => browser.close())));
+
+/** The browser of a device and its one context: pages in one process share the compiled program. */
+async function browserOf(device) {
+  if (!started.has(device)) {
     const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
-    const args = [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, `--force-device-scale-factor=${scale}`];
-    browsers.set(scale, await chromium.launch({ executablePath: CHROMIUM, args }));
+    const scale = `--force-device-scale-factor=${DEVICES[device].scale}`;
+    const args = [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, scale, "--renderer-process-limit=1"];
+    const browser = await chromium.launch({ executablePath: PROGRAM, args });
+    started.set(device, { browser, context: await browser.newContext(DEVICES[device].context), shared: null });
   }
-  return browsers.get(scale);
+  return started.get(device);
 }
 
 /** What sets the size of a phone's page. */
 const screens = new WeakMap();
+/** The errors that a page has logged. */
+const problemsOf = new WeakMap();
 
-/** A page on a small screen with two pixels to the point, touched by fingers. */
-async function phonePage(context) {
+/** A page that nothing was loaded into. */
+async function freshPage(device) {
+  const { context } = await browserOf(device);
   const page = await context.newPage();
-  screens.set(page, await context.newCDPSession(page));
-  await turnPhone(page, 390, 844);
+  page.setDefaultTimeout(PATIENCE_MS);
+  const problems = [];
+  problemsOf.set(page, problems);
+  page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
+  page.on("pageerror", (error) => problems.push(error.message));
+  if (device === "phone") screens.set(page, await context.newCDPSession(page));
   return page;
 }
 
@@ -90,34 +109,90 @@ export async function turnPhone(page, width, height) {
   await screens.get(page).send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 0, mobile: false });
 }
 
+/** Gives a page its window and what the person prefers. */
+async function furnish(page, device, { viewport = VIEWPORT, colorScheme = "dark", reducedMotion = "no-preference" }) {
+  await page.emulateMedia({ colorScheme, reducedMotion });
+  if (device === "phone") await turnPhone(page, 390, 844);
+  else await page.setViewportSize(viewport);
+}
+
+/** The page that tests of a device have one after the other, as a visit of it begins. */
+async function sharedPage(device, options) {
+  const own = await browserOf(device);
+  if (own.shared) {
+    const page = own.shared;
+    problemsOf.get(page).length = 0;
+    await furnish(page, device, options);
+    await page.mouse.move(0, 0);
+    await page.evaluate(async () => {
+      document.activeElement?.blur();
+      localStorage.clear();
+      await bindpose.reset();
+    });
+    return page;
+  }
+  const page = await freshPage(device);
+  await furnish(page, device, options);
+  await page.goto(`${PAGE}?backend=${BACKEND}&scale=${COARSE}`, { timeout: PATIENCE_MS });
+  await running(page);
+  own.shared = page;
+  return page;
+}
+
 /**
- * A test with a page of its own. `options` go to the browser's context; `query` is added to the address; `prepare` may
- * change the page before it loads; `bare` does not wait for the viewer; `phone` gives a small screen. The test fails when
- * the page logs an error, unless `expectErrors` says that it may, and once it has failed twice.
+ * A test in the page. `viewport`, `colorScheme` and `reducedMotion` are the person's; `phone` gives a small screen under fingers;
+ * `fine` draws all that the view can have, with every pixel: other tests are quicker without. Tests share a page, which begins anew for each. A test has a page of its own with
+ * `own`, for one that leaves traces in the page, or when it says how the page is loaded: `query` is added to the address, `prepare` may
+ * change the page before, `bare` does not wait for the viewer. A test fails when the page logs an error, unless `expectErrors` says
+ * that it may, and once it has failed twice.
  */
 export function test(name, options, body) {
-  const { query = `?backend=${BACKEND}`, prepare, expectErrors = false, skip, bare = false, phone = false, ...context } = options;
+  const { query, prepare, expectErrors = false, skip, bare = false, phone = false, fine = false, own = false, ...person } = options;
+  const device = phone ? "phone" : "desk";
+  const alone = own || bare || query !== undefined || prepare !== undefined;
   const attempt = async () => {
-    const screen = phone ? { viewport: null, hasTouch: true } : { viewport: VIEWPORT };
-    const own = await (await browserAt(phone ? 2 : 1)).newContext({ ...screen, colorScheme: "dark", ...context });
-    const problems = [];
+    let page;
     try {
-      const page = phone ? await phonePage(own) : await own.newPage();
-      page.setDefaultTimeout(PATIENCE_MS);
-      page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
-      page.on("pageerror", (error) => problems.push(error.message));
-      await prepare?.(page);
-      await page.goto(PAGE + query, { timeout: PATIENCE_MS });
-      if (!bare) await running(page);
+      if (alone) {
+        page = await freshPage(device);
+        await furnish(page, device, person);
+        await prepare?.(page);
+        const scale = fine ? 1 : COARSE;
+        await page.goto(PAGE + (query ?? `?backend=${BACKEND}&scale=${scale}`), { timeout: PATIENCE_MS });
+        if (!bare) await running(page);
+      } else {
+        page = await sharedPage(device, person);
+      }
+      if (!bare) {
+        const [left, scale] = fine ? [[], 1] : [PASSES, COARSE];
+        await page.evaluate(([left, scale]) => {
+          left.forEach((pass) => bindpose.setPass(pass, false));
+          bindpose.setRenderScale(scale);
+        }, [left, scale]);
+        // A press on a panel that was not drawn yet would go to what is behind it.
+        await settled(page);
+      }
       await body(page);
+      const problems = problemsOf.get(page);
       if (!expectErrors) assert.deepEqual(problems, [], "the page logged errors");
+      else problems.length = 0;
+      // A page that goes on playing behind the next one would take its time.
+      if (!alone) return await call(page, "pause");
     } catch (error) {
-      const [page] = own.pages();
       await page?.screenshot({ path: `${OUT}${BACKEND}-FAILED-${name.replace(/\W+/g, "-")}.png` }).catch(() => {});
+      const problems = page ? problemsOf.get(page) : [];
       if (problems.length) error.message += `\nThe page logged: ${problems.join("\n")}`;
+      // Nobody gets a page on which something went wrong.
+      if (!alone && page) {
+        (await browserOf(device)).shared = null;
+        await page.close().catch(() => {});
+      }
       throw error;
     } finally {
-      await own.close();
+      if (alone && page) {
+        await page.evaluate(() => localStorage.clear()).catch(() => {});
+        await page.close();
+      }
     }
   };
   // Real input meets a page that a software GPU draws a few times a second: a press can come before what it is meant for. What
@@ -136,8 +211,6 @@ export async function running(page) {
   assert.equal(await page.textContent("#fault-title"), "", await page.textContent("#fault-details"));
   assert.equal((await state(page)).backend, BACKEND, "the backend that is really in use");
   await page.waitForFunction(() => document.getElementById("shell").hidden);
-  // A press on a panel that was not drawn yet would go to what is behind it.
-  await settled(page);
 }
 
 /** What `bindpose.state()` says, as plain data. */
@@ -227,9 +300,11 @@ export function filesIn(folder, ending) {
   return readdirSync(folder).filter((name) => name.endsWith(ending)).sort().map((name) => folder + name);
 }
 
-/** For `skip`: false when the file is there, else the words that say what was not looked at. */
+/** For `skip`: false when the file of `../shared` is there, else the words that say what was not looked at, which the end of the checks repeats. */
 export function unless(file) {
-  return existsSync(file) ? false : `skipped: ${file} is not on this machine`;
+  if (existsSync(file)) return false;
+  if (process.env.BINDPOSE_ABSENT) appendFileSync(process.env.BINDPOSE_ABSENT, `${file.slice(SHARED.length)}\n`);
+  return `skipped: ${file} is not on this machine`;
 }
 
 function required(name) {

@@ -77,7 +77,7 @@ test("a GPU that goes away again and again ends in words", { prepare: watchGpu, 
   await keep(page, "fault-lost");
 });
 
-test("thirty loads in a row do not grow the memory", {}, async (page) => {
+test("thirty loads in a row do not grow the memory", { own: true }, async (page) => {
   const soldier = `${SHARED}models/d3d12/soldier.m3d`;
   const path = existsSync(soldier) ? soldier : SAMPLE;
   await call(page, "pause");

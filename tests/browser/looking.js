@@ -9,7 +9,7 @@ import { difference, picture } from "./picture.js";
 import { GROUND, LIGHT_BUTTON, LIGHT_POPOVER, SPLIT_HANDLE } from "./widgets.js";
 
 /** The sample waits on its first frame, so that only what a test does can change the picture. */
-const STILL = { reducedMotion: "reduce" };
+const STILL = { reducedMotion: "reduce", fine: true };
 
 /** Gives the view the keyboard, with a click that selects nothing. */
 async function focusView(page) {

@@ -44,7 +44,7 @@ async function watchReads(page) {
   });
 }
 
-test("a dropped folder opens with the paths in it", {}, async (page) => {
+test("a dropped folder opens with the paths in it", { own: true }, async (page) => {
   const { folder } = copyOfSample("pack", "models", "deep", "hero.m3d");
   writeFileSync(join(folder, "pack", "readme.md"), "not for the viewer");
   await watchReads(page);
@@ -54,7 +54,7 @@ test("a dropped folder opens with the paths in it", {}, async (page) => {
   assert.deepEqual(await page.evaluate(() => globalThis.reads), ["hero.m3d"], "and only what is of use");
 });
 
-test("a folder of more entries than one call gives is read to its end", {}, async (page) => {
+test("a folder of more entries than one call gives is read to its end", { own: true }, async (page) => {
   const { folder } = copyOfSample("pack", "zz.m3d");
   const pictures = Array.from({ length: 250 }, (_, index) => `picture${index}.png`);
   for (const name of pictures) writeFileSync(join(folder, "pack", name), "");

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { CENTRE, LARGE, PAGE, call, keep, settled, state, test, until } from "./harness.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
 
-test("the page opens the sample, draws it and logs no error", { viewport: LARGE }, async (page) => {
+test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true }, async (page) => {
   const { model, playing, error } = await state(page);
   assert.equal(model.name, "figure.m3d");
   assert.ok(model.clips.length >= 2, "a walk and a wave at least");
@@ -34,14 +34,14 @@ test("the sample opens although one of its maps does not arrive", {
   assert.deepEqual(textures, { named: 8, missing: ["suit_norm.png"], unreadable: [] });
 });
 
-test("the light scheme is followed", { colorScheme: "light", viewport: LARGE }, async (page) => {
+test("the light scheme is followed", { colorScheme: "light", viewport: LARGE, fine: true }, async (page) => {
   await call(page, "pause");
   await settled(page);
   await keep(page, "sample-light");
   assert.ok((await coloursOnScreen(page)) > 200);
 });
 
-test("a phone's screen works", { phone: true }, async (page) => {
+test("a phone's screen works", { phone: true, fine: true }, async (page) => {
   await call(page, "pause");
   await settled(page);
   await keep(page, "phone-dark");
@@ -83,7 +83,7 @@ test("nothing is drawn while nothing changes", {}, async (page) => {
   assert.equal(after - before, 0, "frames drawn in a second of rest");
 });
 
-test("under reduced motion the sample waits on its first frame", { reducedMotion: "reduce" }, async (page) => {
+test("under reduced motion the sample waits on its first frame", { own: true, reducedMotion: "reduce" }, async (page) => {
   const { playing, timeSecs } = await state(page);
   assert.equal(playing, false);
   assert.equal(timeSecs, 0);

@@ -1,0 +1,63 @@
+// The README's pictures: the page as it stands, with its own sample. `cargo xtask pictures` runs this and writes assets/page/.
+
+import { mkdirSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { atRest, call, settled, state, test, until } from "./harness.js";
+
+const FOLDER = fileURLToPath(new URL("../../assets/page/", import.meta.url));
+mkdirSync(FOLDER, { recursive: true });
+
+/** The window of all of them. */
+const WINDOW = { width: 1280, height: 800 };
+const STILL = { viewport: WINDOW, reducedMotion: "reduce", fine: true, own: true };
+/** Places in that window: ground beside the figure, its left hand, and what is on its bars. */
+const GROUND = [820, 640];
+const HAND = [640, 420];
+const SHEET_BUTTON = [1250, 760];
+const LIGHT_BUTTON = [956, 30];
+const SPLIT_SWITCH = [1242, 140];
+
+/** In the middle of a step. */
+async function inStep(page) {
+  await call(page, "pause");
+  await call(page, "seek", 0.4);
+  await atRest(page);
+}
+
+async function keep(page, name) {
+  await page.mouse.move(...GROUND);
+  await atRest(page);
+  await page.screenshot({ path: `${FOLDER}${name}.jpg`, type: "jpeg", quality: 88 });
+}
+
+test("light", { ...STILL, colorScheme: "light" }, async (page) => {
+  await inStep(page);
+  await keep(page, "light");
+});
+
+test("dark, with the timeline open", STILL, async (page) => {
+  await inStep(page);
+  await page.mouse.click(...SHEET_BUTTON);
+  await keep(page, "dark-timeline");
+});
+
+test("one vertex explained", STILL, async (page) => {
+  await inStep(page);
+  await page.mouse.click(...GROUND);
+  await page.keyboard.press("b");
+  await page.keyboard.press("w");
+  await until(page, ({ skeleton }) => skeleton.skinView !== null);
+  await page.mouse.click(...HAND);
+  await until(page, ({ skeleton }) => skeleton.vertex !== null);
+  await keep(page, "vertex");
+});
+
+test("both lights side by side", STILL, async (page) => {
+  await inStep(page);
+  await page.mouse.click(...LIGHT_BUTTON);
+  await settled(page);
+  await page.mouse.click(...SPLIT_SWITCH);
+  await until(page, ({ look }) => look.split !== null);
+  await page.keyboard.press("Escape");
+  await keep(page, "both-lights");
+});
