@@ -82,11 +82,18 @@ pub struct Diagnostic {
     pub position: Option<Position>,
     /// How many bytes from `position` on are meant; 0 when only the point is known.
     pub length: u32,
-    /// The part of the model it is about.
+    /// The part of the model it is about; the first one when there are several.
     pub subject: Option<Subject>,
+    /// How many alike things it tells of, rows of the file or parts of the model; 1 for a single one.
+    pub count: u32,
+    /// Where the first of them stand, at most [`Diagnostic::MOST_PLACES`]; the first is `position`. Empty without a place.
+    pub places: Vec<Position>,
 }
 
 impl Diagnostic {
+    /// How many of many alike things are given their places.
+    pub const MOST_PLACES: usize = 4;
+
     /// A finding that has no place in a file and is about no part of a model.
     pub(crate) fn without_place(severity: Severity, code: &'static str, message: String) -> Self {
         Self {
@@ -98,6 +105,8 @@ impl Diagnostic {
             position: None,
             length: 0,
             subject: None,
+            count: 1,
+            places: Vec::new(),
         }
     }
 }

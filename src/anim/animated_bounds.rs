@@ -3,13 +3,10 @@
 use glam::Vec3;
 
 use super::{Palette, PoseBuffers, skin_positions};
-use crate::model::{Aabb, Clip, Mesh, Model, Track};
+use crate::model::{Aabb, Clip, Mesh, Model};
 
 /// Vertices skinned at most for one box: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
-
-/// Times looked at. A clip with more key times is looked at evenly over its span instead.
-const MOST_TIMES: usize = 1_000;
 
 /// Box of the skinned vertices over a clip, in model space. A static model keeps its bind bounds.
 ///
@@ -22,7 +19,7 @@ pub fn animated_bounds(model: &Model, clip: &Clip) -> Aabb {
     if mesh.influences.is_empty() {
         return model.bind_bounds();
     }
-    let times_secs = key_times(clip);
+    let times_secs = clip.looked_at_secs();
     let exact = mesh.vertex_count().saturating_mul(times_secs.len()) <= VERTEX_BUDGET;
     let carried = if exact { None } else { Some(CarriedBoxes::new(model)) };
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
@@ -34,23 +31,6 @@ pub fn animated_bounds(model: &Model, clip: &Clip) -> Aabb {
             None => skinned_bounds(mesh, &buffers.palette, &mut positions),
         })
     })
-}
-
-/// Distinct key times of all tracks inside the clip, in order; at least one.
-fn key_times(clip: &Clip) -> Vec<f32> {
-    let span = clip.start_secs..=clip.end_secs;
-    let mut times_secs: Vec<f32> = clip.tracks.iter().flat_map(Track::times_secs).copied().collect();
-    times_secs.retain(|time_secs| span.contains(time_secs));
-    times_secs.push(clip.start_secs);
-    times_secs.sort_unstable_by(f32::total_cmp);
-    times_secs.dedup();
-    if times_secs.len() > MOST_TIMES {
-        let step_secs = clip.duration_secs() / (MOST_TIMES - 1) as f32;
-        times_secs = (0..MOST_TIMES)
-            .map(|step| clip.start_secs + step as f32 * step_secs)
-            .collect();
-    }
-    times_secs
 }
 
 fn skinned_bounds(mesh: &Mesh, palette: &Palette, positions: &mut Vec<Vec3>) -> Aabb {

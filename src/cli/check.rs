@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::finding::{Finding, write_finding};
 use super::{Failure, Outcome, input};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::format;
+use crate::format::{self, LineIndex};
 use crate::model::Model;
 
 /// List what is wrong with files, or was mended while reading them.
@@ -29,7 +29,7 @@ const JSON: &str = "\
 Output:
   FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
-  Findings come in the order of the file.
+  Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
 
 JSON: an array with one object for each file that could be read
   file                the path as given
@@ -39,6 +39,8 @@ JSON: an array with one object for each file that could be read
     message           one sentence
     line, column      place, both from 1, the column in bytes; null when it is about the whole file
     expected, found   what belonged there and what stood there, in a few words, or null
+    count             how many alike things it tells of, 1 or more
+    places            line and column of the first four of them; empty when it is about the whole file
 
 A file that cannot be read is named on standard error; the others are still checked.
 
@@ -71,11 +73,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         if findings.iter().any(|finding| finding.severity == Severity::Error) {
             outcome = outcome.max(Outcome::FileHasErrors);
         }
-        if !arguments.json {
+        if !arguments.json && !findings.is_empty() {
+            let lines = LineIndex::new(&file.bytes);
             for finding in &findings {
-                let excerpt = finding
-                    .position
-                    .map(|position| format::excerpt(&file.bytes, position, finding.length));
+                let excerpt = finding.position.map(|position| lines.excerpt(position, finding.length));
                 write_finding(out, path, finding, excerpt.as_ref())?;
             }
         }

@@ -1,11 +1,11 @@
 //! Why a command did not do what was asked.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::Outcome;
 use super::finding::write_finding;
-use super::text::Plain;
+use super::text::{OneLine, Plain};
 use crate::image::EncodeError;
 use crate::render::device::{Backend, DeviceError};
 use crate::render::{ReadBackError, UploadError};
@@ -14,18 +14,32 @@ use crate::session::LoadError;
 /// A failure, in words for standard error.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
-    #[error("{} cannot be read: {reason}", path.display())]
+    #[error("{} cannot be read: {reason}", named(path))]
     Unreadable { path: PathBuf, reason: io::Error },
     /// Shown as a finding, see [`Failure::report`].
-    #[error("{} has an error", path.display())]
+    #[error("{} has an error", named(path))]
     Refused { path: PathBuf, error: Box<LoadError> },
-    #[error("there is no clip \"{asked}\" in {}; {}", path.display(), listed(known))]
+    #[error("there is no clip \"{asked}\" in {}; {}", named(path), listed(known))]
     UnknownClip {
         path: PathBuf,
         asked: String,
         known: Vec<String>,
     },
-    #[error("{} has several clips; say which one with --clip; {}", path.display(), listed(known))]
+    /// A pose that cannot be said in numbers.
+    #[error(
+        "{}: at {time_secs} s of \"{clip}\" {what} {number} is taken beyond what numbers hold",
+        named(path)
+    )]
+    Overflows {
+        path: PathBuf,
+        clip: String,
+        time_secs: f32,
+        /// `bone` or `vertex`.
+        what: &'static str,
+        /// Its number in the file.
+        number: usize,
+    },
+    #[error("{} has several clips; say which one with --clip; {}", named(path), listed(known))]
     ClipNotNamed { path: PathBuf, known: Vec<String> },
     #[error("{0}")]
     NoDevice(#[from] DeviceError),
@@ -47,7 +61,7 @@ pub(super) enum Failure {
     ReadBack(#[from] ReadBackError),
     #[error("{0}")]
     Encode(#[from] EncodeError),
-    #[error("{} cannot be written: {reason}", path.display())]
+    #[error("{} cannot be written: {reason}", named(path))]
     Unwritable { path: PathBuf, reason: io::Error },
     #[error("the result cannot be written: {0}")]
     Output(#[from] io::Error),
@@ -66,10 +80,18 @@ impl Failure {
             }
             _ => {
                 let _ = writeln!(err, "error: {}", Plain(&self.to_string()));
-                Outcome::Failed
+                match self {
+                    Self::Overflows { .. } => Outcome::FileHasErrors,
+                    _ => Outcome::Failed,
+                }
             }
         }
     }
+}
+
+/// A path as a message may hold it.
+fn named(path: &Path) -> String {
+    OneLine(&path.display().to_string()).to_string()
 }
 
 /// `it has "Walk", "Run"`.

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::text::Plain;
-use crate::diagnostic::Diagnostic;
+use super::text::OneLine;
+use crate::diagnostic::{Diagnostic, Position};
 use crate::format::Excerpt;
 
 /// What every output says of a finding. Line and column are `null` for a finding about the whole file.
@@ -38,6 +38,15 @@ pub(super) struct Finding<'a> {
     notice: Notice<'a>,
     expected: Option<&'a str>,
     found: Option<&'a str>,
+    count: u32,
+    places: Vec<Place>,
+}
+
+/// One of the places that a finding is about.
+#[derive(Debug, Serialize)]
+struct Place {
+    line: u32,
+    column: u32,
 }
 
 impl<'a> From<&'a Diagnostic> for Finding<'a> {
@@ -46,11 +55,17 @@ impl<'a> From<&'a Diagnostic> for Finding<'a> {
             notice: diagnostic.into(),
             expected: diagnostic.expected.as_deref(),
             found: diagnostic.found.as_deref(),
+            count: diagnostic.count,
+            places: diagnostic
+                .places
+                .iter()
+                .map(|&Position { line, column }| Place { line, column })
+                .collect(),
         }
     }
 }
 
-/// `file:line:column: severity[code]: message`, then the lines it is about.
+/// `file:line:column: severity[code]: message`, then the lines it is about, and where others alike stand.
 pub(super) fn write_finding(
     out: &mut dyn Write,
     path: &Path,
@@ -59,10 +74,26 @@ pub(super) fn write_finding(
 ) -> io::Result<()> {
     let separator = if diagnostic.position.is_some() { ":" } else { ": " };
     let line = format!("{}{separator}{}", path.display(), worded_place(diagnostic));
-    writeln!(out, "{}", Plain(&line))?;
-    match excerpt {
-        Some(excerpt) => write!(out, "{excerpt}"),
+    writeln!(out, "{}", OneLine(&line))?;
+    if let Some(excerpt) = excerpt {
+        write!(out, "{excerpt}")?;
+    }
+    match also_on(diagnostic) {
+        Some(lines) => writeln!(out, "   = also on {lines}"),
         None => Ok(()),
+    }
+}
+
+/// The other lines of a finding: `line 12`, `lines 12, 16, 20, …`.
+fn also_on(diagnostic: &Diagnostic) -> Option<String> {
+    let mut lines: Vec<u32> = diagnostic.places.iter().map(|place| place.line).collect();
+    lines.dedup();
+    let others: Vec<String> = lines.iter().skip(1).map(u32::to_string).collect();
+    let more = diagnostic.count as usize > diagnostic.places.len();
+    match (others.as_slice(), more) {
+        ([], _) => None,
+        ([line], false) => Some(format!("line {line}")),
+        _ => Some(format!("lines {}{}", others.join(", "), if more { ", …" } else { "" })),
     }
 }
 

@@ -41,7 +41,8 @@ JSON: an object
     keys            number of keys in the file
   bind_bounds       box of all vertices as the file has them: min and max, each [x, y, z];
                     null without vertices
-  animated_bounds   box of all that the clips reach, likewise; bind_bounds without clips
+  animated_bounds   box of all that the clips reach, likewise; bind_bounds without clips;
+                    null when a clip overflows, which notices say (pose-overflows)
   notices           array: what was mended or is worth knowing, in the order of the file
     severity        \"note\" or \"warning\"
     code            stable name of the kind of finding
@@ -127,15 +128,19 @@ impl<'a> Info<'a> {
                 })
                 .collect(),
             bind_bounds: bounds(open.bind_bounds),
-            animated_bounds: bounds(bounds_of_all_clips(model)),
+            animated_bounds: bounds_of_all_clips(model).and_then(bounds),
             notices: open.notices.iter().map(Notice::from).collect(),
         }
     }
 }
 
-fn bounds_of_all_clips(model: &Model) -> Aabb {
+/// `None` when a clip overflows: no box holds what it reaches.
+fn bounds_of_all_clips(model: &Model) -> Option<Aabb> {
+    if model.clips.iter().any(|clip| clip.overflow.is_some()) {
+        return None;
+    }
     let of_clips = model.clips.iter().map(|clip| animated_bounds(model, clip));
-    of_clips.reduce(Aabb::union).unwrap_or_else(|| model.bind_bounds())
+    Some(of_clips.reduce(Aabb::union).unwrap_or_else(|| model.bind_bounds()))
 }
 
 fn bounds(bounds: Aabb) -> Option<Bounds> {
@@ -177,18 +182,21 @@ fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel) -> io::Res
 }
 
 fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
-    let (Some(bind), Some(animated)) = (info.bind_bounds, info.animated_bounds) else {
+    let Some(bind) = info.bind_bounds else {
         return Ok(());
     };
     writeln!(out, "\nBounds {:>18} {:>12} {:>12}", "x", "y", "z")?;
     let mut row = |name: &str, [x, y, z]: [f32; 3]| writeln!(out, "  {name:<10}{x:>13.4}{y:>13.4}{z:>13.4}");
     row("bind min", bind.min)?;
     row("bind max", bind.max)?;
-    if !info.clips.is_empty() {
-        row("clips min", animated.min)?;
-        row("clips max", animated.max)?;
+    match info.animated_bounds {
+        _ if info.clips.is_empty() => Ok(()),
+        Some(animated) => {
+            row("clips min", animated.min)?;
+            row("clips max", animated.max)
+        }
+        None => writeln!(out, "  clips     beyond what numbers hold; see pose-overflows below"),
     }
-    Ok(())
 }
 
 fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {

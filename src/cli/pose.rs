@@ -43,7 +43,10 @@ JSON: an object
   time_secs   the time as asked for
   palette     array: for each bone, in the file's order, sixteen numbers, row by row, for row vectors
   positions   only with --positions: for each vertex, in the file's order, [x, y, z] after skinning,
-              in the file's own space";
+              in the file's own space
+
+A pose with a number that overflows has no output: standard error names the bone or the vertex and the time, with
+exit code 1.";
 
 /// The result.
 #[derive(Debug, Serialize)]
@@ -65,11 +68,27 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
     if let Some(clip) = clip {
         pose.evaluate(&model.skeleton, clip, time_secs);
     }
-    let posed = Posed {
-        clip: clip.map(|clip| clip.name.as_str()),
+    let clip = clip.map(|clip| clip.name.as_str());
+    let overflows = |what, number| Failure::Overflows {
+        path: arguments.file.clone(),
+        clip: clip.unwrap_or_default().to_owned(),
         time_secs,
-        palette: in_file_order(&model.skeleton, &pose.palette),
-        positions: arguments.positions.then(|| positions(model, &pose.palette)),
+        what,
+        number,
+    };
+    let palette = in_file_order(&model.skeleton, &pose.palette);
+    if let Some(bone) = not_finite(&palette) {
+        return Err(overflows("bone", bone));
+    }
+    let positions = arguments.positions.then(|| positions(model, &pose.palette));
+    if let Some(vertex) = positions.as_deref().and_then(not_finite) {
+        return Err(overflows("vertex", vertex));
+    }
+    let posed = Posed {
+        clip,
+        time_secs,
+        palette,
+        positions,
     };
     if arguments.json {
         serde_json::to_writer(&mut *out, &posed)?;
@@ -78,6 +97,11 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
         write_text(out, &posed)?;
     }
     Ok(())
+}
+
+/// The first row with a number that overflowed, which no output can say.
+fn not_finite<const N: usize>(rows: &[[f32; N]]) -> Option<usize> {
+    rows.iter().position(|row| !row.iter().all(|number| number.is_finite()))
 }
 
 /// Sixteen numbers for each bone of the file. What our column-vector matrix has in its columns are the rows of the books'.

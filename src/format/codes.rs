@@ -25,8 +25,15 @@ pub const CODES: &[(&str, Severity, &str)] = &[
     ("not-a-number", Error, "a word where a number belongs"),
     ("not-in-range", Error, "no whole number, or one out of range"),
     ("material-incomplete", Error, "a material with too few lines to be one"),
+    (
+        "mostly-zeros",
+        Error,
+        "more bytes of value 0 at the end than there are before them",
+    ),
     ("ruler-missing", Warning, "a section begins without its ruler"),
     ("ruler-unknown", Note, "a ruler names something else"),
+    ("comment", Note, "a comment line above the header; left out"),
+    ("counts-all-zero", Warning, "every count of the header is 0"),
     (
         "count-assumed",
         Warning,
@@ -63,4 +70,5 @@ pub const CODES: &[(&str, Severity, &str)] = &[
     ("brace-missing", Warning, "a brace is missing"),
     ("brace-surplus", Warning, "a brace too many"),
     ("text-surplus", Warning, "something behind the last section"),
+    ("zeros-surplus", Warning, "bytes of value 0 at the end; left out"),
 ];

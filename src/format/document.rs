@@ -137,7 +137,7 @@ pub struct BoneAnimation {
 /// One key: the bone relative to its parent (`toParent`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Keyframe {
-    /// `Time` in seconds.
+    /// `Time` in seconds; infinite for what is no finite number.
     pub time_secs: f32,
     /// `Pos`.
     pub translation: [f32; 3],

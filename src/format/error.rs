@@ -97,6 +97,11 @@ pub enum ParseErrorKind {
         /// Its number in the file, from 0.
         material: u32,
     },
+    /// More bytes of value 0 at the end than there are before them.
+    MostlyZeros {
+        /// How many there are at the end.
+        zeros: usize,
+    },
 }
 
 /// What a number in the file stands for.
@@ -182,6 +187,7 @@ impl ParseErrorKind {
             Self::NotANumber { .. } => "not-a-number",
             Self::NotInRange { .. } => "not-in-range",
             Self::MaterialIncomplete { .. } => "material-incomplete",
+            Self::MostlyZeros { .. } => "mostly-zeros",
         }
     }
 
@@ -198,6 +204,7 @@ impl ParseErrorKind {
             }
             Self::WrongLabel { expected, .. } => Some((*expected).into()),
             Self::MaterialIncomplete { .. } => Some("the lines of a material".into()),
+            Self::MostlyZeros { .. } => Some("the end of the file".into()),
         }
     }
 
@@ -213,6 +220,7 @@ impl ParseErrorKind {
             Self::RowCount { rows, counted, .. } => Some(counted_rows(*counted, rows)),
             Self::UnexpectedEnd { .. } => Some("the end of the file".into()),
             Self::ValueMissing { .. } => Some("the end of the line".into()),
+            Self::MostlyZeros { zeros } => Some(format!("{zeros} bytes of value 0")),
             Self::Empty | Self::CountMissing { .. } | Self::MaterialIncomplete { .. } => None,
         }
     }
@@ -301,6 +309,10 @@ impl fmt::Display for ParseErrorKind {
                 value.subject()
             ),
             Self::MaterialIncomplete { .. } => write!(f, "The material that begins here has too few lines to be one."),
+            Self::MostlyZeros { zeros } => write!(
+                f,
+                "The file ends in {zeros} bytes of value 0, more than stand before them: it was not written or copied whole."
+            ),
         }
     }
 }
@@ -318,14 +330,12 @@ impl ParseError {
     /// The same, as every stage speaks of problems.
     pub fn diagnostic(&self) -> Diagnostic {
         Diagnostic {
-            severity: Severity::Error,
-            code: self.kind.code(),
-            message: self.kind.to_string(),
             expected: self.kind.expected(),
             found: self.kind.found(),
             position: Some(self.position),
+            places: vec![self.position],
             length: self.length,
-            subject: None,
+            ..Diagnostic::without_place(Severity::Error, self.kind.code(), self.kind.to_string())
         }
     }
 }

@@ -58,10 +58,56 @@ const LONGEST: usize = 160;
 /// Bytes that stay visible before the mark.
 const BEFORE_MARK: usize = 60;
 
-/// Shows the line of `position` and the one before it. A position outside of the file gives the nearest line.
+/// Where the lines of a file begin, found once, so that many excerpts of one file do not read it from its start each.
+#[derive(Clone, Debug)]
+pub struct LineIndex<'a> {
+    bytes: &'a [u8],
+    /// Where every [`LineIndex::STEP`]th line begins, from the first line on.
+    starts: Vec<usize>,
+}
+
+impl<'a> LineIndex<'a> {
+    /// Lines from one kept start to the next: a file of nothing but line ends needs little room, and a line is near.
+    const STEP: usize = 256;
+
+    /// Reads the bytes once.
+    pub fn new(bytes: &'a [u8]) -> Self {
+        let bytes = without_mark(bytes);
+        let ends = memchr::memchr2_iter(b'\n', b'\r', bytes);
+        // Of a carriage return with a line feed only the second ends the line.
+        let ends = ends.filter(|&end| bytes.get(end..end + 2) != Some(b"\r\n"));
+        let starts = std::iter::once(0).chain(ends.map(|end| end + 1));
+        Self {
+            bytes,
+            starts: starts.step_by(Self::STEP).collect(),
+        }
+    }
+
+    /// Shows the line of `position` and the one before it. A position outside of the file gives the nearest line.
+    pub fn excerpt(&self, position: Position, length: u32) -> Excerpt {
+        // From the line before the wanted one on. Behind the end that is the last but one, which is not before the last but one
+        // of these starts.
+        let steps = (position.line.saturating_sub(2) as usize / Self::STEP).min(self.starts.len().saturating_sub(2));
+        let start = self.starts[steps];
+        // A file has no more lines than this type counts, or its last ones have no position.
+        let first = as_u32(steps * Self::STEP).saturating_add(1);
+        excerpt_from(self.bytes.get(start..).unwrap_or_default(), first, position, length)
+    }
+}
+
+/// The one excerpt of a file of which no other is wanted: [`LineIndex::excerpt`] without an index.
 pub fn excerpt(bytes: &[u8], position: Position, length: u32) -> Excerpt {
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let (mut number, mut line, mut before) = (1_u32, next_line(bytes), None);
+    excerpt_from(without_mark(bytes), 1, position, length)
+}
+
+/// The bytes without a byte order mark.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)
+}
+
+/// The excerpt of a position in `bytes` or behind, which begin with line `first`.
+fn excerpt_from(bytes: &[u8], first: u32, position: Position, length: u32) -> Excerpt {
+    let (mut number, mut line, mut before) = (first, next_line(bytes), None);
     while number < position.line
         && let Some(rest) = line.rest
     {

@@ -1,7 +1,7 @@
 //! The `.m3d` text format, as the books of Frank Luna and those who export to them write it.
 //!
 //! [`parse`] turns bytes into a [`Document`] in the file's own words, or says where it stopped and why; [`write()`] is its
-//! inverse; [`excerpt()`] shows the place of a finding.
+//! inverse; [`excerpt()`] shows the place of a finding, [`LineIndex`] those of many.
 //!
 //! # Grammar
 //!
@@ -10,7 +10,8 @@
 //! Labels and rulers are compared by their letters and digits only, without case. A byte order mark is passed.
 //!
 //! ```text
-//! file      = header materials subsets vertices triangles [offsets hierarchy clips]
+//! file      = { comment } header materials subsets vertices triangles [offsets hierarchy clips]
+//! comment   = "#" rest-of-line                                  that is no count
 //! ruler     = ("***" | "---") any line-end                      its letters name the section
 //! header    = ruler { ["#"] ("Materials" | "Subsets" | "Vertices" | "Triangles" | "Bones" | "AnimationClips") [":"] count }
 //! materials = ruler { label ":" rest-of-line }                  one label a line, in any order
@@ -52,8 +53,11 @@
 //! | `not-a-number` | error | a word where a number belongs |
 //! | `not-in-range` | error | no whole number, or one out of range |
 //! | `material-incomplete` | error | a material with too few lines to be one |
+//! | `mostly-zeros` | error | more bytes of value 0 at the end than there are before them |
 //! | `ruler-missing` | warning | a section begins without its ruler |
 //! | `ruler-unknown` | note | a ruler names something else |
+//! | `comment` | note | a comment line above the header; left out |
+//! | `counts-all-zero` | warning | every count of the header is 0 |
 //! | `count-assumed` | warning | the header lacks the count of bones or clips, taken as 0 |
 //! | `section-missing` | note | an empty section is not there, though the others of a skinned model are |
 //! | `label-unknown` | note | a line that is not known was left out |
@@ -74,6 +78,7 @@
 //! | `brace-missing` | warning | a brace is missing |
 //! | `brace-surplus` | warning | a brace too many |
 //! | `text-surplus` | warning | something behind the last section |
+//! | `zeros-surplus` | warning | bytes of value 0 at the end; left out |
 
 mod codes;
 mod cursor;
@@ -93,7 +98,7 @@ mod write;
 pub use codes::CODES;
 pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
-pub use excerpt::{Excerpt, excerpt, is_printable};
+pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
 pub use likeness::begins_like_model;
 pub use relatives::Stranger;
@@ -116,23 +121,28 @@ pub struct Parsed {
 
 /// Reads a file. It need not be UTF-8: names are decoded as well as can be.
 ///
+/// Bytes of value 0 at the end, as a disk or a transfer pads a file with, are no part of the text. A file that holds more of
+/// them than of anything else is damaged, and refused.
+///
 /// Never panics, reads the bytes once from front to back, and makes room for no more than the bytes can hold.
 pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
-    let mut reader = Reader::new(bytes);
-    let start = Position { line: 1, column: 1 };
+    let text_len = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    let (text, zeros) = bytes.split_at(text_len);
+    let mut reader = Reader::new(text);
+    let at_start = |kind| ParseError {
+        position: Position { line: 1, column: 1 },
+        length: 0,
+        kind,
+    };
     if reader.cursor.peek_token().is_none() {
-        return Err(ParseError {
-            position: start,
-            length: 0,
-            kind: ParseErrorKind::Empty,
-        });
+        return Err(at_start(if zeros.is_empty() {
+            ParseErrorKind::Empty
+        } else {
+            ParseErrorKind::Stranger(Stranger::Binary)
+        }));
     }
-    if let Some(stranger) = relatives::recognise(bytes) {
-        return Err(ParseError {
-            position: start,
-            length: 0,
-            kind: ParseErrorKind::Stranger(stranger),
-        });
+    if let Some(stranger) = relatives::recognise(text) {
+        return Err(at_start(ParseErrorKind::Stranger(stranger)));
     }
     let counts = sections::header(&mut reader)?;
     let (materials, material_lines) = sections::materials(&mut reader, counts.materials)?;
@@ -169,12 +179,32 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
     if let Some(token) = reader.cursor.peek_token() {
         reader.note(token, Notice::TextSurplus);
     }
+    if !zeros.is_empty() {
+        note_zeros(&mut reader, zeros.len())?;
+    }
     document.dialect = dialect(&document, &reader, vertices.short_labels);
     Ok(Parsed {
         document,
         lines,
         notices: reader.notices.into_diagnostics(),
     })
+}
+
+/// Bytes of value 0 behind the text: padding, or an error where they are most of the file.
+fn note_zeros(reader: &mut Reader<'_>, zeros: usize) -> Result<(), ParseError> {
+    while reader.cursor.peek().is_some() {
+        reader.cursor.rest_of_line();
+    }
+    let position = reader.cursor.position();
+    if zeros > reader.cursor.bytes.len() {
+        return Err(ParseError {
+            position,
+            length: 1,
+            kind: ParseErrorKind::MostlyZeros { zeros },
+        });
+    }
+    reader.notices.add(Notice::ZerosSurplus(zeros), position, 1);
+    Ok(())
 }
 
 /// The vertices' labels tell imm, or its rulers where there are no vertices; the first material tells the books apart.

@@ -11,6 +11,10 @@ pub(super) enum Notice {
     RulerMissing(Section),
     /// A ruler names something else where a section begins.
     RulerUnknown { section: Section, found: String },
+    /// A line above the header that begins with `#` and is no count; left out.
+    Comment,
+    /// Every count of the header is 0.
+    CountsAllZero,
     /// The header does not give a count that may be zero.
     CountAssumed(&'static str),
     /// A section that announces no rows is not there, though the other ones of a skinned model are.
@@ -51,6 +55,8 @@ pub(super) enum Notice {
     BraceSurplus,
     /// Something behind the last section; left out.
     TextSurplus,
+    /// This many bytes of value 0 behind the end; left out.
+    ZerosSurplus(usize),
 }
 
 impl Notice {
@@ -59,6 +65,8 @@ impl Notice {
         match self {
             Self::RulerMissing(_) => ("ruler-missing", Severity::Warning),
             Self::RulerUnknown { .. } => ("ruler-unknown", Severity::Note),
+            Self::Comment => ("comment", Severity::Note),
+            Self::CountsAllZero => ("counts-all-zero", Severity::Warning),
             Self::CountAssumed(_) => ("count-assumed", Severity::Warning),
             Self::SectionMissing(_) => ("section-missing", Severity::Note),
             Self::LabelUnknown { .. } => ("label-unknown", Severity::Note),
@@ -79,6 +87,7 @@ impl Notice {
             Self::BraceMissing(_) => ("brace-missing", Severity::Warning),
             Self::BraceSurplus => ("brace-surplus", Severity::Warning),
             Self::TextSurplus => ("text-surplus", Severity::Warning),
+            Self::ZerosSurplus(_) => ("zeros-surplus", Severity::Warning),
         }
     }
 
@@ -95,6 +104,11 @@ impl Notice {
             Self::RulerUnknown { section, found } => {
                 format!("A ruler says \"{found}\" where the {} section begins.", section.name())
             }
+            Self::Comment => several(
+                "A comment line above the header was left out.",
+                "comment lines above the header were left out.",
+            ),
+            Self::CountsAllZero => "Every count of the header is 0: the file holds nothing.".into(),
             Self::CountAssumed(name) => format!("The header does not say how many {name} there are; taken as none."),
             Self::SectionMissing(section) => format!("There is no {} section; its count is 0.", section.name()),
             Self::LabelUnknown { section, label } => match count {
@@ -163,6 +177,8 @@ impl Notice {
             ),
             Self::BraceSurplus => several("A brace too many was left out.", "braces too many were left out."),
             Self::TextSurplus => "There is something behind the last section; it was left out.".into(),
+            Self::ZerosSurplus(1) => "The file ends in a byte of value 0; it was left out.".into(),
+            Self::ZerosSurplus(bytes) => format!("The file ends in {bytes} bytes of value 0; they were left out."),
         }
     }
 }
@@ -171,9 +187,19 @@ impl Notice {
 #[derive(Clone, Debug)]
 struct Tally {
     notice: Notice,
-    position: Position,
     length: u32,
     count: u32,
+    /// The first of them; at least one.
+    places: Vec<Position>,
+}
+
+impl Tally {
+    fn add(&mut self, position: Position) {
+        self.count = self.count.saturating_add(1);
+        if self.places.len() < Diagnostic::MOST_PLACES {
+            self.places.push(position);
+        }
+    }
 }
 
 /// All that was met so far.
@@ -191,15 +217,15 @@ impl Notices {
         let mut notice = notice;
         loop {
             if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.notice == notice) {
-                tally.count = tally.count.saturating_add(1);
+                tally.add(position);
                 return;
             }
             if self.tallies.len() < Self::MOST || !notice.shorten() {
                 self.tallies.push(Tally {
                     notice,
-                    position,
                     length,
                     count: 1,
+                    places: vec![position],
                 });
                 return;
             }
@@ -208,20 +234,18 @@ impl Notices {
 
     /// One diagnostic for each kind, in the order of the file.
     pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
-        self.tallies.sort_by_key(|tally| tally.position);
+        self.tallies.sort_by_key(|tally| tally.places.first().copied());
         self.tallies
             .into_iter()
             .map(|tally| {
                 let (code, severity) = tally.notice.entry();
                 Diagnostic {
-                    severity,
-                    code,
-                    message: tally.notice.message(tally.count),
-                    expected: None,
                     found: tally.notice.found(),
-                    position: Some(tally.position),
+                    position: tally.places.first().copied(),
                     length: tally.length,
-                    subject: None,
+                    count: tally.count,
+                    places: tally.places,
+                    ..Diagnostic::without_place(severity, code, tally.notice.message(tally.count))
                 }
             })
             .collect()

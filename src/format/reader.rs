@@ -211,7 +211,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A token as a number; one that is not finite becomes `replacement`.
+    /// A token as a number; one that is not finite becomes `replacement`, with a notice unless that is not finite either.
     pub(super) fn number_of(&mut self, token: Token<'_>, value: Value, replacement: f32) -> Result<f32, ParseError> {
         match number::read(token.text) {
             Some(Reading::Plain(number)) => Ok(number),
@@ -220,7 +220,9 @@ impl<'a> Reader<'a> {
                 Ok(number)
             }
             Some(Reading::NotFinite) => {
-                self.note(token, Notice::NumberNotFinite);
+                if replacement.is_finite() {
+                    self.note(token, Notice::NumberNotFinite);
+                }
                 Ok(replacement)
             }
             None => Err(Self::error_at(

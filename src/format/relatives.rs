@@ -15,6 +15,8 @@ pub enum Stranger {
     Relative(&'static str),
     /// Text in two bytes a character.
     Utf16,
+    /// Text in four bytes a character.
+    Utf32,
     /// Bytes that are no text.
     Binary,
 }
@@ -32,6 +34,7 @@ impl Stranger {
             Self::Model3d("binary") => "a binary Model 3D file",
             Self::Model3d(_) => "an ASCII Model 3D file",
             Self::Utf16 => "UTF-16 text",
+            Self::Utf32 => "UTF-32 text",
             Self::Binary => "binary data",
         }
     }
@@ -52,7 +55,7 @@ impl fmt::Display for Stranger {
                     "This file is a relative of the .m3d format with {mark}, which cannot be read."
                 )
             }
-            Self::Utf16 => write!(f, "This file is UTF-16 text. Save it as UTF-8 or ASCII."),
+            Self::Utf16 | Self::Utf32 => write!(f, "This file is {}. Save it as UTF-8 or ASCII.", self.name()),
             Self::Binary => write!(f, "This file is binary data, not an .m3d file, which is text."),
         }
     }
@@ -95,6 +98,9 @@ const SIGNATURES: &[(&[u8], Stranger)] = &[
         b"version https://git-lfs",
         Stranger::Other("a Git LFS pointer (the file itself was not downloaded)"),
     ),
+    // Before the mark of UTF-16, which it begins with.
+    (b"\xFF\xFE\0\0", Stranger::Utf32),
+    (b"\0\0\xFE\xFF", Stranger::Utf32),
     (b"\xFF\xFE", Stranger::Utf16),
     (b"\xFE\xFF", Stranger::Utf16),
 ];

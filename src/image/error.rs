@@ -24,16 +24,7 @@ impl ImageError {
 
     /// The finding for the panel. A model shows on without a map, so it is a warning.
     pub fn diagnostic(&self) -> Diagnostic {
-        Diagnostic {
-            severity: Severity::Warning,
-            code: self.code(),
-            message: self.to_string(),
-            expected: None,
-            found: None,
-            position: None,
-            length: 0,
-            subject: None,
-        }
+        Diagnostic::without_place(Severity::Warning, self.code(), self.to_string())
     }
 }
 

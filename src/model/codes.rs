@@ -125,6 +125,7 @@ pub const CODES: &[(&str, Severity, &str)] = &[
         Note,
         "another clip has the same name; shown with a number",
     ),
+    ("clip-unnamed", Note, "a clip has no name; shown with its number"),
     (
         "clip-bones-missing",
         Warning,
@@ -161,5 +162,10 @@ pub const CODES: &[(&str, Severity, &str)] = &[
         "exploded",
         Warning,
         "the keys of a clip do not belong to the bone offsets: the mesh flies apart",
+    ),
+    (
+        "pose-overflows",
+        Warning,
+        "a clip takes a bone or what hangs on it beyond 10³⁷, where numbers overflow",
     ),
 ];

@@ -17,7 +17,7 @@ pub struct ModelError {
 #[non_exhaustive]
 pub enum ModelErrorKind {
     /// A parent that is neither −1 nor a bone.
-    #[error("bone {bone} lists {parent} as its parent; a parent is −1 or a bone below {bone_count}")]
+    #[error("Bone {bone} lists {parent} as its parent; a parent is −1 or a bone below {bone_count}.")]
     ParentOutOfRange {
         /// The child.
         bone: u32,
@@ -27,13 +27,13 @@ pub enum ModelErrorKind {
         bone_count: u32,
     },
     /// Bones that are their own ancestors.
-    #[error("bones form a circle: {}", circle(.bones))]
+    #[error("Bones form a circle: {}.", circle(.bones))]
     ParentCycle {
         /// Each bone is the child of the next, the last of the first.
         bones: Vec<u32>,
     },
     /// Offsets and parents do not pair up.
-    #[error("{offsets} bone offsets but {parents} parents; every bone has one of each")]
+    #[error("{offsets} bone offsets but {parents} parents; every bone has one of each.")]
     BoneCountMismatch {
         /// Rows of `BoneOffsets`.
         offsets: usize,
@@ -41,7 +41,7 @@ pub enum ModelErrorKind {
         parents: usize,
     },
     /// A triangle names a vertex that is not there.
-    #[error("triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices")]
+    #[error("Triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices.")]
     VertexOutOfRange {
         /// Index of the triangle in the file.
         triangle: u32,
@@ -51,7 +51,7 @@ pub enum ModelErrorKind {
         vertex_count: u32,
     },
     /// A vertex gives weight to a bone that is not there.
-    #[error("vertex {vertex} gives weight to bone {bone}, but there are {bone_count} bones")]
+    #[error("Vertex {vertex} gives weight to bone {bone}, but there are {bone_count} bones.")]
     InfluenceOutOfRange {
         /// Index of the vertex in the file.
         vertex: u32,
@@ -61,7 +61,7 @@ pub enum ModelErrorKind {
         bone_count: u32,
     },
     /// [`Skeleton::new`](super::Skeleton::new): a child stands before its parent.
-    #[error("joint {joint} lists joint {parent} as its parent; a parent must come before its children")]
+    #[error("Joint {joint} lists joint {parent} as its parent; a parent must come before its children.")]
     ParentNotBefore {
         /// The child.
         joint: u32,
@@ -70,7 +70,7 @@ pub enum ModelErrorKind {
     },
     /// [`Skeleton::new`](super::Skeleton::new): the lists do not pair up.
     #[error(
-        "{parents} parents, {matrices} inverse bind matrices and {file_bones} file bones; every joint has one of each"
+        "{parents} parents, {matrices} inverse bind matrices and {file_bones} file bones; every joint has one of each."
     )]
     JointCountMismatch {
         /// Length of `parents`.
@@ -81,7 +81,7 @@ pub enum ModelErrorKind {
         file_bones: usize,
     },
     /// [`Skeleton::new`](super::Skeleton::new): two joints carry one file number, or a number is out of range.
-    #[error("file bone {bone} of joint {joint} is out of range or taken; the file bones are an order of all joints")]
+    #[error("File bone {bone} of joint {joint} is out of range or taken; the file bones are an order of all joints.")]
     FileBoneNotUnique {
         /// The joint.
         joint: u32,
@@ -89,22 +89,22 @@ pub enum ModelErrorKind {
         bone: u32,
     },
     /// [`Skeleton::new`](super::Skeleton::new): NaN or infinity in a matrix.
-    #[error("the inverse bind matrix of joint {joint} holds a number that is not finite")]
+    #[error("The inverse bind matrix of joint {joint} holds a number that is not finite.")]
     MatrixNotFinite {
         /// The joint.
         joint: u32,
     },
     /// [`Track::new`](super::Track::new): no key.
-    #[error("a track needs at least one key")]
+    #[error("A track needs at least one key.")]
     NoKeys,
     /// [`Track::new`](super::Track::new): a time that is not after the one before.
-    #[error("key {key} is not after the key before it; key times must increase")]
+    #[error("Key {key} is not after the key before it; key times must increase.")]
     KeyNotAfter {
         /// Index of the key.
         key: usize,
     },
     /// [`Track::new`](super::Track::new): NaN, infinity, or a rotation of zero length.
-    #[error("key {key} holds a number that is not finite, or a rotation without a direction")]
+    #[error("Key {key} holds a number that is not finite, or a rotation without a direction.")]
     KeyNotFinite {
         /// Index of the key.
         key: usize,
@@ -153,14 +153,12 @@ impl ModelError {
             _ => (None, None),
         };
         Diagnostic {
-            severity: Severity::Error,
-            code: self.code(),
-            message: self.kind.to_string(),
             expected,
             found,
             position: self.position,
-            length: 0,
+            places: self.position.into_iter().collect(),
             subject,
+            ..Diagnostic::without_place(Severity::Error, self.code(), self.kind.to_string())
         }
     }
 }

@@ -7,8 +7,14 @@ use super::{Clip, Mesh, Skeleton};
 use crate::diagnostic::Subject;
 use crate::format::LineMap;
 
-/// Triangles looked at, spread over the mesh: enough for a share, few enough for many clips.
+/// Triangles looked at for a clip, spread over the mesh: enough for a fraction.
 const LOOKED_AT: usize = 4_000;
+
+/// Triangles looked at for all clips together, so that thousands of clips do not look at the mesh thousands of times.
+const LOOKED_AT_IN_ALL: usize = 100 * LOOKED_AT;
+
+/// Triangles looked at for a clip however many there are.
+const LEAST_LOOKED_AT: usize = 50;
 
 /// An edge this many times longer than the usual edge of the pose is torn.
 const TORN: f32 = 4.0;
@@ -22,8 +28,9 @@ pub(super) fn note_exploded(mesh: &Mesh, skeleton: &Skeleton, clips: &[Clip], li
     if mesh.influences.is_empty() {
         return;
     }
+    let looked_at = (LOOKED_AT_IN_ALL / clips.len().max(1)).clamp(LEAST_LOOKED_AT, LOOKED_AT);
     for (index, clip) in (0u32..).zip(clips) {
-        let share = torn_share(mesh, &first_key_palette(skeleton, clip));
+        let share = torn_share(mesh, looked_at, &first_key_palette(skeleton, clip));
         if share > TORN_SHARE {
             notes.warn(
                 "exploded",
@@ -56,7 +63,7 @@ fn first_key_palette(skeleton: &Skeleton, clip: &Clip) -> Vec<Affine3A> {
 }
 
 /// Share of edges that are far longer, beside the bind pose, than the middle one.
-fn torn_share(mesh: &Mesh, palette: &[Affine3A]) -> f64 {
+fn torn_share(mesh: &Mesh, looked_at: usize, palette: &[Affine3A]) -> f64 {
     let posed = |vertex: u32| -> Vec3 {
         let (position, influences) = (mesh.positions[vertex as usize], &mesh.influences[vertex as usize]);
         let pairs = influences.joints.iter().zip(&influences.weights);
@@ -64,8 +71,8 @@ fn torn_share(mesh: &Mesh, palette: &[Affine3A]) -> f64 {
             .map(|(&joint, &weight)| palette[joint as usize].transform_point3(position) * weight)
             .sum()
     };
-    let stride = (mesh.triangle_count() / LOOKED_AT).max(1);
-    let mut ratios = Vec::with_capacity(LOOKED_AT * 3);
+    let stride = (mesh.triangle_count() / looked_at).max(1);
+    let mut ratios = Vec::with_capacity(looked_at * 3);
     for corners in mesh.indices.chunks_exact(3).step_by(stride) {
         for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|corner: usize| corners[corner])) {
             let weighted = |vertex: u32| mesh.influences[vertex as usize].weights != [0.0; 4];

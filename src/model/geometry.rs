@@ -87,7 +87,7 @@ fn finite_stream<const N: usize>(
     if mended.count > 0 {
         notes.warn(
             "vertex-not-finite",
-            Place::of(Subject::Vertex(mended.first), &lines.vertices),
+            Place::of_rows(&mended, Subject::Vertex, &lines.vertices),
             format!(
                 "{} a {field} that is not finite; taken as 0.",
                 counted(mended.count, "vertex has", "vertices have")

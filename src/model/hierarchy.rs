@@ -133,7 +133,7 @@ fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, note
     let stand = counted(late.count, "bone stands", "bones stand");
     notes.note(
         "bones-reordered",
-        Place::of(Subject::Bone(late.first), &lines.bone_parents),
+        Place::of_rows(&late, Subject::Bone, &lines.bone_parents),
         format!("{stand} before the parent; the joints are sorted and keep the file's numbers for display."),
     );
 }
@@ -163,7 +163,7 @@ fn offsets(rows: &[[f32; 16]], lines: &LineMap, notes: &mut Notes) -> Vec<Affine
     let mut warn = |code, tally: Tally, rule: &str| {
         if tally.count > 0 {
             let offsets = counted(tally.count, "bone offset has", "bone offsets have");
-            let place = Place::of(Subject::Bone(tally.first), &lines.bone_offsets);
+            let place = Place::of_rows(&tally, Subject::Bone, &lines.bone_offsets);
             notes.warn(code, place, format!("{offsets} {rule}"));
         }
     };

@@ -91,7 +91,7 @@ fn joined(
 
 impl Mended {
     fn note(&self, lines: &LineMap, notes: &mut Notes) {
-        let place = |tally: &Tally| Place::of(Subject::Vertex(tally.first), &lines.vertices);
+        let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertices);
         let vertices = |tally: &Tally| counted(tally.count, "vertex has", "vertices have");
         if self.invalid.count > 0 {
             notes.warn(

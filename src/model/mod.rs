@@ -39,6 +39,7 @@
 //! | `tangents-missing` | warning | tangents that are zero or not finite; computed from the texture coordinates |
 //! | `tangent-sign` | warning | a tangent whose fourth number is not 1 or −1; its sign is kept |
 //! | `duplicate-clip-name` | note | another clip has the same name; shown with a number |
+//! | `clip-unnamed` | note | a clip has no name; shown with its number |
 //! | `clip-bones-missing` | warning | a clip has fewer tracks than there are bones; the rest is at rest |
 //! | `clip-bones-extra` | warning | a clip has more tracks than there are bones; left out |
 //! | `track-empty` | warning | a bone has no keys in a clip; at rest |
@@ -48,6 +49,7 @@
 //! | `rotation-not-unit` | warning | a rotation that is not of unit length; normalised |
 //! | `rotation-zero` | warning | a rotation of length 0; taken as no rotation |
 //! | `exploded` | warning | the keys of a clip do not belong to the bone offsets: the mesh flies apart |
+//! | `pose-overflows` | warning | a clip takes a bone or what hangs on it beyond 10³⁷, where numbers overflow |
 
 mod bounds;
 mod clip;
@@ -68,6 +70,7 @@ mod motion;
 mod names;
 mod normals;
 mod notes;
+mod overflow;
 mod skeleton;
 mod space;
 mod subsets;
@@ -89,6 +92,7 @@ pub use material::{Material, Reflectance};
 pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
 pub(crate) use names::unique as unique_names;
+pub use overflow::Overflow;
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Handedness, UpAxis, world_from_model};
 pub use track::Track;
@@ -128,8 +132,9 @@ impl Model {
         let skeleton = hierarchy::skeleton_from_document(document, lines, &mut notes)?;
         let (mut mesh, handedness) = geometry::mesh_from_document(document, lines, &skeleton, &mut notes)?;
         mesh.submeshes = submeshes;
-        let clips = motion::clips_from_document(document, lines, &skeleton, &mut notes)?;
+        let mut clips = motion::clips_from_document(document, lines, &skeleton, &mut notes)?;
         exploded::note_exploded(&mesh, &skeleton, &clips, lines, &mut notes);
+        overflow::note_overflows(&mesh, &skeleton, &mut clips, lines, &mut notes);
         let up_axis = match document.dialect {
             Dialect::Imm => UpAxis::Z,
             Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
@@ -142,7 +147,7 @@ impl Model {
             handedness,
             up_axis,
         };
-        Ok((model, notes.0))
+        Ok((model, notes.into_diagnostics()))
     }
 
     /// The model of a parsed file. The findings of both stages, the parser's first.

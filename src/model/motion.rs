@@ -35,6 +35,13 @@ pub(super) fn clips_from_document(
             );
         },
     );
+    for (index, _) in (0u32..).zip(&document.clips).filter(|(_, clip)| clip.name.is_empty()) {
+        notes.note(
+            "clip-unnamed",
+            Place::of(Subject::Clip(index), &clip_lines),
+            "This clip has no name; it is shown with its number.".into(),
+        );
+    }
     let no_lines = ClipLines::default();
     (0u32..)
         .zip(document.clips.iter().zip(names))
@@ -97,6 +104,7 @@ impl ClipReader<'_> {
             end_secs,
             keys_per_sec,
             key_count: bones.iter().map(|bone| bone.keyframes.len()).sum(),
+            overflow: None,
             densest: densest(&tracks),
             tracks: tracks.into(),
         })
@@ -124,9 +132,8 @@ impl ClipReader<'_> {
         }
         let mut warn = |code, tally: Tally, one: &str, many: &str, rule: &str| {
             if tally.count > 0 {
-                let line = self.lines.bones.get(tally.first as usize).copied().or(clip_line);
-                let message = format!("{} {rule}", counted(tally.count, one, many));
-                notes.warn(code, Place::on(Subject::Clip(self.clip), line), message);
+                let place = Place::of_rows_in(Subject::Clip(self.clip), &tally, &self.lines.bones, clip_line);
+                notes.warn(code, place, format!("{} {rule}", counted(tally.count, one, many)));
             }
         };
         let bones = ("bone has", "bones have");

@@ -35,7 +35,7 @@ pub(super) fn mended_normals(
     let computed = if missing.count > 0 {
         notes.warn(
             "normals-missing",
-            Place::of(Subject::Vertex(missing.first), &lines.vertices),
+            Place::of_rows(&missing, Subject::Vertex, &lines.vertices),
             format!(
                 "{} a normal that is zero or not finite; computed from the triangles.",
                 counted(missing.count, "vertex has", "vertices have")

@@ -92,10 +92,10 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
         .map(|submesh| (submesh.triangle_start, submesh.triangle_start + submesh.triangle_count))
         .collect();
     ranges.sort_unstable();
-    let (mut drawn_to, mut undrawn, mut again) = (0, 0, 0);
+    let (mut drawn_to, mut undrawn, mut again) = (0, 0, 0_u64);
     for (start, end) in ranges {
         undrawn += start.saturating_sub(drawn_to);
-        again += drawn_to.min(end).saturating_sub(start);
+        again += u64::from(drawn_to.min(end).saturating_sub(start));
         drawn_to = drawn_to.max(end);
     }
     undrawn += triangle_count - drawn_to;
@@ -108,7 +108,11 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
         );
     }
     if again > 0 {
-        let belong = counted(again as usize, "triangle belongs", "triangles belong");
+        let belong = counted(
+            usize::try_from(again).unwrap_or(usize::MAX),
+            "triangle belongs",
+            "triangles belong",
+        );
         notes.note(
             "triangles-shared",
             Place::default(),
@@ -120,13 +124,9 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
 /// Indices are absolute in every known file. A later subset whose indices all lie below its `VertexStart`, but would fill
 /// its vertex range when counted from there, was most likely written for a loader that adds `VertexStart`.
 fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes) {
+    let highest = HighestIndices::new(&document.triangles);
     for (index, subset) in (0u32..).zip(&document.subsets) {
-        let faces = document
-            .triangles
-            .iter()
-            .skip(subset.face_start as usize)
-            .take(subset.face_count as usize);
-        let Some(highest) = faces.flatten().copied().max() else {
+        let Some(highest) = highest.of(subset) else {
             continue;
         };
         let fits = subset.vertex_count > 0
@@ -143,5 +143,45 @@ fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes
                 ),
             );
         }
+    }
+}
+
+/// The highest vertex index in any range of triangles, without a look at each of them: subsets may overlap.
+struct HighestIndices {
+    /// A tree: node i has the highest of nodes 2i and 2i + 1. The second half are the triangles in their order.
+    nodes: Vec<u32>,
+}
+
+impl HighestIndices {
+    fn new(triangles: &[[u32; 3]]) -> Self {
+        let mut nodes = vec![0; triangles.len()];
+        nodes.extend(triangles.iter().map(|&[a, b, c]| a.max(b).max(c)));
+        for node in (1..triangles.len()).rev() {
+            nodes[node] = nodes[2 * node].max(nodes[2 * node + 1]);
+        }
+        Self { nodes }
+    }
+
+    /// `None` for a subset of no triangles.
+    fn of(&self, subset: &Subset) -> Option<u32> {
+        let count = self.nodes.len() / 2;
+        let start = (subset.face_start as usize).min(count);
+        let end = start.saturating_add(subset.face_count as usize).min(count);
+        // The nodes that together cover the range, from the triangles upward.
+        let (mut low, mut high) = (start + count, end + count);
+        let mut highest = None;
+        while low < high {
+            if low % 2 == 1 {
+                highest = highest.max(Some(self.nodes[low]));
+                low += 1;
+            }
+            if high % 2 == 1 {
+                high -= 1;
+                highest = highest.max(Some(self.nodes[high]));
+            }
+            low /= 2;
+            high /= 2;
+        }
+        highest
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn mended_tangents(
     }
     let mut warn = |code, tally: Tally, rule: &str| {
         if tally.count > 0 {
-            let place = Place::of(Subject::Vertex(tally.first), &lines.vertices);
+            let place = Place::of_rows(&tally, Subject::Vertex, &lines.vertices);
             notes.warn(
                 code,
                 place,

@@ -81,7 +81,7 @@ fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLane
 }
 
 /// A track at a time, in f64, where `from` is the last key at or before that time, or the first.
-fn joint_at(track: &Track, from: usize, time_secs: f32) -> LocalJoint {
+pub(super) fn joint_at(track: &Track, from: usize, time_secs: f32) -> LocalJoint {
     let start_secs = track.times_secs()[from];
     let end_secs = match track.times_secs().get(from + 1) {
         Some(&end_secs) if start_secs < time_secs => end_secs,

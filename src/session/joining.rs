@@ -118,6 +118,7 @@ impl OpenModel {
                 self.notices.push(Diagnostic {
                     severity: Severity::Warning,
                     position: None,
+                    places: Vec::new(),
                     length: 0,
                     subject: None,
                     ..error.diagnostic
@@ -147,14 +148,8 @@ impl OpenModel {
             self.file.base_name(),
         );
         Some(Diagnostic {
-            severity: Severity::Note,
-            code: OFFSETS_DIFFER,
-            message,
-            expected: None,
-            found: None,
-            position: None,
-            length: 0,
             subject: Some(Subject::Bone(first)),
+            ..Diagnostic::without_place(Severity::Note, OFFSETS_DIFFER, message)
         })
     }
 }
@@ -232,6 +227,7 @@ fn joined_notice(notice: Diagnostic, file_name: &str, first: usize) -> Option<Di
     Some(Diagnostic {
         message: format!("{file_name}: {}", notice.message),
         position: None,
+        places: Vec::new(),
         length: 0,
         subject: Some(Subject::Clip(clip.saturating_add(first as u32))),
         ..notice

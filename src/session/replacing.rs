@@ -107,14 +107,9 @@ pub(super) fn replaced_notice(file_name: &str, first: usize, count: usize, befor
     let clips = |count: usize| format!("{count} clip{}", if count == 1 { "" } else { "s" });
     let replace = if count == 1 { "replaces" } else { "replace" };
     let (now, before) = (clips(count), clips(before));
+    let message = format!("{file_name} was added before; its {now} {replace} the {before} from then.");
     Diagnostic {
-        severity: Severity::Note,
-        code: "clips-replaced",
-        message: format!("{file_name} was added before; its {now} {replace} the {before} from then."),
-        expected: None,
-        found: None,
-        position: None,
-        length: 0,
         subject: Some(Subject::Clip(first as u32)),
+        ..Diagnostic::without_place(Severity::Note, "clips-replaced", message)
     }
 }

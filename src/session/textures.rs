@@ -193,14 +193,8 @@ pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]
     for (number, (material, maps)) in materials.iter().zip(maps).enumerate() {
         let mut note = |code, message| {
             notices.push(Diagnostic {
-                severity: Severity::Note,
-                code,
-                message,
-                expected: None,
-                found: None,
-                position: None,
-                length: 0,
                 subject: Some(Subject::Material(number as u32)),
+                ..Diagnostic::without_place(Severity::Note, code, message)
             });
         };
         for slot in MapSlot::ALL {

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{fixture, fixtures, run, shared};
+use crate::program::{fixture, fixtures, run, scratch, shared};
 
 #[test]
 fn a_finding_is_a_line_and_its_excerpt() {
@@ -50,6 +50,8 @@ fn json_has_an_object_for_each_file() {
             "column": 17,
             "expected": "a bone index",
             "found": "2",
+            "count": 1,
+            "places": [{"line": 34, "column": 17}],
         }]},
     ]);
     assert_eq!(run.json(), expected);
@@ -157,5 +159,133 @@ fn the_real_files_are_fine_and_strangers_are_named() {
             "{}",
             run.out
         );
+    }
+}
+
+/// The codes of a file's findings, by `check --json`.
+fn codes(file: &str) -> Vec<String> {
+    let found = run(["check", "--json", file]).json();
+    let findings = found[0]["findings"].as_array().expect("a list").iter();
+    findings
+        .map(|finding| finding["code"].as_str().expect("a text").to_owned())
+        .collect()
+}
+
+#[test]
+fn what_is_left_out_or_empty_is_told() {
+    for (file, code) in [
+        ("comment_above_header", "comment"),
+        ("counts_all_zero", "counts-all-zero"),
+        ("clip_unnamed", "clip-unnamed"),
+        ("key_times_not_finite", "keys-not-finite"),
+        ("pose_overflows", "pose-overflows"),
+        ("zeros_behind_the_end", "zeros-surplus"),
+    ] {
+        assert_eq!(codes(&fixture(&format!("good/{file}.m3d"))), [code], "{file}");
+    }
+}
+
+#[test]
+fn a_circle_of_bones_is_told_in_a_sentence() {
+    let text = std::fs::read_to_string(fixture("good/d3d12_skinned.m3d")).expect("is text");
+    let file = scratch("circle.m3d");
+    let circle = text.replace("ParentIndexOfBone0: -1", "ParentIndexOfBone0: 1");
+    std::fs::write(&file, circle).expect("can be written");
+    let run = run(["check", file.to_str().expect("UTF-8")]);
+    assert_eq!(run.code, Some(1));
+    let message = "error[parent-cycle]: Bones form a circle: 0 → 1 → 0; each lists the next as its parent.\n";
+    assert!(run.out.contains(message), "{}", run.out);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_with_a_line_end_stays_on_one_line() {
+    let file = scratch("two\nlines.m3d");
+    std::fs::copy(fixture("bad/empty.m3d"), &file).expect("can be written");
+    let checked = run(["check", file.to_str().expect("UTF-8")]);
+    assert!(
+        checked
+            .out
+            .lines()
+            .next()
+            .is_some_and(|line| line.ends_with("two\\nlines.m3d:1:1: error[empty-file]: The file is empty.")),
+        "{}",
+        checked.out
+    );
+    // Said of a file that is refused, and of one that is not there, too.
+    let refused = run(["info", file.to_str().expect("UTF-8")]);
+    assert!(
+        refused.err.contains("two\\nlines.m3d:1:1: error[empty-file]"),
+        "{}",
+        refused.err
+    );
+    std::fs::remove_file(&file).expect("was written");
+    let missing = run(["check", file.to_str().expect("UTF-8")]);
+    assert!(
+        missing.err.contains("two\\nlines.m3d cannot be read"),
+        "{}",
+        missing.err
+    );
+}
+
+/// A copy that was not finished, or a disk that lost power, leaves zeros.
+#[test]
+fn a_file_of_mostly_zeros_is_an_error_however_good_its_beginning() {
+    let file = scratch("zeros.m3d");
+    let mut bytes = std::fs::read(fixture("good/d3d12_skinned.m3d")).expect("can be read");
+    bytes.resize(bytes.len() + 20_000_000, 0);
+    std::fs::write(&file, bytes).expect("can be written");
+    let run = run(["check", file.to_str().expect("UTF-8")]);
+    assert_eq!(run.code, Some(1));
+    let message = "error[mostly-zeros]: The file ends in 20000000 bytes of value 0, more than stand before them: it was not \
+                   written or copied whole.\n";
+    assert!(run.out.contains(message), "{}", run.out);
+    assert!(run.out.len() < 1_000, "{}", run.out);
+}
+
+/// A file of many clips, or materials, of one name. With a finding for each, and its lines looked for from the start of the
+/// file, 200 000 would take hours.
+#[test]
+fn many_findings_alike_are_one_with_the_first_places() {
+    let text = std::fs::read_to_string(fixture("good/d3d12_skinned.m3d")).expect("is text");
+    let (start, clip) = text.split_at(text.find("AnimationClip Wave").expect("is there"));
+    let count = 50_000;
+    let clips = start.replace("#AnimationClips 1", &format!("#AnimationClips {count}")) + &clip.repeat(count);
+    let material_at = text.find("Name: skin").expect("is there");
+    let (material, rest) = text[material_at..].split_at(text[material_at..].find("***").expect("is there"));
+    let materials = text[..material_at].replace("#Materials 1", &format!("#Materials {count}\n#Subsets 1"));
+    let materials = materials + &material.repeat(count) + rest;
+    for (name, text, code, said) in [
+        (
+            "clips.m3d",
+            clips,
+            "duplicate-clip-name",
+            "\"Wave (2)\". The same holds for 49998 more clips.",
+        ),
+        (
+            "materials.m3d",
+            materials,
+            "duplicate-material-name",
+            "\"skin (2)\". The same holds for 49998 more materials.",
+        ),
+    ] {
+        let file = scratch(name);
+        std::fs::write(&file, text).expect("can be written");
+        let file = file.to_str().expect("UTF-8");
+        let text = run(["check", file]).fine();
+        assert!(text.contains(code) && text.contains(said), "{text}");
+        let last = text.lines().last().expect("there are lines");
+        assert!(
+            last.starts_with("   = also on lines ") && last.ends_with(", …"),
+            "{last}"
+        );
+        assert_eq!(text.lines().count(), 5, "{text}");
+        let found = run(["check", "--json", file]).json();
+        let [finding] = found[0]["findings"].as_array().expect("a list").as_slice() else {
+            panic!("{found}")
+        };
+        assert_eq!(finding["count"], count - 1);
+        let places = finding["places"].as_array().expect("a list");
+        assert_eq!((places.len(), &places[0]["line"]), (4, &finding["line"]));
     }
 }

@@ -182,3 +182,68 @@ fn an_unknown_clip_is_answered_with_those_there_are() {
         }
     }
 }
+
+#[test]
+fn a_key_at_a_time_that_is_no_number_changes_nothing() {
+    let (sound, odd) = (
+        fixture("good/d3d12_skinned.m3d"),
+        fixture("good/key_times_not_finite.m3d"),
+    );
+    for time_secs in TIMES_SECS {
+        let pose = |file: &str| run(["pose", file, "--time", &time_secs.to_string(), "--json", "--positions"]).json();
+        assert_eq!(pose(&odd), pose(&sound), "at {time_secs} s");
+    }
+}
+
+/// JSON has no infinity: a number that overflowed would be null.
+#[test]
+fn a_pose_that_overflows_is_an_error_and_its_bounds_are_left_out_with_a_notice() {
+    let file = fixture("good/pose_overflows.m3d");
+    for arguments in [&["--json"][..], &[], &["--json", "--positions"]] {
+        let at = |time_secs: &str| run(["pose", &file, "--time", time_secs].iter().chain(arguments));
+        assert!(!at("0").fine().contains("null"));
+        let overflowed = at("0.5");
+        assert_eq!((overflowed.code, overflowed.out.as_str()), (Some(1), ""));
+        let words = "at 0.5 s of \"Wave\" bone 1 is taken beyond what numbers hold\n";
+        assert!(overflowed.err.ends_with(words), "{}", overflowed.err);
+    }
+    let info = run(["info", "--json", &file]).json();
+    assert_eq!(info["animated_bounds"], Value::Null);
+    assert!(info["bind_bounds"]["max"].is_array());
+    let [notice] = info["notices"].as_array().expect("a list").as_slice() else {
+        panic!("{info}")
+    };
+    assert_eq!(notice["code"], "pose-overflows");
+    assert_eq!(
+        notice["message"],
+        "At 0.5 s of \"Wave\" bone 1, or a vertex on it, is taken beyond 10³⁷: numbers overflow there."
+    );
+    let text = run(["info", &file]).fine();
+    assert!(
+        text.contains("beyond what numbers hold") && !text.contains("inf"),
+        "{text}"
+    );
+}
+
+/// The bones fit into numbers, a vertex does not.
+#[test]
+fn a_vertex_that_overflows_is_named() {
+    let mut document = document(&fixture("good/d3d12_skinned.m3d"));
+    document.vertices[2].position = [0.0, 1e20, 0.0];
+    document.clips[0].bones[1].keyframes[1].scale = [1e20; 3];
+    let file = scratch("vertex_overflows.m3d");
+    std::fs::write(&file, format::write(&document)).expect("can be written");
+    let pose = |arguments: &[&str]| {
+        run(["pose", file.to_str().expect("UTF-8"), "--time", "0.5"]
+            .iter()
+            .chain(arguments))
+    };
+    assert_eq!(pose(&["--json"]).code, Some(0));
+    let overflowed = pose(&["--json", "--positions"]);
+    assert_eq!((overflowed.code, overflowed.out.as_str()), (Some(1), ""));
+    assert!(
+        overflowed.err.contains("vertex 2 is taken beyond"),
+        "{}",
+        overflowed.err
+    );
+}

@@ -43,6 +43,11 @@ pub(crate) fn message_of(document: &Document, code: &str) -> String {
     finding.message
 }
 
+/// Whether a message begins as a sentence does, with no small letter, and ends as one.
+pub(crate) fn is_sentence(message: &str) -> bool {
+    !message.starts_with(char::is_lowercase) && message.ends_with('.')
+}
+
 pub(crate) fn material(name: &str) -> Material {
     Material {
         name: name.to_owned(),

@@ -172,7 +172,8 @@ fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<
     if label.text == b"}" || is_clip(label.text) || is_ruler(label.text) || is_bone(reader) {
         return Err(key_count(reader, bone, count, key as usize));
     }
-    let [time_secs] = field(reader, 0, [0.0])?;
+    // A time that is no number must not become another time: the model leaves the key out, and says so.
+    let [time_secs] = field(reader, 0, [f32::INFINITY])?;
     let translation = field(reader, 1, [0.0; 3])?;
     let scale = field(reader, 2, [1.0; 3])?;
     let rotation = field(reader, 3, [0.0, 0.0, 0.0, 1.0])?;

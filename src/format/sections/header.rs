@@ -1,10 +1,10 @@
 //! `#Materials N` and the other counts.
 
-use crate::format::cursor::Token;
+use crate::format::cursor::{Cursor, Token};
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::notice::Notice;
-use crate::format::reader::{Beginning, Reader};
+use crate::format::reader::{Beginning, Reader, looks_like_number};
 use crate::format::relatives::Stranger;
 
 /// What the header announces. Nothing is reserved for these numbers before they are held against the bytes left.
@@ -30,22 +30,26 @@ const COUNTS: [(&str, &[&str]); 6] = [
 
 /// Reads the header, which must be there, up to the ruler or the first line of the next section.
 pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, ParseError> {
-    let bare = reader.begin(Section::Header)? == Beginning::Bare;
+    let comment = pass_comments(reader);
+    let beginning = reader.begin(Section::Header)?;
+    let not_m3d = |label: Token<'_>| {
+        Reader::error_at(
+            label,
+            ParseErrorKind::NotM3d {
+                found: quoted(label.text),
+            },
+        )
+    };
+    if let (Beginning::End, Some(comment)) = (beginning, comment) {
+        return Err(not_m3d(comment));
+    }
+    let bare = beginning == Beginning::Bare;
     let mut found: [Option<u32>; 6] = [None; 6];
-    let mut first = true;
-    while let Some((label, behind)) = reader.peek_label() {
+    let mut start = None;
+    while let Some((label, behind)) = peek_count_label(reader) {
         if is_ruler(label.text) {
             break;
         }
-        // `# Materials 5`: the sign may stand apart.
-        let (label, behind) = match label.text {
-            b"#" => {
-                let mut ahead = reader.clone();
-                ahead.cursor = behind;
-                ahead.peek_label().unwrap_or((label, behind))
-            }
-            _ => (label, behind),
-        };
         let Some(index) = COUNTS.iter().position(|(_, names)| same_as_any(label.text, names)) else {
             if same_as_any(label.text, &["indices", "indexes"]) {
                 let stranger = Stranger::Relative("a list of indices (#Indices)");
@@ -54,21 +58,16 @@ pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Parse
             if begins_next_section(label) {
                 break;
             }
-            if bare && first {
-                return Err(Reader::error_at(
-                    label,
-                    ParseErrorKind::NotM3d {
-                        found: quoted(label.text),
-                    },
-                ));
+            if bare && start.is_none() {
+                return Err(not_m3d(comment.unwrap_or(label)));
             }
             reader.pass_unknown_line(label);
             continue;
         };
-        if bare && first {
+        if bare && start.is_none() {
             reader.ruler_missing(Section::Header);
         }
-        first = false;
+        start = start.or(Some(label));
         reader.cursor = behind;
         let (name, _) = COUNTS[index];
         let count = reader.count(Value::Count(name))?;
@@ -77,7 +76,48 @@ pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Parse
         }
         pass_surplus(reader);
     }
-    counts(reader, found)
+    let counts = counts(reader, found)?;
+    if let Some(start) = start.filter(|_| counts == Counts::default()) {
+        reader.note(start, Notice::CountsAllZero);
+    }
+    Ok(counts)
+}
+
+/// The label of the next count, and where its number begins. In `# Materials 5` the sign stands apart and is left out.
+fn peek_count_label<'a>(reader: &Reader<'a>) -> Option<(Token<'a>, Cursor<'a>)> {
+    let (label, behind) = reader.peek_label()?;
+    if label.text != b"#" {
+        return Some((label, behind));
+    }
+    let mut ahead = reader.clone();
+    ahead.cursor = behind;
+    ahead.peek_label().or(Some((label, behind)))
+}
+
+/// Passes the lines above the header that begin with `#` and are no counts. Gives the first word of the first one.
+fn pass_comments<'a>(reader: &mut Reader<'a>) -> Option<Token<'a>> {
+    let mut first = None;
+    loop {
+        reader.cursor.skip_space();
+        if reader.cursor.peek() != Some(b'#') {
+            return first;
+        }
+        let (label, behind) = peek_count_label(reader)?;
+        if is_count(label, behind) {
+            return first;
+        }
+        first = first.or(Some(label));
+        let comment = reader.cursor.rest_of_line();
+        reader.note(comment, Notice::Comment);
+    }
+}
+
+/// True for one of our labels with a number behind it on its line.
+fn is_count(label: Token<'_>, mut behind: Cursor<'_>) -> bool {
+    behind.skip_blanks();
+    !behind.at_line_end()
+        && COUNTS.iter().any(|(_, names)| same_as_any(label.text, names))
+        && behind.token().is_some_and(|number| looks_like_number(number.text))
 }
 
 /// Turns what was found into counts; those that may be zero may be missing.

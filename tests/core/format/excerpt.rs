@@ -1,7 +1,7 @@
 //! Excerpts are safe to print, and their mark stands under what is meant.
 
 use bindpose::diagnostic::Position;
-use bindpose::format::{Excerpt, excerpt};
+use bindpose::format::{Excerpt, LineIndex, excerpt};
 
 fn at(line: u32, column: u32) -> Position {
     Position { line, column }
@@ -92,4 +92,30 @@ fn places_outside_give_the_nearest_line() {
     );
     assert_eq!(excerpt(b"one\ntwo", at(2, 4), 0).mark_column, 4);
     assert_eq!(excerpt(b"one", at(u32::MAX, u32::MAX), u32::MAX).lines.len(), 1);
+}
+
+#[test]
+fn an_index_shows_what_reading_from_the_start_shows() {
+    let ends = ["\n", "\r\n", "\r"];
+    for mark in ["", "\u{FEFF}"] {
+        for count in [0_usize, 1, 2, 255, 256, 257, 258, 511, 512, 513, 700] {
+            let lines = (0..count).map(|line| format!("line {line}{}", ends[line % 3]));
+            let text = format!("{mark}{}", lines.collect::<String>());
+            let index = LineIndex::new(text.as_bytes());
+            for line in (0..=count as u32 + 2).chain([u32::MAX]) {
+                let expected = excerpt(text.as_bytes(), at(line, 3), 2);
+                assert_eq!(index.excerpt(at(line, 3), 2), expected, "line {line} of {count}");
+            }
+        }
+    }
+}
+
+/// Reading from the start for each of them would be 50 000 times 4 MB.
+#[test]
+fn excerpts_of_a_long_file_do_not_read_it_again() {
+    let text = "0 1 2\n".repeat(700_000);
+    let index = LineIndex::new(text.as_bytes());
+    for line in 650_000..700_000 {
+        assert_eq!(index.excerpt(at(line, 3), 1).lines[1].0, line);
+    }
 }

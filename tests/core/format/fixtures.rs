@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use bindpose::format::{CODES, Parsed, parse};
 
 use super::{Fixture, fixtures, one_line};
+use crate::documents::is_sentence;
 
 #[test]
 fn bad_files_are_refused_in_these_words() {
@@ -38,6 +39,19 @@ fn the_table_of_codes_is_that_of_the_fixtures() {
     let table: BTreeSet<_> = CODES.iter().map(|&(code, severity, _)| (code, severity)).collect();
     assert_eq!(emitted, table);
     assert_eq!(table.len(), CODES.len(), "a code stands twice in the table");
+}
+
+#[test]
+fn every_message_is_a_sentence() {
+    for fixture in fixtures("bad").iter().chain(&fixtures("good")) {
+        let findings = match parse(&fixture.bytes) {
+            Ok(parsed) => parsed.notices,
+            Err(error) => vec![error.diagnostic()],
+        };
+        for finding in findings {
+            assert!(is_sentence(&finding.message), "{}: {}", finding.code, finding.message);
+        }
+    }
 }
 
 #[test]

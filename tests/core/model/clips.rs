@@ -1,6 +1,6 @@
 //! Clips: keys in any state become tracks that can be sampled.
 
-use bindpose::format::{AnimationClip, ClipLines, Document, Keyframe, LineMap};
+use bindpose::format::{AnimationClip, ClipLines, Document, Keyframe, LineMap, parse};
 use bindpose::model::{Clip, LocalJoint, Model, Track};
 use glam::{Quat, Vec3};
 
@@ -338,4 +338,34 @@ fn a_clip_that_scales_the_whole_is_not_torn() {
         .for_each(|key| key.scale = [100.0; 3]);
     assert_eq!(model_of(&document).1, Vec::<&str>::new());
     assert_eq!(model_of(&arm()).0.clips[0].tracks[1].translations()[0], Vec3::Y);
+}
+
+/// As in the fixture: keys at NaN, −∞ and ∞ between two sound ones.
+#[test]
+fn keys_at_times_that_are_no_numbers_are_left_out() {
+    let parsed =
+        parse(include_bytes!("../../fixtures/good/key_times_not_finite.m3d")).expect("the fixture can be read");
+    let (model, findings) = Model::from_parsed(&parsed).expect("the fixture makes a model");
+    assert_eq!(model.clips[0].tracks[1].times_secs(), [0.0, 0.5]);
+    let [finding] = findings.as_slice() else {
+        panic!("{findings:?}")
+    };
+    assert_eq!(
+        (finding.code, finding.message.as_str()),
+        (
+            "keys-not-finite",
+            "3 keys have a number that is not finite or a time beyond 10⁹ s; left out."
+        )
+    );
+}
+
+#[test]
+fn a_clip_without_a_name_is_noted_and_shown_with_its_number() {
+    let mut document = arm();
+    document.clips[0].name.clear();
+    let (model, codes) = model_of(&document);
+    assert_eq!(
+        (model.clips[0].name.as_str(), codes.as_slice()),
+        ("clip 0", &["clip-unnamed"][..])
+    );
 }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use bindpose::diagnostic::Severity;
+use bindpose::diagnostic::{Diagnostic, Severity};
 use bindpose::format::{Document, LineMap, Subset};
 use bindpose::model::{CODES, Model};
 
-use crate::documents::{arm, key, material, offset, reordered, subset, track};
+use crate::documents::{arm, is_sentence, key, material, offset, reordered, subset, track};
 
 /// What turns a sound arm into one that a single code, or a few, are about: every way that the model has.
 const CHANGES: &[fn(&mut Document)] = &[
@@ -57,22 +57,42 @@ const CHANGES: &[fn(&mut Document)] = &[
     |arm| arm.clips[0].bones[1].keyframes[1].rotation = [0.0, 0.0, 0.0, 2.0],
     |arm| arm.clips[0].bones[1].keyframes[1].rotation = [0.0; 4],
     |arm| arm.clips[0].bones[1].keyframes[0].translation = [20.0, 0.0, 0.0],
+    |arm| arm.clips[0].name.clear(),
+    |arm| {
+        for bone in &mut arm.clips[0].bones {
+            bone.keyframes[1].scale = [1e20; 3];
+        }
+    },
 ];
+
+fn findings_of(document: &Document) -> Vec<Diagnostic> {
+    match Model::from_document(document, &LineMap::default()) {
+        Ok((_, findings)) => findings,
+        Err(error) => vec![error.diagnostic()],
+    }
+}
+
+#[test]
+fn every_message_is_a_sentence() {
+    for change in CHANGES {
+        let mut document = arm();
+        change(&mut document);
+        for finding in findings_of(&document) {
+            assert!(is_sentence(&finding.message), "{}: {}", finding.code, finding.message);
+        }
+    }
+}
 
 #[test]
 fn the_table_of_codes_is_that_of_the_documents() {
-    let findings = |document: &Document| match Model::from_document(document, &LineMap::default()) {
-        Ok((_, findings)) => findings,
-        Err(error) => vec![error.diagnostic()],
-    };
-    assert_eq!(findings(&arm()), [], "nothing is wrong with the arm");
+    assert_eq!(findings_of(&arm()), [], "nothing is wrong with the arm");
     let mut given: BTreeSet<(&str, Severity)> = BTreeSet::new();
     for (index, change) in CHANGES.iter().enumerate() {
         let mut document = arm();
         change(&mut document);
         let before = given.len();
         given.extend(
-            findings(&document)
+            findings_of(&document)
                 .iter()
                 .map(|finding| (finding.code, finding.severity)),
         );

@@ -26,43 +26,43 @@ fn words_code_and_place_of_each_broken_rule() {
         (
             |document| document.bone_parents[2] = 3,
             "parent-out-of-range",
-            "line 402, column 1: bone 2 lists 3 as its parent; a parent is −1 or a bone below 3",
+            "line 402, column 1: Bone 2 lists 3 as its parent; a parent is −1 or a bone below 3.",
         ),
         (
             |document| document.bone_parents[1] = -2,
             "parent-out-of-range",
-            "line 401, column 1: bone 1 lists -2 as its parent; a parent is −1 or a bone below 3",
+            "line 401, column 1: Bone 1 lists -2 as its parent; a parent is −1 or a bone below 3.",
         ),
         (
             |document| document.bone_parents = vec![-1, 1, 1],
             "parent-cycle",
-            "line 401, column 1: bones form a circle: 1 → 1; each lists the next as its parent",
+            "line 401, column 1: Bones form a circle: 1 → 1; each lists the next as its parent.",
         ),
         (
             |document| document.bone_parents = vec![2, 0, 1],
             "parent-cycle",
-            "line 400, column 1: bones form a circle: 0 → 2 → 1 → 0; each lists the next as its parent",
+            "line 400, column 1: Bones form a circle: 0 → 2 → 1 → 0; each lists the next as its parent.",
         ),
         (
             |document| document.bone_parents = vec![1, 2, 1],
             "parent-cycle",
-            "line 401, column 1: bones form a circle: 1 → 2 → 1; each lists the next as its parent",
+            "line 401, column 1: Bones form a circle: 1 → 2 → 1; each lists the next as its parent.",
         ),
         (
             |document| document.bone_offsets.truncate(2),
             "bone-count-mismatch",
-            "line 400, column 1: 2 bone offsets but 3 parents; every bone has one of each",
+            "line 400, column 1: 2 bone offsets but 3 parents; every bone has one of each.",
         ),
         (
             |document| document.triangles[3] = [0, 14, 1],
             "vertex-out-of-range",
-            "line 203, column 1: triangle 3 names vertex 14, but there are 14 vertices",
+            "line 203, column 1: Triangle 3 names vertex 14, but there are 14 vertices.",
         ),
         (|document| document.vertices[5].blend_indices[1] = 3, "", ""),
         (
             |document| document.vertices[4].blend_indices[0] = u32::MAX,
             "influence-out-of-range",
-            "line 104, column 1: vertex 4 gives weight to bone 4294967295, but there are 3 bones",
+            "line 104, column 1: Vertex 4 gives weight to bone 4294967295, but there are 3 bones.",
         ),
     ];
     for (change, code, words) in cases {
@@ -91,7 +91,10 @@ fn a_document_without_lines_has_errors_without_a_place() {
     let mut document = quad();
     document.triangles[1] = [0, 1, 4];
     let error = Model::from_document(&document, &LineMap::default()).expect_err("vertex 4 does not exist");
-    assert_eq!(error.to_string(), "triangle 1 names vertex 4, but there are 4 vertices");
+    assert_eq!(
+        error.to_string(),
+        "Triangle 1 names vertex 4, but there are 4 vertices."
+    );
 }
 
 #[test]
@@ -102,7 +105,7 @@ fn a_long_circle_names_its_first_bones() {
     let error = Model::from_document(&document, &LineMap::default()).expect_err("a circle");
     assert_eq!(
         error.to_string(),
-        "bones form a circle: 0 → 1 → 2 → 3 → 4 → 5 → 6 → 7 → … (12 more) → 0; each lists the next as its parent"
+        "Bones form a circle: 0 → 1 → 2 → 3 → 4 → 5 → 6 → 7 → … (12 more) → 0; each lists the next as its parent."
     );
 }
 
@@ -115,27 +118,27 @@ fn constructors_refuse_what_later_stages_rely_on() {
     let skeletons = [
         (
             Skeleton::new(vec![child_of(1), root], vec![identity; 2], vec![0, 1]),
-            "joint 0 lists joint 1 as its parent; a parent must come before its children",
+            "Joint 0 lists joint 1 as its parent; a parent must come before its children.",
         ),
         (
             Skeleton::new(vec![root, child_of(1)], vec![identity; 2], vec![0, 1]),
-            "joint 1 lists joint 1 as its parent; a parent must come before its children",
+            "Joint 1 lists joint 1 as its parent; a parent must come before its children.",
         ),
         (
             Skeleton::new(vec![root], vec![identity; 2], vec![0]),
-            "1 parents, 2 inverse bind matrices and 1 file bones; every joint has one of each",
+            "1 parents, 2 inverse bind matrices and 1 file bones; every joint has one of each.",
         ),
         (
             Skeleton::new(vec![root; 2], vec![identity; 2], vec![0, 0]),
-            "file bone 0 of joint 1 is out of range or taken; the file bones are an order of all joints",
+            "File bone 0 of joint 1 is out of range or taken; the file bones are an order of all joints.",
         ),
         (
             Skeleton::new(vec![root; 2], vec![identity; 2], vec![0, 2]),
-            "file bone 2 of joint 1 is out of range or taken; the file bones are an order of all joints",
+            "File bone 2 of joint 1 is out of range or taken; the file bones are an order of all joints.",
         ),
         (
             Skeleton::new(vec![root], vec![flat], vec![0]),
-            "the inverse bind matrix of joint 0 holds a number that is not finite",
+            "The inverse bind matrix of joint 0 holds a number that is not finite.",
         ),
     ];
     for (skeleton, words) in skeletons {
@@ -148,18 +151,18 @@ fn constructors_refuse_what_later_stages_rely_on() {
         ..joint
     };
     let tracks = [
-        (Track::new([]), "a track needs at least one key"),
+        (Track::new([]), "A track needs at least one key."),
         (
             Track::new([(0.0, joint), (0.0, joint)]),
-            "key 1 is not after the key before it; key times must increase",
+            "Key 1 is not after the key before it; key times must increase.",
         ),
         (
             Track::new([(0.0, joint), (1.0, broken)]),
-            "key 1 holds a number that is not finite, or a rotation without a direction",
+            "Key 1 holds a number that is not finite, or a rotation without a direction.",
         ),
         (
             Track::new([(f32::NAN, joint)]),
-            "key 0 holds a number that is not finite, or a rotation without a direction",
+            "Key 0 holds a number that is not finite, or a rotation without a direction.",
         ),
     ];
     for (track, words) in tracks {
