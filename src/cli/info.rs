@@ -6,13 +6,14 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::finding::{Notice, worded_place};
-use super::text::{Plain, counted, grouped};
+use super::text::{Plain, column_width, counted, grouped};
+use super::textures::{MapState, NamedMap, Textures, Wanted, by_name, named_maps};
 use super::{Failure, input};
 use crate::anim::animated_bounds;
 use crate::diagnostic::Severity;
 use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
-use crate::session::OpenModel;
+use crate::session::{MapSlot, Maps, OpenModel};
 
 /// Say what is in a model.
 #[derive(Debug, clap::Args)]
@@ -24,6 +25,9 @@ pub(super) struct Arguments {
     /// Print JSON; see below for its keys.
     #[arg(long)]
     json: bool,
+    /// Look in a folder for the maps that the materials name, folders and links in it included; may be given several times.
+    #[arg(long, value_name = "DIR")]
+    textures: Vec<PathBuf>,
 }
 
 const JSON: &str = "\
@@ -34,6 +38,13 @@ JSON: an object
   up_axis           \"y\" or \"z\", as the dialect suggests
   counts            materials, vertices, triangles, bones, clips
   materials         array of names
+  maps              array: each map that a material names, in the order of the materials
+    material        name of the material
+    slot            \"diffuse\" or \"normal\"
+    name            as the file has it
+    state           \"found\", \"missing\" or \"unreadable\"; null without --textures
+    path            of the picture that fits the name; null when there is none
+    problem         why it is unreadable, one sentence; else null
   clips             array
     name
     start_secs      least and
@@ -49,7 +60,8 @@ JSON: an object
     message         one sentence
     line, column    place, both from 1; null when it is about the whole file
 
-A file with errors has no such output: the error is told on standard error, with exit code 1.";
+A file with errors has no such output: the error is told on standard error, with exit code 1. Missing maps are no errors;
+what is skipped in the folders is told on standard error.";
 
 /// The result.
 #[derive(Debug, Serialize)]
@@ -60,6 +72,7 @@ struct Info<'a> {
     up_axis: &'static str,
     counts: Counts,
     materials: Vec<&'a str>,
+    maps: Vec<Map<'a>>,
     clips: Vec<Clip<'a>>,
     bind_bounds: Option<Bounds>,
     animated_bounds: Option<Bounds>,
@@ -76,6 +89,16 @@ struct Counts {
 }
 
 #[derive(Debug, Serialize)]
+struct Map<'a> {
+    material: &'a str,
+    slot: &'static str,
+    name: &'a str,
+    state: Option<&'static str>,
+    path: Option<String>,
+    problem: Option<&'a str>,
+}
+
+#[derive(Debug, Serialize)]
 struct Clip<'a> {
     name: &'a str,
     start_secs: f32,
@@ -89,20 +112,31 @@ struct Bounds {
     max: [f32; 3],
 }
 
-pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), Failure> {
     let open = input::load(&arguments.file)?;
-    let info = Info::new(arguments.file.display().to_string(), &open);
+    let materials = &open.model.materials;
+    let mut found = Maps::default();
+    let mut textures;
+    let maps = if arguments.textures.is_empty() {
+        named_maps(materials).collect()
+    } else {
+        textures = Textures::read(&arguments.textures, materials, Wanted::Maps)?;
+        textures.write_warnings(err)?;
+        found.add(materials, std::mem::take(&mut textures.pictures));
+        textures.states(materials, &found)
+    };
+    let info = Info::new(arguments.file.display().to_string(), &open, &maps);
     if arguments.json {
         serde_json::to_writer_pretty(&mut *out, &info)?;
         writeln!(out)?;
     } else {
-        write_text(out, &info, &open)?;
+        write_text(out, &info, &open, &maps)?;
     }
     Ok(())
 }
 
 impl<'a> Info<'a> {
-    fn new(file: String, open: &'a OpenModel) -> Self {
+    fn new(file: String, open: &'a OpenModel, maps: &'a [NamedMap<'a>]) -> Self {
         let model = &open.model;
         Self {
             file,
@@ -117,6 +151,7 @@ impl<'a> Info<'a> {
                 clips: model.clips.len(),
             },
             materials: model.materials.iter().map(|material| material.name.as_str()).collect(),
+            maps: maps.iter().map(Map::from).collect(),
             clips: model
                 .clips
                 .iter()
@@ -130,6 +165,27 @@ impl<'a> Info<'a> {
             bind_bounds: bounds(open.bind_bounds),
             animated_bounds: bounds_of_all_clips(model).and_then(bounds),
             notices: open.notices.iter().map(Notice::from).collect(),
+        }
+    }
+}
+
+impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
+    fn from(map: &'a NamedMap<'_>) -> Self {
+        let (path, problem) = match &map.state {
+            Some(MapState::Found(path)) => (Some(*path), None),
+            Some(MapState::Unreadable(path, finding)) => (Some(*path), Some(finding.message.as_str())),
+            Some(MapState::Missing) | None => (None, None),
+        };
+        Self {
+            material: map.material,
+            slot: match map.slot {
+                MapSlot::Diffuse => "diffuse",
+                MapSlot::Normal => "normal",
+            },
+            name: map.name,
+            state: map.state.as_ref().map(MapState::as_str),
+            path: path.map(|path| path.display().to_string()),
+            problem,
         }
     }
 }
@@ -150,7 +206,7 @@ fn bounds(bounds: Aabb) -> Option<Bounds> {
     })
 }
 
-fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel) -> io::Result<()> {
+fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {
     let dialect = match open.dialect {
         Dialect::D3d12 => "D3D12 book",
         Dialect::D3d11 => "D3D11 book",
@@ -177,6 +233,7 @@ fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel) -> io::Res
     }
     write_bounds(out, info)?;
     write_materials(out, &open.model)?;
+    write_maps(out, maps)?;
     write_clips(out, info)?;
     write_notices(out, open)
 }
@@ -201,12 +258,41 @@ fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
 
 fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     writeln!(out, "\n{}", counted(model.materials.len(), "material"))?;
-    let width = widest(model.materials.iter().map(|material| material.name.as_str()));
-    for (index, material) in (0u32..).zip(&model.materials) {
-        let submeshes = model.mesh.submeshes.iter().filter(|submesh| submesh.material == index);
-        let triangles: usize = submeshes.map(|submesh| submesh.triangle_count as usize).sum();
+    let width = column_width(model.materials.iter().map(|material| material.name.as_str()));
+    let mut triangles = vec![0; model.materials.len()];
+    for submesh in &model.mesh.submeshes {
+        if let Some(triangles) = triangles.get_mut(submesh.material as usize) {
+            *triangles += submesh.triangle_count as usize;
+        }
+    }
+    for (material, triangles) in model.materials.iter().zip(triangles) {
         let name = Plain(&material.name).to_string();
         writeln!(out, "  {name:<width$}  {:>10} triangles", grouped(triangles))?;
+    }
+    Ok(())
+}
+
+/// Each name once, and what was found for it.
+fn write_maps(out: &mut dyn Write, maps: &[NamedMap<'_>]) -> io::Result<()> {
+    let maps = by_name(maps);
+    if maps.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n{}", counted(maps.len(), "map"))?;
+    let width = column_width(maps.iter().map(|(map, _)| map.name));
+    for (map, _) in maps {
+        let name = Plain(map.name).to_string();
+        match &map.state {
+            None => writeln!(out, "  {name}")?,
+            Some(state) => {
+                let path = match state {
+                    MapState::Found(path) | MapState::Unreadable(path, _) => path.display().to_string(),
+                    MapState::Missing => String::new(),
+                };
+                let line = format!("{name:<width$}  {:<10}  {path}", state.as_str());
+                writeln!(out, "  {}", Plain(line.trim_end()))?;
+            }
+        }
     }
     Ok(())
 }
@@ -216,7 +302,7 @@ fn write_clips(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
         return Ok(());
     }
     writeln!(out, "\n{}", counted(info.clips.len(), "clip"))?;
-    let width = widest(info.clips.iter().map(|clip| clip.name));
+    let width = column_width(info.clips.iter().map(|clip| clip.name));
     for clip in &info.clips {
         let name = Plain(clip.name).to_string();
         let (start_secs, end_secs) = (clip.start_secs, clip.end_secs);
@@ -245,9 +331,4 @@ fn write_notices(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
         writeln!(out, "  {}", Plain(&worded_place(notice)))?;
     }
     Ok(())
-}
-
-/// Characters of the longest name.
-fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
-    names.map(|name| name.chars().count()).max().unwrap_or(0)
 }

@@ -12,8 +12,10 @@ mod input;
 mod look;
 mod output;
 mod pose;
+mod quiet;
 mod render;
 mod text;
+mod textures;
 
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
@@ -93,10 +95,10 @@ pub fn main() -> ExitCode {
 
 fn run(command: &Command, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     match command {
-        Command::Info(arguments) => info::run(arguments, out)?,
+        Command::Info(arguments) => info::run(arguments, out, err)?,
         Command::Check(arguments) => return check::run(arguments, out, err),
         Command::Pose(arguments) => pose::run(arguments, out)?,
-        Command::Render(arguments) => render::run(arguments, out)?,
+        Command::Render(arguments) => return render::run(arguments, out, err),
     }
     Ok(Outcome::Fine)
 }

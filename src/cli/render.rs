@@ -5,9 +5,12 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::finding::write_finding;
 use super::look::LookArguments;
+use super::quiet::quietly;
 use super::text::Plain;
-use super::{Failure, clip, input};
+use super::textures::{Textures, Wanted, read_sky, write_missing};
+use super::{Failure, Outcome, clip, input};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, Target, read_back_blocking};
@@ -18,6 +21,7 @@ use crate::session::{Command, Session};
 ///
 /// The same picture that the page shows, drawn without a window. A software GPU is enough.
 #[derive(Debug, clap::Args)]
+#[command(after_long_help = OUTPUT)]
 pub(super) struct Arguments {
     /// Model to read.
     #[arg(value_name = "FILE")]
@@ -43,12 +47,34 @@ pub(super) struct Arguments {
     /// Surroundings.
     #[arg(long, value_enum, default_value = "dark")]
     theme: Theme,
-    /// A folder with the model's textures, folders in it included; may be given several times.
+    /// A folder with the model's textures, folders and links in it included; may be given several times.
+    ///
+    /// Read are the pictures that the model names, and the largest cube map, which becomes the sky. Maps that are missing or
+    /// cannot be read are told on standard error, a line each; the picture is drawn without them.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
+    /// What to refuse.
+    #[arg(long, value_name = "WHAT", value_enum, requires = "textures")]
+    deny: Vec<Denied>,
     #[command(flatten)]
     look: LookArguments,
 }
+
+const OUTPUT: &str = "\
+Warnings, on standard error:
+  PATH: warning[CODE]: MESSAGE
+  map-missing          no file of the folders fits a map; PATH is the model's
+  image-*, dds-*       the picture that fits a map is damaged or of a kind that is not read
+  file-unreadable      a picture that fits a map, or an entry of a folder, that the system does not let us read
+  folder-unreadable    likewise a folder inside of DIR
+  folder-too-large     a folder with more entries than are looked at
+  link-broken          a link to nothing
+  not-a-file           a pipe or device with the name of a map
+
+Exit codes:
+  0  the picture is written
+  1  the model has errors; or with --deny missing-maps, the picture is written without some of its maps
+  2  wrong use, or something is missing: a file or folder that can be read, a clip, a GPU";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum View {
@@ -83,6 +109,12 @@ enum Backend {
     Gl,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Denied {
+    /// Exit with 1 when a map that the model names is missing or cannot be read. The picture is written all the same.
+    MissingMaps,
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Theme {
     Dark,
@@ -108,8 +140,8 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let mut session = open(arguments)?;
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
+    let (mut session, lacks_maps) = open(arguments, err)?;
     let (gpu, backend) = open_gpu(arguments.backend)?;
     let png = draw(arguments, &mut session, &gpu, backend)?;
     std::fs::write(&arguments.output, png).map_err(|reason| Failure::Unwritable {
@@ -127,25 +159,26 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
         gpu.info.name
     );
     writeln!(out, "{}", Plain(&line))?;
-    Ok(())
+    Ok(if lacks_maps && arguments.deny.contains(&Denied::MissingMaps) {
+        Outcome::FileHasErrors
+    } else {
+        Outcome::Fine
+    })
 }
 
-/// A session that shows what was asked for, as the page's would.
-fn open(arguments: &Arguments) -> Result<Session, Failure> {
+/// A session that shows what was asked for, as the page's would, and whether the model lacks maps.
+fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), Failure> {
     let path = &arguments.file;
     // At rest: time stands where it is put.
     let mut session = Session::new(true);
-    let mut files = vec![input::read(path)?];
-    for folder in &arguments.textures {
-        input::read_pictures(folder, &mut files)?;
-    }
-    session.apply(Command::AddFiles(files));
+    session.apply(Command::AddFiles(vec![input::read(path)?]));
     if let Some(error) = session.error() {
         return Err(Failure::Refused {
             path: path.clone(),
             error: Box::new(error.clone()),
         });
     }
+    let lacks_maps = add_textures(arguments, &mut session, err)?;
     if let (Some(open), Some(asked)) = (session.open_model(), &arguments.clip)
         && let Some(clip) = clip::choose(&open.model, path, Some(asked))?
     {
@@ -162,11 +195,41 @@ fn open(arguments: &Arguments) -> Result<Session, Failure> {
     session.apply(Command::SetTheme(arguments.theme.into()));
     arguments.look.apply(&mut session);
     session.apply(Command::LookFrom(arguments.view.into()));
-    Ok(session)
+    Ok((session, lacks_maps))
+}
+
+/// Adds what the folders have for the model and the largest cube map that can be read, as the sky. Whether maps lack.
+fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Write) -> Result<bool, Failure> {
+    let folders = arguments.textures.as_slice();
+    let materials = match session.open_model() {
+        Some(open) if !folders.is_empty() => open.model.materials.clone(),
+        _ => return Ok(false),
+    };
+    let mut textures = Textures::read(folders, &materials, Wanted::MapsAndSky)?;
+    textures.write_warnings(err)?;
+    let pictures = std::mem::take(&mut textures.pictures);
+    if !pictures.is_empty() {
+        session.apply(Command::AddFiles(pictures));
+    }
+    let lacks_maps = write_missing(err, &arguments.file, &textures.states(&materials, session.maps()))?;
+    for path in &textures.cubes {
+        match read_sky(path) {
+            Ok(file) => {
+                session.apply(Command::AddFiles(vec![file]));
+                break;
+            }
+            Err(warning) => write_finding(err, path, &warning, None)?,
+        }
+    }
+    Ok(lacks_maps)
 }
 
 fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure> {
-    let open = |backend| pollster::block_on(device::headless(backend)).map(|gpu| (gpu, backend));
+    let open = |backend| {
+        let open = || pollster::block_on(device::headless(backend));
+        // A driver that fails may say why: it is heard at the second try.
+        quietly(open).or_else(|_| open()).map(|gpu| (gpu, backend))
+    };
     match backend {
         Some(Backend::Vulkan) => Ok(open(device::Backend::Vulkan)?),
         Some(Backend::Gl) => Ok(open(device::Backend::Gl)?),

@@ -54,6 +54,15 @@ pub(super) fn counted(count: usize, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
+/// Characters of the widest column of names. A longer name juts out of its own row and leaves the others as they are.
+const WIDEST_COLUMN: usize = 48;
+
+/// Characters of a column that holds these names. The names come from a file, and the formatter takes no width above 65 535.
+pub(super) fn column_width<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+    let widths = names.map(|name| name.chars().take(WIDEST_COLUMN).count());
+    widths.max().unwrap_or(0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,6 +84,13 @@ mod tests {
     fn a_line_stays_one_line() {
         let name = "a\nb\r\u{85}\u{1b}[31m\u{202e}ä";
         assert_eq!(OneLine(name).to_string(), "a\\nb\\r\\u{85}\\u{1b}[31m\\u{202e}ä");
+    }
+
+    #[test]
+    fn a_column_is_as_wide_as_its_names_within_reason() {
+        assert_eq!(column_width([].into_iter()), 0);
+        assert_eq!(column_width(["skin", "höhle"].into_iter()), 5);
+        assert_eq!(column_width(["a", &"a".repeat(1_000_000)].into_iter()), WIDEST_COLUMN);
     }
 
     #[test]

@@ -6,10 +6,10 @@
 use super::error::ImageErrorKind;
 
 /// Bytes of signature and header.
-const HEADER_LEN: usize = 4 + 124;
+pub(super) const HEADER_LEN: usize = 4 + 124;
 
 /// Bytes of the header that follows it where the four-character code is `DX10`.
-const DX10_LEN: usize = 20;
+pub(super) const DX10_LEN: usize = 20;
 
 /// What the header says, in its own words.
 #[derive(Clone, Copy, Debug)]

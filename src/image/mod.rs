@@ -84,6 +84,9 @@ fn named(kind: ImageErrorKind, name: &str) -> ImageError {
     }
 }
 
+/// Bytes from the beginning of a file that [`cube_side`] reads at most.
+pub const CUBE_HEADER_LEN: usize = dds_header::HEADER_LEN + dds_header::DX10_LEN;
+
 /// Texels a side of each face when a file begins like a cube map, whose texels may still be damaged; `None` for anything
 /// else. Reads the header alone.
 pub fn cube_side(bytes: &[u8]) -> Option<u32> {

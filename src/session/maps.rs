@@ -155,6 +155,20 @@ impl Maps {
         &self.pictures
     }
 
+    /// The picture that was found for a material's map, whether it can be read or not.
+    pub fn file(&self, material: usize, slot: MapSlot) -> Option<&File> {
+        self.pictures.get(self.of_materials.get(material)?.slot(slot).file()?)
+    }
+
+    /// Why the picture that was found for a material's map cannot be read.
+    pub fn finding(&self, material: usize, slot: MapSlot) -> Option<&Diagnostic> {
+        let file = self.of_materials.get(material)?.slot(slot).file()?;
+        match self.decoded.get(file)? {
+            Decoded::Failed(finding) => Some(finding),
+            Decoded::New | Decoded::Unused | Decoded::Image(_) => None,
+        }
+    }
+
     /// The decoded picture of a material's map, when it is there and could be read.
     pub fn image(&self, material: usize, slot: MapSlot) -> Option<&Image> {
         let file = self.of_materials.get(material)?.slot(slot).file()?;

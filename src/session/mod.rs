@@ -40,7 +40,7 @@ pub use mixing::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
 pub use quality::{PassChoice, PassState, Quality, RenderScale};
 pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
-pub use textures::{Checklist, FoundMap, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
+pub use textures::{Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 
 use glam::Affine3A;
 

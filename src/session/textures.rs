@@ -1,7 +1,7 @@
 //! Which dropped file is which map: by base name, at any depth, without case, then without extension.
 
 use std::cmp::Reverse;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::Material;
@@ -144,6 +144,38 @@ pub fn find_map(name: &str, files: &[File], drops: &[u32]) -> Option<FoundMap> {
     })
 }
 
+/// The base names that maps go by, for whoever chooses files by their names before reading them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MapNames {
+    names: HashSet<String>,
+    stems: HashSet<String>,
+}
+
+impl MapNames {
+    /// Of all maps that the materials name.
+    pub fn new(materials: &[Material]) -> Self {
+        let mut all = Self::default();
+        for material in materials {
+            for name in MapSlot::ALL.into_iter().filter_map(|slot| slot.name_in(material)) {
+                let base_name = base_name(name);
+                if !base_name.is_empty() {
+                    all.stems.insert(stem(&base_name).to_owned());
+                    all.names.insert(base_name);
+                }
+            }
+        }
+        all
+    }
+
+    /// Whether [`find_map`] can take a picture at this path for one of the names.
+    pub fn fit(&self, path: &str) -> bool {
+        let base_name = base_name(path);
+        let stem = stem(&base_name);
+        // A name that has no extension may still have a dot.
+        self.names.contains(&base_name) || self.stems.contains(stem) || self.names.contains(stem)
+    }
+}
+
 /// How much of what the materials name is there. A name that several materials share counts once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checklist {
@@ -258,6 +290,12 @@ pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Optio
         [others @ .., last] => format!("{} and {last} {of_many}", others.join(", ")),
     };
     Some(Diagnostic::without_place(Severity::Note, MAP_UNUSED, message))
+}
+
+/// Last part of a path, in lower case.
+fn base_name(path: &str) -> String {
+    let path = path.trim();
+    path.rsplit(['/', '\\']).next().unwrap_or(path).to_lowercase()
 }
 
 /// Base name, then the folders from the innermost on, in lower case.

@@ -24,6 +24,10 @@ fn json_says_all_of_a_skinned_file() {
         "up_axis": "y",
         "counts": {"materials": 1, "vertices": 3, "triangles": 1, "bones": 2, "clips": 1},
         "materials": ["skin"],
+        "maps": [
+            {"material": "skin", "slot": "diffuse", "name": "skin_diff.dds", "state": null, "path": null, "problem": null},
+            {"material": "skin", "slot": "normal", "name": "skin_norm.dds", "state": null, "path": null, "problem": null},
+        ],
         "clips": [{"name": "Wave", "start_secs": 0.0, "end_secs": 0.5, "keys": 3}],
         "bind_bounds": null,
         "animated_bounds": null,
@@ -126,6 +130,76 @@ fn control_characters_are_not_printed() {
     );
     let found = run(["info", "--json", file]).json();
     assert_eq!(found["clips"][0]["name"], "Wa\u{1b}[31mve");
+}
+
+/// No width is made of a name alone: the formatter takes none above 65 535.
+#[test]
+fn names_of_any_length_are_printed() {
+    let long = "n".repeat(65_536);
+    let text = std::fs::read_to_string(fixture("good/bones_child_first.m3d")).expect("is text");
+    let file = scratch("long_names.m3d");
+    let text = text
+        .replace("Name: skin\n", &format!("Name: {long}m\n"))
+        .replace("AnimationClip Wave\n", &format!("AnimationClip {long}c\n"))
+        .replace("skin_diff.dds", &format!("{long}d.dds"));
+    std::fs::write(&file, text).expect("can be written");
+    let folder = scratch("no_textures");
+    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let (file, folder) = (file.to_str().expect("UTF-8"), folder.to_str().expect("UTF-8"));
+    let printed = run(["info", file, "--textures", folder]).fine();
+    for row in ["m  ", "c  ", "d.dds  missing\n"] {
+        assert!(printed.contains(&format!("  {long}{row}")), "{row} has no row");
+    }
+    assert!(
+        printed.contains("  skin_norm.dds                   "),
+        "columns stay narrow"
+    );
+
+    let nowhere = format!("{long}.m3d");
+    let run = run(["info", &nowhere]);
+    assert_eq!((run.code, run.out.as_str()), (Some(2), ""));
+    assert!(run.err.starts_with(&format!("error: {nowhere} cannot be read: ")));
+}
+
+#[test]
+fn maps_are_found_missing_or_unreadable() {
+    let folder = scratch("info_art");
+    std::fs::create_dir_all(folder.join("deep")).expect("makes a folder");
+    let picture = folder.join("deep/SKIN_diff.png");
+    image::RgbaImage::new(2, 2).save(&picture).expect("writes");
+    let damaged = folder.join("skin_norm.dds");
+    std::fs::write(&damaged, "DDS ").expect("writes");
+    let file = fixture("good/bones_child_first.m3d");
+    let arguments = ["info", &file, "--textures", folder.to_str().expect("UTF-8")];
+
+    let told = run(arguments);
+    assert_eq!(told.err, "");
+    let printed = told.fine();
+    let rows = format!(
+        "2 maps\n  skin_diff.dds  found       {}\n  skin_norm.dds  unreadable  {}\n",
+        picture.display(),
+        damaged.display()
+    );
+    assert!(printed.contains(&rows), "{rows} is not in\n{printed}");
+
+    let maps = || run([&arguments[..], &["--json"]].concat()).json()["maps"].take();
+    assert_eq!(
+        maps(),
+        json!([
+            {"material": "skin", "slot": "diffuse", "name": "skin_diff.dds", "state": "found", "path": picture, "problem": null},
+            {
+                "material": "skin", "slot": "normal", "name": "skin_norm.dds", "state": "unreadable", "path": damaged,
+                "problem": "skin_norm.dds: the DDS header takes 128 bytes, and the file has 4",
+            },
+        ])
+    );
+    std::fs::remove_file(&damaged).expect("was written");
+    let missing = json!({
+        "material": "skin", "slot": "normal", "name": "skin_norm.dds", "state": "missing", "path": null, "problem": null,
+    });
+    assert_eq!(maps()[1], missing);
+    let nowhere = run(["info", &file, "--textures", "/no/such/folder"]);
+    assert_eq!(nowhere.code, Some(2));
 }
 
 #[test]

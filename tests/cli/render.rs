@@ -1,8 +1,10 @@
 //! `bindpose render`, on both backends. Without an adapter these fail and say what to install.
 
+use std::path::Path;
+
 use image::RgbaImage;
 
-use crate::program::{FIGURE, bindpose, fixture, run, run_command, scratch, shared};
+use crate::program::{FIGURE, Run, bindpose, fixture, run, run_command, scratch, shared};
 
 /// Draws, and gives the picture with what was printed.
 fn draw(name: &str, file: &str, arguments: &[&str]) -> (RgbaImage, String) {
@@ -188,6 +190,120 @@ fn a_missing_driver_is_named_with_its_package() {
     );
     let instead = without_vulkan("instead.png", &[]).fine();
     assert!(instead.contains("(GL)"), "{instead}");
+}
+
+/// A machine without a desktop has no such folder, and Mesa's layers complain of it.
+#[test]
+fn drivers_say_nothing_where_all_is_well() {
+    for backend in ["vulkan", "gl"] {
+        let path = scratch(&format!("quiet-{backend}.png"));
+        let mut command = bindpose();
+        command.args(["render", FIGURE, "--size", "16x16", "--backend", backend, "-o"]);
+        let run = run_command(command.arg(path).env_remove("XDG_RUNTIME_DIR"));
+        assert_eq!((run.code, run.err.as_str()), (Some(0), ""), "{backend}");
+    }
+}
+
+/// Draws the fixture whose material names `skin_diff.dds` and `skin_norm.dds`.
+fn draw_skin(folder: &Path, more: &[&str]) -> Run {
+    let path = folder.with_extension("png");
+    let mut command = bindpose();
+    command.args([
+        "render",
+        &fixture("good/bones_child_first.m3d"),
+        "--size",
+        "16x16",
+        "-o",
+    ]);
+    let run = run_command(command.arg(&path).arg("--textures").arg(folder).args(more));
+    assert!(path.is_file(), "{run:?}");
+    std::fs::remove_file(path).expect("was written");
+    run
+}
+
+fn save_texel(path: impl AsRef<Path>) {
+    let grey = RgbaImage::from_pixel(1, 1, image::Rgba([128, 128, 255, 255]));
+    grey.save(path).expect("writes");
+}
+
+#[test]
+fn maps_that_lack_are_told_and_can_be_denied() {
+    let folder = scratch("lacking");
+    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let normal_map = folder.join("skin_norm.dds");
+    std::fs::write(&normal_map, "DDS ").expect("writes");
+    let model = fixture("good/bones_child_first.m3d");
+    let told = format!(
+        "{model}: warning[map-missing]: No file fits the diffuse map \"skin_diff.dds\" of material \"skin\".\n\
+         {}: warning[dds-header-cut]: the DDS header takes 128 bytes, and the file has 4\n",
+        normal_map.display()
+    );
+    let deny = ["--deny", "missing-maps"];
+    for (more, code) in [(&[][..], 0), (&deny, 1)] {
+        let run = draw_skin(&folder, more);
+        assert_eq!((run.code, run.err.as_str()), (Some(code), told.as_str()), "{more:?}");
+    }
+
+    save_texel(folder.join("SKIN_DIFF.png"));
+    std::fs::remove_file(&normal_map).expect("was written");
+    save_texel(folder.join("skin_norm.png"));
+    let complete = draw_skin(&folder, &deny);
+    assert_eq!((complete.code, complete.err.as_str()), (Some(0), ""));
+
+    let nowhere_to_look = run([&["render", &model, "-o", "nothing.png"], &deny[..]].concat());
+    assert_eq!(nowhere_to_look.code, Some(2));
+}
+
+/// Pipes without a writer, links to nothing, to folders and round in circles; and a file that no memory holds.
+#[cfg(target_os = "linux")]
+#[test]
+fn only_files_with_the_names_of_maps_are_read_from_a_folder() {
+    use std::os::unix::fs::symlink;
+
+    let folder = scratch("hazards");
+    let elsewhere = scratch("elsewhere");
+    for folder in [&folder, &elsewhere] {
+        std::fs::create_dir_all(folder).expect("makes a folder");
+    }
+    save_texel(elsewhere.join("skin_diff.png"));
+    symlink(&elsewhere, folder.join("linked")).expect("links");
+    symlink(&folder, elsewhere.join("back")).expect("links");
+    symlink(&folder, folder.join("circle")).expect("links");
+    symlink("itself.png", folder.join("itself.png")).expect("links");
+    symlink("/no/such/file", folder.join("nowhere.txt")).expect("links");
+    let unnamed = std::fs::File::create(folder.join("unnamed.png")).expect("makes a file");
+    unnamed.set_len(1 << 40).expect("takes no place");
+    for name in ["pipe.png", "skin_diff.png", "skin_norm.dds"] {
+        let made = std::process::Command::new("mkfifo").arg(folder.join(name)).status();
+        assert!(made.expect("coreutils are there").success());
+    }
+
+    let run = draw_skin(&folder, &["--deny", "missing-maps"]);
+    let at = |name: &str| folder.join(name).display().to_string();
+    let told = [
+        format!(
+            "{}: warning[link-broken]: The link cannot be followed: Too many levels of symbolic links (os error 40); skipped.",
+            at("itself.png")
+        ),
+        format!(
+            "{}: warning[link-broken]: The link cannot be followed: No such file or directory (os error 2); skipped.",
+            at("nowhere.txt")
+        ),
+        format!(
+            "{}: warning[not-a-file]: This is no regular file; skipped.",
+            at("skin_diff.png")
+        ),
+        format!(
+            "{}: warning[not-a-file]: This is no regular file; skipped.",
+            at("skin_norm.dds")
+        ),
+        format!(
+            "{}: warning[map-missing]: No file fits the normal map \"skin_norm.dds\" of material \"skin\".",
+            fixture("good/bones_child_first.m3d")
+        ),
+    ];
+    assert_eq!(run.err.lines().collect::<Vec<_>>(), told);
+    assert_eq!(run.code, Some(1), "the pipe is no map");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use bindpose::diagnostic::{Severity, Subject};
 use bindpose::model::{Material, Reflectance};
-use bindpose::session::{Checklist, File, MapSlot, MapSource, find_map, find_maps, map_notices};
+use bindpose::session::{Checklist, File, MapNames, MapSlot, MapSource, find_map, find_maps, map_notices};
 
 fn files(paths: &[&str]) -> Vec<File> {
     paths.iter().map(|path| File::new(path, [])).collect()
@@ -56,6 +56,45 @@ fn other_names_do_not_fit() {
         ("", ".dds"),
     ] {
         assert_eq!(find_map(name, &files(&[path]), &[]), None, "{name} {path}");
+    }
+}
+
+/// Whoever reads only the files whose names fit reads all that can be found.
+#[test]
+fn a_name_fits_exactly_when_the_file_can_be_found() {
+    let names = [
+        "a.dds",
+        "A.b.dds",
+        "v1.2_diff",
+        r"C:\Art\Größe.TGA",
+        "up/head_diff.png",
+        "textures/",
+        ".dds",
+        " a.dds ",
+        "",
+    ];
+    let paths = [
+        "a.dds",
+        "x/A.PNG",
+        "a.b.jpg",
+        "a.b",
+        "v1.dds",
+        "v1.2_diff.dds",
+        "GRÖßE.dds",
+        r"up\head_diff.bmp",
+        "head.dds",
+        "textures.dds",
+        ".dds",
+        ".png",
+        "dds.png",
+    ];
+    for name in names {
+        let fitting = MapNames::new(&[material("m", None, Some(name))]);
+        for path in paths {
+            let file = File::new(path, []);
+            let found = find_map(name, std::slice::from_ref(&file), &[]).is_some();
+            assert_eq!(fitting.fit(path) && file.is_image(), found, "{name} {path}");
+        }
     }
 }
 

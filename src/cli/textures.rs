@@ -1,0 +1,395 @@
+//! Folders with textures: which pictures lie in them, and those that a model can use.
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use super::finding::write_finding;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::image;
+use crate::model::Material;
+use crate::session::{File, MapNames, MapSlot, MapSource, Maps, find_maps};
+
+/// Entries of folders that are looked at, so that a whole disk given by mistake comes to an end.
+const MOST_ENTRIES: usize = 500_000;
+
+/// Pictures of folders and of the folders in them, as far as a model names them.
+#[derive(Debug, Default)]
+pub(super) struct Textures {
+    /// Flat pictures whose names fit a map.
+    pub(super) pictures: Vec<File>,
+    /// Cube maps, the largest first. They are not read yet.
+    pub(super) cubes: Vec<PathBuf>,
+    /// Pictures whose names fit a map and that the system does not let us read. They hold no bytes.
+    unopened: Vec<File>,
+    /// Why, in the same order.
+    reasons: Vec<Diagnostic>,
+    /// Where a picture lies, by the path that its [`File`] goes by.
+    paths: HashMap<String, PathBuf>,
+    warnings: Vec<(PathBuf, Diagnostic)>,
+}
+
+/// What to look for in the folders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Maps,
+    MapsAndSky,
+}
+
+/// A map that a material names.
+#[derive(Clone, Debug)]
+pub(super) struct NamedMap<'a> {
+    pub(super) material: &'a str,
+    pub(super) slot: MapSlot,
+    /// As the file has it.
+    pub(super) name: &'a str,
+    /// `None` when nobody looked for it.
+    pub(super) state: Option<MapState<'a>>,
+}
+
+/// What became of a map.
+#[derive(Clone, Debug)]
+pub(super) enum MapState<'a> {
+    Found(&'a Path),
+    Missing,
+    Unreadable(&'a Path, Diagnostic),
+}
+
+impl MapState<'_> {
+    /// The word that outputs use.
+    pub(super) fn as_str(&self) -> &'static str {
+        match self {
+            Self::Found(_) => "found",
+            Self::Missing => "missing",
+            Self::Unreadable(..) => "unreadable",
+        }
+    }
+}
+
+/// The maps that materials name, in the order of the materials. Nobody looked for them.
+pub(super) fn named_maps(materials: &[Material]) -> impl Iterator<Item = NamedMap<'_>> {
+    materials.iter().flat_map(|material| {
+        let slots = MapSlot::ALL.into_iter();
+        slots.filter_map(|slot| {
+            Some(NamedMap {
+                material: &material.name,
+                slot,
+                name: slot.name_in(material)?,
+                state: None,
+            })
+        })
+    })
+}
+
+impl Textures {
+    /// Looks through the folders and reads what the materials name.
+    ///
+    /// # Errors
+    /// When one of the given folders cannot be read. All else that cannot be read is a warning.
+    pub(super) fn read(folders: &[PathBuf], materials: &[Material], wanted: Wanted) -> Result<Self, Failure> {
+        let names = MapNames::new(materials);
+        let mut walk = Walk::new(&names);
+        for folder in folders {
+            walk.through(folder)?;
+        }
+        let mut textures = Self {
+            warnings: walk.warnings,
+            ..Self::default()
+        };
+        let mut cubes = Vec::new();
+        for path in walk.pictures {
+            let name = path.to_string_lossy();
+            let is_named = names.fit(&name);
+            if !is_named && wanted == Wanted::Maps {
+                continue;
+            }
+            match read_picture(&path, is_named) {
+                Ok(Picture::Cube(size)) => cubes.push((size, path)),
+                Ok(Picture::Flat(bytes)) if is_named => {
+                    let file = File::new(&name, bytes);
+                    textures.paths.insert(file.path.clone(), path.clone());
+                    textures.pictures.push(file);
+                }
+                Ok(Picture::Flat(_)) => {}
+                Err(reason) if is_named => {
+                    let file = File::new(&name, []);
+                    textures.paths.insert(file.path.clone(), path.clone());
+                    textures.unopened.push(file);
+                    textures.reasons.push(unreadable(&reason));
+                }
+                // Nobody asked for it.
+                Err(_) => {}
+            }
+        }
+        if wanted == Wanted::MapsAndSky {
+            cubes.sort_by_key(|(size, _)| std::cmp::Reverse(*size));
+            textures.cubes = cubes.into_iter().map(|(_, path)| path).collect();
+        }
+        Ok(textures)
+    }
+
+    /// What became of each map that the materials name. `maps` has taken up [`Textures::pictures`].
+    pub(super) fn states<'a>(&'a self, materials: &'a [Material], maps: &'a Maps) -> Vec<NamedMap<'a>> {
+        let unopened = find_maps(materials, &self.unopened, &[]);
+        let unopened = |material: usize, slot| {
+            let MapSource::Found(found) = unopened.get(material)?.slot(slot) else {
+                return None;
+            };
+            let file = self.unopened.get(found.file)?;
+            Some(MapState::Unreadable(
+                self.path(file),
+                self.reasons.get(found.file)?.clone(),
+            ))
+        };
+        let indices = materials.iter().enumerate().flat_map(|(index, material)| {
+            let slots = MapSlot::ALL.into_iter();
+            slots
+                .filter(|slot| slot.name_in(material).is_some())
+                .map(move |_| index)
+        });
+        let mut all: Vec<NamedMap<'a>> = named_maps(materials).collect();
+        for (map, material) in all.iter_mut().zip(indices) {
+            let slot = map.slot;
+            map.state = Some(match (maps.file(material, slot), maps.finding(material, slot)) {
+                (Some(file), Some(finding)) => MapState::Unreadable(self.path(file), finding.clone()),
+                (Some(file), None) => MapState::Found(self.path(file)),
+                (None, _) => unopened(material, slot).unwrap_or(MapState::Missing),
+            });
+        }
+        all
+    }
+
+    fn path<'a>(&'a self, file: &'a File) -> &'a Path {
+        self.paths
+            .get(&file.path)
+            .map_or(Path::new(&file.path), PathBuf::as_path)
+    }
+
+    /// Tells what was skipped in the folders, a line each.
+    pub(super) fn write_warnings(&self, err: &mut dyn Write) -> io::Result<()> {
+        let mut warnings = self.warnings.iter();
+        warnings.try_for_each(|(path, warning)| write_finding(err, path, warning, None))
+    }
+}
+
+/// Tells which maps are missing or cannot be read, a line for each name. `file` is the model's. Whether there are any.
+pub(super) fn write_missing(err: &mut dyn Write, file: &Path, maps: &[NamedMap<'_>]) -> io::Result<bool> {
+    let mut any = false;
+    for (map, count) in by_name(maps) {
+        let (path, finding) = match &map.state {
+            Some(MapState::Missing) => (file, missing(map, count)),
+            Some(MapState::Unreadable(path, finding)) => (*path, without_name(finding, path)),
+            Some(MapState::Found(_)) | None => continue,
+        };
+        any = true;
+        write_finding(err, path, &finding, None)?;
+    }
+    Ok(any)
+}
+
+/// The first map of each name, in their order, and how many materials and slots have it.
+pub(super) fn by_name<'m, 'a>(maps: &'m [NamedMap<'a>]) -> Vec<(&'m NamedMap<'a>, usize)> {
+    let mut firsts: Vec<(&NamedMap<'a>, usize)> = Vec::new();
+    let mut places = HashMap::new();
+    for map in maps {
+        let place = *places.entry(map.name).or_insert(firsts.len());
+        match firsts.get_mut(place) {
+            Some((_, count)) => *count += 1,
+            None => firsts.push((map, 1)),
+        }
+    }
+    firsts
+}
+
+fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
+    let NamedMap { material, name, .. } = map;
+    let others = match count - 1 {
+        0 => String::new(),
+        1 => " and 1 other".to_owned(),
+        others => format!(" and {others} others"),
+    };
+    let label = map.slot.label();
+    warning(
+        "map-missing",
+        format!("No file fits the {label} \"{name}\" of material \"{material}\"{others}."),
+    )
+}
+
+/// A finding about a picture without the name that its message begins with, since the path stands before it.
+fn without_name(finding: &Diagnostic, path: &Path) -> Diagnostic {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let message = finding.message.strip_prefix(&*name);
+    let message = message.and_then(|message| message.strip_prefix(": "));
+    Diagnostic {
+        message: message.unwrap_or(&finding.message).to_owned(),
+        ..finding.clone()
+    }
+}
+
+fn warning(code: &'static str, message: String) -> Diagnostic {
+    Diagnostic::without_place(Severity::Warning, code, message)
+}
+
+/// What a file holds.
+enum Picture {
+    /// By texels a side, then by bytes.
+    Cube((u32, u64)),
+    Flat(Vec<u8>),
+}
+
+/// Reads a flat picture when it `is_named`; of all others only the beginning, which tells a cube map.
+fn read_picture(path: &Path, is_named: bool) -> io::Result<Picture> {
+    let mut file = fs::File::open(path)?;
+    let mut bytes = Vec::new();
+    Read::by_ref(&mut file)
+        .take(image::CUBE_HEADER_LEN as u64)
+        .read_to_end(&mut bytes)?;
+    if let Some(side) = image::cube_side(&bytes) {
+        return Ok(Picture::Cube((side, file.metadata()?.len())));
+    }
+    if is_named {
+        file.read_to_end(&mut bytes)?;
+    }
+    Ok(Picture::Flat(bytes))
+}
+
+/// Reads a cube map.
+///
+/// # Errors
+/// A warning when it cannot be read or is damaged.
+pub(super) fn read_sky(path: &Path) -> Result<File, Box<Diagnostic>> {
+    let bytes = fs::read(path).map_err(|reason| Box::new(unreadable(&reason)))?;
+    let file = File::new(&path.to_string_lossy(), bytes);
+    match image::check(&file.bytes, file.base_name()) {
+        Ok(()) => Ok(file),
+        Err(error) => Err(Box::new(without_name(&error.diagnostic(), path))),
+    }
+}
+
+fn unreadable(reason: &io::Error) -> Diagnostic {
+    warning("file-unreadable", format!("The file cannot be read: {reason}."))
+}
+
+/// A walk through folders. Each folder is met once, however many links lead to it.
+struct Walk<'a> {
+    names: &'a MapNames,
+    /// Folders that were met, without links in their paths.
+    met: HashSet<PathBuf>,
+    entries_met: usize,
+    pictures: Vec<PathBuf>,
+    warnings: Vec<(PathBuf, Diagnostic)>,
+}
+
+/// What a folder lists.
+struct Entry {
+    path: PathBuf,
+    is_link: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(names: &'a MapNames) -> Self {
+        Self {
+            names,
+            met: HashSet::new(),
+            entries_met: 0,
+            pictures: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn through(&mut self, folder: &Path) -> Result<(), Failure> {
+        let first = self.entries(folder).map_err(|reason| Failure::Unreadable {
+            path: folder.to_owned(),
+            reason,
+        })?;
+        let mut ahead = first;
+        // Links to folders come last, so that a folder that lies here itself is met under its own name.
+        let mut linked = Vec::new();
+        loop {
+            if let Some(entry) = ahead.pop() {
+                if let Some(folder) = self.visit(entry) {
+                    if folder.is_link {
+                        linked.push(folder.path);
+                    } else {
+                        ahead.extend(self.entries_or_warning(&folder.path));
+                    }
+                }
+            } else if let Some(folder) = linked.pop() {
+                ahead = self.entries_or_warning(&folder);
+            } else {
+                break;
+            }
+        }
+        if self.entries_met > MOST_ENTRIES {
+            let message = format!("More than {MOST_ENTRIES} files and folders were met; the others are skipped.");
+            self.warn(folder.to_owned(), "folder-too-large", message);
+        }
+        Ok(())
+    }
+
+    /// Takes up a picture. Gives back a folder.
+    fn visit(&mut self, entry: Entry) -> Option<Entry> {
+        let kind = match fs::metadata(&entry.path) {
+            Ok(metadata) => metadata.file_type(),
+            Err(reason) => {
+                let (code, what) = if entry.is_link {
+                    ("link-broken", "link cannot be followed")
+                } else {
+                    ("file-unreadable", "file cannot be read")
+                };
+                self.warn(entry.path, code, format!("The {what}: {reason}; skipped."));
+                return None;
+            }
+        };
+        if kind.is_dir() {
+            return Some(entry);
+        }
+        let name = entry.path.to_string_lossy();
+        if !File::new(&name, []).is_image() {
+            return None;
+        }
+        // Only files end: to open a pipe is to wait for somebody who writes.
+        if kind.is_file() {
+            self.pictures.push(entry.path);
+        } else if self.names.fit(&name) {
+            self.warn(entry.path, "not-a-file", "This is no regular file; skipped.".to_owned());
+        }
+        None
+    }
+
+    fn entries_or_warning(&mut self, folder: &Path) -> Vec<Entry> {
+        self.entries(folder).unwrap_or_else(|reason| {
+            let message = format!("The folder cannot be read: {reason}; skipped.");
+            self.warn(folder.to_owned(), "folder-unreadable", message);
+            Vec::new()
+        })
+    }
+
+    /// What is in a folder, the last first; nothing when the folder was met before.
+    fn entries(&mut self, folder: &Path) -> io::Result<Vec<Entry>> {
+        if !self.met.insert(fs::canonicalize(folder)?) {
+            return Ok(Vec::new());
+        }
+        let mut entries = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            let entry = entry?;
+            self.entries_met += 1;
+            if self.entries_met > MOST_ENTRIES {
+                break;
+            }
+            entries.push(Entry {
+                path: entry.path(),
+                is_link: entry.file_type()?.is_symlink(),
+            });
+        }
+        // The order of a folder differs between systems; which of two pictures is taken should not.
+        entries.sort_by(|a, b| b.path.cmp(&a.path));
+        Ok(entries)
+    }
+
+    fn warn(&mut self, path: PathBuf, code: &'static str, message: String) {
+        self.warnings.push((path, warning(code, message)));
+    }
+}
