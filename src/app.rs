@@ -2,10 +2,14 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake, Waker};
 
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
-use crate::render::{Compositor, MaterialImages, Renderer, SampleCount, Target, device};
+use crate::render::{
+    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, Target, UploadError, device, watched,
+};
 use crate::scene::{FrameOptions, Theme};
 use crate::session::Session;
 use crate::ui::{self, Request, UiState};
@@ -31,7 +35,7 @@ impl App {
         Self {
             session,
             state: UiState::new(coarse_pointer),
-            stage: Stage::new(gpu),
+            stage: Stage::new(ctx, gpu),
         }
     }
 
@@ -100,15 +104,17 @@ impl App {
         self.stage.frames_rendered
     }
 
-    /// Why the open model could not be brought to the GPU, if it could not.
-    pub fn upload_error(&self) -> Option<&str> {
-        self.stage.upload_error.as_deref()
-    }
-
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
     /// were given up for speed are drawn.
     /// `adjust` may have it looked at in another way than the window shows.
-    pub fn draw_snapshot(&mut self, size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Target {
+    ///
+    /// # Errors
+    /// When the device draws no picture of this size; whether it could draw this one comes with its pixels.
+    pub fn draw_snapshot(
+        &mut self,
+        size: [u32; 2],
+        adjust: impl FnOnce(&mut FrameOptions),
+    ) -> Result<Picture, PictureError> {
         let mut session = self.session.borrow_mut();
         self.stage.draw_snapshot(&mut session, size, adjust)
     }
@@ -124,7 +130,6 @@ struct Drawn {
 /// Renderer and target of the window, and what is on them.
 struct Stage {
     gpu: RenderState,
-    samples: SampleCount,
     renderer: Renderer,
     target: Target,
     model: Option<u64>,
@@ -134,14 +139,27 @@ struct Stage {
     drawn: Option<Drawn>,
     frames_rendered: u64,
     was_moving: bool,
-    upload_error: Option<String>,
+    /// What the GPU has yet to say of what was brought to it.
+    answers: Vec<GpuAnswer>,
+    /// The same of a target of another size, and all that goes with it.
+    target_answer: Option<GpuAnswer>,
+    /// Has the window drawn again when it says so.
+    waker: Waker,
+}
+
+/// A pass of the window is due.
+struct Repaint(egui::Context);
+
+impl Wake for Repaint {
+    fn wake(self: Arc<Self>) {
+        self.0.request_repaint();
+    }
 }
 
 impl Stage {
-    fn new(gpu: &RenderState) -> Self {
+    fn new(ctx: &egui::Context, gpu: &RenderState) -> Self {
         let samples = device::sample_count(&gpu.adapter);
         Self {
-            samples,
             renderer: Renderer::with_samples(&gpu.device, &gpu.queue, samples),
             target: Target::with_samples(&gpu.device, 1, 1, samples),
             gpu: gpu.clone(),
@@ -152,7 +170,9 @@ impl Stage {
             drawn: None,
             frames_rendered: 0,
             was_moving: false,
-            upload_error: None,
+            answers: Vec::new(),
+            target_answer: None,
+            waker: Waker::from(Arc::new(Repaint(ctx.clone()))),
         }
     }
 
@@ -174,13 +194,21 @@ impl Stage {
             picture: session.picture_revision(),
             size,
         };
+        self.hear_of_target(session);
         if self.drawn == Some(wanted) {
             return;
         }
-        if self.target.size() != size {
-            self.target.resize(&self.gpu.device, size[0], size[1]);
+        if self.target.size() == size {
+            self.renderer.render(&session.frame(), &mut self.target);
+        } else {
+            let device = self.gpu.device.clone();
+            let ((), answer) = watched(&device, || {
+                self.target.resize(&device, size[0], size[1]);
+                self.renderer.render(&session.frame(), &mut self.target);
+            });
+            self.target_answer = Some(answer);
+            self.hear_of_target(session);
         }
-        self.renderer.render(&session.frame(), &mut self.target);
         if let Some(compositor) = self.gpu.renderer.write().callback_resources.get_mut::<Compositor>() {
             compositor.prepare(&self.gpu.device, &self.target);
         }
@@ -188,39 +216,106 @@ impl Stage {
         self.frames_rendered += 1;
     }
 
+    /// Has the session show what the GPU says of a target of another size, if that is an error.
+    fn hear_of_target(&mut self, session: &mut Session) {
+        let Some(mut answer) = self.target_answer.take() else {
+            return;
+        };
+        match answer.as_mut().poll(&mut Context::from_waker(&self.waker)) {
+            Poll::Ready(Ok(())) => {}
+            Poll::Ready(Err(error)) => session.note_undrawn(&error.to_string()),
+            Poll::Pending => self.target_answer = Some(answer),
+        }
+    }
+
     fn draw_snapshot(
         &mut self,
         session: &mut Session,
-        [width, height]: [u32; 2],
+        size: [u32; 2],
         adjust: impl FnOnce(&mut FrameOptions),
-    ) -> Target {
+    ) -> Result<Picture, PictureError> {
         self.take_up(session);
-        let mut target = Target::with_samples(&self.gpu.device, width, height, self.samples);
         let passes = session.quality().wanted();
         let mut frame = session.frame();
         frame.options.passes = passes;
         adjust(&mut frame.options);
-        self.renderer.render(&frame, &mut target);
-        target
+        self.renderer.picture(&frame, size)
     }
 
-    /// Brings to the GPU what is not there yet.
-    fn take_up(&mut self, session: &Session) {
+    /// Brings to the GPU what is not there yet. When that fails, what was open before is open again, and is brought there.
+    fn take_up(&mut self, session: &mut Session) {
+        // What it took before it may refuse now, and then nothing is open, which it takes.
+        for _ in 0..3 {
+            match self.bring(session) {
+                Err(reason) => {
+                    session.go_back(&reason);
+                    self.forget();
+                }
+                Ok(()) => return,
+            }
+        }
+    }
+
+    /// Brings to the GPU what is not there yet, and hears what became of all that was brought. The reason when that failed.
+    fn bring(&mut self, session: &mut Session) -> Result<(), String> {
+        let device = self.gpu.device.clone();
+        if self.lacks_something_of(session) {
+            let (uploaded, answer) = watched(&device, || self.upload(session));
+            self.answers.push(answer);
+            uploaded.map_err(|error| error.to_string())?;
+        }
+        if self.answers.is_empty() {
+            return Ok(());
+        }
+        let mut context = Context::from_waker(&self.waker);
+        let mut waiting = Vec::new();
+        for mut answer in self.answers.drain(..) {
+            match answer.as_mut().poll(&mut context) {
+                Poll::Ready(Ok(())) => {}
+                Poll::Ready(Err(error)) => return Err(error.to_string()),
+                Poll::Pending => waiting.push(answer),
+            }
+        }
+        self.answers = waiting;
+        if self.answers.is_empty() {
+            session.confirm_uploads();
+        }
+        Ok(())
+    }
+
+    /// Holds nothing of the session any longer.
+    fn forget(&mut self) {
+        self.renderer.clear_model();
+        self.answers.clear();
+        (self.model, self.maps, self.materials, self.sky, self.drawn) = (None, None, None, None, None);
+    }
+
+    fn lacks_something_of(&self, session: &Session) -> bool {
+        let of_model = [
+            (self.model, session.model_revision()),
+            (self.maps, session.maps_revision()),
+            (self.materials, session.materials_revision()),
+        ];
+        let lacks_model = session.open_model().is_some() && of_model.iter().any(|&(held, wanted)| held != Some(wanted));
+        lacks_model || self.sky != Some(session.sky_revision())
+    }
+
+    fn upload(&mut self, session: &Session) -> Result<(), UploadError> {
+        self.drawn = None;
         let sky = session.sky_revision();
         if self.sky != Some(sky) {
             self.renderer.set_sky(session.sky().map(|image| &**image));
             self.sky = Some(sky);
-            self.drawn = None;
         }
-        let Some(open) = session.open_model() else { return };
+        let Some(open) = session.open_model() else {
+            return Ok(());
+        };
         let (model, maps) = (session.model_revision(), session.maps_revision());
         if self.model != Some(model) {
-            let uploaded = self.renderer.set_model(&open.model);
-            self.upload_error = uploaded.err().map(|error| error.to_string());
+            self.renderer.set_model(&open.model)?;
             self.model = Some(model);
             self.maps = None;
             self.materials = None;
-            self.drawn = None;
         }
         if self.maps != Some(maps) {
             let images = session.maps().images();
@@ -229,14 +324,13 @@ impl Stage {
                 .collect();
             self.renderer.set_maps(&images);
             self.maps = Some(maps);
-            self.drawn = None;
         }
         let materials = session.materials_revision();
         if self.materials != Some(materials) {
             self.renderer.set_materials(session.materials());
             self.materials = Some(materials);
-            self.drawn = None;
         }
+        Ok(())
     }
 }
 

@@ -37,6 +37,7 @@ globalThis.bindpose = bindpose;
 
 let viewer = null; // The wasm module's exports.
 let gpu = null; // {backend, adapter} of the last start that worked.
+let openName = ""; // Of the model that is open: what is dragged over the page asks for it many times a second.
 let starts = 0; // Losses are told apart by the start that they belong to.
 let restarts = [];
 let restarting = false;
@@ -69,7 +70,7 @@ const hand = async (files, addsClips) => {
   }
 };
 const pick = takeChoices({ receive, refuse });
-takeDrops({ receive, refuse, openModel: () => bindpose.state().model?.name });
+takeDrops({ receive, refuse, openModel: () => openName });
 const refreshTransport = mirrorTransport(bindpose);
 letTabLeave(view);
 element("open-files").addEventListener("click", () => pick("files"));
@@ -207,7 +208,7 @@ function onEvent(type, detail) {
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
     clearNotice();
-    const name = bindpose.state().model?.name;
+    const name = (openName = detail?.name ?? "");
     document.title = name ? `${name} · Bindpose` : "Bindpose";
     element("spoken").textContent = name ? `${name} is open` : "";
   }

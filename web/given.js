@@ -3,7 +3,10 @@
 const MODEL = /\.(m3d|a3d)$/i;
 
 /** Those that were there, but for the ones that come again under the same name, and these. */
-const joined = (before, files) => [...before.filter(({ name }) => !files.some((file) => file.name === name)), ...files];
+const joined = (before, files) => {
+  const names = new Set(files.map(({ name }) => name));
+  return [...before.filter(({ name }) => !names.has(name)), ...files];
+};
 
 /** `{name, file}` records with the files as they are now, where the page may ask for them again. */
 export const freshly = (files) =>

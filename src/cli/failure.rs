@@ -7,8 +7,8 @@ use super::Outcome;
 use super::finding::write_finding;
 use super::text::{OneLine, Plain};
 use crate::image::EncodeError;
-use crate::render::device::{Backend, DeviceError};
-use crate::render::{ReadBackError, UploadError};
+use crate::render::device::DeviceError;
+use crate::render::{GpuError, PictureError, UploadError};
 use crate::session::LoadError;
 
 /// A failure, in words for standard error.
@@ -45,20 +45,12 @@ pub(super) enum Failure {
     NoDevice(#[from] DeviceError),
     #[error("{vulkan}\n       {gl}")]
     NoDeviceAtAll { vulkan: DeviceError, gl: DeviceError },
-    #[error("a picture of {width}x{height} is too large: this {backend} device draws {largest}")]
-    TooLarge {
-        width: u32,
-        height: u32,
-        backend: Backend,
-        /// In words.
-        largest: String,
-    },
     #[error("{0}")]
     Upload(#[from] UploadError),
-    #[error("the GPU could not draw the picture: {0}")]
-    Gpu(String),
+    #[error("the model could not be brought to the GPU: {0}")]
+    Gpu(#[from] GpuError),
     #[error("{0}")]
-    ReadBack(#[from] ReadBackError),
+    Picture(#[from] PictureError),
     #[error("{0}")]
     Encode(#[from] EncodeError),
     #[error("{} cannot be written: {reason}", named(path))]

@@ -13,7 +13,7 @@ use super::textures::{Textures, Wanted, read_sky, write_missing};
 use super::{Failure, Outcome, clip, input};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
-use crate::render::{MaterialImages, Renderer, Target, read_back_blocking};
+use crate::render::{MaterialImages, Renderer, watched};
 use crate::scene::{self, Insets, ViewPreset};
 use crate::session::{Command, Session};
 
@@ -143,7 +143,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     let (mut session, lacks_maps) = open(arguments, err)?;
     let (gpu, backend) = open_gpu(arguments.backend)?;
-    let png = draw(arguments, &mut session, &gpu, backend)?;
+    let png = draw(arguments, &mut session, &gpu)?;
     std::fs::write(&arguments.output, png).map_err(|reason| Failure::Unwritable {
         path: arguments.output.clone(),
         reason,
@@ -239,59 +239,29 @@ fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure>
 }
 
 /// The picture as the bytes of a PNG file.
-fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu, backend: device::Backend) -> Result<Vec<u8>, Failure> {
+fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu) -> Result<Vec<u8>, Failure> {
     let [width, height] = arguments.size;
-    fits(gpu, backend, arguments.size)?;
     let Gpu {
         device, queue, samples, ..
     } = gpu;
-    // Without scopes, an error of the driver would end the process with a panic.
-    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
-
-    let mut renderer = Renderer::with_samples(device, queue, *samples);
-    let uploaded = session
-        .open_model()
-        .map_or(Ok(()), |open| renderer.set_model(&open.model));
-    let images = session.maps().images();
-    let images: Vec<_> = images
-        .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
-        .collect();
-    renderer.set_maps(&images);
-    renderer.set_sky(session.sky().map(|image| &**image));
-    let mut target = Target::with_samples(device, width, height, *samples);
-    renderer.render(&session.frame(), &mut target);
-    let pixels = read_back_blocking(device, queue, &target);
-
-    for scope in [internal, validation, memory] {
-        if let Some(error) = pollster::block_on(scope.pop()) {
-            return Err(Failure::Gpu(error.to_string()));
-        }
-    }
+    // Without that, an error of the driver would end the process with a panic.
+    let ((mut renderer, uploaded), answer) = watched(device, || {
+        let mut renderer = Renderer::with_samples(device, queue, *samples);
+        let uploaded = session
+            .open_model()
+            .map_or(Ok(()), |open| renderer.set_model(&open.model));
+        let images = session.maps().images();
+        let images: Vec<_> = images
+            .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+            .collect();
+        renderer.set_maps(&images);
+        renderer.set_sky(session.sky().map(|image| &**image));
+        (renderer, uploaded)
+    });
     uploaded?;
-    Ok(encode_png(&pixels?, width, height)?)
-}
-
-/// Whether the device can draw a picture of this size and hand it over.
-fn fits(gpu: &Gpu, backend: device::Backend, [width, height]: [u32; 2]) -> Result<(), Failure> {
-    let limits = gpu.device.limits();
-    let too_large = |largest| Failure::TooLarge {
-        width,
-        height,
-        backend,
-        largest,
-    };
-    let side = limits.max_texture_dimension_2d;
-    if width.max(height) > side {
-        return Err(too_large(format!("at most {side} pixels a side")));
-    }
-    let row_bytes = (u64::from(width) * 4).next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
-    if row_bytes * u64::from(height) > limits.max_buffer_size {
-        let pixels = limits.max_buffer_size / 4;
-        return Err(too_large(format!("at most {pixels} pixels in all")));
-    }
-    Ok(())
+    pollster::block_on(answer)?;
+    let pixels = renderer.picture(&session.frame(), arguments.size)?.pixels_blocking()?;
+    Ok(encode_png(&pixels, width, height)?)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::bones::BoneTexture;
 use super::edges::Edges;
 use super::layouts::Layouts;
+use super::map_textures::MapTextures;
 use super::materials::{GpuMaterials, MaterialImages};
 use super::pipelines::{Cut, Draw, ModelDraw, Pipelines};
 use super::upload::{UploadError, Uploader};
@@ -57,6 +58,7 @@ impl GpuModel {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layouts: &Layouts,
+        textures: &MapTextures,
         model: &Model,
     ) -> Result<Self, UploadError> {
         let mesh = &model.mesh;
@@ -78,7 +80,7 @@ impl GpuModel {
         });
         let is_skinned = joints > 0 && !mesh.influences.is_empty();
         let vertex = wgpu::BufferUsages::VERTEX;
-        let materials = GpuMaterials::upload(&uploader, layouts, &model.materials)?;
+        let materials = GpuMaterials::upload(&uploader, layouts, textures, &model.materials)?;
         Ok(Self {
             geometry: uploader.upload("vertices", vertex, mesh.vertex_count(), geometry)?,
             influences: if is_skinned {
@@ -110,9 +112,10 @@ impl GpuModel {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layouts: &Layouts,
+        textures: &MapTextures,
         maps: &[MaterialImages<'_>],
     ) {
-        self.materials.set_maps(device, queue, layouts, maps);
+        self.materials.set_maps(device, queue, layouts, textures, maps);
     }
 
     /// Takes other values for the materials; their maps stay.

@@ -1,7 +1,7 @@
 //! A material as the shader wants it.
 
 use super::materials::MaterialImages;
-use crate::image::{Channels, Image};
+use crate::image::Channels;
 use crate::model::{Material, Reflectance};
 use crate::{scene, shaders};
 
@@ -23,7 +23,7 @@ impl MapFacts {
     pub(super) fn of(images: MaterialImages<'_>) -> Self {
         Self {
             has_diffuse: images.diffuse.is_some(),
-            has_alpha: images.diffuse.is_some_and(Image::has_alpha),
+            has_alpha: images.diffuse.is_some_and(|image| image.has_alpha()),
             normal_channels: match images.normal {
                 Some(image) if image.channels() == Channels::RedGreen => 2,
                 Some(_) => 3,

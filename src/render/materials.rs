@@ -1,7 +1,9 @@
 //! The materials of a model in GPU memory: a bind group each, with its maps or what stands for them.
 
+use std::sync::Arc;
+
 use super::layouts::Layouts;
-use super::map::{self, one_texel};
+use super::map_textures::MapTextures;
 use super::material::{MapFacts, material_uniform};
 use super::upload::{UploadError, Uploader};
 use crate::image::{Image, MapKind};
@@ -11,13 +13,13 @@ use crate::shaders;
 /// Samples along the longer side of a pixel's footprint, where the device can: floors stay sharp far away.
 const ANISOTROPY: u16 = 8;
 
-/// The pictures of one material's maps, as far as they are there.
+/// The pictures of one material's maps, as far as they are there. The same `Arc` is the same picture.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MaterialImages<'a> {
     /// Colours, sRGB; alpha cuts where the material says so.
-    pub diffuse: Option<&'a Image>,
+    pub diffuse: Option<&'a Arc<Image>>,
     /// Directions, linear.
-    pub normal: Option<&'a Image>,
+    pub normal: Option<&'a Arc<Image>>,
 }
 
 /// Materials in the order of the model's, each ready to be bound as group 3.
@@ -41,6 +43,7 @@ impl GpuMaterials {
     pub(super) fn upload(
         uploader: &Uploader<'_>,
         layouts: &Layouts,
+        textures: &MapTextures,
         materials: &[Material],
     ) -> Result<Self, UploadError> {
         let (device, queue) = (uploader.device, uploader.queue);
@@ -60,26 +63,26 @@ impl GpuMaterials {
             sampler: sampler(device),
             bound: Vec::new(),
         };
-        gpu_materials.set_maps(device, queue, layouts, &[]);
+        gpu_materials.set_maps(device, queue, layouts, textures, &[]);
         Ok(gpu_materials)
     }
 
-    /// See [`Renderer::set_maps`](super::Renderer::set_maps).
+    /// See [`Renderer::set_maps`](super::Renderer::set_maps). The textures have taken the maps up.
     pub(super) fn set_maps(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layouts: &Layouts,
+        textures: &MapTextures,
         maps: &[MaterialImages<'_>],
     ) {
-        let mut textures = Textures::new(device, queue);
         let maps = maps.iter().copied().chain(std::iter::repeat(MaterialImages::default()));
         let mut bound = Vec::with_capacity(self.materials.len());
         for (index, images) in (0..self.materials.len()).zip(maps) {
             let diffuse = textures.view(images.diffuse, MapKind::Diffuse);
             let normal = textures.view(images.normal, MapKind::Normal);
             bound.push(BoundMaterial {
-                group: self.group(device, layouts, index, &diffuse, &normal),
+                group: self.group(device, layouts, index, diffuse, normal),
                 maps: MapFacts::of(images),
                 is_cut: false,
             });
@@ -148,40 +151,6 @@ impl GpuMaterials {
             layout: &layouts.material,
             entries: &entries,
         })
-    }
-}
-
-/// Maps in GPU memory, each picture once, while materials are given theirs.
-struct Textures<'a> {
-    device: &'a wgpu::Device,
-    queue: &'a wgpu::Queue,
-    /// One white texel: changes no colour, and no normal, as none is read from it.
-    white: wgpu::TextureView,
-    uploaded: Vec<(&'a Image, MapKind, wgpu::TextureView)>,
-}
-
-impl<'a> Textures<'a> {
-    fn new(device: &'a wgpu::Device, queue: &'a wgpu::Queue) -> Self {
-        Self {
-            device,
-            queue,
-            white: one_texel(device, queue, "no map", [255; 4]),
-            uploaded: Vec::new(),
-        }
-    }
-
-    fn view(&mut self, image: Option<&'a Image>, kind: MapKind) -> wgpu::TextureView {
-        let Some(image) = image else {
-            return self.white.clone();
-        };
-        let mut uploaded = self.uploaded.iter();
-        if let Some((_, _, view)) = uploaded.find(|(other, of_kind, _)| std::ptr::eq(*other, image) && *of_kind == kind)
-        {
-            return view.clone();
-        }
-        let view = map::upload(self.device, self.queue, image, kind);
-        self.uploaded.push((image, kind, view.clone()));
-        view
     }
 }
 

@@ -21,10 +21,12 @@ mod gpu_model;
 mod layouts;
 mod look;
 mod map;
+mod map_textures;
 mod material;
 mod materials;
 mod occlusion;
 mod overlay;
+mod picture;
 mod pipelines;
 mod probe;
 mod read_back;
@@ -33,15 +35,18 @@ mod stage;
 mod surroundings;
 mod target;
 mod upload;
+mod watch;
 mod world_shapes;
 
 pub use bones::BoneTexture;
 pub use composite::Compositor;
 pub use materials::MaterialImages;
+pub use picture::{Picture, PictureError};
 pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 pub use upload::UploadError;
+pub use watch::{GpuAnswer, GpuError, watched};
 
 use crate::image::Image;
 use crate::model::{Material, Model};
@@ -50,6 +55,7 @@ use environment::Environments;
 use ghosts::Ghosts;
 use gpu_model::{GpuModel, Posed};
 use map::one_texel;
+use map_textures::MapTextures;
 use overlay::Overlays;
 use pipelines::{Cut, Draw, ModelDraw, Pipelines, Shading};
 use stage::{Common, Stage};
@@ -59,6 +65,7 @@ use world_shapes::WorldShapes;
 /// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
 pub struct Renderer {
     common: Common,
+    samples: SampleCount,
     /// The lights that were shown so far.
     stages: Vec<Stage>,
     overlays: Overlays,
@@ -66,6 +73,7 @@ pub struct Renderer {
     ghosts: Ghosts,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
+    maps: MapTextures,
     model: Option<GpuModel>,
 }
 
@@ -87,11 +95,13 @@ impl Renderer {
             entries: &[],
         });
         Self {
+            samples,
             stages: Vec::new(),
             overlays: Overlays::new(device, &pipelines.layouts),
             world_shapes: WorldShapes::new(device),
             ghosts: Ghosts::default(),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
+            maps: MapTextures::new(device, queue),
             common: Common {
                 device: device.clone(),
                 queue: queue.clone(),
@@ -114,23 +124,24 @@ impl Renderer {
             pipelines,
             ..
         } = &self.common;
-        self.model = Some(GpuModel::upload(device, queue, &pipelines.layouts, model)?);
+        self.model = Some(GpuModel::upload(device, queue, &pipelines.layouts, &self.maps, model)?);
         Ok(())
     }
 
     /// Gives each material of the model its maps, in the order of the model's materials; materials beyond the slice have none.
-    /// What was given before is forgotten, and so is all of it with the model. Uploads each picture once, however many
-    /// materials name the same one by reference. Does nothing without a model.
-    pub fn set_maps(&mut self, maps: &[MaterialImages<'_>]) {
+    /// What was given before is forgotten. A picture goes up once, however many materials have it, and stays while a call gives
+    /// it again, also when the model is another one by then; how many went up is returned. Does nothing without a model.
+    pub fn set_maps(&mut self, maps: &[MaterialImages<'_>]) -> usize {
         let Common {
             device,
             queue,
             pipelines,
             ..
         } = &self.common;
-        if let Some(model) = &mut self.model {
-            model.set_maps(device, queue, &pipelines.layouts, maps);
-        }
+        let Some(model) = &mut self.model else { return 0 };
+        let uploaded = self.maps.take_up(device, queue, maps);
+        model.set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
+        uploaded
     }
 
     /// Gives the model's materials other values, in their order; their maps stay. Does nothing without a model.
@@ -155,6 +166,7 @@ impl Renderer {
     /// Draws no model from now on and gives its memory back.
     pub fn clear_model(&mut self) {
         self.model = None;
+        self.maps.clear();
     }
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn as bind space has it.

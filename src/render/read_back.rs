@@ -26,15 +26,7 @@ pub async fn read_back(
     target: &Target,
     pause: impl AsyncFn(),
 ) -> Result<Vec<u8>, ReadBackError> {
-    let pending = Pending::start(device, queue, target);
-    loop {
-        device.poll(wgpu::PollType::Poll).map_err(gpu_error)?;
-        match pending.outcome.try_recv() {
-            Ok(outcome) => return pending.finish(outcome),
-            Err(TryRecvError::Empty) => pause().await,
-            Err(TryRecvError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
-        }
-    }
+    Pending::start(device, queue, target, target.size()).wait(&pause).await
 }
 
 /// As [`read_back`], for where a thread may wait: not on the web.
@@ -46,15 +38,7 @@ pub fn read_back_blocking(
     queue: &wgpu::Queue,
     target: &Target,
 ) -> Result<Vec<u8>, ReadBackError> {
-    let pending = Pending::start(device, queue, target);
-    loop {
-        device.poll(wgpu::PollType::wait_indefinitely()).map_err(gpu_error)?;
-        match pending.outcome.recv_timeout(ANSWER_WAIT) {
-            Ok(outcome) => return pending.finish(outcome),
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
-        }
-    }
+    Pending::start(device, queue, target, target.size()).wait_blocking()
 }
 
 /// How long another thread's answer is waited for before the device is asked again.
@@ -65,7 +49,8 @@ const NO_ANSWER: &str = "it gave no answer";
 type Outcome = Result<(), wgpu::BufferAsyncError>;
 
 /// A copy under way.
-struct Pending {
+pub(super) struct Pending {
+    device: wgpu::Device,
     buffer: wgpu::Buffer,
     row_bytes: usize,
     padded_row_bytes: usize,
@@ -73,8 +58,13 @@ struct Pending {
 }
 
 impl Pending {
-    fn start(device: &wgpu::Device, queue: &wgpu::Queue, target: &Target) -> Self {
-        let [width, height] = target.size();
+    /// Copies the columns and rows of this size at the target's top left.
+    pub(super) fn start(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target: &Target,
+        [width, height]: [u32; 2],
+    ) -> Self {
         let row_bytes = width * BYTES_PER_PIXEL;
         let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -96,7 +86,11 @@ impl Pending {
                     rows_per_image: None,
                 },
             },
-            target.texture().size(),
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
         );
         queue.submit([encoder.finish()]);
         let (answer, outcome) = channel();
@@ -105,10 +99,36 @@ impl Pending {
             let _ = answer.send(result);
         });
         Self {
+            device: device.clone(),
             buffer,
             row_bytes: row_bytes as usize,
             padded_row_bytes: padded_row_bytes as usize,
             outcome,
+        }
+    }
+
+    /// See [`read_back`].
+    pub(super) async fn wait(&self, pause: &impl AsyncFn()) -> Result<Vec<u8>, ReadBackError> {
+        loop {
+            self.device.poll(wgpu::PollType::Poll).map_err(gpu_error)?;
+            match self.outcome.try_recv() {
+                Ok(outcome) => return self.finish(outcome),
+                Err(TryRecvError::Empty) => pause().await,
+                Err(TryRecvError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
+            }
+        }
+    }
+
+    /// See [`read_back_blocking`].
+    pub(super) fn wait_blocking(&self) -> Result<Vec<u8>, ReadBackError> {
+        loop {
+            let wait = wgpu::PollType::wait_indefinitely();
+            self.device.poll(wait).map_err(gpu_error)?;
+            match self.outcome.recv_timeout(ANSWER_WAIT) {
+                Ok(outcome) => return self.finish(outcome),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
+            }
         }
     }
 

@@ -160,8 +160,23 @@ impl Target {
         &self.resolved_view
     }
 
+    /// Fills the picture with a colour, by way of all that a frame is drawn into.
+    pub(super) fn fill(&self, device: &wgpu::Device, queue: &wgpu::Queue, color: wgpu::Color) {
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fill") });
+        drop(self.begin_cleared_pass(&mut encoder, color));
+        queue.submit([encoder.finish()]);
+    }
+
     /// Cleared to nothing, alpha 0.
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+        self.begin_cleared_pass(encoder, wgpu::Color::TRANSPARENT)
+    }
+
+    fn begin_cleared_pass<'a>(
+        &self,
+        encoder: &'a mut wgpu::CommandEncoder,
+        color: wgpu::Color,
+    ) -> wgpu::RenderPass<'a> {
         let (view, resolve_target, store) = match &self.multisampled_view {
             // Only the resolved picture is wanted: tilers then never write the samples to memory.
             Some(samples) => (samples, Some(&self.resolved_view), wgpu::StoreOp::Discard),
@@ -174,7 +189,7 @@ impl Target {
                 depth_slice: None,
                 resolve_target,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    load: wgpu::LoadOp::Clear(color),
                     store,
                 },
             })],

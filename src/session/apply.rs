@@ -10,7 +10,15 @@ impl Session {
     /// Does what was asked. What makes no sense now is left undone.
     pub fn apply(&mut self, command: Command) -> Effect {
         let (before, played) = (self.shown(), self.played());
+        let to_go_back_to = match command {
+            Command::AddFiles(_) | Command::AddClips(_) | Command::OpenFile(_) => self.to_go_back_to(),
+            _ => None,
+        };
+        let uploads = self.uploads();
         let effect = self.perform(command);
+        if self.uploads() != uploads && to_go_back_to.is_some() {
+            self.before = to_go_back_to;
+        }
         let now = self.played();
         // Another model is an event of its own.
         if now != played && now.model == played.model {

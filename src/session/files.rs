@@ -1,5 +1,6 @@
 //! Dropped files by name, as they came from one drop.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::{format, image};
@@ -52,6 +53,9 @@ impl File {
 #[derive(Clone, Debug, Default)]
 pub struct FileSet {
     files: Vec<File>,
+    by_path: HashMap<String, usize>,
+    /// See [`FileSet::models`].
+    models: Vec<usize>,
 }
 
 /// Extensions of pictures that models name as their maps.
@@ -62,11 +66,15 @@ impl FileSet {
     pub fn new(files: impl IntoIterator<Item = File>) -> Self {
         let mut set = Self::default();
         for file in files {
-            match set.files.iter_mut().find(|known| known.path == file.path) {
-                Some(known) => *known = file,
-                None => set.files.push(file),
+            match set.by_path.get(&file.path) {
+                Some(&known) => set.files[known] = file,
+                None => {
+                    set.by_path.insert(file.path.clone(), set.files.len());
+                    set.files.push(file);
+                }
             }
         }
+        set.models = models_among(&set.files);
         set
     }
 
@@ -79,16 +87,7 @@ impl FileSet {
     /// counts, so that a renamed model opens and any other file is told what it is; but beside pictures, which come with
     /// notes and sources, only one that begins like a model.
     pub fn models(&self) -> Vec<&File> {
-        let by_name = |wanted: fn(&File) -> bool| self.files.iter().filter(|file| wanted(file)).collect::<Vec<_>>();
-        let mut models = by_name(|file| file.extension() == "m3d");
-        if models.is_empty() {
-            models = by_name(|file| !file.is_image());
-            if models.len() < self.files.len() {
-                models.retain(|file| format::begins_like_model(&file.bytes));
-            }
-        }
-        models.sort_by_key(|file| std::cmp::Reverse(file.bytes.len()));
-        models
+        self.models.iter().map(|&index| &self.files[index]).collect()
     }
 
     /// Flat pictures: those that a model can name.
@@ -103,8 +102,24 @@ impl FileSet {
 
     /// The file with this path.
     pub fn get(&self, path: &str) -> Option<&File> {
-        self.files.iter().find(|file| file.path == path)
+        self.by_path.get(path).map(|&index| &self.files[index])
     }
+}
+
+fn models_among(files: &[File]) -> Vec<usize> {
+    let by_name = |wanted: fn(&File) -> bool| {
+        let files = files.iter().enumerate().filter(|(_, file)| wanted(file));
+        files.map(|(index, _)| index).collect::<Vec<_>>()
+    };
+    let mut models = by_name(|file| file.extension() == "m3d");
+    if models.is_empty() {
+        models = by_name(|file| !file.is_image());
+        if models.len() < files.len() {
+            models.retain(|&index| format::begins_like_model(&files[index].bytes));
+        }
+    }
+    models.sort_by_key(|&index| std::cmp::Reverse(files[index].bytes.len()));
+    models
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! Clips of other files with the same bones join those of the open model.
 
+use std::collections::HashSet;
+use std::sync::Arc;
+
 use glam::Affine3A;
 
 use super::clips::ClipFacts;
@@ -26,19 +29,21 @@ impl Session {
         let Some(open) = &mut self.open else {
             return false;
         };
+        let open = Arc::make_mut(open);
         let had_clips = !open.model.clips.is_empty();
         let set = FileSet::new(files);
         let models = set.models();
         let mut refused = models.is_empty().then(|| Box::new(LoadError::no_model(&set)));
         // In the order of the drop, which the list of the largest first has lost.
-        let mut joined: Vec<&str> = Vec::new();
+        let models: HashSet<&str> = models.iter().map(|file| file.path.as_str()).collect();
+        let mut joined: HashSet<&str> = HashSet::new();
         let mut replaced = false;
-        for file in set.files().iter().filter(|file| models.contains(file)) {
+        for file in set.files().iter().filter(|file| models.contains(file.path.as_str())) {
             // Files of one drop that have one name in several folders do not replace each other.
-            let replaces = !joined.contains(&file.base_name());
+            let replaces = !joined.contains(file.base_name());
             match open.join_clips(file, replaces) {
                 Ok(replaced_some) => {
-                    joined.push(file.base_name());
+                    joined.insert(file.base_name());
                     replaced |= replaced_some;
                 }
                 Err(error) => refused = refused.or(Some(error)),

@@ -1,5 +1,6 @@
 //! The maps of the open model: pictures that were dropped with it or later, and which material uses which.
 
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
@@ -11,14 +12,17 @@ use super::textures::{Checklist, MAP_UNUSED, MapSlot, MaterialMaps, find_maps, m
 
 /// Pictures, and what the materials make of them. Only pictures that a material names are decoded; of the others it is known
 /// whether they could be.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Maps {
     pictures: Vec<File>,
+    by_path: HashMap<String, usize>,
     /// For each picture the number of the drop that it came with.
     drops: Vec<u32>,
     decoded: Vec<Decoded>,
     last_drop: u32,
     of_materials: Vec<MaterialMaps>,
+    /// Materials that each picture in use is for, and what for.
+    users: BTreeMap<usize, Vec<(usize, MapSlot)>>,
     checklist: Checklist,
     notices: Vec<Diagnostic>,
 }
@@ -72,10 +76,11 @@ impl Maps {
         let mut indices = Vec::new();
         let mut changed = false;
         for picture in pictures {
-            let known = self.pictures.iter().position(|known| known.path == picture.path);
+            let known = self.by_path.get(&picture.path).copied();
             let index = known.unwrap_or(self.pictures.len());
             indices.push(index);
             if known.is_none() {
+                self.by_path.insert(picture.path.clone(), index);
                 self.pictures.push(picture);
                 self.drops.push(self.last_drop);
                 self.decoded.push(Decoded::New);
@@ -97,6 +102,7 @@ impl Maps {
     fn find(&mut self, materials: &[Material]) -> bool {
         let found = find_maps(materials, &self.pictures, &self.drops);
         let before = std::mem::replace(&mut self.of_materials, found);
+        self.users = users(&self.of_materials);
         for index in 0..self.pictures.len() {
             let picture = &self.pictures[index];
             let name = picture.base_name();
@@ -121,8 +127,17 @@ impl Maps {
             .into_iter()
             .filter(|notice| notice.code == "map-ambiguous")
             .collect();
+        // Where a picture of the same name that could be read is used in its place, one that could not is of no interest.
+        let name = |index: usize| self.pictures[index].base_name().to_lowercase();
+        let read: HashSet<String> = self
+            .users
+            .keys()
+            .copied()
+            .filter(|&index| could_be_read(index))
+            .map(name)
+            .collect();
         let failed = (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
-            Decoded::Failed(finding) if !self.is_replaced(index) => Some(finding.clone()),
+            Decoded::Failed(finding) if self.is_used(index) || !read.contains(&name(index)) => Some(finding.clone()),
             _ => None,
         });
         self.notices.extend(failed.collect::<Vec<_>>());
@@ -130,24 +145,7 @@ impl Maps {
     }
 
     fn is_used(&self, index: usize) -> bool {
-        self.users_of(index).next().is_some()
-    }
-
-    /// Whether a picture of the same name that could be read is used in place of this one, which is of no interest then.
-    fn is_replaced(&self, index: usize) -> bool {
-        let name = self.pictures[index].base_name().to_lowercase();
-        let mut used = self.used();
-        !self.is_used(index) && used.any(|map| map.file.base_name().to_lowercase() == name)
-    }
-
-    /// Materials that a picture is for, and what for.
-    fn users_of(&self, index: usize) -> impl Iterator<Item = (usize, MapSlot)> + '_ {
-        let materials = self.of_materials.iter().enumerate();
-        materials.flat_map(move |(material, maps)| {
-            let slots = MapSlot::ALL.into_iter();
-            let of_picture = slots.filter(move |slot| maps.slot(*slot).file() == Some(index));
-            of_picture.map(move |slot| (material, slot))
-        })
+        self.users.contains_key(&index)
     }
 
     /// All pictures, used or not.
@@ -170,7 +168,7 @@ impl Maps {
     }
 
     /// The decoded picture of a material's map, when it is there and could be read.
-    pub fn image(&self, material: usize, slot: MapSlot) -> Option<&Image> {
+    pub fn image(&self, material: usize, slot: MapSlot) -> Option<&Arc<Image>> {
         let file = self.of_materials.get(material)?.slot(slot).file()?;
         match self.decoded.get(file)? {
             Decoded::Image(image) => Some(image),
@@ -178,33 +176,37 @@ impl Maps {
         }
     }
 
-    /// The decoded diffuse and normal map of each material, in the order of the materials.
-    pub fn images(&self) -> impl Iterator<Item = [Option<&Image>; 2]> {
+    /// The decoded diffuse and normal map of each material, in the order of the materials. One that stays is the same `Arc`.
+    pub fn images(&self) -> impl Iterator<Item = [Option<&Arc<Image>>; 2]> {
         (0..self.of_materials.len()).map(|material| MapSlot::ALL.map(|slot| self.image(material, slot)))
     }
 
     /// Pictures that are used, with what they hold and which materials use them.
     pub fn used(&self) -> impl Iterator<Item = UsedMap<'_>> {
-        (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
-            Decoded::Image(image) => Some(UsedMap {
-                file: &self.pictures[index],
-                image,
-                users: self.users_of(index).collect(),
-            }),
-            _ => None,
-        })
+        self.users
+            .iter()
+            .filter_map(|(&index, users)| match &self.decoded[index] {
+                Decoded::Image(image) => Some(UsedMap {
+                    file: &self.pictures[index],
+                    image,
+                    users,
+                }),
+                _ => None,
+            })
     }
 
     /// Pictures that materials name but that could not be read.
     pub fn unreadable(&self) -> impl Iterator<Item = UnreadableMap<'_>> {
-        (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
-            Decoded::Failed(finding) if self.is_used(index) => Some(UnreadableMap {
-                file: &self.pictures[index],
-                finding,
-                users: self.users_of(index).collect(),
-            }),
-            _ => None,
-        })
+        self.users
+            .iter()
+            .filter_map(|(&index, users)| match &self.decoded[index] {
+                Decoded::Failed(finding) => Some(UnreadableMap {
+                    file: &self.pictures[index],
+                    finding,
+                    users,
+                }),
+                _ => None,
+            })
     }
 
     /// How much of what the materials name is there.
@@ -218,15 +220,28 @@ impl Maps {
     }
 }
 
+/// Materials that each picture is for, and what for, by the index of the picture.
+fn users(of_materials: &[MaterialMaps]) -> BTreeMap<usize, Vec<(usize, MapSlot)>> {
+    let mut users: BTreeMap<_, Vec<_>> = BTreeMap::new();
+    for (material, maps) in of_materials.iter().enumerate() {
+        for slot in MapSlot::ALL {
+            if let Some(file) = maps.slot(slot).file() {
+                users.entry(file).or_default().push((material, slot));
+            }
+        }
+    }
+    users
+}
+
 /// A picture that a material uses.
 #[derive(Clone, Debug)]
 pub struct UsedMap<'a> {
     /// Where it came from.
     pub file: &'a File,
     /// What it holds.
-    pub image: &'a Image,
+    pub image: &'a Arc<Image>,
     /// Materials by index, and what for.
-    pub users: Vec<(usize, MapSlot)>,
+    pub users: &'a [(usize, MapSlot)],
 }
 
 /// A picture that a material names and that could not be read.
@@ -237,5 +252,5 @@ pub struct UnreadableMap<'a> {
     /// What is wrong with it.
     pub finding: &'a Diagnostic,
     /// Materials by index, and what for.
-    pub users: Vec<(usize, MapSlot)>,
+    pub users: &'a [(usize, MapSlot)],
 }

@@ -24,7 +24,7 @@ pub struct Blend {
 }
 
 /// What is posed beside the clip on show.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Mix {
     crossfade_secs: f32,
     blend: Option<Blend>,
@@ -48,7 +48,7 @@ impl Default for Mix {
     }
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Fade {
     clip: usize,
     blend: Option<Blend>,
@@ -66,7 +66,7 @@ impl Fade {
 }
 
 /// Buffers that are kept from pose to pose.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Scratch {
     layer: LocalPose,
     second: LocalPose,

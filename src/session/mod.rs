@@ -4,6 +4,7 @@ mod apply;
 mod clips;
 mod command;
 mod files;
+mod going_back;
 mod joining;
 mod joint_rows;
 mod joints;
@@ -30,6 +31,7 @@ mod textures;
 pub use clips::ClipSummary;
 pub use command::{Command, Effect, Event};
 pub use files::{File, FileSet};
+pub use going_back::GPU_REFUSED;
 pub use joint_rows::JointRow;
 pub use joints::{JointCommand, Joints, SelectedVertex};
 pub use load::{LoadError, OpenModel, load};
@@ -41,6 +43,8 @@ pub use quality::{PassChoice, PassState, Quality, RenderScale};
 pub use skeleton_view::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
+
+use std::sync::Arc;
 
 use glam::Affine3A;
 
@@ -61,9 +65,10 @@ use crate::scene::{Aabb, Camera, Insets, Overlay, RenderFrame, Theme};
 pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
 
 /// The viewer's state, without window, clock or GPU.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Session {
-    open: Option<OpenModel>,
+    /// Shared with what is kept to go back to.
+    open: Option<Arc<OpenModel>>,
     files: FileSet,
     maps: Maps,
     sky: Sky,
@@ -71,6 +76,8 @@ pub struct Session {
     subsets: Subsets,
     joints: Joints,
     error: Option<LoadError>,
+    /// All of it as the GPU was last seen to have it, while something newer is on its way there.
+    before: Option<Box<Self>>,
 
     clip: Option<usize>,
     playback: Playback,
@@ -130,7 +137,7 @@ impl Session {
 
     /// The model on screen.
     pub fn open_model(&self) -> Option<&OpenModel> {
-        self.open.as_ref()
+        self.open.as_deref()
     }
 
     /// Files of the last drop that had a model.

@@ -1,6 +1,7 @@
 //! Taking up what was dropped.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::{Event, File, FileSet, LoadError, Maps, OpenModel, Session, load};
 use crate::anim::{Playback, PoseBuffers};
@@ -114,7 +115,7 @@ impl Session {
                 .take_up_again(&open.model.materials, &before.model.materials),
             _ => self.materials.take_up(&open.model.materials),
         }
-        self.open = Some(open);
+        self.open = Some(Arc::new(open));
         if again {
             let time_secs = self.playback.time_secs();
             let clips = self

@@ -17,7 +17,7 @@ const FUTURE_SRGB: [u8; 3] = [255, 180, 84];
 const BIND_SRGB: [u8; 4] = [160, 170, 190, 110];
 
 /// Buffers, and what they were filled for.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Overlaid {
     ghost_plan: Option<GhostPlan>,
     bind_ghost: bool,

@@ -13,7 +13,7 @@ use crate::model::Material;
 use crate::scene::{Hit, pick, tex_coord_at};
 
 /// Buffers that are kept from pick to pick.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Picker {
     /// The pose of the positions.
     posed: Option<OnShow>,
@@ -88,7 +88,7 @@ impl Session {
 }
 
 /// Alpha of diffuse maps, by material.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Cutouts {
     maps_revision: u64,
     /// None where the map is not there or has no alpha.
@@ -116,7 +116,7 @@ impl Cutouts {
 }
 
 /// Alpha of a picture's largest level, rows from the top.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Alpha {
     width: usize,
     height: usize,

@@ -18,7 +18,7 @@ use crate::scene::{
 const PICK_RADIUS: f32 = 0.012;
 
 /// Buffers that are kept from pose to pose.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct SkeletonView {
     placed: Option<(OnShow, Handedness, UpAxis)>,
     bones: Bones,
@@ -26,7 +26,7 @@ pub(super) struct SkeletonView {
 }
 
 /// What colours are made from.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct SkinBuffers {
     values: Vec<f32>,
     counts: Vec<u8>,

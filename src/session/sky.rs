@@ -8,14 +8,14 @@ use crate::image::{self, Image};
 use crate::scene::Background;
 
 /// The sky of a session. It belongs to no model, and stays when another opens.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Sky {
     taken: Option<Taken>,
     notices: Vec<Diagnostic>,
     revision: u64,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Taken {
     file: File,
     image: Arc<Image>,
@@ -26,6 +26,11 @@ struct Taken {
 impl Sky {
     pub(super) fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// Becomes another sky than one that came before it.
+    pub(super) fn follow(&mut self, other: &Self) {
+        self.revision = other.revision + 1;
     }
 
     /// Cube maps that could not be read.

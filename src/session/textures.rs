@@ -1,7 +1,8 @@
 //! Which dropped file is which map: by base name, at any depth, without case, then without extension.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::Material;
@@ -42,8 +43,8 @@ impl MapSlot {
 /// What became of one map of one material.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MapSource {
-    /// There is a file for it.
-    Found(FoundMap),
+    /// There is a file for it. Materials that give one name share what was found.
+    Found(Arc<FoundMap>),
     /// No file fits the name, which is given as the model has it.
     Missing(String),
     /// The material names none.
@@ -90,17 +91,26 @@ impl MaterialMaps {
 
 /// The maps of each material, in the order of the materials, as [`find_map`] finds them.
 pub fn find_maps(materials: &[Material], files: &[File], drops: &[u32]) -> Vec<MaterialMaps> {
-    let source = |material, slot: MapSlot| match slot.name_in(material) {
-        None => MapSource::NoneNamed,
-        Some(name) => {
-            find_map(name, files, drops).map_or_else(|| MapSource::Missing(name.to_owned()), MapSource::Found)
-        }
-    };
-    let maps = materials.iter().map(|material| MaterialMaps {
-        diffuse: source(material, MapSlot::Diffuse),
-        normal: source(material, MapSlot::Normal),
-    });
-    maps.collect()
+    let names = FileNames::new(files, drops);
+    let mut known: HashMap<&str, MapSource> = HashMap::new();
+    let mut maps = Vec::with_capacity(materials.len());
+    for material in materials {
+        let mut source = |slot: MapSlot| match slot.name_in(material) {
+            None => MapSource::NoneNamed,
+            Some(name) => {
+                let find = || match names.find(name) {
+                    Some(found) => MapSource::Found(Arc::new(found)),
+                    None => MapSource::Missing(name.to_owned()),
+                };
+                known.entry(name).or_insert_with(find).clone()
+            }
+        };
+        maps.push(MaterialMaps {
+            diffuse: source(MapSlot::Diffuse),
+            normal: source(MapSlot::Normal),
+        });
+    }
+    maps
 }
 
 /// The picture that fits a name as a model gives it: a base name or a path, with `/` or `\`.
@@ -109,39 +119,63 @@ pub fn find_maps(materials: &[Material], files: &[File], drops: &[u32]) -> Vec<M
 /// several, the one that was dropped last, then the one that lies in the most folders that the name gives too, then the one
 /// with the shortest path, then the first. `drops` has the number of the drop that each file came with; those that it does
 /// not reach came first.
+///
+/// Looks at every file: [`find_maps`] is for many names.
 pub fn find_map(name: &str, files: &[File], drops: &[u32]) -> Option<FoundMap> {
-    let wanted = parts(name);
-    let base_name = wanted.first().filter(|base_name| !base_name.is_empty())?;
-    let fits_without_extension = |file: &String| {
-        let file = stem(file);
-        // A name that has no extension may still have a dot.
-        file == stem(base_name) || file == base_name
-    };
-    let mut fitting: Vec<_> = files
-        .iter()
-        .enumerate()
-        .filter(|(_, file)| file.is_image())
-        .filter_map(|(index, file)| {
-            let path = parts(&file.path);
-            let file_name = path.first()?;
-            let exact = file_name == base_name;
-            (exact || fits_without_extension(file_name)).then(|| {
-                let shared = path.iter().zip(&wanted).skip(1).take_while(|(a, b)| a == b).count();
-                let drop = drops.get(index).copied().unwrap_or_default();
-                let rank = (!exact, Reverse(drop));
-                let merit = (rank, Reverse(shared), path.len(), file.path.len());
+    FileNames::new(files, drops).find(name)
+}
+
+/// Pictures by their names.
+struct FileNames<'a> {
+    files: &'a [File],
+    drops: &'a [u32],
+    /// Indices by base name without its extension, in lower case.
+    by_stem: HashMap<String, Vec<usize>>,
+}
+
+impl<'a> FileNames<'a> {
+    fn new(files: &'a [File], drops: &'a [u32]) -> Self {
+        let mut by_stem: HashMap<String, Vec<usize>> = HashMap::new();
+        for (index, file) in files.iter().enumerate().filter(|(_, file)| file.is_image()) {
+            by_stem.entry(stem_of(file)).or_default().push(index);
+        }
+        Self { files, drops, by_stem }
+    }
+
+    /// See [`find_map`].
+    fn find(&self, name: &str) -> Option<FoundMap> {
+        let wanted = parts(name);
+        let base_name = wanted.first().filter(|base_name| !base_name.is_empty())?;
+        let candidates = stems_that_fit(base_name).filter_map(|stem| self.by_stem.get(stem));
+        let mut fitting: Vec<_> = candidates
+            .flatten()
+            .map(|&index| {
+                let file = &self.files[index];
+                let path = parts(&file.path);
+                let is_exact = path.first() == Some(base_name);
+                let common = path.iter().zip(&wanted).skip(1).take_while(|(a, b)| a == b).count();
+                let drop = self.drops.get(index).copied().unwrap_or_default();
+                let rank = (!is_exact, Reverse(drop));
+                let merit = (rank, Reverse(common), path.len(), file.path.len());
                 (merit, index)
             })
+            .collect();
+        fitting.sort();
+        let &((rank, ..), file) = fitting.first()?;
+        let rivals = fitting.iter().skip(1);
+        let rivals = rivals.take_while(|((other, ..), _)| *other == rank);
+        Some(FoundMap {
+            file,
+            rivals: rivals.map(|&(_, index)| index).collect(),
         })
-        .collect();
-    fitting.sort();
-    let &((rank, ..), file) = fitting.first()?;
-    let rivals = fitting.iter().skip(1);
-    let rivals = rivals.take_while(|((other, ..), _)| *other == rank);
-    Some(FoundMap {
-        file,
-        rivals: rivals.map(|&(_, index)| index).collect(),
-    })
+    }
+}
+
+/// The base names without extension that fit a base name in lower case: its own, and all of it, since a name that has no
+/// extension may still have a dot.
+fn stems_that_fit(base_name: &str) -> impl Iterator<Item = &str> {
+    let stem = stem(base_name);
+    std::iter::once(stem).chain((stem != base_name).then_some(base_name))
 }
 
 /// The base names that maps go by, for whoever chooses files by their names before reading them.
@@ -237,8 +271,8 @@ pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]
                     format!("no file fits the {label} \"{name}\" of material \"{owner}\""),
                 ),
                 MapSource::Found(found) if !found.rivals.is_empty() => {
-                    let rivals: Vec<_> = found.rivals.iter().map(|&index| path(index)).collect();
-                    let (taken, left) = (path(found.file), rivals.join(", "));
+                    let rivals = found.rivals.iter().map(|&index| path(index).to_owned());
+                    let (taken, left) = (path(found.file), spelt(rivals).join(", "));
                     note(
                         "map-ambiguous",
                         format!(
@@ -259,15 +293,30 @@ pub(super) const MAP_UNUSED: &str = "map-unused";
 /// Names of files that a note spells out before it counts the rest.
 const NAMES_SPELT: usize = 3;
 
+/// The first names, and how many more there are.
+fn spelt(mut names: impl ExactSizeIterator<Item = String>) -> Vec<String> {
+    let mut spelt: Vec<String> = names.by_ref().take(NAMES_SPELT).collect();
+    if names.len() > 0 {
+        spelt.push(format!("{} more", names.len()));
+    }
+    spelt
+}
+
 /// A note about pictures that were dropped for a model that uses none of them, if there are any.
 pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Option<Diagnostic> {
-    let fits_a_name = |picture: &File| {
-        let names = materials
-            .iter()
-            .flat_map(|material| MapSlot::ALL.map(|slot| slot.name_in(material)));
-        let mut names = names.flatten();
-        names.any(|name| find_map(name, std::slice::from_ref(picture), &[]).is_some())
-    };
+    let names = materials
+        .iter()
+        .flat_map(|material| MapSlot::ALL.map(|slot| slot.name_in(material)));
+    let base_names: Vec<String> = names
+        .flatten()
+        .filter_map(|name| parts(name).into_iter().next())
+        .collect();
+    let wanted: HashSet<&str> = base_names
+        .iter()
+        .filter(|name| !name.is_empty())
+        .flat_map(|name| stems_that_fit(name))
+        .collect();
+    let fits_a_name = |picture: &File| picture.is_image() && wanted.contains(stem_of(picture).as_str());
     let (outdone, strange): (Vec<&File>, Vec<&File>) = pictures.iter().partition(|picture| fits_a_name(picture));
     let (named, of_one, of_many) = if strange.is_empty() {
         let because = "not used: there is a picture with the very name that the model gives.";
@@ -276,14 +325,7 @@ pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Optio
         let name = "no name of the model's maps.";
         (strange, format!("fits {name}"), format!("fit {name}"))
     };
-    let spelt = named
-        .iter()
-        .take(NAMES_SPELT)
-        .map(|picture| picture.base_name().to_owned());
-    let mut spelt: Vec<String> = spelt.collect();
-    if named.len() > NAMES_SPELT {
-        spelt.push(format!("{} more", named.len() - NAMES_SPELT));
-    }
+    let spelt = spelt(named.iter().map(|picture| picture.base_name().to_owned()));
     let message = match spelt.as_slice() {
         [] => return None,
         [only] => format!("{only} {of_one}"),
@@ -302,6 +344,12 @@ fn base_name(path: &str) -> String {
 fn parts(path: &str) -> Vec<String> {
     let path = path.trim().to_lowercase();
     path.rsplit(['/', '\\']).map(str::to_owned).collect()
+}
+
+/// The base name of a file without its extension, in lower case, as [`parts`] has it.
+fn stem_of(file: &File) -> String {
+    let parts = parts(&file.path);
+    stem(parts.first().map_or("", String::as_str)).to_owned()
 }
 
 /// A base name without its extension.

@@ -6,16 +6,18 @@ use super::excerpt;
 use super::icons::Icon;
 use super::theme::{self, Tokens};
 use super::widgets::{TextButton, control_size, icon_button, rule};
-use crate::session::{Command, LoadError, Session};
+use crate::session::{Command, GPU_REFUSED, LoadError, Session};
 
 const CARD_MARGIN: f32 = 12.0;
 
 /// The card's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
-    let title = match error.file_name.as_str() {
-        "" => "Nothing to open".to_owned(),
-        name => format!("{} could not be read", super::wording::shortened(name, 40)),
+    let is_sound = error.diagnostic.code == GPU_REFUSED;
+    let title = match super::wording::shortened(&error.file_name, 40) {
+        name if name.is_empty() && is_sound => "The view could not be drawn".to_owned(),
+        name if name.is_empty() => "Nothing to open".to_owned(),
+        name => format!("{name} could not be {}", if is_sound { "drawn" } else { "read" }),
     };
     ui.horizontal(|ui| {
         let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width() - 106.0, 28.0), Sense::hover());

@@ -1,6 +1,7 @@
 //! Small pictures of the open model's maps.
 
 use std::collections::HashMap;
+use std::sync::{Arc, Weak};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 
@@ -10,11 +11,16 @@ use crate::session::{Session, UsedMap};
 /// Longest side of the level that is shown, in texels.
 const MOST_TEXELS: u32 = 64;
 
-/// Thumbnails by path of the map, made when they are first seen.
+/// Thumbnails by path of the map, made when they are first seen, and kept while the picture is in use.
 #[derive(Default)]
 pub(super) struct Thumbnails {
     maps_revision: u64,
-    textures: HashMap<String, Option<TextureHandle>>,
+    textures: HashMap<String, Thumbnail>,
+}
+
+struct Thumbnail {
+    of: Weak<Image>,
+    texture: Option<TextureHandle>,
 }
 
 impl std::fmt::Debug for Thumbnails {
@@ -28,15 +34,17 @@ impl Thumbnails {
     pub(super) fn of(&mut self, ctx: &Context, session: &Session, map: &UsedMap<'_>) -> Option<TextureId> {
         if self.maps_revision != session.maps_revision() {
             self.maps_revision = session.maps_revision();
-            self.textures.clear();
+            self.textures.retain(|_, thumbnail| thumbnail.of.strong_count() > 0);
         }
         let path = &map.file.path;
-        if !self.textures.contains_key(path) {
+        let known = self.textures.get(path);
+        if known.is_none_or(|known| known.of.as_ptr() != Arc::as_ptr(map.image)) {
             let texture = small_picture(map.image)
                 .map(|level| ctx.load_texture(format!("thumbnail {path}"), level, TextureOptions::LINEAR));
-            self.textures.insert(path.clone(), texture);
+            let of = Arc::downgrade(map.image);
+            self.textures.insert(path.clone(), Thumbnail { of, texture });
         }
-        self.textures.get(path)?.as_ref().map(TextureHandle::id)
+        self.textures.get(path)?.texture.as_ref().map(TextureHandle::id)
     }
 }
 

@@ -34,15 +34,10 @@ pub(super) fn of_session<T>(read: impl FnOnce(&Session) -> Option<T>) -> Option<
 pub fn state() -> JsValue {
     PAGE.with_borrow(|page| {
         let running = page.as_ref().and_then(|page| page.running.as_ref());
-        // While the window draws, its app is borrowed: the count of frames is kept apart.
-        let app = running.and_then(|running| running.app.try_borrow().ok());
         let view = state::View {
             backend: running.map(|running| running.backend),
             adapter: running.map(|running| running.adapter.as_str()),
             frames_rendered: running.map_or(0, |running| running.frames_rendered.get()),
-            upload_error: app
-                .as_ref()
-                .and_then(|app| app.as_ref()?.upload_error().map(str::to_owned)),
         };
         match page {
             Some(page) => state::state(&page.session.borrow(), &view),

@@ -4,7 +4,6 @@ use js_sys::{Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use super::{PAGE, Running, detail, emit, text_of};
-use crate::render::read_back;
 use crate::scene::{Background, FrameOptions};
 use crate::ui::{MAX_PICTURE_SIDE, picture_name};
 
@@ -36,13 +35,13 @@ pub(super) fn longest_side() -> Result<u32, JsError> {
 /// # Errors
 /// When the viewer is not running or the GPU fails.
 pub(super) async fn picture(size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Result<Uint8Array, JsError> {
-    let (target, gpu) = with_running(|running| {
+    let picture = with_running(|running| {
         let mut app = running.app.borrow_mut();
         let app = app.as_mut().ok_or_else(not_running)?;
-        Ok((app.draw_snapshot(size, adjust), running.gpu.clone()))
+        Ok(app.draw_snapshot(size, adjust)?)
     })?;
-    let pixels = read_back(&gpu.device, &gpu.queue, &target, async || super::sleep(1).await).await?;
-    let [width, height] = target.size();
+    let [width, height] = size;
+    let pixels = picture.pixels(async || super::sleep(1).await).await?;
     let png = crate::image::encode_png(&pixels, width, height).map_err(|error| JsError::new(&error.to_string()))?;
     Ok(Uint8Array::from(png.as_slice()))
 }

@@ -32,7 +32,6 @@ pub(super) struct View<'a> {
     pub(super) backend: Option<&'a str>,
     pub(super) adapter: Option<&'a str>,
     pub(super) frames_rendered: u64,
-    pub(super) upload_error: Option<String>,
 }
 
 /// `bindpose.state()`.
@@ -79,7 +78,6 @@ pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
                 .collect::<Array>(),
         )
         .with("error", error)
-        .with("uploadError", view.upload_error.as_deref())
         .done()
 }
 

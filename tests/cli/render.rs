@@ -158,10 +158,30 @@ fn a_picture_that_no_gpu_draws_is_refused() {
         let path = scratch(&format!("large-{size}.png"));
         let run = run(["render", FIGURE, "-o", path.to_str().expect("UTF-8"), "--size", size]);
         assert_eq!((run.code, run.out.as_str()), (Some(2), ""));
-        let told = format!("error: a picture of {size} is too large");
+        let told = format!("error: a picture of {} pixels is too large", size.replace('x', " × "));
         assert!(run.err.contains(&told) && run.err.contains(why), "{}", run.err);
         assert!(!path.exists());
     }
+}
+
+/// A software GPU has the memory that the process may have.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_that_the_gpu_has_no_memory_for_is_refused_and_never_empty() {
+    const MOST_KILOBYTES: &str = "2000000";
+    let path = scratch("no-memory.png");
+    let mut command = std::process::Command::new("sh");
+    command
+        .args(["-c", &format!("ulimit -v {MOST_KILOBYTES}; exec \"$0\" \"$@\"")])
+        .arg(env!("CARGO_BIN_EXE_bindpose"))
+        .args(["render", FIGURE, "--size", "8192x8192", "--backend", "vulkan", "-o"])
+        .arg(&path);
+    let run = run_command(&mut command);
+    assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{}", run.err);
+    let told = "error: a picture of 8192 × 8192 pixels needs about 2685 MB of the GPU's memory, and less is free: a smaller one \
+                may be drawn";
+    assert!(run.err.contains(told), "{}", run.err);
+    assert!(!path.exists());
 }
 
 /// Where the loader finds no driver, the package to install is named; GL stands in unless Vulkan was asked for.

@@ -1,6 +1,8 @@
 //! Tests of `session`: what is open and how it is looked at, without a window.
 
 mod clips;
+mod folders;
+mod going_back;
 mod joining;
 mod joints;
 mod looking;

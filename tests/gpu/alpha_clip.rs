@@ -1,5 +1,7 @@
 //! What alpha cuts away, and what it must not.
 
+use std::sync::Arc;
+
 use bindpose::image::{Image, decode};
 use bindpose::render::{Renderer, SampleCount, Target};
 use bindpose::scene::{Background, Theme};
@@ -17,7 +19,7 @@ fn green(alpha: u8) -> [u8; 4] {
 }
 
 /// Nothing on the left, everything on the right.
-fn half() -> Image {
+fn half() -> Arc<Image> {
     square(16, |x, _| green(if x < 8 { 0 } else { 255 }))
 }
 
@@ -33,7 +35,7 @@ fn without_model(mut scene: Scene) -> Scene {
     scene
 }
 
-fn draw(gpu: &Gpu, scene: &Scene, map: &Image) -> Picture {
+fn draw(gpu: &Gpu, scene: &Scene, map: &Arc<Image>) -> Picture {
     gpu.draw_with_maps(scene, &diffuse(map), WIDTH, HEIGHT)
 }
 
@@ -87,7 +89,7 @@ on_both_backends! {
         file.extend(words.iter().flat_map(|word| word.to_le_bytes()));
         let [red, green_, blue] = GREEN;
         file.extend([blue, green_, red, 0].repeat(16));
-        let map = decode(&file, "bgrx.dds").expect("a file as the books have them");
+        let map = Arc::new(decode(&file, "bgrx.dds").expect("a file as the books have them"));
         let whole = draw(gpu, &card_once(), &plain(green(255)));
         assert_eq!(draw(gpu, &clipped(card_once()), &map), whole);
 

@@ -25,11 +25,13 @@ macro_rules! on_both_backends {
 }
 
 mod alpha_clip;
+mod big_picture;
 mod book_light;
 mod golden;
 mod gpu;
 mod light;
 mod lines;
+mod map_uploads;
 mod maps;
 mod normal_maps;
 mod over_model;

@@ -1,5 +1,7 @@
 //! What a diffuse map looks like on a surface.
 
+use std::sync::Arc;
+
 use bindpose::image::Image;
 use bindpose::scene::{Background, ViewMode};
 use glam::Vec2;
@@ -17,7 +19,7 @@ fn draw(gpu: &Gpu, scene: &Scene) -> Picture {
     gpu.draw(scene, WIDTH, HEIGHT)
 }
 
-fn draw_with(gpu: &Gpu, scene: &Scene, map: &Image) -> Picture {
+fn draw_with(gpu: &Gpu, scene: &Scene, map: &Arc<Image>) -> Picture {
     gpu.draw_with_maps(scene, &diffuse(map), WIDTH, HEIGHT)
 }
 
@@ -220,7 +222,7 @@ on_both_backends! {
         let [red, green, blue] = ONE;
         for (width, height) in [(1, 1), (3, 5), (1, 9), (100, 1)] {
             let texels = [red, green, blue, 255].repeat((width * height) as usize);
-            let map = Image::from_rgba8(width, height, texels, "test").expect("small");
+            let map = Arc::new(Image::from_rgba8(width, height, texels, "test").expect("small"));
             compare(&scene, &draw_with(gpu, &scene, &map), 1, |x, y, _| Some(expected.pixel(x, y)));
         }
     }

@@ -1,5 +1,7 @@
 //! What a normal map does to the light. The key stands over the viewer's right shoulder: what leans to the right or up is lit.
 
+use std::sync::Arc;
+
 use bindpose::image::Image;
 use glam::{Affine3A, Vec3A, Vec4};
 
@@ -25,7 +27,7 @@ fn draw(gpu: &Gpu, scene: &Scene, texel: [u8; 4]) -> Picture {
     draw_map(gpu, scene, &plain(texel))
 }
 
-fn draw_map(gpu: &Gpu, scene: &Scene, map: &Image) -> Picture {
+fn draw_map(gpu: &Gpu, scene: &Scene, map: &Arc<Image>) -> Picture {
     gpu.draw_with_maps(scene, &normal(map), WIDTH, HEIGHT)
 }
 

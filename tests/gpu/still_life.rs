@@ -1,5 +1,7 @@
 //! A still life: one of each thing that light can meet.
 
+use std::sync::Arc;
+
 use bindpose::image::Image;
 use bindpose::model::{Material, Mesh, Model, Reflectance, Submesh};
 use bindpose::render::MaterialImages;
@@ -69,9 +71,9 @@ pub(crate) fn still_life() -> Scene {
 
 /// Maps of the still life: a grid on the tray, holes in the fence, ripples on the clay.
 pub(crate) struct StillLifeMaps {
-    grid: Image,
-    holes: Image,
-    ripples: Image,
+    grid: Arc<Image>,
+    holes: Arc<Image>,
+    ripples: Arc<Image>,
 }
 
 impl StillLifeMaps {

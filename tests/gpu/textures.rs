@@ -1,5 +1,7 @@
 //! Pictures made by hand, and a card to put them on.
 
+use std::sync::Arc;
+
 use bindpose::image::{Image, decode};
 use bindpose::model::{Mesh, Model, Submesh};
 use bindpose::render::MaterialImages;
@@ -15,18 +17,18 @@ pub(crate) const WIDTH: u32 = 160;
 pub(crate) const HEIGHT: u32 = 100;
 
 /// A square picture, texel by texel.
-pub(crate) fn square(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
+pub(crate) fn square(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Image> {
     let texels = (0..side * side).flat_map(|index| texel(index % side, index / side));
-    Image::from_rgba8(side, side, texels.collect(), "test").expect("a small picture")
+    Arc::new(Image::from_rgba8(side, side, texels.collect(), "test").expect("a small picture"))
 }
 
 /// The same texel everywhere.
-pub(crate) fn plain(texel: [u8; 4]) -> Image {
+pub(crate) fn plain(texel: [u8; 4]) -> Arc<Image> {
     square(4, |_, _| texel)
 }
 
 /// A DDS file with a four-character code or, for `DX10`, a DXGI format and alpha mode, and all its levels.
-pub(crate) fn dds(code: &[u8; 4], [dxgi, alpha_mode]: [u32; 2], side: u32, blocks: &[u8]) -> Image {
+pub(crate) fn dds(code: &[u8; 4], [dxgi, alpha_mode]: [u32; 2], side: u32, blocks: &[u8]) -> Arc<Image> {
     let mut words = [0; 31];
     words[..7].copy_from_slice(&[124, 0x2_1007, side, side, 0, 0, u32::BITS - side.leading_zeros()]);
     words[18..21].copy_from_slice(&[32, 4, u32::from_le_bytes(*code)]);
@@ -36,7 +38,7 @@ pub(crate) fn dds(code: &[u8; 4], [dxgi, alpha_mode]: [u32; 2], side: u32, block
     let mut file = b"DDS ".to_vec();
     file.extend(words.iter().chain(dx10).flat_map(|word| word.to_le_bytes()));
     file.extend(blocks);
-    decode(&file, "test.dds").unwrap_or_else(|error| panic!("{error}"))
+    Arc::new(decode(&file, "test.dds").unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// A cube map whose faces have one colour each, +x −x +y −y +z −z.
@@ -93,14 +95,14 @@ pub(crate) fn card_once() -> Scene {
     card(WHITE, [Vec2::ZERO, Vec2::ONE])
 }
 
-pub(crate) fn diffuse(image: &Image) -> [MaterialImages<'_>; 1] {
+pub(crate) fn diffuse(image: &Arc<Image>) -> [MaterialImages<'_>; 1] {
     [MaterialImages {
         diffuse: Some(image),
         normal: None,
     }]
 }
 
-pub(crate) fn normal(image: &Image) -> [MaterialImages<'_>; 1] {
+pub(crate) fn normal(image: &Arc<Image>) -> [MaterialImages<'_>; 1] {
     [MaterialImages {
         diffuse: None,
         normal: Some(image),

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::rc::Rc;
 
 use bindpose::app::App;
-use bindpose::render::read_back_blocking;
+use bindpose::render::Picture;
 use bindpose::scene::{Background, FrameOptions, Light, Overlay, Overlays, ViewMode};
 use bindpose::session::{Command, Session};
 use bindpose::ui;
@@ -58,8 +58,8 @@ fn a_native_device_draws_what_browsers_draw() {
 
     let mut differing = Vec::new();
     let mut compare = |name: &str, adjust: &dyn Fn(&mut FrameOptions)| {
-        let target = app.borrow_mut().as_mut().expect("it ran").draw_snapshot(SIZE, adjust);
-        let pixels = read_back_blocking(&gpu.device, &gpu.queue, &target).expect("read back");
+        let drawn = app.borrow_mut().as_mut().expect("it ran").draw_snapshot(SIZE, adjust);
+        let pixels = drawn.and_then(Picture::pixels_blocking).expect("a small picture");
         let drawn = RgbaImage::from_raw(SIZE[0], SIZE[1], pixels).expect("as large as asked");
         let beside = format!("{}/browser-{name}-native.png", env!("CARGO_TARGET_TMPDIR"));
         drawn.save(&beside).expect("writes a PNG");

@@ -23,6 +23,7 @@ mod panels;
 mod picture;
 mod pointer;
 mod popovers;
+mod refused;
 mod rigs;
 mod saving;
 mod skeleton;

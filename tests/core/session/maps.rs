@@ -1,5 +1,7 @@
 //! Pictures beside a model, and pictures that come later.
 
+use std::sync::Arc;
+
 use bindpose::format::Document;
 use bindpose::image::encode_png;
 use bindpose::session::{Command, File, MapSlot, Session};
@@ -51,7 +53,7 @@ fn maps_of_the_same_drop_are_found_at_any_depth_without_case_and_extension() {
     let used: Vec<_> = session
         .maps()
         .used()
-        .map(|map| (map.file.base_name().to_owned(), map.users))
+        .map(|map| (map.file.base_name().to_owned(), map.users.to_vec()))
         .collect();
     assert_eq!(used, [("skin_diff.png".to_owned(), vec![(0, MapSlot::Diffuse)])]);
 }
@@ -201,7 +203,7 @@ fn what_cannot_be_read_is_noted_used_or_not_until_a_sound_one_takes_its_place() 
     let unreadable: Vec<_> = session
         .maps()
         .unreadable()
-        .map(|map| (map.file.path.clone(), map.finding.code, map.users))
+        .map(|map| (map.file.path.clone(), map.finding.code, map.users.to_vec()))
         .collect();
     let users = vec![(0, MapSlot::Diffuse)];
     assert_eq!(unreadable, [("in/a.png".to_owned(), "image-undecodable", users)]);
@@ -280,4 +282,19 @@ fn pictures_that_fit_nothing_are_noted_until_the_next_drop() {
         messages(&session, "map-unused").is_empty(),
         "a folder has more in it than one model's maps"
     );
+}
+
+#[test]
+fn a_map_that_comes_later_is_decoded_alone_and_the_others_stay() {
+    let mut session = opened(vec![
+        mapped("box.m3d", "a.png", "b.png"),
+        picture("a.png", [1, 2, 3, 255]),
+    ]);
+    let image = |session: &Session, slot| session.maps().image(0, slot).map(Arc::clone);
+    let first = image(&session, MapSlot::Diffuse).expect("there");
+    drop_pictures(&mut session, vec![picture("b.png", [128, 128, 255, 255])]);
+    let is_same = |session: &Session| Arc::ptr_eq(&first, &image(session, MapSlot::Diffuse).expect("there"));
+    assert!(is_same(&session) && image(&session, MapSlot::Normal).is_some());
+    session.apply(Command::AddFiles(vec![mapped("box.m3d", "a.png", "b.png")]));
+    assert!(is_same(&session), "the model again");
 }

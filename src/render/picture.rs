@@ -1,0 +1,148 @@
+//! A picture by itself, of any size that the device can draw: an error, or all of it.
+
+use super::Renderer;
+use super::read_back::{Pending, ReadBackError};
+use super::target::{SampleCount, Target};
+use super::watch::{GpuAnswer, GpuError, answer_at_once, watched};
+use crate::scene::RenderFrame;
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PictureError {
+    /// It has more pixels than the device takes.
+    #[error("a picture of {width} × {height} pixels is too large: this GPU draws {largest}")]
+    TooLarge {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// What it draws, in words.
+        largest: String,
+    },
+    /// The device would draw it if it had the memory.
+    #[error(
+        "a picture of {width} × {height} pixels needs about {megabytes} MB of the GPU's memory, and less is free: a smaller \
+         one may be drawn"
+    )]
+    OutOfMemory {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// What it needs.
+        megabytes: u64,
+    },
+    /// Something else went wrong.
+    #[error("the picture could not be drawn: {0}")]
+    Gpu(GpuError),
+    /// It was drawn.
+    #[error(transparent)]
+    ReadBack(#[from] ReadBackError),
+}
+
+/// A picture that the device draws.
+pub struct Picture {
+    size: [u32; 2],
+    samples: SampleCount,
+    answer: GpuAnswer,
+    /// A pixel of the same target, filled with white before anything was drawn. GL tells nobody when it has no memory for a
+    /// target: what is drawn into it then vanishes, and so does the white.
+    proof: Pending,
+    pixels: Pending,
+}
+
+impl Renderer {
+    /// Draws a frame into a target of its own. The device is asked for all that it takes, and what it answers comes with the
+    /// pixels.
+    ///
+    /// # Errors
+    /// When the device draws no picture of this size.
+    pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
+        let (device, queue, samples) = (self.common.device.clone(), self.common.queue.clone(), self.samples);
+        fits(&device.limits(), size)?;
+        let ((proof, pixels), answer) = watched(&device, || {
+            let mut target = Target::with_samples(&device, size[0], size[1], samples);
+            target.fill(&device, &queue, wgpu::Color::WHITE);
+            let proof = Pending::start(&device, &queue, &target, [1, 1]);
+            self.render(frame, &mut target);
+            (proof, Pending::start(&device, &queue, &target, target.size()))
+        });
+        Ok(Picture {
+            size,
+            samples,
+            answer,
+            proof,
+            pixels,
+        })
+    }
+}
+
+impl Picture {
+    /// RGBA, 8 bits a channel, sRGB, straight alpha, rows from the top without padding. `pause` as in
+    /// [`read_back`](super::read_back).
+    ///
+    /// # Errors
+    /// When the device could not draw all of it.
+    pub async fn pixels(mut self, pause: impl AsyncFn()) -> Result<Vec<u8>, PictureError> {
+        let answer = self.answer.as_mut().await;
+        self.check(answer)?;
+        let proof = self.proof.wait(&pause).await?;
+        self.check_proof(&proof)?;
+        Ok(self.pixels.wait(&pause).await?)
+    }
+
+    /// As [`Picture::pixels`], for where a thread may wait: not on the web.
+    ///
+    /// # Errors
+    /// When the device could not draw all of it.
+    pub fn pixels_blocking(mut self) -> Result<Vec<u8>, PictureError> {
+        let done: GpuAnswer = Box::pin(async { Ok(()) });
+        let answer = answer_at_once(std::mem::replace(&mut self.answer, done));
+        self.check(answer)?;
+        self.check_proof(&self.proof.wait_blocking()?)?;
+        Ok(self.pixels.wait_blocking()?)
+    }
+
+    fn check(&self, answer: Result<(), GpuError>) -> Result<(), PictureError> {
+        answer.map_err(|error| match error {
+            GpuError::OutOfMemory => self.out_of_memory(),
+            GpuError::Refused(_) => PictureError::Gpu(error),
+        })
+    }
+
+    fn check_proof(&self, proof: &[u8]) -> Result<(), PictureError> {
+        if proof == [255; 4] {
+            Ok(())
+        } else {
+            Err(self.out_of_memory())
+        }
+    }
+
+    fn out_of_memory(&self) -> PictureError {
+        let [width, height] = self.size;
+        // Colour and depth of each sample, the picture that they are resolved to, and the bytes that are read.
+        let samples = u64::from(self.samples.count());
+        let resolved = if samples > 1 { 4 } else { 0 };
+        let bytes_per_pixel = samples * 8 + resolved + 4;
+        PictureError::OutOfMemory {
+            width,
+            height,
+            megabytes: (u64::from(width) * u64::from(height) * bytes_per_pixel).div_ceil(1_000_000),
+        }
+    }
+}
+
+/// Whether a device can draw a picture of this size and hand it over.
+fn fits(limits: &wgpu::Limits, [width, height]: [u32; 2]) -> Result<(), PictureError> {
+    let too_large = |largest| PictureError::TooLarge { width, height, largest };
+    let side = limits.max_texture_dimension_2d;
+    if width.max(height) > side {
+        return Err(too_large(format!("at most {side} pixels a side")));
+    }
+    let row_bytes = (u64::from(width) * 4).next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
+    if row_bytes * u64::from(height) > limits.max_buffer_size {
+        let pixels = limits.max_buffer_size / 4;
+        return Err(too_large(format!("at most {pixels} pixels in all")));
+    }
+    Ok(())
+}
