@@ -51,8 +51,8 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     assert_eq!(joints.skin_view(), Some(SkinView::Weight));
     assert_eq!(window.session().bind_share(), 1.0);
     assert!(window.shows("Legend: Weight of a bone"));
-    press(&mut window, Modifiers::NONE, Key::B);
     press(&mut window, Modifiers::SHIFT, Key::B);
+    press(&mut window, Modifiers::NONE, Key::B);
     press(&mut window, Modifiers::NONE, Key::W);
     press(&mut window, Modifiers::NONE, Key::K);
     let joints = window.session().joints();
@@ -61,6 +61,30 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     let mut still = window_of_still();
     still.press(Modifiers::NONE, Key::B);
     assert!(!still.session().joints().bones_visible(), "no bones, no key");
+}
+
+#[test]
+fn names_go_with_the_bones_whatever_key_hides_or_shows_them() {
+    let mut window = window(WIDE, chains(5));
+    let mut after = |modifiers| {
+        window.press(modifiers, Key::B);
+        let joints = window.session().joints();
+        (joints.bones_visible(), joints.labels_visible())
+    };
+    let (bones, names) = (Modifiers::NONE, Modifiers::SHIFT);
+    assert_eq!(
+        after(names),
+        (true, true),
+        "Shift B alone shows the bones that it names"
+    );
+    assert_eq!(after(bones), (false, false));
+    assert_eq!(after(bones), (true, true));
+    assert_eq!(after(names), (true, false));
+    window.click("Lines over");
+    window.click("Names of bones");
+    window.click("Bones");
+    let joints = window.session().joints();
+    assert!(!joints.bones_visible() && !joints.labels_visible());
 }
 
 #[test]

@@ -377,6 +377,46 @@ fn labels_are_those_in_view_and_the_selected_comes_first() {
 }
 
 #[test]
+fn names_stand_only_where_bones_are_drawn_and_bring_them() {
+    let mut session = chains(5);
+    let shown = |session: &mut Session| {
+        let mut places = Vec::new();
+        session.joint_labels(0.0, &mut places);
+        assert_eq!(places.is_empty(), !session.joints().labels_visible());
+        (session.joints().bones_visible(), session.joints().labels_visible())
+    };
+    let mut after = |command| {
+        session.apply(joint(command));
+        shown(&mut session)
+    };
+    assert_eq!(
+        after(SetLabelsVisible(true)),
+        (true, true),
+        "names without bones say nothing"
+    );
+    assert_eq!(after(SetBonesVisible(false)), (false, false), "they go with the bones");
+    assert_eq!(after(SetBonesVisible(true)), (true, true), "and come back with them");
+    assert_eq!(after(SetBonesVisible(false)), (false, false));
+    assert_eq!(
+        after(SetLabelsVisible(true)),
+        (true, true),
+        "asked for alone, with the bones"
+    );
+    assert_eq!(
+        after(SetLabelsVisible(false)),
+        (true, false),
+        "bones stay without names"
+    );
+    assert_eq!(after(SetBonesVisible(false)), (false, false));
+    assert_eq!(
+        after(SetLabelsVisible(false)),
+        (false, false),
+        "nothing comes by being left out"
+    );
+    assert_eq!(after(SetBonesVisible(true)), (true, false));
+}
+
+#[test]
 fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::Pause);
