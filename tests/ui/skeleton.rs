@@ -136,12 +136,9 @@ fn each_view_of_the_skin_has_a_legend() {
 /// The middle of the window where the first triangle of a bone is.
 fn place_of_vertex(window: &mut Window, vertex: u32) -> egui::Pos2 {
     window.apply(JointCommand::SelectVertex(Some(vertex)).into());
-    let at = window
-        .harness
-        .state_mut()
-        .session
-        .selected_vertex_at()
-        .expect("in view");
+    let session = &mut window.harness.state_mut().session;
+    let place = session.explain_vertex().expect("it was selected").position;
+    let at = session.place_in_picture(place).expect("in view");
     window.apply(JointCommand::SelectVertex(None).into());
     let share = vec2(0.5 * (at.x + 1.0), 0.5 * (1.0 - at.y));
     egui::Pos2::ZERO + share * WIDE

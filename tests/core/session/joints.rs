@@ -565,19 +565,18 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
 #[test]
 fn a_selected_vertex_is_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
-    assert_eq!(session.selected_vertex_at(), None);
     session.apply(joint(SelectVertex(Some(0))));
     session.apply(Command::Seek { time_secs: 0.5 });
     let place = session.explain_vertex().expect("it is there").position;
     let world = session.frame().world_from_model.transform_point3(place);
     let expected = on_screen(&mut session, world);
-    let at = session.selected_vertex_at().expect("in view");
+    let at = session.place_in_picture(place).expect("in view");
     assert!(at.distance(expected) < 1e-5, "{at} {expected}");
     session.apply(Command::Zoom {
         factor: 0.05,
         pointer: Vec2::ZERO,
     });
-    assert_eq!(session.selected_vertex_at(), None, "beside the picture");
+    assert_eq!(session.place_in_picture(place), None, "beside the picture");
 }
 
 #[test]
