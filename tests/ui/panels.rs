@@ -174,6 +174,23 @@ fn copied_text(window: &Window) -> Option<String> {
 }
 
 #[test]
+fn the_error_card_shows_what_is_no_text_byte_by_byte_on_one_line() {
+    for mut window in [window(WIDE, vec![]), phone(vec![])] {
+        let png = include_bytes!("../fixtures/bad/png.m3d").to_vec();
+        window.apply(Command::AddFiles(vec![File::new("in/skin.m3d", png)]));
+        let excerpt = window.named(|name| name.starts_with("skin.m3d:1:1"));
+        let (text, rect) = &excerpt[0];
+        assert!(
+            text.contains("00 | 89 50 4e 47 0d 0a 1a 0a 00 00 00 0d 49 48 44 52  .PNG........IHDR"),
+            "{text}"
+        );
+        assert!(text.ends_with("   | ^^ expected an m3d file header"), "{text}");
+        // Place, bytes and mark, each on a line of its own even where it is wider than the card.
+        assert!((50.0..65.0).contains(&rect.height()), "{rect}");
+    }
+}
+
+#[test]
 fn the_error_card_goes_with_escape_and_with_the_next_model() {
     let mut window = window(WIDE, vec![]);
     window.apply(Command::AddFiles(vec![broken("bad.m3d")]));

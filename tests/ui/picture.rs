@@ -170,6 +170,13 @@ fn maps_that_are_missing_and_one_that_is_damaged() {
 }
 
 #[test]
+fn the_bytes_of_a_file_that_is_no_text() {
+    let bytes = include_bytes!("../fixtures/bad/png.m3d").to_vec();
+    let then = vec![Command::AddFiles(vec![File::new("soldier.m3d", bytes)])];
+    compare("wide-dark-bytes", &draw(WIDE, Theme::Dark, false, then));
+}
+
+#[test]
 fn a_subset_inspected_in_a_small_window() {
     let size = Vec2::new(900.0, 700.0);
     let hidden = SubsetCommand::SetVisible {
