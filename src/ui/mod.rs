@@ -63,6 +63,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         state.shown_model = session.model_revision();
         state.shown_finding = None;
         state.diagnostics_open = false;
+        state.missing_maps_open = false;
     }
 
     state.skeleton.read(ui, session, window);

@@ -68,6 +68,8 @@ pub struct UiState {
     pub sheet: Option<SheetPage>,
     pub(super) coarse_pointer: bool,
     pub(super) shown_finding: Option<usize>,
+    /// The names of missing maps are listed.
+    pub(super) missing_maps_open: bool,
     pub(super) shown_model: u64,
     pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,
