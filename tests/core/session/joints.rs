@@ -603,6 +603,26 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
         "{} is not near {place}",
         near.target
     );
+    // A vertex comes with what is around it.
+    session.apply(joint(Select(None)));
+    session.apply(joint(SelectVertex(Some(60))));
+    session.apply(Command::FrameSelection);
+    let (at_vertex, place) = (*session.camera(), session.explain_vertex().expect("selected").position);
+    let world = session.frame().world_from_model.transform_point3(place);
+    assert!(
+        at_vertex.target.distance(world) < 0.1 * at_vertex.distance,
+        "{} {world}",
+        at_vertex.target
+    );
+    assert!(
+        (0.05..0.5).contains(&(at_vertex.distance / whole.distance)),
+        "{at_vertex:?}"
+    );
+    session.apply(joint(SelectVertex(None)));
+    session.apply(joint(Select(Some(chosen))));
+    session.apply(Command::FrameSelection);
+    assert_eq!(*session.camera(), near);
+
     // It stays there when the window changes, which would frame all of the model otherwise.
     session.apply(Command::SetViewport {
         aspect: 1.3,
