@@ -115,7 +115,8 @@ pub enum Command {
     },
     /// Frames all that the clip reaches.
     FrameModel,
-    /// Frames what is selected as it is posed now: what a joint moves, or a subset; all that the clip reaches without either.
+    /// Frames what is selected as it is posed now: what a joint moves, the neighbourhood of a vertex, or a subset; all that the
+    /// clip reaches when nothing is selected.
     FrameSelection,
     /// Looks from a named direction and frames.
     LookFrom(ViewPreset),

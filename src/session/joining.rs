@@ -15,8 +15,13 @@ use crate::model::{Skeleton, unique_names};
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
 const OFFSET_TOLERANCE: f32 = 1e-3;
 
-/// What is noted of a file whose bones stand elsewhere.
-const OFFSETS_DIFFER: &str = "clips-offsets-differ";
+/// A file whose clips joined the open model.
+#[derive(Clone, Debug)]
+pub(super) struct JoinedFile {
+    pub(super) file: File,
+    /// What is noted of it when its bones stand elsewhere than the model's. It goes with the file.
+    offsets_differ: Option<Diagnostic>,
+}
 
 impl Session {
     /// Adds the clips of every model of a drop; true when there was no model to join and the drop was opened.
@@ -83,6 +88,7 @@ impl OpenModel {
         if other.model.clips.is_empty() {
             return refuse("clips-none", format!("{theirs} has no clips to add."));
         }
+        let offsets_differ = self.offsets_notice(&other);
         let replaced = if replaces { self.remove_joined(theirs) } else { None };
         let kept = self.model.clips.len();
         let first = replaced.map_or(kept, |(first, _)| first);
@@ -93,7 +99,6 @@ impl OpenModel {
             let notice = replaced_notice(theirs, first, other.model.clips.len(), before);
             self.notices.push(notice);
         }
-        self.notices.extend(self.offsets_notice(&other));
         self.notices.extend(
             other
                 .notices
@@ -107,17 +112,21 @@ impl OpenModel {
         let facts: Vec<_> = clips.iter().map(|_| ClipFacts::joined_from(theirs)).collect();
         self.clip_facts.splice(first..first, facts);
         self.model.clips.splice(first..first, clips);
-        let is_same = |joined: &File| joined.base_name() == theirs;
+        let is_same = |joined: &JoinedFile| joined.file.base_name() == theirs;
         let place = self.joined.iter().position(is_same).filter(|_| replaced.is_some());
         if replaced.is_some() {
             self.joined.retain(|joined| !is_same(joined));
         }
-        self.joined.insert(place.unwrap_or(self.joined.len()), file.clone());
+        let joined = JoinedFile {
+            file: file.clone(),
+            offsets_differ,
+        };
+        self.joined.insert(place.unwrap_or(self.joined.len()), joined);
         Ok(replaced.is_some())
     }
 
     /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a notice.
-    pub(super) fn join_again(&mut self, files: &[File]) {
+    pub(super) fn join_again<'a>(&mut self, files: impl Iterator<Item = &'a File>) {
         for file in files {
             if let Err(error) = self.join_clips(file, false) {
                 self.notices.push(Diagnostic {
@@ -130,6 +139,11 @@ impl OpenModel {
                 });
             }
         }
+    }
+
+    /// What is noted of the files whose clips joined, beside what is noted of the clips.
+    pub(super) fn joined_notices(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.joined.iter().filter_map(|joined| joined.offsets_differ.as_ref())
     }
 
     /// A note when the other model was skinned in another pose, or in other proportions.
@@ -145,27 +159,18 @@ impl OpenModel {
         differing.sort_unstable();
         let &first = differing.first()?;
         let message = format!(
-            "{} of the {} {} differ from those of {}, the first that of bone {first}: its clips were made for other \
-             proportions.",
+            "{} of the {} bone offsets of {} differ from those of {}, the first that of bone {first}: its clips were made for \
+             other proportions.",
             differing.len(),
             ours.joint_count(),
-            offsets_of(other.file.base_name()),
+            other.file.base_name(),
             self.file.base_name(),
         );
         Some(Diagnostic {
             subject: Some(Subject::Bone(first)),
-            ..Diagnostic::without_place(Severity::Note, OFFSETS_DIFFER, message)
+            ..Diagnostic::without_place(Severity::Note, "clips-offsets-differ", message)
         })
     }
-}
-
-/// Whether a finding is that the bone offsets of a file differ.
-pub(super) fn is_about_offsets(notice: &Diagnostic, file_name: &str) -> bool {
-    notice.code == OFFSETS_DIFFER && notice.message.contains(&offsets_of(file_name))
-}
-
-fn offsets_of(file_name: &str) -> String {
-    format!("bone offsets of {file_name}")
 }
 
 impl LoadError {

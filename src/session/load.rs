@@ -10,6 +10,7 @@ use crate::scene::Aabb;
 
 use super::clips::ClipFacts;
 use super::files::{File, FileSet};
+use super::joining::JoinedFile;
 
 /// A model that is on screen, with the file it came from.
 #[derive(Clone, Debug)]
@@ -28,7 +29,7 @@ pub struct OpenModel {
     /// One for each clip of the model.
     pub(super) clip_facts: Vec<ClipFacts>,
     /// Files whose clips joined, in their order.
-    pub(super) joined: Vec<File>,
+    pub(super) joined: Vec<JoinedFile>,
 }
 
 impl OpenModel {

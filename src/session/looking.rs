@@ -5,6 +5,9 @@ use glam::Vec3;
 use super::Session;
 use crate::scene::Insets;
 
+/// What is framed around a vertex, as a part of the model's radius: its neighbourhood, and where on the model that is.
+const VERTEX_ROOM: f32 = 0.15;
+
 impl Session {
     pub(super) fn zoom(&mut self, factor: f32, pointer: glam::Vec2) {
         let radius = self.world_bounds().radius().max(1e-6);
@@ -51,12 +54,13 @@ impl Session {
         }
     }
 
-    /// Vertices that the selected joint moves for the greater part, with its bones; or those of the selected subset. World
-    /// space, as they are posed now.
+    /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex with a little
+    /// around it; or those of the selected subset. World space, as they are posed now.
     fn selected_points(&mut self) -> Vec<Vec3> {
         self.pose_vertices();
+        let around_vertex = VERTEX_ROOM * self.world_bounds().radius();
         let world_from_model = self.world_from_model();
-        let joint = self.joints.selected();
+        let (joint, vertex) = (self.joints.selected(), self.joints.selected_vertex().copied());
         let mut points = Vec::new();
         if let Some(joint) = joint {
             let bones = self.bones().bones().iter().filter(|bone| bone.joint == joint);
@@ -73,6 +77,9 @@ impl Session {
                 of_joint.map(|(_, weight)| weight).sum::<f32>() >= 0.5
             });
             points.extend(moved.filter_map(|(vertex, _)| in_world(vertex)));
+        } else if let Some(place) = vertex.and_then(|vertex| in_world(vertex.vertex as usize)) {
+            let sides = Vec3::AXES.map(|axis| axis * around_vertex);
+            points.extend(sides.into_iter().flat_map(|side| [place - side, place + side]));
         } else if let Some(subset) = self.subsets.selected().and_then(|subset| mesh.submeshes.get(subset)) {
             let start = subset.triangle_start as usize * 3;
             let corners = &mesh.indices[start..start + subset.triangle_count as usize * 3];

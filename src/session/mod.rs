@@ -148,7 +148,11 @@ impl Session {
     /// What was mended or is worth knowing about the model on screen, its maps and the sky.
     pub fn notices(&self) -> impl Iterator<Item = &crate::diagnostic::Diagnostic> {
         let of_file = self.open.iter().flat_map(|open| &open.notices);
-        of_file.chain(self.maps.notices()).chain(self.sky.notices())
+        let of_joined = self.open.iter().flat_map(OpenModel::joined_notices);
+        of_file
+            .chain(of_joined)
+            .chain(self.maps.notices())
+            .chain(self.sky.notices())
     }
 
     /// Maps of the model on screen.

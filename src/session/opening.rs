@@ -87,7 +87,7 @@ impl Session {
             .filter(|old| old.file.base_name() == open.file.base_name());
         let kept_clip = again.and_then(|_| Some(self.clip()?.name.clone()));
         if let Some(old) = again {
-            open.join_again(&old.joined);
+            open.join_again(old.joined.iter().map(|joined| &joined.file));
         }
         let again = again.is_some();
         let range_secs = self.playback.range_secs();

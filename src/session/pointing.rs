@@ -1,4 +1,4 @@
-//! What a click in the picture means, by what is shown there; and where the selected vertex is in the picture.
+//! What a click in the picture means, by what is shown there; and where a point of the model is in the picture.
 
 use glam::{Vec2, Vec3};
 
@@ -19,10 +19,9 @@ impl Session {
         }
     }
 
-    /// Where the selected vertex is in the picture of the pose on show: x right, y up, −1…1. None outside of it and behind the
+    /// Where a point of the model (model space) is in the picture: x right, y up, −1…1. None outside of it and behind the
     /// eye.
-    pub fn selected_vertex_at(&mut self) -> Option<Vec2> {
-        let position = self.explain_vertex()?.position;
+    pub fn place_in_picture(&mut self, position: Vec3) -> Option<Vec2> {
         let world = self.world_from_model().transform_point3(position);
         self.screen().place(world).map(Vec3::truncate)
     }

@@ -1,7 +1,6 @@
 //! A file of clips that comes a second time: its clips take the places of those that it brought before.
 
 use super::clips::ClipFacts;
-use super::joining::is_about_offsets;
 use super::{Event, OpenModel, Session};
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 
@@ -82,7 +81,7 @@ impl OpenModel {
         let place_of = |clip: u32| gone.iter().take(clip as usize).filter(|&&gone| !gone).count() as u32;
         self.notices.retain_mut(|notice| {
             let Some(Subject::Clip(clip)) = notice.subject else {
-                return !is_about_offsets(notice, file_name);
+                return true;
             };
             notice.subject = Some(Subject::Clip(place_of(clip)));
             gone.get(clip as usize) != Some(&true)

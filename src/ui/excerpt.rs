@@ -21,16 +21,17 @@ pub(super) fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<
     if !heading.is_empty() {
         job.append(&format!("{heading}\n"), 0.0, mono(tokens.muted));
     }
-    let number_width = excerpt.lines.last().map_or(0, |(number, _)| number.to_string().len());
-    for (number, line) in &excerpt.lines {
-        job.append(&format!("{number:>number_width$} | "), 0.0, mono(tokens.faint));
-        if Some(number) == excerpt.lines.last().map(|(number, _)| number) {
+    let last = excerpt.lines.len().saturating_sub(1);
+    for (index, (number, line)) in excerpt.numbered_lines().enumerate() {
+        job.append(&format!("{number} | "), 0.0, mono(tokens.faint));
+        if index == last {
             let (before, marked, after) = excerpt.marked_parts();
             job.append(before, 0.0, mono(tokens.text));
             job.append(marked, 0.0, mono(mark_color));
             job.append(after, 0.0, mono(tokens.text));
             let indent = " ".repeat(excerpt.mark_column as usize - 1);
             let mark = "^".repeat(excerpt.mark_length as usize);
+            let number_width = number.len();
             job.append(&format!("\n{:number_width$} | ", ""), 0.0, mono(tokens.faint));
             job.append(&format!("{indent}{mark} {expected}\n"), 0.0, mono(mark_color));
         } else {
@@ -50,6 +51,6 @@ pub(super) fn show(ui: &mut Ui, excerpt: &Excerpt, heading_and_expected: Option<
             ui.take_available_width();
             egui::ScrollArea::horizontal()
                 .id_salt("excerpt")
-                .show(ui, |ui| ui.label(job));
+                .show(ui, |ui| ui.add(egui::Label::new(job).extend()));
         });
 }

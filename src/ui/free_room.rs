@@ -2,7 +2,7 @@
 
 use egui::{Pos2, Rect, Ui, pos2};
 
-use super::layout::{Arrangement, SIDE_WIDTH, bar_height, page_width, shut_sheet_height};
+use super::layout::{Arrangement, INSPECTOR_WIDTH, SIDE_WIDTH, bar_height, page_width, shut_sheet_height};
 use super::panel::shown_rect;
 use super::skeleton::{self, LegendShape};
 use super::state::UiState;
@@ -13,6 +13,8 @@ use crate::session::Session;
 
 /// In a narrow window a figure in the middle reaches about so far to either side.
 const FIGURE_REACH: f32 = 80.0;
+/// The least width beside the findings in which something of a model is seen.
+const LEAST_BESIDE_FINDINGS: f32 = 200.0;
 /// The least height in which a legend leaves something to see: of the panel above a card, of the model above a strip.
 const LEAST_WITH_CARD: f32 = 220.0;
 const LEAST_WITH_STRIP: f32 = 180.0;
@@ -29,12 +31,32 @@ pub(super) fn insets(ui: &Ui, session: &Session, state: &UiState, window: Rect, 
         Arrangement::Wide => (free_left(window, arrangement) - window.min.x) / window.width(),
         Arrangement::Narrow | Arrangement::Low => 0.0,
     };
+    let right = covered_beside(state, window, arrangement) / window.width();
+    let (left, right) = beside_findings(ui, session, state, window, arrangement).unwrap_or((left, right));
     Insets {
         left,
-        right: covered_beside(state, window, arrangement) / window.width(),
+        right,
         top: top.clamp(0.0, 0.3),
         bottom: bottom.clamp(0.0, 0.75),
     }
+}
+
+/// What the list of findings leaves of a wide window, with an inspector at its right: a finding is clicked to see what it is
+/// about. Where that is next to nothing the list covers the model as ever.
+fn beside_findings(
+    ui: &Ui,
+    session: &Session,
+    state: &UiState,
+    window: Rect,
+    arrangement: Arrangement,
+) -> Option<(f32, f32)> {
+    let open = state.diagnostics_open && arrangement == Arrangement::Wide;
+    let list = shown_rect(ui, "diagnostics").filter(|_| open)?;
+    let inspects = session.subsets().selected().is_some() || skeleton::is_inspected(session);
+    let inspector = if inspects { INSPECTOR_WIDTH + 2.0 * MARGIN } else { 0.0 };
+    let left = list.max.x + MARGIN - window.min.x;
+    let free = window.width() - left - inspector;
+    (free >= LEAST_BESIDE_FINDINGS).then_some((left / window.width(), inspector / window.width()))
 }
 
 /// Where the panel on the left ends, with a margin.

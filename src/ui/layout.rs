@@ -16,7 +16,7 @@ use crate::session::{Command, Session};
 /// Width of the panel on the left.
 pub(super) const SIDE_WIDTH: f32 = 246.0;
 /// Width of the inspector on the right.
-const INSPECTOR_WIDTH: f32 = 288.0;
+pub(super) const INSPECTOR_WIDTH: f32 = 288.0;
 /// Share of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
 const PAGE_SHARE: f32 = 0.47;
 /// Share of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
@@ -92,7 +92,7 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
         let right = window.max.x - if inspects { MARGIN + INSPECTOR_WIDTH } else { 0.0 };
         Panel::new("diagnostics", Align2::LEFT_TOP, at).show(ui, |ui| {
             ui.set_width(430.0_f32.min(right - MARGIN - at.x - PANEL_AROUND));
-            diagnostics_panel::show(ui, session, state, side_room - 50.0);
+            diagnostics_panel::show(ui, session, state, side_room - 50.0, commands);
         });
     }
     if inspects {
@@ -295,7 +295,9 @@ fn sheet_page(
     commands: &mut Vec<Command>,
 ) {
     match page {
-        SheetPage::Model if state.diagnostics_open => diagnostics_panel::show(ui, session, state, room - 50.0),
+        SheetPage::Model if state.diagnostics_open => {
+            diagnostics_panel::show(ui, session, state, room - 50.0, commands);
+        }
         SheetPage::Model if session.subsets().selected().is_some() => inspector::show(ui, session, state, commands),
         SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {

@@ -4,6 +4,7 @@ mod diagnostics_panel;
 mod drag_trail;
 mod error_card;
 mod excerpt;
+mod finding_goal;
 mod flight;
 mod free_room;
 mod help;
@@ -63,12 +64,16 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         state.shown_model = session.model_revision();
         state.shown_finding = None;
         state.diagnostics_open = false;
+        state.missing_maps_open = false;
     }
 
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
     commands.extend(set_viewport(ui, session, state, window, arrangement));
+    if std::mem::take(&mut state.frames_selection) {
+        commands.push(Command::Glide(Box::new(Command::FrameSelection)));
+    }
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);

@@ -1,10 +1,10 @@
-//! What is open: counts, handedness, up axis, size, subsets, other models of the drop, the count of diagnostics.
+//! What is open: counts, handedness, up axis, size, the count of diagnostics, subsets, textures, other models of the drop.
 
 use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::widgets::{choice_row, is_touch, menu_item, paint_chip, rule, section_name, value_row};
+use super::widgets::{choice_row, menu_item, paint_chip, pressed_row_height, rule, section_name, value_row};
 use super::wording::{counted, grouped, measured, shortened};
 use super::{UiState, skeleton, subset_list, textures, title_bar};
 use crate::diagnostic::Severity;
@@ -24,15 +24,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     counts(ui, open);
     space_rows(ui, session, commands);
     bounds_row(ui, open);
+    diagnostics_row(ui, session, state);
     rule(ui, PANEL_MARGIN);
     subset_list::show(ui, session, open, state, commands);
     if session.maps().checklist().named > 0 {
         rule(ui, PANEL_MARGIN);
-        textures::show(ui, session, open, &mut state.thumbnails);
+        textures::show(ui, session, open, state);
     }
     other_models(ui, session, commands);
-    rule(ui, PANEL_MARGIN);
-    diagnostics_row(ui, session, state);
 }
 
 fn heading(ui: &mut Ui) {
@@ -128,8 +127,8 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 
 fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
-    let height = if is_touch(ui) { 44.0 } else { 24.0 };
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+    let size = vec2(ui.available_width(), pressed_row_height(ui));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     if response.hovered() || response.has_focus() {
         ui.painter()
             .rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);

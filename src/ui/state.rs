@@ -2,6 +2,7 @@
 
 use egui::{Rect, Ui};
 
+use super::diagnostics_panel::ShownFinding;
 use super::inspector::VertexCount;
 use super::picture::PictureChoice;
 use super::skeleton::SkeletonState;
@@ -67,7 +68,11 @@ pub struct UiState {
     /// In a narrow window: what the bottom sheet shows; shut if nothing.
     pub sheet: Option<SheetPage>,
     pub(super) coarse_pointer: bool,
-    pub(super) shown_finding: Option<usize>,
+    pub(super) shown_finding: Option<ShownFinding>,
+    /// The names of missing maps are listed.
+    pub(super) missing_maps_open: bool,
+    /// What was selected in the pass before is to be framed.
+    pub(super) frames_selection: bool,
     pub(super) shown_model: u64,
     pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,

@@ -2,14 +2,16 @@
 
 use egui::epaint::RectShape;
 use egui::{
-    Align2, Color32, FontId, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
 };
 
-use super::theme::{ROW_HEIGHT, Tokens};
+use super::panel::scrolled;
+use super::state::UiState;
+use super::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 use super::thumbnails::Thumbnails;
-use super::widgets::{paint_elided, section_name};
-use super::wording::counted;
+use super::widgets::{focus_ring, paint_elided, paint_fold_mark, pressed_row_height, section_name};
+use super::wording::{counted, grouped};
 use crate::image::{Channels, Image, ImageKind};
 use crate::session::{Checklist, MapSlot, OpenModel, Session, UnreadableMap, UsedMap};
 
@@ -18,62 +20,80 @@ const THUMBNAIL: f32 = 30.0;
 /// Height of a row with one.
 const MAP_ROW_HEIGHT: f32 = 38.0;
 
-/// Missing maps that have a row before the rest is counted.
-const MISSING_SHOWN: usize = 8;
+/// Missing maps listed before their list scrolls.
+const MISSING_ROWS: f32 = 6.0;
 
 /// The section's contents. Nothing for a model whose materials name no map.
-pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, thumbnails: &mut Thumbnails) {
+pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState) {
     let checklist = session.maps().checklist();
-    let tokens = Tokens::of(ui);
     section_name(ui, "Textures");
-    count_rows(ui, checklist);
+    count_row(ui, checklist);
     for map in session.maps().used() {
-        map_row(ui, session, open, &map, thumbnails);
+        map_row(ui, session, open, &map, &mut state.thumbnails);
     }
     for map in session.maps().unreadable() {
         unreadable_row(ui, open, &map);
     }
-    for name in checklist.missing.iter().take(MISSING_SHOWN) {
-        let users = users_of_name(open, name);
-        let details = format!("{name} is missing\n{}", users.join("\n"));
-        absent_row(ui, [name, &in_few_words(&users)], tokens.muted, &details);
+    missing_maps(ui, open, &checklist.missing, &mut state.missing_maps_open);
+}
+
+/// How many maps are missing; their names where that was opened.
+fn missing_maps(ui: &mut Ui, open: &OpenModel, missing: &[String], is_open: &mut bool) {
+    if missing.is_empty() {
+        return;
     }
-    if !checklist.missing.is_empty() {
-        let small = |text: String| RichText::new(text).font(FontId::proportional(12.0)).color(tokens.muted);
-        ui.add_space(2.0);
-        if checklist.missing.len() > MISSING_SHOWN {
-            ui.label(small(format!("and {} more", checklist.missing.len() - MISSING_SHOWN)));
-        }
-        ui.label(small("Drop them any time.".to_owned()));
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), pressed_row_height(ui));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let around = rect.expand2(vec2(6.0, 0.0));
+    if response.hovered() {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+    }
+    focus_ring(ui, around, &response);
+    paint_fold_mark(
+        ui.painter(),
+        rect.left_center() + vec2(4.0, 0.0),
+        !*is_open,
+        tokens.muted,
+    );
+    let count = format!("{} missing", grouped(missing.len()));
+    let at = pos2(rect.min.x + 14.0, rect.center().y);
+    let font = FontId::proportional(13.0);
+    ui.painter().text(at, Align2::LEFT_CENTER, &count, font, tokens.warning);
+    let (right, font) = (rect.right_center(), FontId::proportional(11.5));
+    ui.painter()
+        .text(right, Align2::RIGHT_CENTER, "Drop them any time", font, tokens.muted);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, *is_open, &count));
+    if response.clicked() {
+        *is_open = !*is_open;
+    }
+    if *is_open {
+        let list = scrolled("missing maps", MISSING_ROWS * MAP_ROW_HEIGHT).auto_shrink([false, true]);
+        list.show_rows(ui, MAP_ROW_HEIGHT, missing.len(), |ui, seen| {
+            for name in &missing[seen] {
+                let users = users_of_name(open, name);
+                let details = format!("{name} is missing\n{}", users.join("\n"));
+                absent_row(ui, [name, &in_few_words(&users)], tokens.muted, &details);
+            }
+        });
     }
 }
 
-/// How many maps are there, and on the right how many are not; in rows of their own where both kinds of that are.
-fn count_rows(ui: &mut Ui, checklist: &Checklist) {
+/// How many maps are there, and on the right how many of them cannot be read.
+fn count_row(ui: &mut Ui, checklist: &Checklist) {
     let tokens = Tokens::of(ui);
     let found = format!("{} of {} found", checklist.found(), checklist.named);
-    let lacking: Vec<String> = [(&checklist.missing, "missing"), (&checklist.unreadable, "unreadable")]
-        .into_iter()
-        .filter(|(names, _)| !names.is_empty())
-        .map(|(names, word)| format!("{} {word}", names.len()))
-        .collect();
-    let height = ROW_HEIGHT * lacking.len().max(1) as f32;
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
     let font = FontId::proportional(13.0);
-    let middle_of = |row: usize| rect.min.y + ROW_HEIGHT * (row as f32 + 0.5);
-    ui.painter().text(
-        pos2(rect.min.x, middle_of(0)),
-        Align2::LEFT_CENTER,
-        &found,
-        font.clone(),
-        tokens.text,
-    );
-    for (row, words) in lacking.iter().enumerate() {
-        let at = pos2(rect.max.x, middle_of(row));
+    let (left, right) = (rect.left_center(), rect.right_center());
+    ui.painter()
+        .text(left, Align2::LEFT_CENTER, &found, font.clone(), tokens.text);
+    let unreadable = (!checklist.unreadable.is_empty()).then(|| format!("{} unreadable", checklist.unreadable.len()));
+    if let Some(words) = &unreadable {
         ui.painter()
-            .text(at, Align2::RIGHT_CENTER, words, font.clone(), tokens.warning);
+            .text(right, Align2::RIGHT_CENTER, words, font, tokens.warning);
     }
-    let all = std::iter::once(&found).chain(&lacking).cloned().collect::<Vec<_>>();
+    let all: Vec<&str> = std::iter::once(found.as_str()).chain(unreadable.as_deref()).collect();
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Textures: {}", all.join(", "))));
 }
 

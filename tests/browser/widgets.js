@@ -12,11 +12,11 @@ export const LIGHT_POPOVER = {
 };
 
 /** Subsets in the panel on the left: the row of the orange parts, and its eye, which is there under the pointer. */
-export const TRIM_ROW = [100, 388];
-export const TRIM_EYE = [238, 388];
+export const TRIM_ROW = [100, 411];
+export const TRIM_EYE = [238, 411];
 
 /** The last of two models of a drop, once the panel is scrolled to its end. */
-export const LAST_OF_DROP = [70, 459];
+export const LAST_OF_DROP = [70, 498];
 
 /** The panel's other page: its tree of bones, and in it the bone that hangs from the root. */
 export const SKELETON_PAGE = [190, 87];

@@ -18,6 +18,17 @@ fn a_finding_is_a_line_and_its_excerpt() {
 }
 
 #[test]
+fn bytes_of_a_file_that_is_no_text_are_printed_in_hex() {
+    let file = fixture("bad/png.m3d");
+    let run = run(["check", &file]);
+    let expected = format!(
+        "{file}:1:1: error[other-format]: This is a PNG image, not an .m3d file.\n\
+         00 | 89 50 4e 47 0d 0a 1a 0a 00 00 00 0d 49 48 44 52  .PNG........IHDR\n   | ^^\n"
+    );
+    assert_eq!((run.code, run.out), (Some(1), expected));
+}
+
+#[test]
 fn a_file_without_findings_prints_nothing() {
     let run = run(["check", &fixture("good/d3d12_skinned.m3d")]);
     assert_eq!((run.code, run.out.as_str(), run.err.as_str()), (Some(0), "", ""));

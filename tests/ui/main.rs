@@ -9,6 +9,7 @@ mod chains;
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod documents;
 mod dope_sheet;
+mod findings;
 mod idle;
 mod joint_numbers;
 mod joint_tree;

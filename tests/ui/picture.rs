@@ -170,6 +170,26 @@ fn maps_that_are_missing_and_one_that_is_damaged() {
 }
 
 #[test]
+fn a_finding_that_leads_to_a_vertex() {
+    let clicks = ["Diagnostics: ", "warning weights-not-normalized"];
+    let then = || vec![Command::AddFiles(crate::findings::files())];
+    for (name, size, theme, touch) in [
+        ("wide-dark-finding", WIDE, Theme::Dark, false),
+        ("phone-light-finding", PHONE, Theme::Light, true),
+    ] {
+        let open: &[&str] = if touch { &["Model facts"] } else { &[] };
+        compare(name, &draw_after(size, theme, touch, then(), &[open, &clicks].concat()));
+    }
+}
+
+#[test]
+fn the_bytes_of_a_file_that_is_no_text() {
+    let bytes = include_bytes!("../fixtures/bad/png.m3d").to_vec();
+    let then = vec![Command::AddFiles(vec![File::new("soldier.m3d", bytes)])];
+    compare("wide-dark-bytes", &draw(WIDE, Theme::Dark, false, then));
+}
+
+#[test]
 fn a_subset_inspected_in_a_small_window() {
     let size = Vec2::new(900.0, 700.0);
     let hidden = SubsetCommand::SetVisible {

@@ -51,8 +51,8 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     assert_eq!(joints.skin_view(), Some(SkinView::Weight));
     assert_eq!(window.session().bind_share(), 1.0);
     assert!(window.shows("Legend: Weight of a bone"));
-    press(&mut window, Modifiers::NONE, Key::B);
     press(&mut window, Modifiers::SHIFT, Key::B);
+    press(&mut window, Modifiers::NONE, Key::B);
     press(&mut window, Modifiers::NONE, Key::W);
     press(&mut window, Modifiers::NONE, Key::K);
     let joints = window.session().joints();
@@ -61,6 +61,30 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     let mut still = window_of_still();
     still.press(Modifiers::NONE, Key::B);
     assert!(!still.session().joints().bones_visible(), "no bones, no key");
+}
+
+#[test]
+fn names_go_with_the_bones_whatever_key_hides_or_shows_them() {
+    let mut window = window(WIDE, chains(5));
+    let mut after = |modifiers| {
+        window.press(modifiers, Key::B);
+        let joints = window.session().joints();
+        (joints.bones_visible(), joints.labels_visible())
+    };
+    let (bones, names) = (Modifiers::NONE, Modifiers::SHIFT);
+    assert_eq!(
+        after(names),
+        (true, true),
+        "Shift B alone shows the bones that it names"
+    );
+    assert_eq!(after(bones), (false, false));
+    assert_eq!(after(bones), (true, true));
+    assert_eq!(after(names), (true, false));
+    window.click("Lines over");
+    window.click("Names of bones");
+    window.click("Bones");
+    let joints = window.session().joints();
+    assert!(!joints.bones_visible() && !joints.labels_visible());
 }
 
 #[test]
@@ -112,12 +136,9 @@ fn each_view_of_the_skin_has_a_legend() {
 /// The middle of the window where the first triangle of a bone is.
 fn place_of_vertex(window: &mut Window, vertex: u32) -> egui::Pos2 {
     window.apply(JointCommand::SelectVertex(Some(vertex)).into());
-    let at = window
-        .harness
-        .state_mut()
-        .session
-        .selected_vertex_at()
-        .expect("in view");
+    let session = &mut window.harness.state_mut().session;
+    let place = session.explain_vertex().expect("it was selected").position;
+    let at = session.place_in_picture(place).expect("in view");
     window.apply(JointCommand::SelectVertex(None).into());
     let share = vec2(0.5 * (at.x + 1.0), 0.5 * (1.0 - at.y));
     egui::Pos2::ZERO + share * WIDE

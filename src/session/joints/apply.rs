@@ -136,7 +136,12 @@ impl Session {
             JointCommand::ClearNames => self.joints.change_names(|names| *names = JointNames::default()),
             JointCommand::SetBoneStyle(style) => self.joints.show(style, |joints| &mut joints.bone_style),
             JointCommand::SetBonesVisible(visible) => self.joints.show(visible, |joints| &mut joints.bones_visible),
-            JointCommand::SetLabelsVisible(visible) => self.joints.show(visible, |joints| &mut joints.labels_visible),
+            JointCommand::SetLabelsVisible(visible) => {
+                self.joints.show(visible, |joints| &mut joints.labels_visible);
+                if visible {
+                    self.joints.show(true, |joints| &mut joints.bones_visible);
+                }
+            }
             JointCommand::SetSkinView(view) => self.joints.show(view, |joints| &mut joints.skin_view),
             JointCommand::ToggleTrail(joint) => self.joints.toggle_trail(joint),
             JointCommand::ClearTrails => self.joints.show(Vec::new(), |joints| &mut joints.trails),

@@ -52,7 +52,7 @@ pub enum JointCommand {
     SetBoneStyle(BoneStyle),
     /// Shows or hides bones.
     SetBonesVisible(bool),
-    /// Shows or hides names at the joints.
+    /// Shows or hides names at the joints. Names stand only where bones are drawn: showing them shows the bones too.
     SetLabelsVisible(bool),
     /// Shows a number of the skin as colours, or the skin as it is.
     SetSkinView(Option<SkinView>),

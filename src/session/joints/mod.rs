@@ -36,6 +36,7 @@ pub struct Joints {
 
     bone_style: BoneStyle,
     bones_visible: bool,
+    /// Names that are wanted wait while bones are hidden.
     labels_visible: bool,
     skin_view: Option<SkinView>,
 
@@ -99,9 +100,9 @@ impl Joints {
         self.bones_visible
     }
 
-    /// Whether names stand at the joints.
+    /// Whether names stand at the joints: when they are wanted and bones are drawn.
     pub fn labels_visible(&self) -> bool {
-        self.labels_visible
+        self.labels_visible && self.bones_visible
     }
 
     /// The number of the skin that is shown as colours.

@@ -96,6 +96,13 @@ impl SkeletonState {
         }
     }
 
+    /// Turns the panel on the left to a page; the tree scrolls to the joint that is selected next.
+    pub(super) fn show_page(&mut self, session: &Session, page: SidePage) {
+        self.page = if has_joints(session) { page } else { SidePage::Model };
+        self.naming.proposing = false;
+        self.tree.reset();
+    }
+
     /// Whether a joint is being named in its row.
     pub(super) fn is_naming(&self) -> bool {
         self.naming.of.is_some()

@@ -2,7 +2,7 @@
 
 use egui::{Align2, FontId, Id, Key, Modifiers, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
-use crate::model::JointIndex;
+use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
@@ -16,6 +16,33 @@ pub(super) struct Naming {
     begins: bool,
     /// The list of proposed names stands in place of the tree.
     pub(super) proposing: bool,
+    proposed: Proposed,
+}
+
+/// Names that were proposed last, by bone: a search through the whole skeleton.
+#[derive(Debug, Default)]
+struct Proposed {
+    /// Model, names and world for which they were sought.
+    of: Option<(u64, u64, Handedness, UpAxis)>,
+    names: Vec<(usize, String)>,
+}
+
+impl Proposed {
+    fn of(&mut self, session: &Session) -> &[(usize, String)] {
+        let of = (
+            session.model_revision(),
+            session.joint_names_revision(),
+            session.handedness(),
+            session.up_axis(),
+        );
+        if self.of != Some(of) {
+            *self = Self {
+                of: Some(of),
+                names: session.proposed_names().into_iter().collect(),
+            };
+        }
+        &self.names
+    }
 }
 
 impl Naming {
@@ -25,7 +52,7 @@ impl Naming {
             of: Some(joint),
             text: session.joint_name(joint).unwrap_or_default().to_owned(),
             begins: true,
-            proposing: false,
+            ..Self::default()
         };
     }
 }
@@ -63,7 +90,7 @@ pub(super) fn show_proposals(
     commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
-    let proposed = session.proposed_names();
+    let proposed = naming.proposed.of(session);
     section_name(ui, "Mirrored names");
     if proposed.is_empty() {
         let words = if session.joint_names().is_empty() {
@@ -75,10 +102,9 @@ pub(super) fn show_proposals(
     }
     let buttons = control_size(ui) + 10.0;
     let list = scrolled("proposed", (room - buttons - 30.0).max(3.0 * ROW_HEIGHT));
-    let names: Vec<_> = proposed.iter().collect();
     let rows = list.auto_shrink([false, true]);
-    rows.show_rows(ui, ROW_HEIGHT, names.len(), |ui, range| {
-        for (bone, name) in &names[range] {
+    rows.show_rows(ui, ROW_HEIGHT, proposed.len(), |ui, range| {
+        for (bone, name) in &proposed[range] {
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
             let font = FontId::proportional(13.0);
             let (left, number) = (rect.left_center(), format!("Bone {bone}"));

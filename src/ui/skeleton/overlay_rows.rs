@@ -28,7 +28,7 @@ const MOST_STEP: f32 = 120.0;
 /// Whether anything of it is drawn over the model.
 pub(in crate::ui) fn any_shown(session: &Session) -> bool {
     let joints = session.joints();
-    let over = joints.bones_visible() || joints.labels_visible() || !joints.trails().is_empty();
+    let over = joints.bones_visible() || !joints.trails().is_empty();
     over || session.ghost_plan().is_some() || session.bind_ghost() || session.bind_share() > 0.0
 }
 

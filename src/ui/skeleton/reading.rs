@@ -34,7 +34,8 @@ impl Reading {
         let selected = session.joints().selected();
         self.joint = selected.and_then(|joint| session.inspect_joint(joint));
         self.vertex = session.explain_vertex();
-        self.vertex_at = session.selected_vertex_at();
+        let position = self.vertex.as_ref().map(|explained| explained.position);
+        self.vertex_at = position.and_then(|position| session.place_in_picture(position));
 
         let shown = session.joints().skin_view() == Some(SkinView::DominantJoint);
         let wanted = shown.then_some(session.model_revision());

@@ -34,6 +34,12 @@ impl TreeState {
         self.shown = None;
     }
 
+    /// Shows the whole tree, and scrolls to the selected joint anew.
+    pub(super) fn reset(&mut self) {
+        self.query.clear();
+        self.shown = None;
+    }
+
     /// Does not scroll to a joint that is selected by its own row.
     pub(super) fn select_in_place(&mut self, joint: JointIndex) {
         self.shown = Some(joint);

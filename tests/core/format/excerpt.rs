@@ -28,6 +28,7 @@ fn the_mark_stands_under_the_token() {
         shown,
         Excerpt {
             lines,
+            in_hex: false,
             mark_column: 19,
             mark_length: 2
         }
@@ -52,12 +53,40 @@ fn line_ends_of_every_kind_part_lines() {
 
 #[test]
 fn control_bytes_and_broken_text_are_replaced() {
-    let shown = excerpt(b"h\xC3\xA4ut \x1B[31m \xFF \xE2\x80\xAE q\0x", at(1, 19), 1);
+    let shown = excerpt(b"h\xC3\xA4ut \x1B[31m \xFF \xE2\x80\xAE q\x07x", at(1, 19), 1);
     assert_eq!(
         shown.lines,
         [(1, "häut \u{FFFD}[31m \u{FFFD} \u{FFFD} q\u{FFFD}x".into())]
     );
     assert_eq!(marked(&shown), "q");
+}
+
+#[test]
+fn what_is_no_text_is_shown_byte_by_byte() {
+    let png = b"\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR\0\0\x02\0\0\0";
+    let first = "89 50 4e 47 0d 0a 1a 0a 00 00 00 0d 49 48 44 52  .PNG........IHDR";
+    let shown = excerpt(png, at(1, 1), 0);
+    assert_eq!(shown.lines, [(0, first.to_owned())]);
+    assert_eq!((shown.in_hex, marked(&shown).as_str()), (true, "89"));
+    assert_eq!(shown.to_string(), format!("00 | {first}\n   | ^^\n"));
+    // Of the four lines that these bytes would be, the second begins behind \r\n, the last behind the \r of a length.
+    assert_eq!(marked(&excerpt(png, at(2, 1), 1)), "1a");
+    let shown = excerpt(png, at(4, 6), 3);
+    let second = "00 00 02 00 00 00".to_owned() + &" ".repeat(32) + "......";
+    assert_eq!(shown.lines, [(0, first.to_owned()), (16, second)]);
+    assert_eq!(marked(&shown), "00 02 00");
+    assert_eq!(shown.to_string().lines().nth(1).map(|line| &line[..7]), Some("10 | 00"));
+    // The mark ends with the row, and a place behind the end is at the end.
+    assert_eq!(marked(&excerpt(png, at(3, 1), 99)), "00 00 00 0d 49 48 44 52");
+    assert_eq!(excerpt(png, at(9, 99), 1).mark_column, 6 * 3 + 1);
+    assert_eq!(excerpt(b"\0", at(1, 1), 7).lines, [(0, "00  .".to_owned())]);
+    // A NUL far behind the beginning of a text is a slip of that line.
+    let mut text = b"1 2\n".repeat(300);
+    text.extend(b"3\04\n");
+    assert_eq!(
+        excerpt(&text, at(301, 1), 1).lines.last(),
+        Some(&(301, "3\u{FFFD}4".to_owned()))
+    );
 }
 
 #[test]
@@ -82,6 +111,7 @@ fn places_outside_give_the_nearest_line() {
         excerpt(b"", at(1, 1), 0),
         Excerpt {
             lines: vec![(1, String::new())],
+            in_hex: false,
             mark_column: 1,
             mark_length: 1
         }

@@ -1,6 +1,7 @@
 //! Mirrored joints, names and how they are kept.
 
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 
 use bindpose::format::{Document, parse};
 use bindpose::model::{
@@ -143,6 +144,47 @@ fn one_named_side_proposes_names_for_the_other() {
     );
     assert_eq!(proposed(&[(1, "L arm"), (2, "other"), (0, "root")]), []);
     assert_eq!(proposed(&[(1, "Lara")]), expected(&[(1, "L Lara"), (2, "R Lara")]));
+}
+
+/// A root with this many pairs of children at its sides, the right ones off by what six digits of a file lose; and named on the
+/// left.
+fn many_siblings(pairs: usize, place: impl Fn(usize) -> [f32; 3]) -> (Model, JointNames) {
+    let mut document = mirrored(1);
+    let mut names = JointNames::default();
+    for pair in 0..pairs {
+        let [x, y, z] = place(pair);
+        let lost = ((pair % 7) as f32 - 3.0) * 1e-7;
+        for place in [[x, y, z], [-x + lost, y - lost, z + lost]] {
+            document.bone_parents.push(0);
+            document.bone_offsets.push(offset(place));
+        }
+        names.set(pair as u32 * 2 + 1, &format!("L {pair}"));
+    }
+    document.clips.clear();
+    (model_of(&document).0, names)
+}
+
+#[test]
+fn twenty_thousand_siblings_are_paired_as_quickly_as_they_are_read() {
+    // The pairs that would have to be compared each with each: a hundred million, and gigabytes of candidates.
+    let most = Duration::from_secs(20);
+    let (model, names) = many_siblings(10_000, |pair| {
+        [0.5 + (pair % 100) as f32 * 0.01, (pair / 100) as f32 * 0.01, 0.3]
+    });
+    let start = Instant::now();
+    let found = pairs(&model);
+    let expected: Vec<_> = (0..10_000).map(|pair| (pair * 2 + 1, pair * 2 + 2)).collect();
+    assert!(bones(&model, &found) == expected, "each with its own image");
+    let proposed = names.mirrored(&model.skeleton, &found);
+    assert_eq!(proposed.len(), 10_000);
+    assert_eq!(proposed.get(&20_000).map(String::as_str), Some("R 9999"));
+    assert!(start.elapsed() < most, "{:?}", start.elapsed());
+
+    // All at one place, on which no grid has a hold.
+    let (model, _) = many_siblings(10_000, |_| [0.5, 0.0, 0.0]);
+    let start = Instant::now();
+    assert_eq!(pairs(&model).len(), 10_000);
+    assert!(start.elapsed() < most, "{:?}", start.elapsed());
 }
 
 #[test]

@@ -418,6 +418,28 @@ fn findings_follow_the_clips_that_they_are_about() {
 }
 
 #[test]
+fn what_is_noted_of_a_file_goes_with_it_and_with_no_other() {
+    let mut session = hero();
+    let taller = |path: &str, name: &str| {
+        let mut document = rigs::rig(12, vec![rigs::even(name, 12, 0.0, 5, 4.0)]);
+        document.bone_offsets[5][13] -= 0.3;
+        file(path, &document)
+    };
+    // The name of one begins like that of the other.
+    let (short, long) = ("walk.m3d", "walk.m3d, copied.m3d");
+    session.apply(Command::AddClips(vec![taller(short, "a"), taller(long, "b")]));
+    let noted_of = |session: &Session| {
+        let of_offsets = session.notices().filter(|notice| notice.code == "clips-offsets-differ");
+        of_offsets.map(|notice| notice.message.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(noted_of(&session).len(), 2);
+    session.apply(Command::AddClips(vec![guest(short, &["one"], 5)]));
+    let left = noted_of(&session);
+    assert_eq!(left.len(), 1, "{left:?}");
+    assert!(left[0].contains(&format!("bone offsets of {long} differ")), "{left:?}");
+}
+
+#[test]
 fn files_of_one_name_in_one_drop_all_join() {
     let mut session = hero();
     let both = || vec![guest("walk/clip.m3d", &["walk"], 5), guest("run/clip.m3d", &["run"], 5)];

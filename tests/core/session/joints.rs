@@ -377,6 +377,46 @@ fn labels_are_those_in_view_and_the_selected_comes_first() {
 }
 
 #[test]
+fn names_stand_only_where_bones_are_drawn_and_bring_them() {
+    let mut session = chains(5);
+    let shown = |session: &mut Session| {
+        let mut places = Vec::new();
+        session.joint_labels(0.0, &mut places);
+        assert_eq!(places.is_empty(), !session.joints().labels_visible());
+        (session.joints().bones_visible(), session.joints().labels_visible())
+    };
+    let mut after = |command| {
+        session.apply(joint(command));
+        shown(&mut session)
+    };
+    assert_eq!(
+        after(SetLabelsVisible(true)),
+        (true, true),
+        "names without bones say nothing"
+    );
+    assert_eq!(after(SetBonesVisible(false)), (false, false), "they go with the bones");
+    assert_eq!(after(SetBonesVisible(true)), (true, true), "and come back with them");
+    assert_eq!(after(SetBonesVisible(false)), (false, false));
+    assert_eq!(
+        after(SetLabelsVisible(true)),
+        (true, true),
+        "asked for alone, with the bones"
+    );
+    assert_eq!(
+        after(SetLabelsVisible(false)),
+        (true, false),
+        "bones stay without names"
+    );
+    assert_eq!(after(SetBonesVisible(false)), (false, false));
+    assert_eq!(
+        after(SetLabelsVisible(false)),
+        (false, false),
+        "nothing comes by being left out"
+    );
+    assert_eq!(after(SetBonesVisible(true)), (true, false));
+}
+
+#[test]
 fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::Pause);
@@ -525,19 +565,18 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
 #[test]
 fn a_selected_vertex_is_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
-    assert_eq!(session.selected_vertex_at(), None);
     session.apply(joint(SelectVertex(Some(0))));
     session.apply(Command::Seek { time_secs: 0.5 });
     let place = session.explain_vertex().expect("it is there").position;
     let world = session.frame().world_from_model.transform_point3(place);
     let expected = on_screen(&mut session, world);
-    let at = session.selected_vertex_at().expect("in view");
+    let at = session.place_in_picture(place).expect("in view");
     assert!(at.distance(expected) < 1e-5, "{at} {expected}");
     session.apply(Command::Zoom {
         factor: 0.05,
         pointer: Vec2::ZERO,
     });
-    assert_eq!(session.selected_vertex_at(), None, "beside the picture");
+    assert_eq!(session.place_in_picture(place), None, "beside the picture");
 }
 
 #[test]
@@ -564,6 +603,26 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
         "{} is not near {place}",
         near.target
     );
+    // A vertex comes with what is around it.
+    session.apply(joint(Select(None)));
+    session.apply(joint(SelectVertex(Some(60))));
+    session.apply(Command::FrameSelection);
+    let (at_vertex, place) = (*session.camera(), session.explain_vertex().expect("selected").position);
+    let world = session.frame().world_from_model.transform_point3(place);
+    assert!(
+        at_vertex.target.distance(world) < 0.1 * at_vertex.distance,
+        "{} {world}",
+        at_vertex.target
+    );
+    assert!(
+        (0.05..0.5).contains(&(at_vertex.distance / whole.distance)),
+        "{at_vertex:?}"
+    );
+    session.apply(joint(SelectVertex(None)));
+    session.apply(joint(Select(Some(chosen))));
+    session.apply(Command::FrameSelection);
+    assert_eq!(*session.camera(), near);
+
     // It stays there when the window changes, which would frame all of the model otherwise.
     session.apply(Command::SetViewport {
         aspect: 1.3,

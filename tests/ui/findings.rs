@@ -1,0 +1,228 @@
+//! The list of findings: a click goes to what a finding is about, and opens its lines.
+
+use bindpose::diagnostic::Subject;
+use bindpose::format::{Document, Subset};
+use bindpose::model::JointIndex;
+use bindpose::session::{Command, File, JointCommand, SubsetCommand};
+use egui::{CursorIcon, Key, Modifiers};
+
+use crate::models;
+use crate::page::{WIDE, Window, phone, window};
+use crate::skeleton::selected;
+
+/// A finding about each kind of part: a material that two subsets could mean, a subset of too many triangles, a vertex whose
+/// weights are half of what they should be, a bone whose offset is not affine, a clip without keys of a bone; and a triangle
+/// that is in no subset, about which no part can be shown.
+fn faulty() -> Document {
+    let mut document = models::skinned(&models::CLIPS);
+    document.materials.push(document.materials[0].clone());
+    let faces = document.triangles.len() as u32;
+    let whole = document.subsets[0].clone();
+    let first = Subset {
+        face_count: 5,
+        ..whole.clone()
+    };
+    let second = Subset {
+        id: 1,
+        face_start: 6,
+        face_count: faces,
+        ..whole
+    };
+    document.subsets = vec![first, second];
+    document.vertices[5].blend_weights = [0.25, 0.25, 0.0, 0.0];
+    document.bone_offsets[1][3] = 0.5;
+    document.clips[2].bones[1].keyframes.clear();
+    document
+}
+
+const OF_MATERIAL: &str = "note duplicate-material-name: ";
+const OF_SUBSET: &str = "warning subset-out-of-range: ";
+const OF_VERTEX: &str = "warning weights-not-normalized: ";
+const OF_BONE: &str = "warning offset-not-affine: ";
+const OF_CLIP: &str = "warning track-empty: ";
+const OF_NOTHING: &str = "warning triangles-undrawn: ";
+
+pub(crate) fn files() -> Vec<File> {
+    vec![models::file("faulty.m3d", &faulty())]
+}
+
+/// A wide window with the findings open.
+fn opened() -> Window {
+    let mut window = window(WIDE, files());
+    window.click("Diagnostics: ");
+    window
+}
+
+/// Whether lines of the file are shown.
+fn shows_lines(window: &Window) -> bool {
+    !window
+        .named(|name| name.contains(" | ") && name.contains('^'))
+        .is_empty()
+}
+
+#[test]
+fn the_file_has_a_finding_of_each_kind() {
+    let window = opened();
+    let subject_of = |start: &str| {
+        let code = start.split([' ', ':']).nth(1).expect("severity and code");
+        let mut notices = window.session().notices().filter(|notice| notice.code == code);
+        notices.next().expect("it is found").subject
+    };
+    assert_eq!(subject_of(OF_MATERIAL), Some(Subject::Material(1)));
+    assert_eq!(subject_of(OF_SUBSET), Some(Subject::Subset(1)));
+    assert_eq!(subject_of(OF_VERTEX), Some(Subject::Vertex(5)));
+    assert_eq!(subject_of(OF_BONE), Some(Subject::Bone(1)));
+    assert_eq!(subject_of(OF_CLIP), Some(Subject::Clip(2)));
+    assert_eq!(subject_of(OF_NOTHING), None);
+}
+
+#[test]
+fn a_finding_about_a_bone_leads_to_the_bone_in_view_tree_and_inspector() {
+    let mut window = opened();
+    // Its row is folded away, and another part is selected.
+    window.apply(JointCommand::SetAllFolded(true).into());
+    window.apply(JointCommand::SelectVertex(Some(0)).into());
+    let before = *window.session().camera();
+    window.click(OF_BONE);
+    let joints = window.session().joints();
+    assert_eq!(
+        (joints.selected(), joints.selected_vertex()),
+        (Some(JointIndex(1)), None)
+    );
+    assert!(joints.bones_visible(), "a bone is seen where bones are drawn");
+    assert!(window.shows("Selected: Bone 1") && window.shows("Search bones"));
+    assert!(
+        !window.named(|name| name.starts_with("Bone 1, ")).is_empty(),
+        "its row is in view"
+    );
+    assert!(window.session().camera().distance < before.distance, "it is framed");
+    assert!(shows_lines(&window));
+}
+
+#[test]
+fn a_finding_about_a_vertex_leads_to_the_vertex() {
+    let mut window = opened();
+    window.apply(JointCommand::Select(Some(JointIndex(1))).into());
+    let before = *window.session().camera();
+    window.click(OF_VERTEX);
+    let joints = window.session().joints();
+    let vertex = joints.selected_vertex().map(|vertex| vertex.vertex);
+    assert_eq!((joints.selected(), vertex), (None, Some(5)));
+    assert!(window.shows("Selected: Vertex 5") && shows_lines(&window));
+    assert!(
+        window.session().camera().distance < 0.5 * before.distance,
+        "its neighbourhood is framed"
+    );
+    let session = &mut window.harness.state_mut().session;
+    let place = session.explain_vertex().expect("selected").position;
+    let at = session.place_in_picture(place).expect("in view").x;
+    // Between the list of findings and the inspector.
+    let x = 0.5 * (at + 1.0) * WIDE.x;
+    let free = window.rect(OF_VERTEX).max.x..=window.rect("Selected: Vertex 5").min.x;
+    assert!(free.contains(&x), "{x} {free:?}");
+}
+
+#[test]
+fn a_finding_about_a_subset_leads_to_the_subset_even_when_it_is_hidden() {
+    let mut window = opened();
+    window.click("Panel: Skeleton");
+    let (subset, visible) = (1, false);
+    window.apply(SubsetCommand::SetVisible { subset, visible }.into());
+    let before = *window.session().camera();
+    window.click(OF_SUBSET);
+    let subsets = window.session().subsets();
+    assert_eq!((subsets.selected(), subsets.is_visible(1)), (Some(1), true));
+    assert!(
+        window.shows("Subset 2 of 2") && window.shows("Subsets"),
+        "inspector and list"
+    );
+    assert_ne!(*window.session().camera(), before, "it is framed");
+    assert!(shows_lines(&window));
+}
+
+#[test]
+fn a_finding_about_a_material_leads_to_the_first_subset_that_has_it() {
+    let mut window = opened();
+    window.click(OF_MATERIAL);
+    assert_eq!(window.session().subsets().selected(), Some(1));
+    assert!(window.shows("Selected: Painted (2)"));
+}
+
+#[test]
+fn a_finding_about_a_clip_shows_the_clip() {
+    let mut window = opened();
+    let before = *window.session().camera();
+    assert_eq!(window.session().clip_index(), Some(0));
+    window.click(OF_CLIP);
+    assert_eq!(window.session().clip_index(), Some(2));
+    assert!(window.shows("Clip Still") && shows_lines(&window));
+    assert_eq!(
+        *window.session().camera(),
+        before,
+        "nothing is selected, nothing is framed"
+    );
+    window.apply(Command::SelectClip(1));
+    window.click(OF_CLIP);
+    assert_eq!(
+        window.session().clip_index(),
+        Some(1),
+        "a click that shuts a row goes nowhere"
+    );
+    assert!(!shows_lines(&window));
+}
+
+#[test]
+fn a_finding_about_no_part_shows_its_lines_alone() {
+    let mut window = opened();
+    let camera = *window.session().camera();
+    window.click(OF_NOTHING);
+    let session = window.session();
+    assert_eq!((session.subsets().selected(), selected(&window)), (None, None));
+    assert_eq!(*window.session().camera(), camera);
+    assert!(
+        window
+            .named(|name| name.starts_with(OF_NOTHING) && name.contains("Go to"))
+            .is_empty()
+    );
+    let to_parts = window.named(|name| name.contains("\nGo to "));
+    let words: Vec<&str> = to_parts
+        .iter()
+        .filter_map(|(name, _)| Some(name.rsplit_once("Go to ")?.1))
+        .collect();
+    assert_eq!(words.len(), 5, "{words:?}");
+    for wanted in ["Material Painted (2)", "Subset 1", "Vertex 5", "Bone 1", "Clip Still"] {
+        assert!(words.contains(&wanted), "{wanted} {words:?}");
+    }
+}
+
+#[test]
+fn a_finding_can_be_reached_and_opened_by_keys_and_shows_that_it_can_be_clicked() {
+    let mut window = opened();
+    for _ in 0..200 {
+        if window.focused().is_some_and(|name| name.starts_with(OF_BONE)) {
+            break;
+        }
+        window.press(Modifiers::NONE, Key::Tab);
+    }
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(selected(&window), Some(1));
+    let at = window.rect(OF_CLIP).center();
+    window.harness.hover_at(at);
+    window.pass_on();
+    assert_eq!(
+        window.harness.output().platform_output.cursor_icon,
+        CursorIcon::PointingHand
+    );
+}
+
+#[test]
+fn on_a_phone_the_view_above_the_list_goes_there_and_the_inspector_waits_below_it() {
+    let mut window = phone(files());
+    window.click("Model facts");
+    window.click("Diagnostics: ");
+    window.click(OF_BONE);
+    assert_eq!(selected(&window), Some(1));
+    assert!(window.session().joints().bones_visible() && shows_lines(&window));
+    window.click("Close");
+    assert!(window.shows("Selected: Bone 1"));
+}
