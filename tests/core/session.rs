@@ -15,6 +15,7 @@ mod playing;
 mod random;
 mod replay;
 mod sky;
+mod slowness;
 mod subsets;
 mod transport;
 
