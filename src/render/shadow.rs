@@ -222,12 +222,13 @@ mod tests {
     #[test]
     fn the_books_blur_is_as_wide_in_every_box() {
         let to_key = Vec3::new(-0.57735, 0.57735, -0.57735).normalize();
-        for width in [0.1, 1.4, 4.0, 11.0, 100.0] {
+        for width in [0.1, 1.4, 4.0, 11.0] {
             let half = Vec3::new(width * 0.5, 1.8, width * 0.5);
             let bounds = Aabb { min: -half, max: half };
             let fit = ShadowFit::book(&bounds, to_key, 1.0);
             let edge = fit.radius_texels * fit.texel * DISC_EDGE;
             assert!((edge / 3.6 - 0.011_74).abs() < 1e-4, "{edge} in a box {width} wide");
+            assert!(fit.radius_texels >= 0.999 * BOOK_RADIUS_TEXELS, "the texels would show");
             assert_eq!(fit.radius_texels, fit.ground_radius_texels);
         }
         let [small, large] = [1.0, 20.0].map(|unit| {
