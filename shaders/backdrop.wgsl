@@ -48,7 +48,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let away = length(from_center) / frame.grid_reach;
         if away < 1.0 {
             if ray.y < 0.0 && frame.shadow_strength > 0.0 {
-                let lit = key_visibility(point, 6.0);
+                let lit = key_visibility(point, frame.ground_shadow_radius_texels);
                 color *= 1.0 - frame.shadow_strength * (1.0 - lit);
             }
             if ray.y < 0.0 && frame.contact_strength > 0.0 {

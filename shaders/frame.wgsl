@@ -63,7 +63,10 @@ struct Frame {
     // How far occluders reach, world units.
     occlusion_radius: f32,
     // One unit of the books' demo in units of this world: the figure there is 3.6 of them tall.
-    @size(12) book_unit: f32,
+    book_unit: f32,
+    // Radius of the disc over which the shadow of the first light is blurred, texels of its map: on the model, on the ground.
+    shadow_radius_texels: f32,
+    ground_shadow_radius_texels: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -14,7 +14,7 @@ struct Material {
     ambient: vec3<f32>,
     spec_power: f32,
     specular: vec3<f32>,
-    // Channels of the normal map: 3, 2 (z follows from x and y), or 0 without one.
+    // Channels of the normal map: 4 (alpha is gloss), 3, 2 (z follows from x and y), or 0 without one.
     normal_channels: u32,
     reflectivity: vec3<f32>,
     // A colour of its own, to tell it from others. sRGB.

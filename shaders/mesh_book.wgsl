@@ -21,7 +21,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         let surface = BookSurface(
             material.book_albedo * texel,
             material.fresnel0,
-            (1.0 - material.roughness) * point.normal_texel.a,
+            shininess(point),
             point.normal,
             point.to_eye,
         );

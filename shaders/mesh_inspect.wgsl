@@ -59,9 +59,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             return checker(point.tex_coord) * facing_shade(point);
         }
         case ROUGHNESS: {
-            // The book's light takes a map of gloss from the alpha of the normal map.
-            let gloss = (1.0 - material.roughness) * select(1.0, point.normal_texel.a, frame.is_book == 1u);
-            return vec3<f32>(1.0 - gloss);
+            return vec3<f32>(1.0 - shininess(point));
         }
         case MATERIAL: {
             return material.identity_srgb.rgb * facing_shade(point);

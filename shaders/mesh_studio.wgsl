@@ -19,7 +19,9 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
     let surface = StudioSurface(
         material.albedo * point.diffuse_texel.rgb,
         material.fresnel0,
-        max(material.roughness, LEAST_ROUGHNESS),
+        // What the book's shader takes for 1 - roughness is shininess: a material of this roughness and no gloss map shows the
+        // same there. It also is what glossiness means elsewhere (glTF's KHR_materials_pbrSpecularGlossiness: 1 - roughness).
+        max(1.0 - shininess(point), LEAST_ROUGHNESS),
         point.normal,
         point.smooth_normal,
         point.to_eye,

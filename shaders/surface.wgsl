@@ -42,10 +42,16 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     );
 }
 
+// The DirectX 12 book's shininess: (1 - roughness), times the gloss in the alpha of the normal map where it has one.
+fn shininess(point: SurfacePoint) -> f32 {
+    return (1.0 - material.roughness) * select(1.0, point.normal_texel.a, material.normal_channels == 4u);
+}
+
 // How much of the key light arrives at a point, whichever way it is turned.
 fn key_arrival(point: SurfacePoint) -> f32 {
-    // Grazing light walks further over the surface inside one texel, so the start moves further off it.
+    // Grazing light walks further over the surface inside the blur, so the start moves further off it.
     let facing_key = max(dot(point.smooth_normal, frame.to_key), 0.0);
-    let off_surface = point.smooth_normal * frame.shadow_texel * (3.0 - 2.0 * facing_key);
-    return key_visibility(point.world_position + off_surface, 2.5);
+    let radius = frame.shadow_texel * frame.shadow_radius_texels;
+    let off_surface = point.smooth_normal * radius * (1.2 - 0.8 * facing_key);
+    return key_visibility(point.world_position + off_surface, frame.shadow_radius_texels);
 }

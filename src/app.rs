@@ -43,9 +43,7 @@ impl App {
     pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Request> {
         let mut session = self.session.borrow_mut();
         let dt_secs = ui.input(|input| input.unstable_dt);
-        if self.stage.was_moving {
-            session.note_frame(dt_secs);
-        }
+        session.begin_pass(dt_secs);
         session.advance(if self.stage.was_moving {
             dt_secs.min(MAX_STEP_SECS)
         } else {
@@ -76,11 +74,16 @@ impl App {
 
         let points_to_pixels = ui.pixels_per_point() * session.quality().render_scale().fraction();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
-        self.stage
+        let drawn = self
+            .stage
             .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
+        let goes_on = drawn && session.frame_drawn();
 
         self.stage.was_moving = session.is_moving();
-        if self.stage.was_moving || session.picture_revision() != self.stage.drawn.map_or(0, |drawn| drawn.picture) {
+        if goes_on
+            || self.stage.was_moving
+            || session.picture_revision() != self.stage.drawn.map_or(0, |drawn| drawn.picture)
+        {
             ui.ctx().request_repaint();
         }
         requests
@@ -105,7 +108,7 @@ impl App {
     }
 
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
-    /// were given up for speed are drawn.
+    /// the window leaves out for speed are drawn.
     /// `adjust` may have it looked at in another way than the window shows.
     ///
     /// # Errors
@@ -187,8 +190,8 @@ impl Stage {
         self.upload_error = None;
     }
 
-    /// Draws when the picture would be another one than the last.
-    fn draw(&mut self, session: &mut Session, size: [u32; 2]) {
+    /// Draws when the picture would be another one than the last; whether it did.
+    fn draw(&mut self, session: &mut Session, size: [u32; 2]) -> bool {
         self.take_up(session);
         let wanted = Drawn {
             picture: session.picture_revision(),
@@ -196,7 +199,7 @@ impl Stage {
         };
         self.hear_of_target(session);
         if self.drawn == Some(wanted) {
-            return;
+            return false;
         }
         if self.target.size() == size {
             self.renderer.render(&session.frame(), &mut self.target);
@@ -214,6 +217,7 @@ impl Stage {
         }
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
+        true
     }
 
     /// Has the session show what the GPU says of a target of another size, if that is an error.

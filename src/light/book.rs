@@ -17,7 +17,7 @@ pub struct BookSurface {
     pub albedo: Vec3,
     /// Mirrored share, face on.
     pub fresnel0: Vec3,
-    /// (1 − roughness) times the alpha of the normal map, 0 … 1.
+    /// What [`shininess`] gives.
     pub shininess: f32,
     /// On the side of the viewer, with the normal map's bumps.
     pub normal: Vec3,
@@ -42,6 +42,12 @@ pub struct PhongSurface {
     pub normal: Vec3,
     /// Towards the viewer.
     pub to_eye: Vec3,
+}
+
+/// Twin of `shininess` in `surface.wgsl`: how smooth a surface is whose normal map has this alpha, 1 where it has none. All
+/// 0 … 1. The studio takes 1 − shininess as roughness.
+pub fn shininess(roughness: f32, gloss: f32) -> f32 {
+    (1.0 - roughness) * gloss
 }
 
 /// What a surface mirrors at an angle, after Schlick. Up to 1 whatever it mirrors face on, as in the books.

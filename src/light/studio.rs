@@ -23,7 +23,7 @@ pub struct StudioSurface {
     pub albedo: Vec3,
     /// Mirrored share, face on.
     pub fresnel0: Vec3,
-    /// 0 smooth, 1 rough.
+    /// 0 smooth, 1 rough; with the gloss of the normal map, if it has any: 1 − [`shininess`](super::book::shininess).
     pub roughness: f32,
     /// On the side of the viewer, with the normal map's bumps.
     pub normal: Vec3,

@@ -41,11 +41,17 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
     let contact = ContactFit::new(bounds);
     let book_lights = to_book_lights(options.book_lights_turn_radians);
     let studio_lights = StudioLights::beside(camera, options.environment_turn_radians);
-    let to_key = match part.light {
-        Light::Studio => studio_lights.to_key,
-        Light::Book => book_lights[0],
+    let book_unit = book_unit(frame);
+    let (to_key, shadow) = match part.light {
+        Light::Studio => {
+            let to_key = studio_lights.to_key;
+            (to_key, ShadowFit::studio(bounds, to_key))
+        }
+        Light::Book => {
+            let to_key = book_lights[0];
+            (to_key, ShadowFit::book(bounds, to_key, book_unit))
+        }
     };
-    let shadow = ShadowFit::new(bounds, to_key);
     let clip_from_world = camera.clip_from_view(aspect, bounds) * camera.view_from_world();
     let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
 
@@ -58,7 +64,6 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
     let reach = (bounds.radius() * GRID_REACH).max(camera.distance * GRID_REACH_OF_DISTANCE);
     let center = bounds.center();
     let (depth_near, depth_far) = seen_depths(frame);
-    let book_unit = book_unit(frame);
     let passes = options.passes;
     let (background, background_srgb) = match options.background {
         Background::Backdrop | Background::None => (0, [0; 3]),
@@ -112,24 +117,16 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
         background,
         contact_center: contact.center.to_array(),
         contact_half_width: contact.half_width,
-        contact_strength: if has_contact_shadow(frame, part.light) {
+        contact_strength: if options.draws_under(Pass::ContactShadow, part.light) {
             look.contact_strength
         } else {
             0.0
         },
         occlusion_radius: STUDIO_OCCLUSION_RADIUS * book_unit,
         book_unit,
-        unused: [0.0; 2],
+        shadow_radius_texels: shadow.radius_texels,
+        ground_shadow_radius_texels: shadow.ground_radius_texels,
     }
-}
-
-/// Whether the nearness of the model darkens the ground.
-pub(super) fn has_contact_shadow(frame: &RenderFrame<'_>, light: Light) -> bool {
-    let options = &frame.options;
-    light == Light::Studio
-        && options.passes.has(Pass::ContactShadow)
-        && options.view_mode == ViewMode::Lit
-        && options.background != Background::None
 }
 
 /// One unit of the books' demo in units of this world.

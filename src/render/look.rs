@@ -114,6 +114,38 @@ mod tests {
     use super::*;
     use crate::scene::Projection;
 
+    /// As the demo's `XMMatrixRotationY` does it: z goes towards x.
+    #[test]
+    fn the_books_lights_turn_about_y() {
+        let quarter = std::f32::consts::FRAC_PI_2;
+        let expected = [
+            [
+                (-0.57735, 0.57735, -0.57735),
+                (0.57735, 0.57735, -0.57735),
+                (0.0, 0.70711, 0.70711),
+            ],
+            [
+                (-0.57735, 0.57735, 0.57735),
+                (-0.57735, 0.57735, -0.57735),
+                (0.70711, 0.70711, 0.0),
+            ],
+            [
+                (0.57735, 0.57735, 0.57735),
+                (-0.57735, 0.57735, 0.57735),
+                (0.0, 0.70711, -0.70711),
+            ],
+        ];
+        for (turns, expected) in (0..).zip(expected) {
+            let found = to_book_lights(quarter * turns as f32);
+            for (found, (x, y, z)) in found.into_iter().zip(expected) {
+                assert!(
+                    found.abs_diff_eq(Vec3::new(x, y, z), 1e-4),
+                    "{found} after {turns} quarters"
+                );
+            }
+        }
+    }
+
     #[test]
     fn the_key_is_above_to_the_right_and_before_the_model_from_every_side() {
         for yaw_radians in [0.0, 1.0, 2.5, -3.0] {

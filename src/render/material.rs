@@ -15,7 +15,7 @@ pub(super) struct MapFacts {
     has_diffuse: bool,
     /// Of the diffuse map.
     has_alpha: bool,
-    /// Of the normal map; 0 without one.
+    /// Of the normal map: 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
     normal_channels: u32,
 }
 
@@ -26,6 +26,7 @@ impl MapFacts {
             has_alpha: images.diffuse.is_some_and(|image| image.has_alpha()),
             normal_channels: match images.normal {
                 Some(image) if image.channels() == Channels::RedGreen => 2,
+                Some(image) if image.has_alpha() => 4,
                 Some(_) => 3,
                 None => 0,
             },
@@ -68,6 +69,8 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
             }),
             roughness: roughness_from_power(spec_power).clamp(0.0, 1.0),
             is_phong: 1,
+            // The DirectX 11 book reads no gloss.
+            normal_channels: maps.normal_channels.min(3),
             ambient: unit(ambient),
             specular: unit(specular),
             spec_power: spec_power.max(0.0),

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use super::contact::ContactMap;
 use super::environment::Environments;
-use super::frame_uniform::{Part, frame_uniform, has_contact_shadow};
+use super::frame_uniform::{Part, frame_uniform};
 use super::gpu_model::{GpuModel, Posed};
 use super::occlusion::Occlusion;
 use super::pipelines::Pipelines;
 use super::shadow::ShadowMap;
 use super::surroundings::{Samplers, Surroundings};
-use crate::scene::{Light, Pass, RenderFrame, ViewMode};
+use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
 /// What all stages use.
@@ -37,27 +37,6 @@ pub(super) struct Stage {
     occlusion: Option<Occlusion>,
     contact: Option<ContactMap>,
     surroundings: Surroundings,
-}
-
-/// Which of its passes a frame needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Needed {
-    shadow: bool,
-    occlusion: bool,
-    contact: bool,
-}
-
-impl Needed {
-    fn by(frame: &RenderFrame<'_>, light: Light) -> Self {
-        let options = &frame.options;
-        let lit = options.view_mode == ViewMode::Lit;
-        Self {
-            shadow: options.passes.has(Pass::Shadow) && (lit || options.view_mode == ViewMode::Shadow),
-            occlusion: options.passes.has(Pass::AmbientOcclusion)
-                && (lit || options.view_mode == ViewMode::AmbientOcclusion),
-            contact: has_contact_shadow(frame, light),
-        }
-    }
 }
 
 impl Stage {
@@ -120,8 +99,8 @@ impl Stage {
             .queue
             .write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&uniform));
 
-        let needed = Needed::by(frame, self.light);
-        if needed.shadow {
+        let draws = |pass| frame.options.draws_under(pass, self.light);
+        if draws(Pass::Shadow) {
             let mut pass = self.shadow.begin_pass(encoder);
             if let Some((model, posed)) = model {
                 pass.set_bind_group(0, &self.frame_group, &[]);
@@ -133,7 +112,7 @@ impl Stage {
         let mut openness = &common.white;
         let mut contact = &common.black;
         if let Some((model, posed)) = model {
-            if needed.occlusion {
+            if draws(Pass::AmbientOcclusion) {
                 if self.occlusion.as_ref().is_none_or(|occlusion| occlusion.size() != size) {
                     self.occlusion = Some(Occlusion::new(device, pipelines, size));
                 }
@@ -149,7 +128,7 @@ impl Stage {
                     openness = occlusion.view();
                 }
             }
-            if needed.contact {
+            if draws(Pass::ContactShadow) {
                 let map = self.contact.get_or_insert_with(|| ContactMap::new(device, pipelines));
                 map.draw(encoder, &self.frame_group, model, posed);
                 contact = map.view();

@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::{Aabb, Background, Camera, Ghosts, Light, OverlayGeometry, Overlays, Passes, VertexColors, ViewMode};
+use super::{Aabb, Background, Camera, Ghosts, Light, OverlayGeometry, Overlays, Pass, Passes, VertexColors, ViewMode};
 use crate::anim::Palette;
 
 /// Dark or light surroundings.
@@ -41,6 +41,26 @@ pub struct FrameOptions {
     /// Whether the green of normal maps points against the bitangent (up in the picture, the way of OpenGL) instead of along
     /// it (down in the picture, the way of DirectX and of the books).
     pub normal_green_flipped: bool,
+}
+
+impl FrameOptions {
+    /// Whether a pass is drawn for some part of the picture.
+    pub fn draws(&self, pass: Pass) -> bool {
+        let beside = self.split.map(|_| self.light.other());
+        self.draws_under(pass, self.light) || beside.is_some_and(|light| self.draws_under(pass, light))
+    }
+
+    /// Whether a pass is drawn where this light is: it is on, and there is something in which it shows.
+    pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
+        let lit = self.view_mode == ViewMode::Lit;
+        self.passes.has(pass)
+            && match pass {
+                Pass::Shadow => lit || self.view_mode == ViewMode::Shadow,
+                Pass::AmbientOcclusion => lit || self.view_mode == ViewMode::AmbientOcclusion,
+                Pass::ContactShadow => lit && light == Light::Studio && self.background != Background::None,
+                Pass::Environment => lit,
+            }
+    }
 }
 
 /// One frame, plain data.

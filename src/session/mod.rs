@@ -230,10 +230,26 @@ impl Session {
         &self.quality
     }
 
+    /// A pass of the window begins, `dt_secs` after the one before. That is how long a frame took if the pass before drew one and
+    /// [`Session::frame_drawn`] told it to go on at once; any other time is a pause, and says nothing of the device.
+    pub fn begin_pass(&mut self, dt_secs: f32) {
+        if self.quality.take_times_frame() {
+            self.note_frame(dt_secs);
+        }
+    }
+
+    /// The window drew the picture. Returns whether it moves, by itself or under a pointer that holds the camera: the next pass is
+    /// then to begin at once, so that the time until it is what the frame took and not how long the pointer rested.
+    pub fn frame_drawn(&mut self) -> bool {
+        let moves = self.is_moving() || self.motion.is_held();
+        self.quality.frame_drawn(moves);
+        moves
+    }
+
     /// Learns how long a frame took while the picture moved: a device that cannot keep up is given less to draw.
     pub fn note_frame(&mut self, frame_secs: f32) {
-        let before = self.quality.passes();
-        self.quality.note_frame(frame_secs);
+        let (before, options) = (self.quality.passes(), self.frame_options());
+        self.quality.note_frame(frame_secs, |pass| options.draws(pass));
         if self.quality.passes() != before {
             self.picture_revision += 1;
         }

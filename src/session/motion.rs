@@ -73,6 +73,11 @@ impl Motion {
         self.held = held;
     }
 
+    /// Whether the pointer holds the camera.
+    pub(super) fn is_held(&self) -> bool {
+        self.held
+    }
+
     pub(super) fn set_turntable(&mut self, turns: bool) {
         self.turntable = turns;
     }

@@ -4,11 +4,15 @@ use crate::scene::{Pass, Passes};
 
 /// A frame that takes longer than this is a slow one: below 24 a second, motion stops looking like motion.
 const SLOW_FRAME_SECS: f32 = 1.0 / 24.0;
-/// Slow frames in a row after which the costliest pass is given up. A few are forgiven: shaders compile, files load.
+/// Slow frames in a row after which a pass is left out. A few are forgiven: shaders compile, files load.
 const SLOW_FRAMES: u32 = 12;
 /// Nobody waits for twelve frames of a second each: so few are enough when they take as long as the next constant says.
 const LEAST_SLOW_FRAMES: u32 = 6;
 const SLOW_SECS: f32 = 1.5;
+
+/// What to leave out first where frames are slow, by what that saves of a frame (`benches/frame.rs`). Reflections are not among
+/// them: they are one lookup a pixel, and nothing can be measured to be saved by leaving them out.
+const DEGRADE_ORDER: [Pass; 3] = [Pass::AmbientOcclusion, Pass::ContactShadow, Pass::Shadow];
 
 /// Whether a pass is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -29,7 +33,7 @@ pub enum PassState {
     Drawn,
     /// The person left it out.
     Off,
-    /// Given up, since frames took too long.
+    /// Left out, since frames took too long.
     TooSlow,
 }
 
@@ -79,10 +83,13 @@ impl Default for RenderScale {
 pub struct Quality {
     pub(super) render_scale: RenderScale,
     choices: [PassChoice; Pass::ALL.len()],
-    given_up: Vec<Pass>,
+    /// Left out, since frames took too long.
+    degraded: Vec<Pass>,
+    /// In a row, and what they took together.
     slow_frames: u32,
-    /// What the slow frames took together.
     slow_secs: f32,
+    /// The last pass of the window drew a frame of a motion, so the time until the next is that frame's.
+    times_frame: bool,
 }
 
 impl Quality {
@@ -96,7 +103,7 @@ impl Quality {
         match self.choice(pass) {
             PassChoice::On => PassState::Drawn,
             PassChoice::Off => PassState::Off,
-            PassChoice::Auto if self.given_up.contains(&pass) => PassState::TooSlow,
+            PassChoice::Auto if self.degraded.contains(&pass) => PassState::TooSlow,
             PassChoice::Auto => PassState::Drawn,
         }
     }
@@ -123,18 +130,29 @@ impl Quality {
     /// Chooses. A new choice of [`PassChoice::Auto`] gives the device another try.
     pub(super) fn choose(&mut self, pass: Pass, choice: PassChoice) {
         self.choices[pass as usize] = choice;
-        self.given_up.retain(|&given_up| given_up != pass);
+        self.degraded.retain(|&degraded| degraded != pass);
         self.forgive();
     }
 
-    /// Another model may be drawn faster: what was given up for the one before is tried again.
+    /// Another model may be drawn faster: all its passes are tried again.
     pub(super) fn take_up_model(&mut self) {
-        self.given_up.clear();
+        self.degraded.clear();
         self.forgive();
     }
 
-    /// Learns how long a frame took while the picture moved. Gives up one pass at a time, and waits to see what that brought.
-    pub(super) fn note_frame(&mut self, frame_secs: f32) {
+    /// The window drew a frame, of a motion or not.
+    pub(super) fn frame_drawn(&mut self, of_motion: bool) {
+        self.times_frame = of_motion;
+    }
+
+    /// Whether the time since the last pass of the window is what a frame took. Asked once a pass.
+    pub(super) fn take_times_frame(&mut self) -> bool {
+        std::mem::take(&mut self.times_frame)
+    }
+
+    /// Learns how long a frame of a motion took. Leaves out one pass at a time of those that were `drawn`, and waits to see what
+    /// that brought.
+    pub(super) fn note_frame(&mut self, frame_secs: f32, drawn: impl Fn(Pass) -> bool) {
         if frame_secs <= SLOW_FRAME_SECS || frame_secs.is_nan() {
             self.forgive();
             return;
@@ -146,11 +164,10 @@ impl Quality {
             return;
         }
         self.forgive();
-        let costliest = Pass::ALL
-            .into_iter()
-            .rev()
-            .find(|&pass| self.choice(pass) == PassChoice::Auto && !self.given_up.contains(&pass));
-        self.given_up.extend(costliest);
+        let mut saving = DEGRADE_ORDER.into_iter();
+        let saving =
+            saving.find(|&pass| drawn(pass) && self.choice(pass) == PassChoice::Auto && !self.degraded.contains(&pass));
+        self.degraded.extend(saving);
     }
 
     /// Counts slow frames from here on.
@@ -166,31 +183,32 @@ mod tests {
 
     fn slow_frames(quality: &mut Quality, count: u32) {
         for _ in 0..count {
-            quality.note_frame(0.1);
+            quality.note_frame(0.1, |_| true);
         }
     }
 
     #[test]
-    fn passes_are_given_up_one_by_one_and_the_shadow_last() {
+    fn passes_are_left_out_one_by_one_by_what_they_save_and_never_reflections() {
         let mut quality = Quality::default();
-        let mut given_up = Vec::new();
-        for _ in 0..Pass::ALL.len() {
+        let mut degraded = Vec::new();
+        for _ in 0..DEGRADE_ORDER.len() {
             slow_frames(&mut quality, SLOW_FRAMES - 1);
-            assert_eq!(quality.given_up, given_up, "a few slow frames are forgiven");
+            assert_eq!(quality.degraded, degraded, "a few slow frames are forgiven");
             slow_frames(&mut quality, 1);
-            given_up.clone_from(&quality.given_up);
+            degraded.clone_from(&quality.degraded);
         }
-        assert_eq!(
-            given_up,
-            [
-                Pass::AmbientOcclusion,
-                Pass::ContactShadow,
-                Pass::Environment,
-                Pass::Shadow
-            ]
-        );
+        assert_eq!(degraded, [Pass::AmbientOcclusion, Pass::ContactShadow, Pass::Shadow]);
         slow_frames(&mut quality, 3 * SLOW_FRAMES);
-        assert_eq!(quality.passes(), Passes::none());
+        assert_eq!(quality.passes(), Passes::none().with(Pass::Environment, true));
+    }
+
+    #[test]
+    fn what_the_picture_has_not_is_not_left_out() {
+        let mut quality = Quality::default();
+        for _ in 0..3 * SLOW_FRAMES {
+            quality.note_frame(0.1, |pass| pass != Pass::ContactShadow);
+        }
+        assert_eq!(quality.degraded, [Pass::AmbientOcclusion, Pass::Shadow]);
     }
 
     #[test]
@@ -198,7 +216,7 @@ mod tests {
         let mut quality = Quality::default();
         for _ in 0..100 {
             slow_frames(&mut quality, SLOW_FRAMES - 1);
-            quality.note_frame(0.01);
+            quality.note_frame(0.01, |_| true);
         }
         assert_eq!(quality.passes(), Passes::all());
     }
@@ -208,12 +226,12 @@ mod tests {
         let mut quality = Quality::default();
         // A tab that was out of sight, then shaders that compile.
         for secs in [60.0, 1.0, 1.0, 0.01] {
-            quality.note_frame(secs);
+            quality.note_frame(secs, |_| true);
         }
         assert_eq!(quality.passes(), Passes::all());
         for frame in 1..=2 * LEAST_SLOW_FRAMES {
-            quality.note_frame(0.5);
-            assert_eq!(quality.given_up.len() as u32, frame / LEAST_SLOW_FRAMES);
+            quality.note_frame(0.5, |_| true);
+            assert_eq!(quality.degraded.len() as u32, frame / LEAST_SLOW_FRAMES);
         }
     }
 

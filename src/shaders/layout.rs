@@ -49,7 +49,8 @@ pub struct Frame {
     pub contact_strength: f32,
     pub occlusion_radius: f32,
     pub book_unit: f32,
-    pub unused: [f32; 2],
+    pub shadow_radius_texels: f32,
+    pub ground_shadow_radius_texels: f32,
 }
 
 /// Twin of `Material` in `material.wgsl`, which says what each member means.

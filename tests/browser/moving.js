@@ -1,4 +1,4 @@
-// What moves by itself: the camera after a drag, on the turntable, in flight; and what is given up when that is too slow.
+// What moves by itself: the camera after a drag, on the turntable, in flight; and what is left out when that is too slow.
 
 import assert from "node:assert/strict";
 import { atRest, call, settled, state, test, until } from "./harness.js";
@@ -84,7 +84,7 @@ test("with the right button held WASD and QE fly, each its own way, and letting 
   }
 });
 
-test("passes are given up while frames are slow, and pictures have all of them", {
+test("passes are left out while frames are slow, and pictures have all of them", {
   fine: true,
   // From the first frame on.
   prepare: (page) =>
@@ -94,9 +94,9 @@ test("passes are given up while frames are slow, and pictures have all of them",
       addEventListener("DOMContentLoaded", watch);
     }),
 }, async (page) => {
-  const givenUp = ({ look }) => Object.values(look.passes).filter((state) => state === "too slow").length;
+  const leftOut = ({ look }) => Object.values(look.passes).filter((state) => state === "too slow").length;
   const deadline = Date.now() + 30_000;
-  const { look } = await until(page, (now) => givenUp(now) > 0 || Date.now() > deadline);
+  const { look } = await until(page, (now) => leftOut(now) > 0 || Date.now() > deadline);
   const times = await page.evaluate(() => frames);
   let [slowRun, longestRun] = [0, 0];
   for (let frame = 1; frame < times.length; frame += 1) {

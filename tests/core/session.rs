@@ -17,6 +17,7 @@ mod playing;
 mod random;
 mod replay;
 mod sky;
+mod slowness;
 mod subsets;
 mod transport;
 

@@ -40,6 +40,7 @@ mod picture;
 mod robust;
 mod scenes;
 mod sets;
+mod shadows;
 mod skinning;
 mod sky;
 mod still_life;

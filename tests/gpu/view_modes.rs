@@ -129,11 +129,11 @@ on_both_backends! {
         let mut scene = showing(card_once(), ViewMode::Roughness);
         scene.model.materials[0].reflectance = Reflectance::Fresnel { fresnel0: [0.04; 3], roughness: 0.4 };
         assert_shows(&gpu.draw(&scene, WIDTH, HEIGHT), [102; 3]);
-        // The book's gloss, (1 - 0.4) * 128 / 255, is in the alpha of the normal map; the studio has no use for it.
-        for (light, grey) in [(Light::Studio, 102), (Light::Book, 178)] {
+        // The gloss, (1 - 0.4) * 128 / 255, is in the alpha of the normal map.
+        let glossy = plain([128, 128, 255, 128]);
+        for light in Light::ALL {
             scene.options.light = light;
-            let glossy = plain([128, 128, 255, 128]);
-            assert_shows(&gpu.draw_with_maps(&scene, &normal(&glossy), WIDTH, HEIGHT), [grey; 3]);
+            assert_shows(&gpu.draw_with_maps(&scene, &normal(&glossy), WIDTH, HEIGHT), [178; 3]);
         }
         scene.options.light = Light::Studio;
         // Of a power: (2 / (30 + 2)) to the fourth root is 1/2.
@@ -144,6 +144,8 @@ on_both_backends! {
             reflectivity: [0.0; 3],
         };
         assert_shows(&gpu.draw(&scene, WIDTH, HEIGHT), [128; 3]);
+        // That book reads no gloss.
+        assert_shows(&gpu.draw_with_maps(&scene, &normal(&glossy), WIDTH, HEIGHT), [128; 3]);
     }
 
     fn shadow_falls_where_the_first_light_does_not_reach(gpu) {

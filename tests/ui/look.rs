@@ -166,7 +166,7 @@ fn passes_say_their_state_and_a_click_changes_it() {
 }
 
 #[test]
-fn what_was_given_up_is_said_and_can_be_insisted_on() {
+fn what_is_left_out_for_speed_is_said_and_can_be_insisted_on() {
     let mut window = open();
     let slow_frames = |window: &mut Window| {
         for _ in 0..12 {

@@ -14,7 +14,7 @@ pub enum Pass {
 }
 
 impl Pass {
-    /// From the one to keep longest to the one to give up first.
+    /// In the order of panels.
     pub const ALL: [Self; 4] = [
         Self::Shadow,
         Self::Environment,

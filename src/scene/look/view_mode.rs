@@ -16,7 +16,8 @@ pub enum ViewMode {
     Tangent,
     /// Texture coordinates, as a checker of 8 × 8 fields a tile with u as red and v as green.
     TexCoords,
-    /// Roughness, black smooth … white rough, as the light in force takes it: the book's with the gloss in the alpha of normal maps. For materials of the DirectX 11 book: what their power comes to.
+    /// Roughness, black smooth … white rough, with the gloss in the alpha of normal maps: 1 − (1 − roughness) × alpha, as both
+    /// lights take it. For materials of the DirectX 11 book: what their power comes to.
     Roughness,
     /// A colour of its own for each material.
     Material,

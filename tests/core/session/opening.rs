@@ -234,10 +234,10 @@ fn what_was_too_slow_for_one_model_is_tried_again_with_the_next() {
     for _ in 0..20 {
         session.note_frame(1.0);
     }
-    let given_up = session.quality().passes();
-    assert_ne!(given_up, wanted);
+    let degraded = session.quality().passes();
+    assert_ne!(degraded, wanted);
     session.apply(Command::AddFiles(vec![still("a.m3d")]));
-    assert_eq!(session.quality().passes(), given_up, "the same again is as slow");
+    assert_eq!(session.quality().passes(), degraded, "the same again is as slow");
     session.apply(Command::AddFiles(vec![still("b.m3d")]));
     assert_eq!(session.quality().passes(), wanted, "what was chosen stays chosen");
 }

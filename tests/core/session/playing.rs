@@ -93,6 +93,33 @@ fn steps_pause_and_reach_whole_frames_and_stop_at_the_ends() {
     }
 }
 
+/// By the demo's 0.1 radians a second, whatever the speed of the clip; never out of a turn.
+#[test]
+fn the_books_lights_turn_while_a_clip_plays() {
+    let turn = |session: &Session| session.look().book_lights_turn_radians;
+    let mut session = paused();
+    session.advance(0.2);
+    assert_eq!(turn(&session), 0.0, "paused");
+    session.apply(Command::Play);
+    session.apply(Command::SetSpeed(2.0));
+    for seconds in 1..=3 {
+        for _ in 0..10 {
+            session.advance(0.1);
+        }
+        assert_near(turn(&session), 0.1 * seconds as f32);
+    }
+    assert_eq!(session.frame().options.book_lights_turn_radians, turn(&session));
+    // 62.8 s are a whole turn.
+    for _ in 0..600 {
+        session.advance(0.1);
+    }
+    assert!(
+        (turn(&session) - (6.3 - std::f32::consts::TAU)).abs() < 1e-3,
+        "{}",
+        turn(&session)
+    );
+}
+
 #[test]
 fn scrubbing_holds_the_time_and_playing_goes_on_from_there() {
     let mut session = opened(moving("a.m3d"));
