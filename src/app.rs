@@ -23,7 +23,7 @@ pub struct App {
 impl App {
     /// Takes up a session, which may have a model open already. `coarse_pointer`: fingers are the device's pointer.
     pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, coarse_pointer: bool) -> Self {
-        ui::theme::install(ctx);
+        ui::install(ctx);
         gpu.renderer
             .write()
             .callback_resources
@@ -38,15 +38,15 @@ impl App {
     /// One pass. Returns what only the page around can do.
     pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Request> {
         let mut session = self.session.borrow_mut();
-        let dt_secs = ui.input(|input| input.unstable_dt);
-        if self.stage.was_moving {
+        // All passes of a frame are at one time.
+        let begins_frame = ui.ctx().current_pass_index() == 0;
+        if begins_frame && self.stage.was_moving {
+            let dt_secs = ui.input(|input| input.unstable_dt);
             session.note_frame(dt_secs);
-        }
-        session.advance(if self.stage.was_moving {
-            dt_secs.min(MAX_STEP_SECS)
+            session.advance(dt_secs.min(MAX_STEP_SECS));
         } else {
-            0.0
-        });
+            session.advance(0.0);
+        }
 
         let window = ui.max_rect();
         ui.painter()
@@ -70,6 +70,10 @@ impl App {
             }
         }
 
+        if ui.ctx().will_discard() {
+            // The frame's last pass draws.
+            return requests;
+        }
         let points_to_pixels = ui.pixels_per_point();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
         self.stage
@@ -90,6 +94,11 @@ impl App {
     /// Why the open model could not be brought to the GPU, if it could not.
     pub fn upload_error(&self) -> Option<&str> {
         self.stage.upload_error.as_deref()
+    }
+
+    /// Whether Esc would shut something, end what is being typed or let go of a selection.
+    pub fn escape_shuts(&self, ctx: &egui::Context) -> bool {
+        ui::escape_shuts(ctx, &self.session.borrow(), &self.state)
     }
 
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
