@@ -105,8 +105,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         show_error(ui, session, error, arrangement, &mut commands);
     }
     state.skeleton.settle_naming(ui, &mut commands);
-    // Last, since a control that has the keyboard takes its keys first. What is typed into a field are no shortcuts, be it that
-    // the field had the keyboard when the pass began or that it has it at the end.
+    // Last, since a control that has the keyboard takes its keys first. Keys that were typed into a field are no shortcuts, whether
+    // the field had the keyboard when the pass began or has it now.
     let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();
     let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(session, state));
     if !typed && !typing {

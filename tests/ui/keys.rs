@@ -628,18 +628,18 @@ fn esc_is_known_to_shut_something_before_it_is_pressed() {
     let mut window = tree(WIDE, 5);
     let shuts = |window: &Window| escape_shuts(&window.harness.ctx, window.session(), &window.harness.state().state);
     assert!(!shuts(&window));
-    let steps: [(&str, &dyn Fn(&mut Window)); 6] = [
-        ("help", &|window| window.click("Keys (?)")),
-        ("a popover", &|window| window.click("Lighting")),
-        ("a selection", &|window| window.click("Bone 3, ")),
-        ("the findings", &|window| {
+    let steps: [(&str, fn(&mut Window)); 6] = [
+        ("help", |window| window.click("Keys (?)")),
+        ("a popover", |window| window.click("Lighting")),
+        ("a selection", |window| window.click("Bone 3, ")),
+        ("the findings", |window| {
             window.click("Panel: Model");
             window.click("Diagnostics");
         }),
-        ("an error", &|window| {
-            window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]))
+        ("an error", |window| {
+            window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
         }),
-        ("a field", &|window| window.click("Search bones")),
+        ("a field", |window| window.click("Search bones")),
     ];
     for (what, open) in steps {
         if what == "a field" {

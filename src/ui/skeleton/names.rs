@@ -10,6 +10,8 @@ use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
 
 /// A row that is scrolled to is there sooner, if it is to be seen at all.
 const LONGEST_WAIT_SECS: f64 = 1.0;
+/// However slow the passes are.
+const LONGEST_WAIT_PASSES: u32 = 10;
 
 /// What is being named.
 #[derive(Debug, Default)]
@@ -26,8 +28,8 @@ pub(super) struct Naming {
 enum Stage {
     /// Its field has the keyboard; whether it was shown in this pass.
     Typing { shown: bool },
-    /// Its field was not shown yet, since this time in seconds.
-    Begins { at_secs: f64 },
+    /// Its field was not shown yet, since this time in seconds and for so many passes.
+    Begins { at_secs: f64, passes: u32 },
     #[default]
     Idle,
 }
@@ -40,6 +42,7 @@ impl Naming {
             text: session.joint_name(joint).unwrap_or_default().to_owned(),
             stage: Stage::Begins {
                 at_secs: ui.input(|input| input.time),
+                passes: 0,
             },
             proposing: false,
         };
@@ -57,10 +60,13 @@ impl Naming {
         match &mut self.stage {
             Stage::Typing { shown: shown @ true } => *shown = false,
             Stage::Typing { shown: false } => self.take_name(commands),
-            Stage::Begins { at_secs } if ui.input(|input| input.time) - *at_secs > LONGEST_WAIT_SECS => {
-                *self = Self::default()
+            Stage::Begins { at_secs, passes } => {
+                *passes += 1;
+                if *passes > LONGEST_WAIT_PASSES && ui.input(|input| input.time) - *at_secs > LONGEST_WAIT_SECS {
+                    *self = Self::default();
+                }
             }
-            Stage::Begins { .. } | Stage::Idle => {}
+            Stage::Idle => {}
         }
     }
 
