@@ -625,10 +625,11 @@ fn with_a_mouse_nothing_takes_the_keyboard() {
 
 #[test]
 fn esc_is_known_to_shut_something_before_it_is_pressed() {
+    type Step = fn(&mut Window);
     let mut window = tree(WIDE, 5);
     let shuts = |window: &Window| escape_shuts(&window.harness.ctx, window.session(), &window.harness.state().state);
     assert!(!shuts(&window));
-    let steps: [(&str, fn(&mut Window)); 6] = [
+    let steps: [(&str, Step); 6] = [
         ("help", |window| window.click("Keys (?)")),
         ("a popover", |window| window.click("Lighting")),
         ("a selection", |window| window.click("Bone 3, ")),
