@@ -27,7 +27,7 @@ pub struct App {
 impl App {
     /// Takes up a session, which may have a model open already. `coarse_pointer`: fingers are the device's pointer.
     pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, coarse_pointer: bool) -> Self {
-        ui::theme::install(ctx);
+        ui::install(ctx);
         gpu.renderer
             .write()
             .callback_resources
@@ -42,13 +42,16 @@ impl App {
     /// One pass. Returns what only the page around can do.
     pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Request> {
         let mut session = self.session.borrow_mut();
-        let dt_secs = ui.input(|input| input.unstable_dt);
-        session.begin_pass(dt_secs);
-        session.advance(if self.stage.was_moving {
-            dt_secs.min(MAX_STEP_SECS)
-        } else {
-            0.0
-        });
+        // All passes of a frame are at one time.
+        if ui.ctx().current_pass_index() == 0 {
+            let dt_secs = ui.input(|input| input.unstable_dt);
+            session.begin_pass(dt_secs);
+            session.advance(if self.stage.was_moving {
+                dt_secs.min(MAX_STEP_SECS)
+            } else {
+                0.0
+            });
+        }
 
         let window = ui.max_rect();
         ui.painter()
@@ -72,6 +75,10 @@ impl App {
             }
         }
 
+        if ui.ctx().will_discard() {
+            // The frame's last pass draws.
+            return requests;
+        }
         let points_to_pixels = ui.pixels_per_point() * session.quality().render_scale().fraction();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
         let drawn = self
@@ -105,6 +112,11 @@ impl App {
     /// How many pictures of the model were drawn: stands still while nothing changes.
     pub fn frames_rendered(&self) -> u64 {
         self.stage.frames_rendered
+    }
+
+    /// Whether Esc would shut something, end what is being typed or let go of a selection.
+    pub fn escape_shuts(&self, ctx: &egui::Context) -> bool {
+        ui::escape_shuts(ctx, &self.session.borrow(), &self.state)
     }
 
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
@@ -187,7 +199,6 @@ impl Stage {
         self.sky = None;
         self.drawn = None;
         self.was_moving = false;
-        self.upload_error = None;
     }
 
     /// Draws when the picture would be another one than the last; whether it did.

@@ -9,7 +9,7 @@ import {
 import { freshly, rememberGiven } from "./given.js";
 import { saveFile } from "./save.js";
 import { runsProgram } from "./support.js";
-import { letTabLeave, mirrorTransport } from "./transport.js";
+import { letTabLeave, mirrorTransport, nameTextInput } from "./transport.js";
 
 /** A GPU that goes away more often than this within the time below does not come back for good. */
 const MAX_RESTARTS = 3;
@@ -32,7 +32,7 @@ const element = (id) => document.getElementById(id);
 const view = element("view");
 /** What the address asks for, before the `#` or after it. */
 const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
-const { bindpose, wasUsed, give, attach, fail, emit } = createApi();
+const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi();
 globalThis.bindpose = bindpose;
 
 let viewer = null; // The wasm module's exports.
@@ -72,7 +72,7 @@ const hand = async (files, addsClips) => {
 const pick = takeChoices({ receive, refuse });
 takeDrops({ receive, refuse, openModel: () => openName });
 const refreshTransport = mirrorTransport(bindpose);
-letTabLeave(view);
+letTabLeave(view, () => !hasFailed() && Boolean(viewer?.escapeShuts()));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
 element("notice-close").addEventListener("click", clearNotice);
@@ -95,19 +95,18 @@ async function boot() {
   }
   addEventListener("error", ({ error }) => error instanceof WebAssembly.RuntimeError && onPanic(wordsOf(error)));
   addEventListener("unhandledrejection", ({ reason }) => reason instanceof WebAssembly.RuntimeError && onPanic(wordsOf(reason)));
-  try {
-    await start(wantedBackend());
-  } catch (error) {
+  // Also by a restart, when the GPU goes away during the first start.
+  bindpose.ready.then(async () => {
+    element("shell").classList.add("leaving");
+    setTimeout(() => (element("shell").hidden = true), 200);
+    const files = await opensAtOnce;
+    if (files && !wasUsed() && !received) await give(files, "open").catch((error) => refuse(wordsOf(error)));
+    refreshTransport();
+  }, () => {});
+  await start(wantedBackend()).catch((error) => {
     fail(error);
     showGpuFailure(error, wantedBackend());
-    return;
-  }
-  attach(viewer);
-  element("shell").classList.add("leaving");
-  setTimeout(() => (element("shell").hidden = true), 200);
-  const files = await opensAtOnce;
-  if (files && !wasUsed() && !received) await give(files, "open").catch((error) => refuse(wordsOf(error)));
-  refreshTransport();
+  });
 }
 
 /** Fetches and compiles the program while it arrives. */
@@ -147,18 +146,28 @@ function wantedBackend() {
   return ["webgpu", "webgl2"].includes(named) ? named : "auto";
 }
 
-/** Starts on the canvas of the page, which must never have been drawn on. */
+/** Starts on the canvas of the page, which must never have been drawn on. What becomes of a start after which another one came is of no account. */
 async function start(backend) {
   const canvas = element("canvas");
   const mine = ++starts;
   canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost", mine), { once: true });
-  gpu = await viewer.start(canvas, { backend, renderScale: Number(options.get("scale") ?? 1) }, onEvent);
+  const renderScale = Number(options.get("scale") ?? 1);
+  try {
+    const started = await viewer.start(canvas, { backend, renderScale }, onEvent);
+    if (mine !== starts) return;
+    gpu = started;
+  } catch (error) {
+    if (mine !== starts) return;
+    throw error;
+  }
+  nameTextInput(view);
   view.classList.add("drawn");
+  attach(viewer);
 }
 
 /** The GPU went away: what is open lives on in the module, so a new canvas and a new start bring all of it back. */
 async function restart(reason, of = starts) {
-  if (of !== starts) return;
+  if (of !== starts || hasFailed()) return;
   if (restarting) {
     lostMeanwhile = reason;
     return;

@@ -69,7 +69,7 @@ export function mirrorTransport(bindpose) {
       if (button.disabled) play.focus();
     });
   }
-  element("transport-view").addEventListener("click", () => focusable()?.focus());
+  element("transport-view").addEventListener("click", () => element("canvas").focus());
   section.addEventListener("focusin", refresh);
   for (const type of ["load", "play", "pause", "playbackchange"]) bindpose.addEventListener(type, refresh);
   // Many a second while it plays: only when somebody looks.
@@ -85,13 +85,11 @@ const timeWords = ({ timeSecs }) => timeSecs.toFixed(2);
 const rangeWords = ({ rangeSecs }) =>
   rangeSecs ? `From ${rangeSecs[0].toFixed(2)} to ${rangeSecs[1].toFixed(2)} seconds` : "The whole clip plays";
 
-/** Where keys go to the viewer: its hidden text input, or the canvas. */
-function focusable() {
-  return document.querySelector("#view input") ?? document.querySelector("#view canvas");
-}
-
-/** Lets Tab leave the viewer once Escape was pressed: until then it moves between the viewer's own widgets. */
-export function letTabLeave(view) {
+/**
+ * Lets Tab leave the viewer once Escape was pressed and had nothing to shut there, as `escapeShuts()` says: until then Tab moves
+ * between the viewer's own widgets.
+ */
+export function letTabLeave(view, escapeShuts) {
   let leaving = false;
   addEventListener("keydown", (event) => {
     if (!view.contains(document.activeElement)) {
@@ -99,9 +97,18 @@ export function letTabLeave(view) {
     } else if (event.key === "Tab" && leaving) {
       // The browser moves the focus; the viewer must not hear of it and hold on.
       event.stopImmediatePropagation();
+      leaving = false;
     } else if (event.key !== "Shift") {
-      leaving = event.key === "Escape";
+      leaving = event.key === "Escape" && !escapeShuts();
     }
   }, true);
   addEventListener("pointerdown", () => (leaving = false), true);
+}
+
+/** The viewer's hidden input takes what is typed into the fields on the canvas. It has the focus only while one of them is typed into. */
+export function nameTextInput(view) {
+  for (const input of view.querySelectorAll("input")) {
+    input.tabIndex = -1;
+    input.setAttribute("aria-label", "Text of the field in the 3D view");
+  }
 }

@@ -1,6 +1,6 @@
 //! Keys to commands. Only what the viewer owns: the browser keeps its own.
 
-use egui::{Event, Key, Modifiers, Ui};
+use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 
 use super::UiState;
 use super::flight::FLIGHT_KEYS;
@@ -9,11 +9,8 @@ use crate::anim::Direction;
 use crate::scene::{Overlay, ViewPreset};
 use crate::session::{Command, LookCommand, Session, SubsetCommand};
 
-/// Reads the keys of this frame. Nothing while words are typed. `popover_open`: Esc has shut something that hung from a button.
+/// Reads the keys of a pass in which no field is typed into. `popover_open`: Esc has shut something that hung from a button.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
-    if ui.ctx().text_edit_focused() {
-        return;
-    }
     let events = ui.input(|input| input.events.clone());
     // Space and Enter belong to a focused control.
     let control_focused = ui.memory(|memory| memory.focused().is_some());
@@ -42,7 +39,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                     commands.extend(skeleton::keys::command_for(session, key, modifiers));
                 }
                 match key {
-                    Key::F2 => state.skeleton.rename_selected(session),
+                    Key::F2 => state.skeleton.rename_selected(ui, session),
                     Key::Escape if !popover_open => escape(session, state, commands),
                     Key::R if modifiers.is_none() => state.read_again(),
                     Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
@@ -75,17 +72,54 @@ fn of_selection(command: Command, session: &Session) -> Command {
     }
 }
 
+/// What Esc takes away.
+enum OnTop {
+    Error,
+    Help,
+    Diagnostics,
+    ChosenKeys,
+    Selection(Command),
+}
+
+/// What lies on top, apart from what hangs from a button.
+fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
+    if session.error().is_some() {
+        Some(OnTop::Error)
+    } else if state.help_open {
+        Some(OnTop::Help)
+    } else if state.diagnostics_open {
+        Some(OnTop::Diagnostics)
+    } else if state.timeline.has_chosen_keys() {
+        Some(OnTop::ChosenKeys)
+    } else {
+        let_go(session).map(OnTop::Selection)
+    }
+}
+
 /// Takes away what lies on top.
 fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    if session.error().is_some() {
-        commands.push(Command::DismissError);
-    } else if state.help_open {
-        state.help_open = false;
-    } else if state.diagnostics_open {
-        state.diagnostics_open = false;
-    } else if !state.timeline.let_go_of_keys() {
-        commands.extend(let_go(session));
+    match on_top(session, state) {
+        Some(OnTop::Error) => commands.push(Command::DismissError),
+        Some(OnTop::Help) => state.help_open = false,
+        Some(OnTop::Diagnostics) => state.diagnostics_open = false,
+        Some(OnTop::ChosenKeys) => state.timeline.let_go_of_keys(),
+        Some(OnTop::Selection(command)) => commands.push(command),
+        None => {}
     }
+}
+
+/// Whether Esc would shut a panel or let go of a selection.
+pub(super) fn escape_shuts_panel(session: &Session, state: &UiState) -> bool {
+    on_top(session, state).is_some()
+}
+
+/// Whether Esc would shut something, end what is being typed or let go of a selection. When it would not, it lets Tab leave the page's
+/// canvas.
+pub fn escape_shuts(ctx: &Context, session: &Session, state: &UiState) -> bool {
+    Popup::is_any_open(ctx)
+        || ctx.text_edit_focused()
+        || state.skeleton.is_naming()
+        || escape_shuts_panel(session, state)
 }
 
 /// Takes the selection away.

@@ -9,7 +9,9 @@ mod flight;
 mod free_room;
 mod help;
 mod icons;
+mod input_order;
 mod inspector;
+mod keyboard;
 mod keys;
 mod layout;
 mod light;
@@ -39,17 +41,25 @@ use egui::{Align2, Popup, Rect, Ui, Vec2, pos2, vec2};
 
 use crate::scene::Theme;
 use crate::session::{Command, LoadError, Session, SubsetCommand};
-pub use keys::owns_key;
+pub use keys::{escape_shuts, owns_key};
 pub use picture::{MAX_PICTURE_SIDE, picture_name};
 use state::Framed;
 pub use state::{Request, SheetPage, UiState};
 
+use input_order::{InputOrder, MOST_PASSES};
 use layout::{Arrangement, bar_height};
 use panel::{PANEL_AROUND, Panel};
 use theme::MARGIN;
 
 /// Width of the card that tells why a file was not opened, where there is room for it.
 const ERROR_WIDTH: f32 = 562.0;
+
+/// Gives a context what the interface needs: fonts, styles, and input in an order that it can act on.
+pub fn install(ctx: &egui::Context) {
+    theme::install(ctx);
+    ctx.options_mut(|options| options.max_passes = MOST_PASSES);
+    ctx.add_plugin(InputOrder::default());
+}
 
 /// One pass over the whole window. Returns what the person asked for, in order.
 ///
@@ -76,6 +86,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     }
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
+    let typed = state.keyboard.was_typing(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
     skeleton::show_marks(ui, session, &state.skeleton, window);
     split::show(ui, session, window, &mut commands);
@@ -98,8 +109,16 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     if let Some(error) = session.error() {
         show_error(ui, session, error, arrangement, &mut commands);
     }
-    // Last, since a control that has the keyboard takes its keys first.
-    keys::read(ui, session, state, popover_open, &mut commands);
+    state.skeleton.settle_naming(ui, &mut commands);
+    // Last, since a control that has the keyboard takes its keys first. Keys that were typed into a field are no shortcuts, whether
+    // the field had the keyboard when the pass began or has it now.
+    let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();
+    let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(session, state));
+    if !typed && !typing {
+        keys::read(ui, session, state, popover_open, &mut commands);
+    }
+    let escape_shut = escape_shuts && ui.input(|input| input.key_pressed(egui::Key::Escape));
+    state.keyboard.give_back(ui.ctx(), popover_open, escape_shut);
     commands
 }
 

@@ -4,6 +4,7 @@ use egui::{Rect, Ui};
 
 use super::diagnostics_panel::ShownFinding;
 use super::inspector::VertexCount;
+use super::keyboard::Keyboard;
 use super::picture::PictureChoice;
 use super::skeleton::SkeletonState;
 use super::thumbnails::Thumbnails;
@@ -82,6 +83,7 @@ pub struct UiState {
     pub(super) hovered_subset: Option<usize>,
     pub(super) vertex_count: VertexCount,
     pub(super) skeleton: SkeletonState,
+    pub(super) keyboard: Keyboard,
     pub(super) requests: Vec<Request>,
 }
 

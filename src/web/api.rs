@@ -46,6 +46,19 @@ pub fn state() -> JsValue {
     })
 }
 
+/// Whether Esc would shut something in the viewer, end what is being typed or let go of a selection. Then it does not mean that Tab
+/// should leave the canvas.
+#[wasm_bindgen(js_name = escapeShuts)]
+pub fn escape_shuts() -> bool {
+    PAGE.with_borrow(|page| {
+        let running = page.as_ref().and_then(|page| page.running.as_ref());
+        running.is_some_and(|running| {
+            let app = running.app.try_borrow();
+            app.is_ok_and(|app| app.as_ref().is_some_and(|app| app.escape_shuts(&running.ctx)))
+        })
+    })
+}
+
 /// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens; a failure is in the
 /// state's `error`. Returns the state.
 ///

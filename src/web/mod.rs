@@ -26,11 +26,14 @@ use crate::ui::Request;
 use backend::{Chosen, Preference};
 use kept_names::KeptNames;
 
+/// Why a start came to nothing that was followed by another one, or by a stop.
+const OVERTAKEN: &str = "another start came after this one";
+
 thread_local! {
     static PAGE: RefCell<Option<Page>> = const { RefCell::new(None) };
     /// The page's listener, apart from `PAGE` so that a panic anywhere can still be told.
     static LISTENER: RefCell<Option<Function>> = const { RefCell::new(None) };
-    /// Counts starts, so that a device of an earlier one cannot speak for the present one.
+    /// Counts starts and stops, so that an earlier start and its device cannot speak for the present one.
     static STARTS: Cell<u32> = const { Cell::new(0) };
 }
 
@@ -49,6 +52,14 @@ struct Running {
     backend: &'static str,
     adapter: String,
     frames_rendered: Rc<Cell<u64>>,
+}
+
+impl Running {
+    /// Leaves the canvas, and frees what was made for it.
+    fn give_up(self) {
+        self.runner.destroy();
+        self.app.take();
+    }
 }
 
 /// Tells the page's listener.
@@ -73,7 +84,7 @@ fn detail(name: &str, value: &str) -> JsValue {
 /// frame was drawn.
 ///
 /// # Errors
-/// When no backend works, with the reasons of each that was tried.
+/// When no backend works, with the reasons of each that was tried, and when another start or a stop came meanwhile.
 #[wasm_bindgen]
 pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Function) -> Result<JsValue, JsError> {
     LISTENER.with_borrow_mut(|listener| *listener = Some(on_event));
@@ -81,7 +92,8 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
     let preference = Preference::from_name(&option("backend").as_string().unwrap_or_default());
 
     stop();
-    STARTS.set(STARTS.get() + 1);
+    let mine = STARTS.get();
+    let is_overtaken = || STARTS.get() != mine;
     let session = PAGE.with_borrow_mut(|page| {
         let new_page = || {
             let mut session = Session::new(reduced_motion());
@@ -97,7 +109,14 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
     let chosen = backend::choose(preference)
         .await
         .map_err(|reasons| JsError::new(&reasons))?;
-    let running = run(canvas, chosen, session).await?;
+    if is_overtaken() {
+        return Err(JsError::new(OVERTAKEN));
+    }
+    let running = run(canvas, chosen, session, mine).await?;
+    if is_overtaken() {
+        running.give_up();
+        return Err(JsError::new(OVERTAKEN));
+    }
     let (backend, adapter) = (running.backend, running.adapter.clone());
     let frames = Rc::clone(&running.frames_rendered);
     running.ctx.request_repaint();
@@ -118,7 +137,12 @@ pub async fn start(canvas: HtmlCanvasElement, options: JsValue, on_event: Functi
     Ok(result)
 }
 
-async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Session>>) -> Result<Running, JsError> {
+async fn run(
+    canvas: HtmlCanvasElement,
+    chosen: Chosen,
+    session: Rc<RefCell<Session>>,
+    start: u32,
+) -> Result<Running, JsError> {
     let backend = chosen.name();
     let web_options = eframe::WebOptions {
         renderer: eframe::Renderer::Wgpu,
@@ -146,7 +170,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
             web_options,
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
-                watch_device(&gpu.device);
+                watch_device(&gpu.device, start);
                 *shell.app.borrow_mut() = Some(App::new(
                     &creation.egui_ctx,
                     &gpu,
@@ -159,7 +183,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
         )
         .await
         .map_err(|error| JsError::new(&format!("{backend}: {}", text_of(&error))))?;
-    watch_context(&canvas)?;
+    watch_context(&canvas, start)?;
     let (ctx, gpu) = shared.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
     let adapter = backend::adapter_name(&gpu.adapter);
     Ok(Running {
@@ -173,13 +197,13 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, session: Rc<RefCell<Sess
     })
 }
 
-/// Gives the canvas up. The session stays.
+/// Gives the canvas up, also one on which a start is under way. The session stays.
 #[wasm_bindgen]
 pub fn stop() {
+    STARTS.set(STARTS.get() + 1);
     let running = PAGE.with_borrow_mut(|page| page.as_mut().and_then(|page| page.running.take()));
     if let Some(running) = running {
-        running.runner.destroy();
-        running.app.take();
+        running.give_up();
     }
 }
 
@@ -268,11 +292,10 @@ fn watch_panics() {
     }));
 }
 
-fn watch_device(device: &egui_wgpu::wgpu::Device) {
+fn watch_device(device: &egui_wgpu::wgpu::Device, start: u32) {
     device.on_uncaptured_error(std::sync::Arc::new(|error: egui_wgpu::wgpu::Error| {
         web_sys::console::error_1(&format!("GPU error: {error}").into());
     }));
-    let start = STARTS.get();
     device.set_device_lost_callback(move |reason, message| {
         let by_us = reason == egui_wgpu::wgpu::DeviceLostReason::Destroyed && message.is_empty();
         if start == STARTS.get() && !by_us {
@@ -281,8 +304,7 @@ fn watch_device(device: &egui_wgpu::wgpu::Device) {
     });
 }
 
-fn watch_context(canvas: &HtmlCanvasElement) -> Result<(), JsError> {
-    let start = STARTS.get();
+fn watch_context(canvas: &HtmlCanvasElement, start: u32) -> Result<(), JsError> {
     let lost = Closure::<dyn FnMut(web_sys::Event)>::new(move |event: web_sys::Event| {
         event.prevent_default();
         if start == STARTS.get() {

@@ -77,6 +77,57 @@ test("a GPU that goes away again and again ends in words", { prepare: watchGpu, 
   await keep(page, "fault-lost");
 });
 
+/** The program with another `start`: `around` is the body of `start(canvas, options, onEvent)`, in which `begin` is the real one. */
+const startedBy = (around) => (page) =>
+  page.route("**/pkg/bindpose.js", async (route) => {
+    const script = await (await route.fetch()).text();
+    const begun = script.replace(/export (async )?function start\(/, "$1function begin(");
+    const body = `${begun}\nlet calls = 0;\nexport async function start(canvas, options, onEvent) {${around}}`;
+    // Without the file's own tag: with it the browser would keep this script for the real one.
+    await route.fulfill({ contentType: "text/javascript", body });
+  });
+
+test("a GPU that goes away during the first start and does not come back ends in words", {
+  bare: true,
+  expectErrors: true,
+  prepare: startedBy(`
+    calls += 1;
+    if (calls > 1) throw new Error("no device any more");
+    onEvent("devicelost", { reason: "it was unplugged" });
+    return new Promise(() => {});`),
+}, async (page) => {
+  await page.waitForSelector("#fault:not([hidden])");
+  assert.match(await page.textContent("#fault-title"), /graphics went away/);
+  assert.match(await page.textContent("#fault-words"), /while it started/);
+  assert.match(await page.textContent("#fault-details"), /no device any more/);
+  assert.equal((await page.$$("#fault-actions a")).length, 2);
+  assert.match((await state(page)).error.message, /no device any more/);
+});
+
+test("a start that was overtaken by another leaves nothing behind", {
+  expectErrors: true,
+  // The GPU goes away while the first start is under way, and that one comes to its end all the same, late.
+  prepare: startedBy(`
+    calls += 1;
+    if (calls > 1) return begin(canvas, options, onEvent);
+    const first = begin(canvas, options, onEvent);
+    onEvent("devicelost", { reason: "it was unplugged" });
+    await first.catch(() => {});
+    await new Promise((done) => setTimeout(done, 3000));
+    globalThis.firstHasEnded = true;
+    return { backend: "webgl2", adapter: "the one that is gone" };`),
+}, async (page) => {
+  await page.waitForFunction(() => globalThis.firstHasEnded);
+  await settled(page);
+  assert.equal(await page.isHidden("#fault"), true);
+  assert.equal((await page.$$("#view canvas")).length, 1);
+  assert.equal((await page.$$("#view input")).length, 1, "one viewer listens");
+  const { framesRendered } = await state(page);
+  await call(page, "play");
+  await until(page, (now) => now.framesRendered > framesRendered + 1);
+  assert.ok((await coloursOnScreen(page)) > 200, "and draws on the canvas that is seen");
+});
+
 test("thirty loads in a row do not grow the memory", { own: true }, async (page) => {
   const soldier = `${SHARED}models/d3d12/soldier.m3d`;
   const path = existsSync(soldier) ? soldier : SAMPLE;

@@ -71,3 +71,22 @@ test("a browser that keeps nothing does not stand in the way", {
   await nameSecondBone(page, "Hips");
   assert.ok(difference(unnamed, await tree(page)) > 0, "the name is in the tree all the same");
 });
+
+test("a name that is typed in one slow frame is kept, and none of its letters is a shortcut", {}, async (page) => {
+  // The model plays meanwhile, and the page draws once in a second.
+  await page.evaluate(() => {
+    const soon = requestAnimationFrame.bind(globalThis);
+    globalThis.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 1000);
+  });
+  const before = await until(page, ({ playing }) => playing);
+  await page.mouse.click(...SKELETON_PAGE);
+  await page.waitForTimeout(2500);
+  await page.mouse.dblclick(...SECOND_BONE);
+  await page.keyboard.type("Spin A");
+  await page.keyboard.press("Enter");
+  const { skeleton, look, playing, rangeSecs } = await until(page, ({ skeleton }) => skeleton.names[1]);
+  assert.equal(skeleton.names[1], "Spin A");
+  assert.deepEqual([look, playing, rangeSecs], [before.look, true, null]);
+  const [[, text]] = await kept(page);
+  assert.equal(text, "1 Spin A\n");
+});

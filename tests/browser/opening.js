@@ -343,3 +343,44 @@ for (const model of ["d3d12/soldier", "d3d11/base", "d3d11/tree", "d3d11/rock", 
     await keep(page, `real-${basename(path, ".m3d")}`);
   });
 }
+
+test("programs open files and bytes in every form, also where a file has a method called bytes", {
+  // As Firefox and Safari have it.
+  prepare: (page) =>
+    page.addInitScript(() => {
+      Blob.prototype.bytes = async function () {
+        return new Uint8Array(await this.arrayBuffer());
+      };
+    }),
+}, async (page) => {
+  const outcomes = await page.evaluate(async () => {
+    const bytes = new Uint8Array(await (await fetch("web/sample/figure.m3d")).arrayBuffer());
+    const padded = new Uint8Array(bytes.length + 2);
+    padded.set(bytes, 1);
+    const given = {
+      File: new File([bytes], "file.m3d"),
+      Uint8Array: { name: "view.m3d", bytes },
+      part: { name: "part.m3d", bytes: padded.subarray(1, bytes.length + 1) },
+      ArrayBuffer: { name: "buffer.m3d", bytes: bytes.buffer },
+      Blob: { name: "blob.m3d", bytes: new Blob([bytes]) },
+      words: { name: "words.m3d", bytes: "m3d" },
+      nothing: { name: "nothing.m3d" },
+      nameless: new Blob([bytes]),
+    };
+    const outcomes = {};
+    for (const [form, file] of Object.entries(given)) {
+      outcomes[form] = await bindpose.open([file]).then(({ model, error }) => error?.message ?? model.name, ({ message }) => message);
+    }
+    return outcomes;
+  });
+  assert.deepEqual(outcomes, {
+    File: "file.m3d",
+    Uint8Array: "view.m3d",
+    part: "part.m3d",
+    ArrayBuffer: "buffer.m3d",
+    Blob: "blob.m3d",
+    words: "words.m3d needs its bytes as Uint8Array, ArrayBuffer or Blob",
+    nothing: "nothing.m3d needs its bytes as Uint8Array, ArrayBuffer or Blob",
+    nameless: "a file to open is a File or {name, bytes}",
+  });
+});

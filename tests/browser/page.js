@@ -217,3 +217,36 @@ test("a panic shows what happened and a way on", {
   await page.click("#fault-actions button");
   await until(page, ({ model }) => model !== null);
 });
+
+test("after a panic programs hear of it, and calls end", { expectErrors: true }, async (page) => {
+  await page.evaluate(() => {
+    globalThis.heard = [];
+    bindpose.addEventListener("error", ({ detail }) => globalThis.heard.push(detail));
+    // The viewer takes the time from it, and takes for granted that it is there: a real panic.
+    Object.defineProperty(globalThis, "performance", { configurable: true, get: () => undefined });
+    globalThis.pending = bindpose.snapshot({ width: 64, height: 64 }).then(() => "a picture", ({ message }) => message);
+    bindpose.play();
+  });
+  await page.waitForSelector("#fault:not([hidden])");
+  const { error, model } = await state(page);
+  assert.equal(error.code, "viewer-stopped");
+  assert.match(error.message, /Performance/);
+  assert.equal(model, null);
+  assert.deepEqual(await page.evaluate(() => JSON.parse(JSON.stringify(globalThis.heard))), [error], "told once");
+  const outcomes = await page.evaluate(async () => {
+    const told = (promise) => promise.then(() => "resolved", ({ message }) => message);
+    for (const name of ["play", "pause", "nextKey", "clearRange"]) bindpose[name]();
+    bindpose.seek(0.5);
+    bindpose.selectClip("Walk");
+    return {
+      open: await told(bindpose.open([{ name: "a.m3d", bytes: new Uint8Array(1) }])),
+      addClips: await told(bindpose.addClips([])),
+      snapshot: await told(bindpose.snapshot()),
+      ready: await told(bindpose.ready),
+    };
+  });
+  const { message } = error;
+  assert.deepEqual(outcomes, { open: message, addClips: message, snapshot: message, ready: "resolved" });
+  assert.ok(["a picture", message].includes(await page.evaluate(() => globalThis.pending)), "what was asked before ends too");
+  assert.deepEqual((await state(page)).error, error, "nothing was done to it meanwhile");
+});

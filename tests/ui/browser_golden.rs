@@ -47,7 +47,7 @@ fn a_native_device_draws_what_browsers_draw() {
         .with_size(WINDOW)
         .with_theme(Theme::Dark)
         .with_max_steps(12)
-        .with_context_setup(ui::theme::install)
+        .with_context_setup(ui::install)
         .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();

@@ -3,11 +3,12 @@
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
 use bindpose::session::{Command, File, SPEEDS, SubsetCommand};
-use bindpose::ui::Request;
-use egui::{Key, Modifiers};
+use bindpose::ui::{Request, escape_shuts};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
 
 use crate::models::moving;
 use crate::page::{WIDE, Window, window};
+use crate::skeleton::{selected, tree};
 
 const PLAIN: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
@@ -355,4 +356,304 @@ fn a_focused_control_keeps_space_for_itself() {
         }
     }
     panic!("Tab never reached the turntable");
+}
+
+fn clicks(at: Pos2, count: usize) -> Vec<Event> {
+    let button = |pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: PLAIN,
+    };
+    let mut events = vec![Event::PointerMoved(at)];
+    events.extend((0..count).flat_map(|_| [button(true), button(false)]));
+    events
+}
+
+/// A key as a browser tells of it.
+fn pressed(key: Key, text: Option<&str>) -> Vec<Event> {
+    let event = |pressed| Event::Key {
+        key,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: PLAIN,
+    };
+    let text = text.map(|text| Event::Text(text.to_owned()));
+    text.into_iter().chain([event(true), event(false)]).collect()
+}
+
+/// Words that are also keys: a picture, the range, normals, playing.
+fn typed_name() -> Vec<Event> {
+    let letters = [
+        (Key::S, "S"),
+        (Key::P, "p"),
+        (Key::I, "i"),
+        (Key::N, "n"),
+        (Key::Space, " "),
+        (Key::B, "B"),
+    ];
+    let letters = letters.into_iter().flat_map(|(key, text)| pressed(key, Some(text)));
+    letters.chain(pressed(Key::Enter, None)).collect()
+}
+
+/// What keys that are taken for shortcuts would change.
+fn shortcuts(window: &Window) -> (bool, Option<[f32; 2]>, bool, bool, usize) {
+    let session = window.session();
+    (
+        session.is_animating(),
+        session.playback().range_secs(),
+        session.look().overlays.has(Overlay::Normals),
+        session.joints().bones_visible(),
+        window.harness.state().requests.len(),
+    )
+}
+
+#[test]
+fn a_name_is_the_same_however_its_letters_fall_into_frames() {
+    let lay_out = || {
+        let mut window = window(WIDE, vec![moving("a.m3d")]);
+        window.click("Panel: Skeleton");
+        window.apply(Command::Seek { time_secs: 0.5 });
+        window
+    };
+    let at = lay_out().rect("Bone 1, ").center();
+    let events: Vec<Event> = clicks(at, 2).into_iter().chain(typed_name()).collect();
+    let mut ways: Vec<Vec<usize>> = (1..=events.len())
+        .map(|length| vec![length; events.len() / length + 1])
+        .collect();
+    ways.extend((1..events.len()).map(|first| vec![first, events.len() - first]));
+    for way in ways {
+        let mut window = lay_out();
+        let before = shortcuts(&window);
+        let mut rest = &events[..];
+        for &length in &way {
+            let (now, later) = rest.split_at(length.min(rest.len()));
+            window.frame(now.iter().cloned());
+            rest = later;
+        }
+        window.pass_on();
+        assert_eq!(window.session().joint_names().get(1), Some("Spin B"), "{way:?}");
+        assert_eq!(shortcuts(&window), before, "{way:?}");
+    }
+}
+
+#[test]
+fn a_name_that_is_typed_at_one_frame_a_second_is_kept_while_the_model_plays() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("Panel: Skeleton");
+    window.apply(Command::Play);
+    let at = window.rect("Bone 1, ").center();
+    let mut time_secs = 100.0;
+    for events in [clicks(at, 2), typed_name(), pressed(Key::Escape, None)] {
+        time_secs += 1.0;
+        window.harness.input_mut().time = Some(time_secs);
+        window.frame(events);
+    }
+    window.pass_on();
+    assert_eq!(window.session().joint_names().get(1), Some("Spin B"));
+    assert!(window.session().is_animating(), "Space was typed");
+}
+
+#[test]
+fn a_key_after_enter_is_a_shortcut_again_in_the_same_frame() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("Panel: Skeleton");
+    let at = window.rect("Bone 1, ").center();
+    window.frame(
+        clicks(at, 2)
+            .into_iter()
+            .chain(typed_name())
+            .chain(pressed(Key::Z, Some("z"))),
+    );
+    window.pass_on();
+    assert_eq!(window.session().joint_names().get(1), Some("Spin B"));
+    assert!(window.session().look().overlays.has(Overlay::Wireframe));
+}
+
+#[test]
+fn a_number_is_the_same_however_its_digits_fall_into_frames() {
+    let at = open().rect("Frame 0 of 30").center();
+    let digits = [(Key::Num1, "1"), (Key::Num5, "5")];
+    let digits = digits.into_iter().flat_map(|(key, text)| pressed(key, Some(text)));
+    let events: Vec<Event> = clicks(at, 1)
+        .into_iter()
+        .chain(digits)
+        .chain(pressed(Key::Enter, None))
+        .collect();
+    for length in 1..=events.len() {
+        let mut window = open();
+        let before = *window.session().camera();
+        for events in events.chunks(length) {
+            window.frame(events.iter().cloned());
+        }
+        window.pass_on();
+        assert_frame(&window, 15.0);
+        assert_eq!(window.session().camera(), &before, "frames of {length} events");
+    }
+}
+
+#[test]
+fn a_letter_under_a_pressed_read_out_is_no_shortcut() {
+    let mut window = open();
+    let at = window.rect("Frame 0 of 30").center();
+    window.frame(clicks(at, 1).into_iter().take(2));
+    window.frame(pressed(Key::Z, Some("z")));
+    assert!(!window.session().look().overlays.has(Overlay::Wireframe));
+}
+
+#[test]
+fn f2_takes_the_letters_after_it_though_its_row_has_to_be_scrolled_to() {
+    let mut window = tree(WIDE, 300);
+    window.apply(bindpose::session::JointCommand::Select(Some(bindpose::model::JointIndex(250))).into());
+    window.wait(1.0);
+    window
+        .harness
+        .hover_at(window.rect("Search bones").center() + vec2(0.0, 100.0));
+    window.frame([Event::MouseWheel {
+        source: egui::MouseWheelSource::Wheel,
+        unit: MouseWheelUnit::Point,
+        delta: vec2(0.0, 1e5),
+        phase: TouchPhase::Move,
+        modifiers: PLAIN,
+    }]);
+    window.wait(1.0);
+    assert!(
+        window.shows("Bone 0, 9 vertices"),
+        "scrolled away from what is selected"
+    );
+    let before = shortcuts(&window);
+    window.frame(pressed(Key::F2, None).into_iter().chain(typed_name()));
+    window.wait(1.0);
+    assert_eq!(shortcuts(&window), before);
+    assert!(window.shows("Name of the bone"), "its field is there");
+}
+
+#[test]
+fn a_name_whose_row_is_scrolled_out_of_sight_is_taken() {
+    let mut window = tree(WIDE, 300);
+    let at = window.rect("Bone 1, ").center();
+    window.frame(clicks(at, 2));
+    window.pass_on();
+    window.frame([Event::Text("Spine".to_owned())]);
+    window.frame([Event::MouseWheel {
+        source: egui::MouseWheelSource::Wheel,
+        unit: MouseWheelUnit::Point,
+        delta: vec2(0.0, -1e5),
+        phase: TouchPhase::Move,
+        modifiers: PLAIN,
+    }]);
+    window.wait(1.0);
+    assert!(!window.shows("Name of the bone"), "the row is out of sight");
+    assert_eq!(window.session().joint_names().get(1), Some("Spine"));
+    window.press(PLAIN, Key::Z);
+    assert!(
+        window.session().look().overlays.has(Overlay::Wireframe),
+        "and keys are shortcuts again"
+    );
+}
+
+/// Presses Tab until a control has the keyboard.
+#[track_caller]
+fn tab_to(window: &mut Window, start: &str) {
+    for _ in 0..80 {
+        window.press(PLAIN, Key::Tab);
+        if window.focused().is_some_and(|name| name.starts_with(start)) {
+            return;
+        }
+    }
+    panic!("Tab never reached {start:?}");
+}
+
+#[test]
+fn what_hung_from_a_button_gives_it_the_keyboard_back() {
+    for (button, inside) in [("View mode", "Depth"), ("Lighting", "Exposure"), ("View from", "Top")] {
+        let mut window = open();
+        tab_to(&mut window, button);
+        window.press(PLAIN, Key::Enter);
+        assert!(
+            window.shows(inside) || !window.named(|name| name.starts_with(inside)).is_empty(),
+            "{button}"
+        );
+        for steps in [0, 1, 3] {
+            for _ in 0..steps {
+                window.press(PLAIN, Key::Tab);
+            }
+            window.press(PLAIN, Key::Escape);
+            let focused = window.focused();
+            assert!(
+                focused.as_deref().is_some_and(|name| name.starts_with(button)),
+                "{button}: {focused:?}"
+            );
+            window.press(PLAIN, Key::Enter);
+        }
+    }
+    let mut window = open();
+    tab_to(&mut window, "View mode");
+    window.press(PLAIN, Key::Enter);
+    tab_to(&mut window, "Depth");
+    window.press(PLAIN, Key::Enter);
+    assert_eq!(window.session().look().view_mode, ViewMode::Depth);
+    assert_eq!(
+        window.focused().as_deref(),
+        Some("View mode: Depth"),
+        "a choice gives it back too"
+    );
+}
+
+#[test]
+fn esc_that_shuts_something_leaves_the_keyboard_where_it_is() {
+    let mut window = open();
+    window.apply(SubsetCommand::Select(Some(0)).into());
+    tab_to(&mut window, "Turntable");
+    window.press(PLAIN, Key::Escape);
+    assert_eq!(window.session().subsets().selected(), None);
+    assert_eq!(window.focused().as_deref(), Some("Turntable"));
+    window.press(PLAIN, Key::Escape);
+    assert_eq!(window.focused(), None, "there was nothing to shut");
+}
+
+#[test]
+fn with_a_mouse_nothing_takes_the_keyboard() {
+    let mut window = open();
+    window.click("Lighting");
+    window.press(PLAIN, Key::Escape);
+    assert_eq!(window.focused(), None);
+    window.press(PLAIN, Key::Space);
+    assert!(window.session().is_animating(), "Space plays");
+}
+
+#[test]
+fn esc_is_known_to_shut_something_before_it_is_pressed() {
+    type Step = fn(&mut Window);
+    let mut window = tree(WIDE, 5);
+    let shuts = |window: &Window| escape_shuts(&window.harness.ctx, window.session(), &window.harness.state().state);
+    assert!(!shuts(&window));
+    let steps: [(&str, Step); 6] = [
+        ("help", |window| window.click("Keys (?)")),
+        ("a popover", |window| window.click("Lighting")),
+        ("a selection", |window| window.click("Bone 3, ")),
+        ("the findings", |window| {
+            window.click("Panel: Model");
+            window.click("Diagnostics");
+        }),
+        ("an error", |window| {
+            window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
+        }),
+        ("a field", |window| window.click("Search bones")),
+    ];
+    for (what, open) in steps {
+        if what == "a field" {
+            window.click("Panel: Skeleton");
+        }
+        open(&mut window);
+        assert!(shuts(&window), "{what}");
+        for _ in 0..3 {
+            if shuts(&window) {
+                window.press(PLAIN, Key::Escape);
+            }
+        }
+        assert!(!shuts(&window), "{what} is shut");
+    }
+    assert_eq!(selected(&window), None);
 }

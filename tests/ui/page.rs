@@ -24,7 +24,8 @@ pub(crate) struct Page {
 impl Page {
     /// One pass, in the order of the app: time, interface, commands.
     fn pass(&mut self, ui: &mut egui::Ui) {
-        if self.was_moving {
+        // All passes of a frame are at one time.
+        if self.was_moving && ui.ctx().current_pass_index() == 0 {
             self.session.advance(STEP_SECS);
         }
         for command in ui::show(ui, &mut self.session, &mut self.state) {
@@ -74,7 +75,7 @@ impl Window {
             .with_size(size)
             .with_step_dt(STEP_SECS)
             .with_max_steps(12)
-            .with_context_setup(ui::theme::install)
+            .with_context_setup(ui::install)
             .build_ui_state(|ui, page: &mut Page| page.pass(&mut whole_window(ui)), page);
         harness.run();
         Self { harness }
@@ -92,6 +93,12 @@ impl Window {
     pub(crate) fn apply(&mut self, command: Command) {
         self.harness.state_mut().session.apply(command);
         self.pass_on();
+    }
+
+    /// One frame in which all of these events fall.
+    pub(crate) fn frame(&mut self, events: impl IntoIterator<Item = egui::Event>) {
+        self.harness.input_mut().events.extend(events);
+        self.harness.step();
     }
 
     /// Works off what was queued, and some passes more.

@@ -61,7 +61,7 @@ fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>
         .with_theme(theme)
         .with_max_steps(12)
         .with_render_cursor(false)
-        .with_context_setup(ui::theme::install)
+        .with_context_setup(ui::install)
         .renderer(WgpuTestRenderer::from_render_state(gpu))
         .build_ui(move |ui| {
             let app = app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), coarse_pointer));

@@ -253,3 +253,102 @@ fn two_fingers_that_part_come_nearer() {
         assert_eq!(after.yaw_radians, before.yaw_radians);
     }
 }
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    }
+}
+
+/// A drag with a mouse from place to place, with all that a browser tells of it.
+fn mouse_drag(from: Pos2, to: Pos2) -> Vec<Event> {
+    let way = |step: u8| Event::PointerMoved(from.lerp(to, f32::from(step) / 4.0));
+    let mut events = vec![way(0), button(from, true)];
+    events.extend((1..=4).map(way));
+    events.push(button(to, false));
+    events
+}
+
+/// The same with a finger.
+fn finger_drag(from: Pos2, to: Pos2) -> Vec<Event> {
+    let touch = |pos, phase| Event::Touch {
+        device_id: TouchDeviceId(0),
+        id: TouchId(1),
+        phase,
+        pos,
+        force: None,
+    };
+    let mut events = vec![button(from, true), touch(from, TouchPhase::Start)];
+    for step in 1..=4_u8 {
+        let pos = from.lerp(to, f32::from(step) / 4.0);
+        events.extend([Event::PointerMoved(pos), touch(pos, TouchPhase::Move)]);
+    }
+    events.extend([button(to, false), Event::PointerGone, touch(to, TouchPhase::End)]);
+    events
+}
+
+/// Lets events fall into frames of `length` each.
+fn in_frames(window: &mut Window, events: &[Event], length: usize) {
+    for events in events.chunks(length) {
+        window.frame(events.iter().cloned());
+    }
+    window.pass_on();
+}
+
+#[test]
+fn a_scrub_that_falls_into_one_frame_moves_the_time_and_not_the_end_that_it_comes_to() {
+    for length in 1..=7 {
+        let mut window = window(WIDE, vec![moving("a.m3d")]);
+        let from = window.rect("Time in seconds").center();
+        let to = window.rect("Range out").center();
+        in_frames(&mut window, &mouse_drag(from, to), length);
+        assert_eq!(
+            window.session().playback().range_secs(),
+            None,
+            "frames of {length} events"
+        );
+        assert_eq!(window.time_secs(), 1.0, "frames of {length} events");
+        assert!(!window.session().is_scrubbing(), "frames of {length} events");
+    }
+    for length in 1..=13 {
+        let mut window = phone(vec![moving("a.m3d")]);
+        let from = window.rect("Time in seconds").center();
+        let to = window.rect("Range out").center();
+        in_frames(&mut window, &finger_drag(from, to), length);
+        assert_eq!(
+            window.session().playback().range_secs(),
+            None,
+            "frames of {length} events"
+        );
+        assert!((window.time_secs() - 1.0).abs() < 1e-3, "frames of {length} events");
+    }
+}
+
+#[test]
+fn a_drag_that_begins_on_a_panel_never_turns_the_camera() {
+    for length in 1..=13 {
+        let mut window = phone(vec![moving("a.m3d")]);
+        let before = *window.session().camera();
+        let from = window.rect("Model facts").center();
+        in_frames(&mut window, &finger_drag(from, from - vec2(0.0, 200.0)), length);
+        window.wait(0.5);
+        assert_eq!(window.session().camera(), &before, "frames of {length} events");
+    }
+}
+
+#[test]
+fn a_drag_is_the_same_in_one_frame_as_in_many() {
+    let turned = |length: usize| {
+        let mut window = window(WIDE, vec![moving("a.m3d")]);
+        in_frames(&mut window, &mouse_drag(START, START + vec2(120.0, 30.0)), length);
+        window.wait(1.0);
+        window.session().camera().yaw_radians
+    };
+    let before = window(WIDE, vec![moving("a.m3d")]).session().camera().yaw_radians;
+    for length in 1..=7 {
+        assert!((turned(length) - before).abs() > 0.2, "frames of {length} events");
+    }
+}

@@ -61,7 +61,7 @@ fn show_joint(
 ) {
     let joint = readout.joint;
     if section_with_action(ui, "Bone", Some("Rename")) {
-        state.rename_selected(session);
+        state.rename_selected(ui, session);
     }
     value_row(ui, "Number in the file", &readout.bone.to_string());
     let counts = session.joints().vertex_counts();

@@ -108,12 +108,22 @@ impl SkeletonState {
         self.naming.of.is_some()
     }
 
+    /// Whether a field for a name is on its way: its row may have to be scrolled to.
+    pub(super) fn awaits_field(&self) -> bool {
+        self.naming.awaits_field()
+    }
+
+    /// Ends the naming of a joint whose row was not shown in this pass.
+    pub(super) fn settle_naming(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
+        self.naming.settle(ui, commands);
+    }
+
     /// Lets the selected joint be named in its row.
-    pub(super) fn rename_selected(&mut self, session: &Session) {
+    pub(super) fn rename_selected(&mut self, ui: &Ui, session: &Session) {
         if let Some(joint) = session.joints().selected() {
             self.page = SidePage::Skeleton;
             self.tree.reveal(joint);
-            self.naming.begin(session, joint);
+            self.naming.begin(ui, session, joint);
         }
     }
 }

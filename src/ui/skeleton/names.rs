@@ -1,6 +1,6 @@
 //! Naming joints: a field in the row, and names proposed for the other side.
 
-use egui::{Align2, FontId, Id, Key, Modifiers, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, JointCommand, Session};
@@ -8,12 +8,17 @@ use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
 
+/// A row that is scrolled to is there sooner, if it is to be seen at all.
+const LONGEST_WAIT_SECS: f64 = 1.0;
+/// However slow the passes are.
+const LONGEST_WAIT_PASSES: u32 = 10;
+
 /// What is being named.
 #[derive(Debug, Default)]
 pub(super) struct Naming {
     pub(super) of: Option<JointIndex>,
     text: String,
-    begins: bool,
+    stage: Stage,
     /// The list of proposed names stands in place of the tree.
     pub(super) proposing: bool,
     proposed: Proposed,
@@ -45,39 +50,91 @@ impl Proposed {
     }
 }
 
+/// Where the naming of a joint has got to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Stage {
+    /// Its field has the keyboard; whether it was shown in this pass.
+    Typing { shown: bool },
+    /// Its field was not shown yet, since this time in seconds and for so many passes.
+    Begins { at_secs: f64, passes: u32 },
+    #[default]
+    Idle,
+}
+
 impl Naming {
     /// Lets a joint be named.
-    pub(super) fn begin(&mut self, session: &Session, joint: JointIndex) {
+    pub(super) fn begin(&mut self, ui: &Ui, session: &Session, joint: JointIndex) {
         *self = Self {
             of: Some(joint),
             text: session.joint_name(joint).unwrap_or_default().to_owned(),
-            begins: true,
+            stage: Stage::Begins {
+                at_secs: ui.input(|input| input.time),
+                passes: 0,
+            },
             ..Self::default()
         };
+        // At once, so that no letter is too early for it.
+        ui.memory_mut(|memory| memory.request_focus(field_id()));
     }
+
+    /// Whether its field was not shown yet.
+    pub(super) fn awaits_field(&self) -> bool {
+        matches!(self.stage, Stage::Begins { .. })
+    }
+
+    /// At the end of a pass: without its row a name is taken, and one that could not be typed yet is given up.
+    pub(super) fn settle(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
+        match &mut self.stage {
+            Stage::Typing { shown: shown @ true } => *shown = false,
+            Stage::Typing { shown: false } => self.take_name(commands),
+            Stage::Begins { at_secs, passes } => {
+                *passes += 1;
+                if *passes > LONGEST_WAIT_PASSES && ui.input(|input| input.time) - *at_secs > LONGEST_WAIT_SECS {
+                    *self = Self::default();
+                }
+            }
+            Stage::Idle => {}
+        }
+    }
+
+    fn take_name(&mut self, commands: &mut Vec<Command>) {
+        let naming = std::mem::take(self);
+        if let Some(joint) = naming.of {
+            commands.push(
+                JointCommand::Rename {
+                    joint,
+                    name: naming.text,
+                }
+                .into(),
+            );
+        }
+    }
+}
+
+fn field_id() -> Id {
+    Id::unique("joint name")
 }
 
 /// The field in place of a joint's name. Enter and a click elsewhere take the name, Esc leaves it.
 pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands: &mut Vec<Command>) {
-    let Some(joint) = naming.of else { return };
     let field = TextEdit::singleline(&mut naming.text)
-        .id(Id::unique("joint name"))
+        .id(field_id())
         .char_limit(64)
         .hint_text("Name")
         .margin(vec2(4.0, 2.0))
         .align(egui::Align2::LEFT_CENTER);
     let response = ui.put(place.shrink2(vec2(0.0, 1.0)), field);
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Name of the bone"));
-    if naming.begins {
-        naming.begins = false;
+    let begins = naming.awaits_field();
+    naming.stage = Stage::Typing { shown: true };
+    if begins {
         response.request_focus();
     } else if !response.has_focus() {
-        let left = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-        if !left {
-            let name = std::mem::take(&mut naming.text);
-            commands.push(JointCommand::Rename { joint, name }.into());
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            *naming = Naming::default();
+        } else {
+            naming.take_name(commands);
         }
-        *naming = Naming::default();
     }
 }
 

@@ -102,7 +102,7 @@ impl<'a> TreeRow<'a> {
 
         // A double click soon after another click counts as a triple one, wherever that was.
         if response.double_clicked() || response.triple_clicked() {
-            state.naming.begin(session, joint);
+            state.naming.begin(ui, session, joint);
         } else if response.clicked() && !folds {
             commands.push(JointCommand::Select(Some(joint)).into());
             // It is in view where it was clicked.

@@ -93,9 +93,14 @@ impl TimelineState {
         self.hovered
     }
 
-    /// Lets go of the keys that were chosen. Whether there were any.
-    pub(in crate::ui) fn let_go_of_keys(&mut self) -> bool {
-        self.key_box.take().is_some()
+    /// Whether keys were chosen with a box.
+    pub(in crate::ui) fn has_chosen_keys(&self) -> bool {
+        self.key_box.is_some()
+    }
+
+    /// Lets go of the keys that were chosen.
+    pub(in crate::ui) fn let_go_of_keys(&mut self) {
+        self.key_box = None;
     }
 
     /// Height of the sheet in a wide window, while it is open.

@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 
 use egui::{DragValue, TextStyle, Ui, Vec2};
 
+use super::super::keyboard::press_field;
+
 /// A field for a number, dragged by `speed` a point, with `decimals` always shown so that it stands still. The new value,
 /// when there is one.
 pub(crate) fn number_field(
@@ -28,6 +30,9 @@ pub(crate) fn number_field(
             ui.add_sized(size, field)
         })
         .inner;
+    if response.is_pointer_button_down_on() {
+        press_field(ui);
+    }
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::drag_value(true, f64::from(value));
         info.label = Some(label.to_owned());

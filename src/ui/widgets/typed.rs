@@ -6,6 +6,7 @@ use egui::{
     StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, vec2,
 };
 
+use super::super::keyboard::press_field;
 use super::super::theme::{self, CONTROL_RADIUS, Tokens};
 use super::{MOUSE_CONTROL, control_size, focus_ring};
 
@@ -62,6 +63,9 @@ impl<'a> TypedValue<'a> {
     pub(crate) fn show(self, ui: &mut Ui) -> (Option<String>, Response) {
         let (rect, response) = ui.allocate_exact_size(vec2(self.width, control_size(ui)), Sense::click());
         let id = Id::unique(("typed", self.name));
+        if response.is_pointer_button_down_on() {
+            press_field(ui);
+        }
         if response.clicked() {
             ui.data_mut(|data| data.insert_temp(id, self.typed.to_owned()));
         }

@@ -1,0 +1,188 @@
+//! The order of input within a frame. egui finds out once a pass which widget lies under the pointer and which one has the
+//! keyboard, so a press and what follows it must not fall into one pass, nor Tab and the letters after it. A slow frame brings many
+//! events at once: they are dealt with in as many passes as they need, all in the same frame.
+
+use std::collections::VecDeque;
+use std::num::NonZeroUsize;
+
+use egui::{Context, Event, Key, RawInput};
+
+/// Passes of one frame: what is left waits for the next one.
+pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
+
+/// Keeps back what depends on the input before it, one pass after the other.
+#[derive(Debug, Default)]
+pub(super) struct InputOrder {
+    waiting: VecDeque<Event>,
+}
+
+impl egui::Plugin for InputOrder {
+    fn debug_name(&self) -> &'static str {
+        "input order"
+    }
+
+    fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
+        self.waiting.extend(input.events.drain(..));
+        let count = first_pass(&self.waiting);
+        input.events.extend(self.waiting.drain(..count));
+        if !self.waiting.is_empty() {
+            ctx.request_discard("there is input that depends on this pass");
+            // For what is left when the frame has had its passes.
+            ctx.request_repaint();
+        }
+    }
+}
+
+/// What an event does to the events after it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// Moves the pointer.
+    Move,
+    /// Takes hold of what is under the pointer.
+    Press,
+    /// Lets it go.
+    Release,
+    /// There is no pointer any more: a finger was lifted, a mouse left the window.
+    Gone,
+    /// Goes to the widget that has the keyboard.
+    Typed,
+    /// May give the keyboard to another widget, or shut what has it.
+    MovesFocus,
+    /// None of these: it goes along with what is before it.
+    Other,
+}
+
+impl Kind {
+    fn of(event: &Event) -> Self {
+        match event {
+            Event::PointerMoved(_) => Self::Move,
+            Event::PointerButton { pressed: true, .. } => Self::Press,
+            Event::PointerButton { pressed: false, .. } => Self::Release,
+            Event::PointerGone => Self::Gone,
+            Event::Key {
+                key: Key::Tab | Key::Enter | Key::Escape | Key::F2,
+                pressed: true,
+                ..
+            } => Self::MovesFocus,
+            Event::Key { pressed: true, .. } | Event::Text(_) | Event::Ime(_) | Event::Paste(_) => Self::Typed,
+            Event::Copy | Event::Cut => Self::Typed,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// How many of these events one pass can deal with.
+fn first_pass(events: &VecDeque<Event>) -> usize {
+    let (mut moved, mut typed) = (false, false);
+    let mut end = None;
+    let waits = |event: &Event| {
+        let kind = Kind::of(event);
+        let waits = match kind {
+            Kind::Other => false,
+            Kind::Move | Kind::Typed => end.is_some(),
+            Kind::Press | Kind::MovesFocus => end.is_some() || typed,
+            // What was dragged on the way is dragged before it is let go.
+            Kind::Release => end.is_some() || typed || moved,
+            // The pass that lets go is the last one with a pointer.
+            Kind::Gone => end.is_some_and(|end| end != Kind::Release),
+        };
+        moved |= kind == Kind::Move;
+        typed |= kind == Kind::Typed;
+        if matches!(kind, Kind::Press | Kind::Release | Kind::MovesFocus) {
+            end = Some(kind);
+        }
+        waits
+    };
+    events.iter().position(waits).unwrap_or(events.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Modifiers, PointerButton, Pos2};
+
+    use super::*;
+
+    fn moved() -> Event {
+        Event::PointerMoved(Pos2::ZERO)
+    }
+
+    fn button(pressed: bool) -> Event {
+        Event::PointerButton {
+            pos: Pos2::ZERO,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        }
+    }
+
+    fn key(key: Key, pressed: bool) -> Event {
+        Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        }
+    }
+
+    fn text() -> Event {
+        Event::Text("a".to_owned())
+    }
+
+    /// How many events each pass deals with.
+    fn passes(events: Vec<Event>) -> Vec<usize> {
+        let mut waiting = VecDeque::from(events);
+        let mut counts = Vec::new();
+        while !waiting.is_empty() {
+            counts.push(first_pass(&waiting));
+            waiting.drain(..counts[counts.len() - 1]);
+        }
+        counts
+    }
+
+    #[test]
+    fn what_follows_a_press_waits_for_what_it_took_hold_of() {
+        assert_eq!(passes(vec![moved(), button(true), moved(), moved()]), [2, 2]);
+        assert_eq!(passes(vec![moved(), button(true), moved(), button(false)]), [2, 1, 1]);
+        assert_eq!(passes(vec![button(true), button(false), text()]), [1, 1, 1]);
+        let gone = Event::PointerGone;
+        assert_eq!(
+            passes(vec![button(true), button(false), gone]),
+            [1, 2],
+            "a finger is gone with its release"
+        );
+        assert_eq!(
+            passes(vec![button(true), Event::PointerGone]),
+            [1, 1],
+            "a mouse that left still holds"
+        );
+    }
+
+    #[test]
+    fn words_are_typed_in_one_pass_and_what_ends_them_has_its_own() {
+        let (enter, enter_up) = (key(Key::Enter, true), key(Key::Enter, false));
+        let typed = vec![
+            text(),
+            key(Key::A, true),
+            key(Key::A, false),
+            text(),
+            enter,
+            enter_up,
+            text(),
+        ];
+        assert_eq!(passes(typed), [4, 2, 1]);
+        assert_eq!(passes(vec![key(Key::Tab, true), key(Key::Tab, true)]), [1, 1]);
+        assert_eq!(
+            passes(vec![text(), button(true)]),
+            [1, 1],
+            "what was typed went to the field before"
+        );
+    }
+
+    #[test]
+    fn most_frames_have_one_pass() {
+        assert_eq!(passes(vec![moved(), moved(), moved()]), [3]);
+        let arrows = (0..9).map(|_| key(Key::ArrowRight, true)).collect();
+        assert_eq!(passes(arrows), [9]);
+    }
+}
