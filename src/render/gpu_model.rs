@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 use std::ops::Range;
 
 use super::bones::BoneTexture;
+use super::drawn::Drawn;
 use super::edges::Edges;
 use super::layouts::Layouts;
 use super::map_textures::MapTextures;
@@ -39,7 +40,6 @@ pub(super) struct GpuModel {
     geometry: wgpu::Buffer,
     influences: Option<wgpu::Buffer>,
     indices: wgpu::Buffer,
-    index_count: u32,
     materials: GpuMaterials,
     ranges: Vec<DrawRange>,
     /// The indices again, for edges.
@@ -94,7 +94,6 @@ impl GpuModel {
                 mesh.indices.len(),
                 mesh.indices.iter().copied(),
             )?,
-            index_count: mesh.indices.len() as u32,
             materials,
             ranges: draw_ranges(mesh, model.materials.len()),
             triangles: mesh.indices.clone(),
@@ -154,29 +153,41 @@ impl GpuModel {
         cut: Cut,
         draw: impl Fn(Cut) -> ModelDraw,
     ) {
+        let mut drawn = Drawn::default();
         for (is_cut, cut) in [(false, Cut::Whole), (true, cut)] {
-            let ranges = self
+            let mut ranges = self
                 .in_view(posed.hidden)
-                .filter(|range| self.materials.is_cut(range.material) == is_cut);
-            for (index, range) in ranges.enumerate() {
-                if index == 0 {
-                    self.bind(pass, posed, draw(cut));
+                .filter(|range| self.materials.is_cut(range.material) == is_cut)
+                .peekable();
+            if ranges.peek().is_some() {
+                self.bind(pass, posed, draw(cut));
+            }
+            for range in ranges {
+                // Through the holes of a cut triangle another cut one may be seen.
+                let parts = if is_cut {
+                    drawn.missing(&range.indices)
+                } else {
+                    drawn.add(&range.indices)
+                };
+                if !parts.is_empty() {
+                    self.materials.bind(pass, range.material);
                 }
-                self.materials.bind(pass, range.material);
-                pass.draw_indexed(range.indices.clone(), 0, 0..1);
+                for part in parts {
+                    pass.draw_indexed(part, 0, 0..1);
+                }
             }
         }
     }
 
-    /// All triangles in view without their materials, in one draw where they are all that the mesh has. Group 0 is set.
+    /// All triangles in view without their materials, in as few draws as can be. Group 0 is set.
     pub(super) fn draw_shape(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
         self.bind(pass, posed, draw);
-        if self.shows_all(posed.hidden) {
-            pass.draw_indexed(0..self.index_count, 0, 0..1);
-        } else {
-            for range in self.in_view(posed.hidden) {
-                pass.draw_indexed(range.indices.clone(), 0, 0..1);
-            }
+        let mut shape = Drawn::default();
+        for range in self.in_view(posed.hidden) {
+            shape.add(&range.indices);
+        }
+        for range in shape.ranges() {
+            pass.draw_indexed(range, 0, 0..1);
         }
     }
 
@@ -237,11 +248,6 @@ impl GpuModel {
         self.ranges
             .iter()
             .filter(move |range| !is_hidden(hidden, range.submesh))
-    }
-
-    fn shows_all(&self, hidden: &[bool]) -> bool {
-        let shown: u64 = self.in_view(hidden).map(|range| range.indices.len() as u64).sum();
-        shown == u64::from(self.index_count)
     }
 
     fn bind(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {

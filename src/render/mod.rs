@@ -13,6 +13,7 @@ mod bones;
 mod composite;
 mod contact;
 pub mod device;
+mod drawn;
 mod edges;
 mod environment;
 mod frame_uniform;
