@@ -99,7 +99,7 @@ fn count_row(ui: &mut Ui, checklist: &Checklist) {
 
 /// One map: its thumbnail and name, below them what it holds; its users under the pointer.
 fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, thumbnails: &mut Thumbnails) {
-    let users = words_for(open, &map.users).join("\n");
+    let users = words_for(open, map.users).join("\n");
     let details = format!("{}\n{}\n{users}", map.file.path, holds(map.image));
     let thumbnail = thumbnails.of(ui.ctx(), session, map);
     picture_row(ui, thumbnail, map.file.base_name(), map.image, &details);
@@ -107,7 +107,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, 
 
 /// A map whose file is there and damaged; what is wrong with it and its users under the pointer.
 fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) {
-    let users = words_for(open, &map.users).join("\n");
+    let users = words_for(open, map.users).join("\n");
     let words = "could not be read";
     let details = format!("{} {words}\n{}\n{users}", map.file.path, map.finding.message);
     let color = Tokens::of(ui).warning;
