@@ -17,11 +17,8 @@ fn faulty() -> Document {
     let mut document = models::skinned(&models::CLIPS);
     document.materials.push(document.materials[0].clone());
     let faces = document.triangles.len() as u32;
-    let whole = document.subsets[0].clone();
-    let first = Subset {
-        face_count: 5,
-        ..whole.clone()
-    };
+    let whole = document.subsets[0];
+    let first = Subset { face_count: 5, ..whole };
     let second = Subset {
         id: 1,
         face_start: 6,

@@ -312,7 +312,7 @@ fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
 /// A model of these many subsets, each with a map that is missing.
 fn without_maps(count: u32) -> File {
     let mut document = models::skinned(&models::CLIPS);
-    let (painted, whole) = (document.materials[0].clone(), document.subsets[0].clone());
+    let (painted, whole) = (document.materials[0].clone(), document.subsets[0]);
     let of_each = document.triangles.len() as u32 / count;
     document.materials = (0..count)
         .map(|number| Material {
@@ -326,7 +326,7 @@ fn without_maps(count: u32) -> File {
             id,
             face_start: id * of_each,
             face_count: of_each,
-            ..whole.clone()
+            ..whole
         })
         .collect();
     models::file("a.m3d", &document)

@@ -82,7 +82,7 @@ fn what_is_no_text_is_shown_byte_by_byte() {
     assert_eq!(excerpt(b"\0", at(1, 1), 7).lines, [(0, "00  .".to_owned())]);
     // A NUL far behind the beginning of a text is a slip of that line.
     let mut text = b"1 2\n".repeat(300);
-    text.extend(b"3\04\n");
+    text.extend(b"3\x004\n");
     assert_eq!(
         excerpt(&text, at(301, 1), 1).lines.last(),
         Some(&(301, "3\u{FFFD}4".to_owned()))
