@@ -14,7 +14,7 @@ const HEIGHT: f32 = 2.0;
 const EDGE: Vec3 = Vec3::new(0.5, 0.0, 0.2);
 /// The book's first light falls aslant: of a width on the floor across that edge, this much is width across the light. It is the
 /// light's y over the length of z as the light sees it, (1/√3) / √(2/3).
-const ACROSS: f32 = 0.707_1;
+const ACROSS: f32 = std::f32::consts::FRAC_1_SQRT_2;
 /// What the picture shows of the floor, as long as a scene is not scaled.
 const VIEW_HEIGHT: f32 = 0.12 * HEIGHT;
 
