@@ -191,16 +191,6 @@ impl Stage {
         }
     }
 
-    /// Takes nothing of what is on the GPU for what the session has.
-    fn forget(&mut self) {
-        self.model = None;
-        self.maps = None;
-        self.materials = None;
-        self.sky = None;
-        self.drawn = None;
-        self.was_moving = false;
-    }
-
     /// Draws when the picture would be another one than the last; whether it did.
     fn draw(&mut self, session: &mut Session, size: [u32; 2]) -> bool {
         self.take_up(session);

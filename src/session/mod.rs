@@ -148,7 +148,7 @@ impl Session {
     /// What was mended or is worth knowing about the model on screen, its maps and the sky.
     pub fn notices(&self) -> impl Iterator<Item = &crate::diagnostic::Diagnostic> {
         let of_file = self.open.iter().flat_map(|open| &open.notices);
-        let of_joined = self.open.iter().flat_map(OpenModel::joined_notices);
+        let of_joined = self.open.iter().flat_map(|open| open.joined_notices());
         of_file
             .chain(of_joined)
             .chain(self.maps.notices())

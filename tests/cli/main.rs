@@ -7,7 +7,7 @@ mod pipe;
 mod pose;
 mod program;
 mod render;
-#[path = "../shared.rs"]
+#[path = "../common/shared.rs"]
 mod shared;
 #[path = "../core/textbook.rs"]
 mod textbook;

@@ -12,6 +12,6 @@ mod sample;
 mod scene;
 mod session;
 mod shaders;
-#[path = "../shared.rs"]
+#[path = "../common/shared.rs"]
 mod shared;
 mod textbook;

@@ -1,5 +1,7 @@
 //! The studio's light in the picture, against its twin.
 
+use std::sync::Arc;
+
 use bindpose::image::Image;
 use bindpose::light::book::shininess;
 use bindpose::light::studio::{StudioLights, StudioSurface, Surroundings};
@@ -80,7 +82,7 @@ on_both_backends! {
     /// Bytes where alpha would be are no gloss when the file says that there is no alpha.
     fn only_alpha_of_the_file_is_gloss(gpu) {
         let metal = Reflectance::Fresnel { fresnel0: [0.9, 0.7, 0.4], roughness: 0.2 };
-        let draw = |scene: &Scene, image: &Image| gpu.draw_with_maps(scene, &flat(image), WIDTH, HEIGHT);
+        let draw = |scene: &Scene, image: &Arc<Image>| gpu.draw_with_maps(scene, &flat(image), WIDTH, HEIGHT);
         // Blue, green, red and nothing: three levels of a side of 4.
         let texels = |alpha: u8| [255, 128, 128, alpha].repeat(16 + 4 + 1);
         // Alpha at both ends of its ramp; colour at both ends of its own, the flat normal in 5, 6 and 5 bits.

@@ -27,6 +27,8 @@ mod popovers;
 mod refused;
 mod rigs;
 mod saving;
+#[path = "../common/shared.rs"]
+mod shared;
 mod skeleton;
 mod split;
 mod subsets;

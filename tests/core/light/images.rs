@@ -1,7 +1,5 @@
 //! Environments from cube maps.
 
-use std::path::Path;
-
 use bindpose::image::{Image, decode};
 use bindpose::light::{Environment, Prefiltered};
 use glam::Vec3;
