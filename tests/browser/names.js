@@ -72,7 +72,7 @@ test("a browser that keeps nothing does not stand in the way", {
   assert.ok(difference(unnamed, await tree(page)) > 0, "the name is in the tree all the same");
 });
 
-test("a name that is typed in one slow frame is kept, and none of its letters is a shortcut", {}, async (page) => {
+test("a name that is typed in one slow frame is kept, and none of its letters is a shortcut", { own: true }, async (page) => {
   // The model plays meanwhile, and the page draws once in a second.
   await page.evaluate(() => {
     const soon = requestAnimationFrame.bind(globalThis);

@@ -218,7 +218,7 @@ test("a panic shows what happened and a way on", {
   await until(page, ({ model }) => model !== null);
 });
 
-test("after a panic programs hear of it, and calls end", { expectErrors: true }, async (page) => {
+test("after a panic programs hear of it, and calls end", { own: true, expectErrors: true }, async (page) => {
   await page.evaluate(() => {
     globalThis.heard = [];
     bindpose.addEventListener("error", ({ detail }) => globalThis.heard.push(detail));
