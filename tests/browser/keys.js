@@ -84,8 +84,9 @@ test("the keys for bones and skin", SMALL, async (page) => {
   await presses(page, [
     ["b", "bones", ({ skeleton }) => skeleton.bonesVisible],
     ["b", "no bones", ({ skeleton }) => !skeleton.bonesVisible],
-    ["Shift+B", "names", ({ skeleton }) => skeleton.labelsVisible],
-    ["Shift+B", "no names", ({ skeleton }) => !skeleton.labelsVisible],
+    ["Shift+B", "bones with names", ({ skeleton }) => skeleton.bonesVisible && skeleton.labelsVisible],
+    ["Shift+B", "no names", ({ skeleton }) => skeleton.bonesVisible && !skeleton.labelsVisible],
+    ["b", "no bones again", ({ skeleton }) => !skeleton.bonesVisible],
     ["w", "weights", ({ skeleton }) => skeleton.skinView === "weight"],
     ["w", "the skin as it is", ({ skeleton }) => skeleton.skinView === null],
     ["k", "bind pose", ({ skeleton }) => skeleton.bindShare === 1],

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { CENTRE, LARGE, PAGE, call, keep, settled, state, test, until } from "./harness.js";
+import { BACKEND, CENTRE, LARGE, PAGE, call, keep, settled, state, test, until } from "./harness.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
 
 test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true }, async (page) => {
@@ -174,6 +174,7 @@ test("a browser that is too old is told which are not", {
 });
 
 test("a browser without graphics is told which other way there is", {
+  query: `?backend=${BACKEND}`,
   bare: true,
   expectErrors: true,
   prepare: (page) =>

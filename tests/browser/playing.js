@@ -226,18 +226,6 @@ test("all that moves the time is there for screen readers, and stays in step", {
   assert.equal((await state(page)).loop, "once", "a name that is none changes nothing");
 });
 
-test("Escape, then Tab leaves the viewer; Tab alone stays in it", {}, async (page) => {
-  await focusView(page);
-  const inside = () => page.evaluate(() => document.getElementById("view").contains(document.activeElement));
-  assert.equal(await inside(), true);
-  await page.keyboard.press("Tab");
-  assert.equal(await inside(), true);
-  await page.keyboard.press("Escape");
-  for (let press = 0; press < 3 && (await inside()); press += 1) await page.keyboard.press("Tab");
-  assert.equal(await inside(), false);
-  assert.match(await page.evaluate(() => document.activeElement.id), /^transport-/);
-});
-
 test("a clip is blended into another with the mouse, more and less, and no longer", { reducedMotion: "reduce" }, async (page) => {
   const { model } = await state(page);
   const alone = await picture(page);

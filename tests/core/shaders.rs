@@ -176,6 +176,8 @@ fn twins() -> BTreeMap<String, Layout> {
             contact_strength,
             occlusion_radius,
             book_unit,
+            shadow_radius_texels,
+            ground_shadow_radius_texels,
         }),
         twin!(Material {
             albedo,
