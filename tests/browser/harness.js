@@ -66,24 +66,33 @@ const PASSES = ["shadow", "reflections", "contact", "ao"];
 /** And still more where the view has a twenty-fifth of its pixels. */
 const COARSE = 0.2;
 
-/** What differs between a desk and a phone is set when the browser starts: emulating a screen's scale on a page leaves the size of a canvas as it was. */
+/** What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was. */
 const DEVICES = {
   desk: { scale: 1, context: { viewport: VIEWPORT } },
-  phone: { scale: 2, context: { viewport: null, hasTouch: true } },
+  phone: { scale: 1, context: { viewport: null, hasTouch: true } },
+  sharpPhone: { scale: 2, context: { viewport: null, hasTouch: true } },
 };
-const started = new Map();
-after(() => Promise.all(Array.from(started.values(), async ({ browser }) => browser.close())));
+const browsers = new Map();
+const opened = new Map();
+after(() => Promise.all(Array.from(browsers.values(), (browser) => browser.close())));
 
-/** The browser of a device and its one context: pages in one process share the compiled program. */
-async function browserOf(device) {
-  if (!started.has(device)) {
+/** The browser of a scale. */
+async function browserAt(scale) {
+  if (!browsers.has(scale)) {
     const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
-    const scale = `--force-device-scale-factor=${DEVICES[device].scale}`;
-    const args = [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, scale, "--renderer-process-limit=1"];
-    const browser = await chromium.launch({ executablePath: PROGRAM, args });
-    started.set(device, { browser, context: await browser.newContext(DEVICES[device].context), shared: null });
+    const own = [`--force-device-scale-factor=${scale}`, "--renderer-process-limit=1"];
+    browsers.set(scale, await chromium.launch({ executablePath: PROGRAM, args: [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, ...own] }));
   }
-  return started.get(device);
+  return browsers.get(scale);
+}
+
+/** What a device has: one context, so that its pages share the compiled program, and the page that its tests share. */
+async function contextOf(device) {
+  if (!opened.has(device)) {
+    const browser = await browserAt(DEVICES[device].scale);
+    opened.set(device, { context: await browser.newContext(DEVICES[device].context), shared: null });
+  }
+  return opened.get(device);
 }
 
 /** What sets the size of a phone's page. */
@@ -93,14 +102,14 @@ const problemsOf = new WeakMap();
 
 /** A page that nothing was loaded into. */
 async function freshPage(device) {
-  const { context } = await browserOf(device);
+  const { context } = await contextOf(device);
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE_MS);
   const problems = [];
   problemsOf.set(page, problems);
   page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
   page.on("pageerror", (error) => problems.push(error.message));
-  if (device === "phone") screens.set(page, await context.newCDPSession(page));
+  if (device !== "desk") screens.set(page, await context.newCDPSession(page));
   return page;
 }
 
@@ -112,13 +121,13 @@ export async function turnPhone(page, width, height) {
 /** Gives a page its window and what the person prefers. */
 async function furnish(page, device, { viewport = VIEWPORT, colorScheme = "dark", reducedMotion = "no-preference" }) {
   await page.emulateMedia({ colorScheme, reducedMotion });
-  if (device === "phone") await turnPhone(page, 390, 844);
+  if (device !== "desk") await turnPhone(page, 390, 844);
   else await page.setViewportSize(viewport);
 }
 
 /** The page that tests of a device have one after the other, as a visit of it begins. */
 async function sharedPage(device, options) {
-  const own = await browserOf(device);
+  const own = await contextOf(device);
   if (own.shared) {
     const page = own.shared;
     problemsOf.get(page).length = 0;
@@ -140,15 +149,16 @@ async function sharedPage(device, options) {
 }
 
 /**
- * A test in the page. `viewport`, `colorScheme` and `reducedMotion` are the person's; `phone` gives a small screen under fingers;
- * `fine` draws all that the view can have, with every pixel: other tests are quicker without. Tests share a page, which begins anew for each. A test has a page of its own with
+ * A test in the page. `viewport`, `colorScheme` and `reducedMotion` are the person's; `phone` gives a small screen under fingers,
+ * `sharp` that with two pixels to the point. A test is quicker without what it does not look at: `passes` draws all that a saved picture
+ * can have, `fine` the view in the window too, with every pixel. Tests share a page, which begins anew for each. A test has a page of its own with
  * `own`, for one that leaves traces in the page, or when it says how the page is loaded: `query` is added to the address, `prepare` may
  * change the page before, `bare` does not wait for the viewer. A test fails when the page logs an error, unless `expectErrors` says
  * that it may, and once it has failed twice.
  */
 export function test(name, options, body) {
-  const { query, prepare, expectErrors = false, skip, bare = false, phone = false, fine = false, own = false, ...person } = options;
-  const device = phone ? "phone" : "desk";
+  const { query, prepare, expectErrors = false, skip, bare = false, phone = false, sharp = false, passes = false, fine = false, own = false, ...person } = options;
+  const device = sharp ? "sharpPhone" : phone ? "phone" : "desk";
   const alone = own || bare || query !== undefined || prepare !== undefined;
   const attempt = async () => {
     let page;
@@ -164,7 +174,8 @@ export function test(name, options, body) {
         page = await sharedPage(device, person);
       }
       if (!bare) {
-        const [left, scale] = fine ? [[], 1] : [PASSES, COARSE];
+        const left = fine || passes ? [] : PASSES;
+        const scale = fine ? 1 : COARSE;
         await page.evaluate(([left, scale]) => {
           left.forEach((pass) => bindpose.setPass(pass, false));
           bindpose.setRenderScale(scale);
@@ -184,7 +195,7 @@ export function test(name, options, body) {
       if (problems.length) error.message += `\nThe page logged: ${problems.join("\n")}`;
       // Nobody gets a page on which something went wrong.
       if (!alone && page) {
-        (await browserOf(device)).shared = null;
+        (await contextOf(device)).shared = null;
         await page.close().catch(() => {});
       }
       throw error;
@@ -279,7 +290,7 @@ export async function drag(page, [fromX, fromY], [toX, toY], { button = "left" }
 
 /** Waits for the next frames to be on screen. */
 export function settled(page) {
-  return page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 250)));
+  return page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 100)));
 }
 
 /** Waits until the camera has come to rest after a drag and nothing more is drawn. The clip must be paused. */

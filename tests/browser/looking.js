@@ -103,7 +103,7 @@ test("the picture is divided, and its handle moves where the lights meet", STILL
   await keep(page, "look-split");
 });
 
-test("a pass that is left out is missing in the picture", { ...STILL, fine: true }, async (page) => {
+test("a pass that is left out is missing in the picture", { ...STILL, passes: true }, async (page) => {
   await page.mouse.click(...LIGHT_BUTTON);
   await settled(page);
   for (const [pass, row] of Object.entries(LIGHT_POPOVER.passes)) {

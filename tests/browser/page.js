@@ -41,7 +41,7 @@ test("the light scheme is followed", { colorScheme: "light", viewport: LARGE, fi
   assert.ok((await coloursOnScreen(page)) > 200);
 });
 
-test("a phone's screen works", { phone: true, fine: true }, async (page) => {
+test("a phone's screen works", { sharp: true, fine: true }, async (page) => {
   await call(page, "pause");
   await settled(page);
   await keep(page, "phone-dark");

@@ -11,7 +11,7 @@ const PLAIN = { ...SIZE, background: "#30343c", overlays: [] };
 const VIEW_MODES = ["base-color", "normal-map", "normal", "tangent", "uv", "roughness", "material", "depth", "ao", "shadow"];
 
 /** Under reduced motion nothing has moved before the picture: neither the clip nor the book's lights. */
-const STILL = { reducedMotion: "reduce", fine: true };
+const STILL = { reducedMotion: "reduce", passes: true };
 
 /** The sample in the middle of a step, as in every committed picture of it. */
 export async function inStep(page) {

@@ -60,7 +60,7 @@ test("the eye of a subset hides it and shows it again", STILL, async (page) => {
   assert.equal((await picture(page)).digest, all.digest);
 });
 
-test("roughness is edited in the inspector, and Reset brings the very same picture back", { ...STILL, fine: true }, async (page) => {
+test("roughness is edited in the inspector, and Reset brings the very same picture back", { ...STILL, passes: true }, async (page) => {
   await atRest(page);
   const before = await picture(page);
   await page.mouse.click(...CHEST);
