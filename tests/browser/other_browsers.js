@@ -29,10 +29,11 @@ async function firefox(program) {
     executablePath: program,
     headless: false,
     extraPrefsFirefox: FIREFOX_PREFERENCES,
-    defaultViewport: VIEWPORT,
     protocolTimeout: PATIENCE_MS,
   });
   const [page] = await browser.pages();
+  // The tab that was there from the start has the size of the window.
+  await page.setViewport(VIEWPORT);
   return {
     open: (address) => page.goto(address),
     /** Calls a function in the page, which may be asynchronous. */

@@ -12,7 +12,7 @@ const { PAGE, BROWSER, PROGRAM } = process.env;
 const path = (relative) => fileURLToPath(new URL(relative, import.meta.url));
 const FIXTURES = path("../fixtures/");
 const OUT = path("out/");
-const PATIENCE_MS = Number(process.env.PATIENCE ?? 120_000);
+const PATIENCE_MS = 120_000;
 
 let page;
 before(async () => {
