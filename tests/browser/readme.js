@@ -10,9 +10,10 @@ mkdirSync(FOLDER, { recursive: true });
 /** The window of all of them. */
 const WINDOW = { width: 1280, height: 800 };
 const STILL = { viewport: WINDOW, reducedMotion: "reduce", fine: true, own: true };
-/** Places in that window: ground beside the figure, its left hand, and what is on its bars. */
+/** Places in that window: ground beside the figure, its left hand, and what is on its bars and panels. */
 const GROUND = [820, 640];
-const HAND = [640, 420];
+const HAND = [676, 392];
+const EXPLAIN = [1205, 201];
 const SHEET_BUTTON = [1250, 760];
 const LIGHT_BUTTON = [956, 30];
 const SPLIT_SWITCH = [1242, 140];
@@ -44,11 +45,14 @@ test("dark, with the timeline open", STILL, async (page) => {
 test("one vertex explained", STILL, async (page) => {
   await inStep(page);
   await page.mouse.click(...GROUND);
-  await page.keyboard.press("b");
   await page.keyboard.press("w");
   await until(page, ({ skeleton }) => skeleton.skinView !== null);
   await page.mouse.click(...HAND);
   await until(page, ({ skeleton }) => skeleton.vertex !== null);
+  await page.mouse.click(...EXPLAIN);
+  await page.keyboard.press("w");
+  await page.keyboard.press("b");
+  await until(page, ({ skeleton }) => skeleton.bonesVisible);
   await keep(page, "vertex");
 });
 

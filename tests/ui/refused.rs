@@ -37,7 +37,7 @@ fn small_device() -> egui_wgpu::RenderState {
 fn large() -> Document {
     let mut document = models::document();
     document.materials[0].diffuse = [1.0, 0.0, 0.0];
-    let vertex: Vertex = document.vertices[0].clone();
+    let vertex: Vertex = document.vertices[0];
     document.vertices.resize(30_000, vertex);
     for subset in &mut document.subsets {
         subset.vertex_count = 30_000;
