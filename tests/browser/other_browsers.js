@@ -50,7 +50,10 @@ async function firefox(program) {
     press: (key) => page.keyboard.press(key === "Space" ? " " : key),
     /** Chooses a file as the dialog of an input does. */
     choose: async (selector, path) => (await page.$(selector)).uploadFile(path),
-    screenshot: (path) => page.screenshot({ path }),
+    async screenshot(path) {
+      await page.evaluate(twoFrames);
+      await page.screenshot({ path });
+    },
     close: () => browser.close(),
   };
 }
@@ -93,7 +96,10 @@ async function webkit(program) {
     },
     press: (key) => session.actions().sendKeys(webdriver.Key[key.toUpperCase()] ?? key).perform(),
     choose: async (selector, path) => (await session.findElement(webdriver.By.css(selector))).sendKeys(path),
-    screenshot: async (path) => writeFileSync(path, await session.takeScreenshot(), "base64"),
+    async screenshot(path) {
+      await session.executeAsyncScript(`(${twoFrames})().then(arguments[0])`);
+      writeFileSync(path, await session.takeScreenshot(), "base64");
+    },
     async close() {
       await session.quit();
       driver.kill();
