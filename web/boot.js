@@ -45,10 +45,13 @@ let lostMeanwhile = null; // Why the GPU went away again while a restart was und
 
 /** Begins anew, as a visit of the page does, but without loading the program. Resolves with the state after it. */
 bindpose.reset = async () => {
-  const files = (await fetchOpening()) ?? [];
-  given.forget();
   clearNotice();
-  return give(files, "startOver");
+  given.forget();
+  // What could not be fetched is told there; then nothing is open.
+  const files = (await fetchOpening()) ?? [];
+  await give(files, "startOver");
+  bindpose.setRenderScale(addressedScale());
+  return bindpose.state();
 };
 
 const refuse = (words) => showNotice("Some files could not be read", words);
@@ -141,6 +144,11 @@ function showProgress(arrived, total) {
   }
 }
 
+/** How fine the address asks the view to be drawn. */
+function addressedScale() {
+  return Number(options.get("scale") ?? 1);
+}
+
 function wantedBackend() {
   const named = options.get("backend");
   return ["webgpu", "webgl2"].includes(named) ? named : "auto";
@@ -151,9 +159,8 @@ async function start(backend) {
   const canvas = element("canvas");
   const mine = ++starts;
   canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost", mine), { once: true });
-  const renderScale = Number(options.get("scale") ?? 1);
   try {
-    const started = await viewer.start(canvas, { backend, renderScale }, onEvent);
+    const started = await viewer.start(canvas, { backend, renderScale: addressedScale() }, onEvent);
     if (mine !== starts) return;
     gpu = started;
   } catch (error) {
