@@ -106,7 +106,6 @@ impl App {
             memory.options = options;
         });
         ctx.set_theme(egui::ThemePreference::System);
-        ui::theme::install(ctx);
     }
 
     /// How many pictures of the model were drawn: stands still while nothing changes.

@@ -66,10 +66,14 @@ const PASSES = ["shadow", "reflections", "contact", "ao"];
 /** And still more where the view has a twenty-fifth of its pixels. */
 const COARSE = 0.2;
 
-/** What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was. */
+/**
+ * What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was.
+ * Most tests have a coarse screen: everything stands where it would, and the panels too have a quarter of their pixels.
+ */
 const DEVICES = {
   desk: { scale: 1, context: { viewport: VIEWPORT } },
-  phone: { scale: 1, context: { viewport: null, hasTouch: true } },
+  coarseDesk: { scale: 0.5, context: { viewport: VIEWPORT } },
+  coarsePhone: { scale: 0.5, context: { viewport: null, hasTouch: true } },
   sharpPhone: { scale: 2, context: { viewport: null, hasTouch: true } },
 };
 const browsers = new Map();
@@ -95,6 +99,8 @@ async function contextOf(device) {
   return opened.get(device);
 }
 
+const isPhone = (device) => DEVICES[device].context.hasTouch === true;
+
 /** What sets the size of a phone's page. */
 const screens = new WeakMap();
 /** The errors that a page has logged. */
@@ -109,7 +115,7 @@ async function freshPage(device) {
   problemsOf.set(page, problems);
   page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
   page.on("pageerror", (error) => problems.push(error.message));
-  if (device !== "desk") screens.set(page, await context.newCDPSession(page));
+  if (isPhone(device)) screens.set(page, await context.newCDPSession(page));
   return page;
 }
 
@@ -121,7 +127,7 @@ export async function turnPhone(page, width, height) {
 /** Gives a page its window and what the person prefers. */
 async function furnish(page, device, { viewport = VIEWPORT, colorScheme = "dark", reducedMotion = "no-preference" }) {
   await page.emulateMedia({ colorScheme, reducedMotion });
-  if (device !== "desk") await turnPhone(page, 390, 844);
+  if (isPhone(device)) await turnPhone(page, 390, 844);
   else await page.setViewportSize(viewport);
 }
 
@@ -151,14 +157,14 @@ async function sharedPage(device, options) {
 /**
  * A test in the page. `viewport`, `colorScheme` and `reducedMotion` are the person's; `phone` gives a small screen under fingers,
  * `sharp` that with two pixels to the point. A test is quicker without what it does not look at: `passes` draws all that a saved picture
- * can have, `fine` the view in the window too, with every pixel. Tests share a page, which begins anew for each. A test has a page of its own with
+ * can have, `fine` the view and the panels in the window too, with every pixel. Tests share a page, which begins anew for each. A test has a page of its own with
  * `own`, for one that leaves traces in the page, or when it says how the page is loaded: `query` is added to the address, `prepare` may
  * change the page before, `bare` does not wait for the viewer. A test fails when the page logs an error, unless `expectErrors` says
  * that it may, and once it has failed twice.
  */
 export function test(name, options, body) {
   const { query, prepare, expectErrors = false, skip, bare = false, phone = false, sharp = false, passes = false, fine = false, own = false, ...person } = options;
-  const device = sharp ? "sharpPhone" : phone ? "phone" : "desk";
+  const device = sharp ? "sharpPhone" : phone ? "coarsePhone" : fine ? "desk" : "coarseDesk";
   const alone = own || bare || query !== undefined || prepare !== undefined;
   const attempt = async () => {
     let page;
