@@ -224,7 +224,7 @@ test("R tries again what was refused while its error is shown, and what is open 
   assert.equal((await until(page, ({ model }) => model.name === "other.m3d")).error, null);
 });
 
-test("R opens again the model of a folder that was chosen", { reducedMotion: "reduce" }, async (page) => {
+test("R opens again the model of a folder that was chosen", { reducedMotion: "reduce", fine: true }, async (page) => {
   const { folder, path } = copyOfSample("pack", "small.m3d");
   writeFileSync(join(folder, "pack", "large.m3d"), `${readFileSync(path, "utf8")}\n\n\n\n`);
   await dropAndWait(page, [join(folder, "pack")]);
@@ -254,7 +254,7 @@ test("R tells of a file from the dialog that has changed since", { reducedMotion
   assert.equal((await state(page)).model.clips[0].name, "Walk", "the model that was open stays");
 });
 
-test("maps are found beside the model and join it later, and are drawn", {}, async (page) => {
+test("maps are found beside the model and join it later, and are drawn", { fine: true }, async (page) => {
   const { folder, path } = copyOfSample("mapped.m3d");
   const plain = readFileSync(path, "utf8").replace(/^(DiffuseMap|NormalMap):.*$/gm, "$1: None");
   const named = plain.replace(/^DiffuseMap:.*$/m, "DiffuseMap: C:\\art\\Coat.dds");

@@ -55,7 +55,7 @@ test("a phone's screen works", { sharp: true, fine: true }, async (page) => {
   await keep(page, "phone-light");
 });
 
-test("the canvas follows the window", {}, async (page) => {
+test("the canvas follows the window", { fine: true }, async (page) => {
   await call(page, "pause");
   await page.setViewportSize({ width: 700, height: 500 });
   await page.waitForFunction(() => document.querySelector("canvas").width === 700);
@@ -101,7 +101,7 @@ test("a snapshot is a PNG of the asked size", {}, async (page) => {
   assert.deepEqual([odd.width, odd.height], [33, 1025]);
 });
 
-test("P saves a picture, named after what it shows", {}, async (page) => {
+test("P saves a picture, named after what it shows", { fine: true }, async (page) => {
   await call(page, "pause");
   await page.mouse.click(...CENTRE);
   const [saved] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("p")]);
