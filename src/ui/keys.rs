@@ -1,13 +1,11 @@
-//! Keys to commands. Only what the viewer owns: the browser keeps its own.
+//! Keys to actions. Only keys of the table and those that fly: the browser keeps its own.
 
 use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 
-use super::UiState;
 use super::flight::FLIGHT_KEYS;
-use super::skeleton;
-use crate::anim::Direction;
-use crate::scene::{Overlay, ViewPreset};
-use crate::session::{Command, LookCommand, Session, SubsetCommand};
+use super::state::UiState;
+use crate::actions::{self, Action, Ask};
+use crate::session::{Command, JointCommand, Session, SubsetCommand};
 
 /// Reads the keys of a pass in which no field is typed into. `popover_open`: Esc has shut something that hung from a button.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
@@ -16,7 +14,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
     let control_focused = ui.memory(|memory| memory.focused().is_some());
     let mut held = false;
     for event in events {
-        match event {
+        let asked = match event {
             Event::Key {
                 key,
                 pressed: true,
@@ -25,50 +23,65 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 ..
             } => {
                 held = repeat;
-                // A key that is held steps on; what it switches or asks for is meant once.
-                if held && !command_for(key, modifiers).is_some_and(|command| steps(&command)) {
-                    continue;
-                }
-                if control_focused && matches!(key, Key::Space | Key::Enter) {
-                    continue;
-                }
-                commands.extend(command_for(key, modifiers).map(|command| of_selection(command, session)));
+                let is_controls = control_focused && matches!(key, Key::Space | Key::Enter);
+                let has_shut = popover_open && key == Key::Escape;
                 // The key that flies forward while the view is held.
                 let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
-                if !flies {
-                    commands.extend(skeleton::keys::command_for(session, key, modifiers));
-                }
-                match key {
-                    Key::F2 => state.skeleton.rename_selected(ui, session),
-                    Key::Escape if !popover_open => escape(session, state, commands),
-                    Key::R if modifiers.is_none() => state.read_again(),
-                    Key::P if !modifiers.command && !modifiers.alt => state.save_picture(ui, modifiers.shift),
-                    _ => {}
-                }
+                action_of(key, modifiers)
+                    // A key that is held steps on. What it switches or asks for is meant once.
+                    .filter(|action| (action.repeats || !held) && !is_controls && !has_shut && !flies)
             }
             // The question mark is on different keys of different keyboards.
-            Event::Text(text) if text == "?" && !held => state.help_open = !state.help_open,
-            _ => {}
+            Event::Text(text) if text == actions::HELP.key() && !held => Some(&actions::HELP),
+            _ => None,
+        };
+        if let Some(ask) = asked.and_then(|action| action.ask(session)) {
+            carry_out(ask, ui, session, state, commands);
         }
     }
 }
 
-/// Whether it goes on a little way, so that doing it again goes on farther.
-fn steps(command: &Command) -> bool {
-    matches!(
-        command,
-        Command::StepFrames(_) | Command::StepKey { .. } | Command::Slower | Command::Faster
-    )
+/// The action of a key that is pressed. Shift is ignored where it has no meaning of its own.
+fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
+    if modifiers.alt {
+        return None;
+    }
+    let with = |shift: bool| {
+        actions::ALL.iter().find(|action| {
+            let mut shortcuts = action.keys.iter().filter_map(|words| shortcut(words));
+            shortcuts.any(|(of_shift, ctrl, of_key)| (of_shift, ctrl, of_key) == (shift, modifiers.command, key))
+        })
+    };
+    with(modifiers.shift).or_else(|| {
+        let ignores_shift = modifiers.shift;
+        with(false).filter(|action| ignores_shift && !action.without_shift)
+    })
 }
 
-/// Steps from key to key are of the joint that was chosen.
-fn of_selection(command: Command, session: &Session) -> Command {
-    match command {
-        Command::StepKey { direction, joint: None } => Command::StepKey {
-            direction,
-            joint: session.joints().selected(),
-        },
-        command => command,
+/// A key of the table, `Ctrl 1`: whether Shift and Ctrl (or the Mac's Command) are held, and the key. None for `?`, which is typed
+/// as a text.
+fn shortcut(words: &str) -> Option<(bool, bool, Key)> {
+    let (modifier, key) = words.rsplit_once(' ').unwrap_or(("", words));
+    let key = match key {
+        "←" => Key::ArrowLeft,
+        "→" => Key::ArrowRight,
+        "↑" => Key::ArrowUp,
+        "↓" => Key::ArrowDown,
+        "?" => return None,
+        name => Key::from_name(name)?,
+    };
+    Some((modifier == "Shift", modifier == "Ctrl", key))
+}
+
+/// Does what a key or a button asks for.
+pub(super) fn carry_out(ask: Ask, ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    match ask {
+        Ask::Command(command) => commands.push(command),
+        Ask::Help => state.help_open = !state.help_open,
+        Ask::Close => escape(session, state, commands),
+        Ask::NameBone => state.skeleton.rename_selected(ui, session),
+        Ask::ReadAgain => state.read_again(),
+        Ask::SavePicture { transparent } => state.save_picture(ui, transparent),
     }
 }
 
@@ -92,7 +105,7 @@ fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
     } else if state.timeline.has_chosen_keys() {
         Some(OnTop::ChosenKeys)
     } else {
-        let_go(session).map(OnTop::Selection)
+        clears_selection(session).map(OnTop::Selection)
     }
 }
 
@@ -108,12 +121,12 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     }
 }
 
-/// Whether Esc would shut a panel or let go of a selection.
+/// Whether Esc would shut a panel or clear a selection.
 pub(super) fn escape_shuts_panel(session: &Session, state: &UiState) -> bool {
     on_top(session, state).is_some()
 }
 
-/// Whether Esc would shut something, end what is being typed or let go of a selection. When it would not, it lets Tab leave the page's
+/// Whether Esc would shut something, end what is being typed or clear a selection. When it would not, it lets Tab leave the page's
 /// canvas.
 pub fn escape_shuts(ctx: &Context, session: &Session, state: &UiState) -> bool {
     Popup::is_any_open(ctx)
@@ -122,62 +135,16 @@ pub fn escape_shuts(ctx: &Context, session: &Session, state: &UiState) -> bool {
         || escape_shuts_panel(session, state)
 }
 
-/// Takes the selection away.
-fn let_go(session: &Session) -> Option<Command> {
-    skeleton::keys::escape(session).or_else(|| {
+/// Clears what was selected last: the vertex before the joint before the subset.
+fn clears_selection(session: &Session) -> Option<Command> {
+    let joints = session.joints();
+    if joints.selected_vertex().is_some() {
+        Some(JointCommand::SelectVertex(None).into())
+    } else if joints.selected().is_some() {
+        Some(JointCommand::Select(None).into())
+    } else {
         let subset = session.subsets().selected();
         subset.map(|_| SubsetCommand::Select(None).into())
-    })
-}
-
-/// What a key asks for.
-pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
-    let Modifiers {
-        shift,
-        command: ctrl,
-        alt,
-        ..
-    } = modifiers;
-    if alt || (ctrl && !matches!(key, Key::Num1 | Key::Num3 | Key::Num7)) {
-        return None;
-    }
-    let glide = |command| Some(Command::Glide(Box::new(command)));
-    let opposite = |preset, other| glide(Command::LookFrom(if ctrl { other } else { preset }));
-    let overlay = |overlay| Some(LookCommand::ToggleOverlay(overlay).into());
-    let step_key = |direction| Some(Command::StepKey { direction, joint: None });
-    let frames = if shift { 10 } else { 1 };
-    match key {
-        Key::Space if shift => Some(Command::TogglePlayBackward),
-        Key::Space => Some(Command::TogglePlay),
-        Key::ArrowLeft | Key::Comma => Some(Command::StepFrames(-frames)),
-        Key::ArrowRight | Key::Period => Some(Command::StepFrames(frames)),
-        Key::ArrowUp => step_key(Direction::Forward),
-        Key::ArrowDown => step_key(Direction::Backward),
-        Key::I if shift => Some(Command::ClearRange),
-        Key::I => Some(Command::SetRangeStart(None)),
-        Key::O if !shift => Some(Command::SetRangeEnd(None)),
-        Key::Home => Some(Command::SeekStart),
-        Key::End => Some(Command::SeekEnd),
-        Key::OpenBracket => Some(Command::Slower),
-        Key::CloseBracket => Some(Command::Faster),
-        Key::Backslash => Some(Command::SetSpeed(1.0)),
-        Key::L => Some(Command::CycleLoopMode),
-        Key::C => Some(Command::CycleClip(if shift { -1 } else { 1 })),
-        Key::F if shift => glide(Command::FrameModel),
-        Key::F => glide(Command::FrameSelection),
-        Key::G => overlay(Overlay::Grid),
-        Key::Z => overlay(Overlay::Wireframe),
-        Key::N => overlay(Overlay::Normals),
-        Key::X => overlay(Overlay::Axes),
-        Key::T => Some(LookCommand::CycleViewMode(if shift { -1 } else { 1 }).into()),
-        Key::V => Some(LookCommand::ToggleLight.into()),
-        Key::Num1 => opposite(ViewPreset::Front, ViewPreset::Back),
-        Key::Num3 => opposite(ViewPreset::Right, ViewPreset::Left),
-        Key::Num7 => opposite(ViewPreset::Top, ViewPreset::Bottom),
-        Key::Num5 => Some(Command::ToggleProjection),
-        Key::Num9 => glide(Command::LookFrom(ViewPreset::Isometric)),
-        Key::Num0 => glide(Command::ResetCamera),
-        _ => None,
     }
 }
 
@@ -185,16 +152,27 @@ pub(super) fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     let plain = !modifiers.command && !modifiers.alt;
     let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);
-    key == Key::Escape
-        || skeleton::keys::owns(key, modifiers)
-        || (plain && (flies || key == Key::P))
-        || (modifiers.is_none() && key == Key::R)
-        || command_for(key, modifiers).is_some()
+    key == Key::Escape || (plain && flies) || action_of(key, modifiers).is_some()
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::scene::ViewPreset;
+
     use super::*;
+
+    fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
+        action_of(key, modifiers)?.command(&Session::new(true))
+    }
+
+    #[test]
+    fn every_key_of_the_table_is_a_key() {
+        for action in actions::ALL {
+            for key in action.keys {
+                assert!(*key == "?" || shortcut(key).is_some(), "{key}");
+            }
+        }
+    }
 
     #[test]
     fn keys_of_the_browser_are_left_alone() {
@@ -230,6 +208,17 @@ mod tests {
             command_for(Key::ArrowRight, Modifiers::SHIFT),
             Some(Command::StepFrames(10))
         );
+    }
+
+    #[test]
+    fn shift_is_ignored_where_it_means_nothing_of_its_own() {
+        // Digits need it on some keyboards.
+        let isometric = Command::Glide(Box::new(Command::LookFrom(ViewPreset::Isometric)));
+        assert_eq!(command_for(Key::Num9, Modifiers::SHIFT), Some(isometric));
+        assert!(action_of(Key::R, Modifiers::NONE).is_some());
+        for key in [Key::R, Key::O] {
+            assert!(action_of(key, Modifiers::SHIFT).is_none(), "{key:?}");
+        }
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::widgets::{
     Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, section_name, segmented,
     switch_row,
 };
+use crate::actions;
 use crate::scene::{Background, Light};
 use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, Session};
 
@@ -36,7 +37,7 @@ pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
 /// The popover's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let look = session.look();
-    keyed_section_name(ui, "Light", "V");
+    keyed_section_name(ui, "Light", actions::OTHER_LIGHT.key());
     let lights = Light::ALL.map(|light| (light, light.label()));
     let in_force = look.split.is_none().then_some(look.light);
     if let Some(light) = segmented(ui, "Light", &lights, in_force) {

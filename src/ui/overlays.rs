@@ -4,27 +4,19 @@ use egui::Ui;
 
 use super::skeleton::{self, SkeletonState};
 use super::widgets::{Slider, section_name, switch_row};
+use crate::actions;
 use crate::scene::{Overlay, Overlays};
 use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, Session};
-
-/// The key that turns lines on and off; empty where there is none.
-fn key(overlay: Overlay) -> &'static str {
-    match overlay {
-        Overlay::Grid => "G",
-        Overlay::Wireframe => "Z",
-        Overlay::Normals => "N",
-        Overlay::Axes => "X",
-        Overlay::Tangents | Overlay::Bounds => "",
-    }
-}
 
 /// The popover's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let overlays = &session.look().overlays;
     section_name(ui, "Overlays");
     for overlay in Overlay::ALL {
-        if switch_row(ui, overlay.label(), key(overlay), overlays.has(overlay)).clicked() {
-            commands.push(LookCommand::ToggleOverlay(overlay).into());
+        let command = LookCommand::ToggleOverlay(overlay).into();
+        let key = actions::key_of(session, &command);
+        if switch_row(ui, overlay.label(), key, overlays.has(overlay)).clicked() {
+            commands.push(command);
         }
         let last_with_lines = overlay == Overlay::Tangents;
         if last_with_lines && (overlays.has(Overlay::Normals) || overlays.has(Overlay::Tangents)) {

@@ -5,6 +5,7 @@ use egui::{Rangef, Ui, vec2};
 use super::state::UiState;
 use super::widgets::{TextButton, control_size, menu_item, number_field, section_name, switch_row};
 use super::{popover, theme};
+use crate::actions;
 use crate::session::Session;
 
 /// The longest side that can be asked for.
@@ -56,7 +57,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     }
     popover::gap(ui);
     let width = Rangef::point(ui.available_width());
-    if TextButton::new("Save PNG", "Save PNG (P)")
+    if TextButton::new(actions::SAVE_PICTURE.label, &actions::SAVE_PICTURE.hint())
         .width(width)
         .show(ui)
         .clicked()

@@ -5,9 +5,12 @@ use egui::{Rangef, RectAlign, Ui};
 use super::icons::Icon;
 use super::skeleton::SkeletonState;
 use super::state::{Request, SheetPage, UiState};
-use super::widgets::{TextButton, control_size, icon_button, keyed_menu_item, menu_item, valued_menu_item};
+use super::widgets::{
+    TextButton, action_button, control_size, icon_button, keyed_menu_item, menu_item, valued_menu_item,
+};
 use super::{light, overlays, picture, popover, view_modes};
-use crate::scene::{Projection, Theme, ViewPreset};
+use crate::actions;
+use crate::scene::{Theme, ViewPreset};
 use crate::session::{Command, Session};
 
 /// Width of the popover with light, background and passes.
@@ -27,17 +30,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         light_button(ui, session, commands);
         overlays_button(ui, session, &mut state.skeleton, commands);
         view_from_menu(ui, session, commands);
-        if icon_button(ui, Icon::Frame, "Frame the model (F)", false).clicked() {
-            commands.push(Command::Glide(Box::new(Command::FrameModel)));
-        }
-        if icon_button(ui, Icon::Turntable, "Turntable", session.turntable()).clicked() {
-            commands.push(Command::ToggleTurntable);
-        }
-        let camera = icon_button(ui, Icon::Camera, "Picture… (P)", false);
+        action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
+        action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
+        let camera = icon_button(ui, Icon::Camera, &actions::SAVE_PICTURE.hint_of("Picture…"), false);
         popover::show(ui, &camera, 224.0, |ui| picture::show(ui, state));
         theme_button(ui, state);
         open_button(ui, state);
-        if icon_button(ui, Icon::Help, "Keys (?)", state.help_open).clicked() {
+        if icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open).clicked() {
             state.help_open = !state.help_open;
         }
     });
@@ -65,10 +64,10 @@ pub(super) fn narrow_width(ui: &Ui) -> f32 {
 }
 
 fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let mode = view_modes::shown(session);
+    let mode = actions::view_mode_label(session);
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
-    let button = button.on_hover_text("View mode (T)");
+    let button = button.on_hover_text(actions::NEXT_VIEW_MODE.hint());
     popover::menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
         if view_modes::items(ui, session, commands) {
             ui.close();
@@ -83,7 +82,9 @@ fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         .width(Rangef::point(LIGHT_BUTTON_WIDTH))
         .show(ui);
     light::mark_button(ui, session, &button);
-    let button = button.on_hover_text("Light and background (V: the other light)");
+    let other = &actions::OTHER_LIGHT;
+    let hint = format!("Light and background ({}: {})", other.key(), other.does);
+    let button = button.on_hover_text(hint);
     popover::show(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, commands));
 }
 
@@ -128,38 +129,30 @@ fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
-/// The key of a direction; empty where there is none.
-fn preset_key(preset: ViewPreset) -> &'static str {
-    match preset {
-        ViewPreset::Front => "1",
-        ViewPreset::Right => "3",
-        ViewPreset::Top => "7",
-        ViewPreset::Back => "Ctrl 1",
-        ViewPreset::Left => "Ctrl 3",
-        ViewPreset::Bottom => "Ctrl 7",
-        ViewPreset::Isometric => "9",
-        ViewPreset::ThreeQuarter => "0",
-    }
-}
-
 /// A line for each direction, and the projection. Whether one was chosen.
 pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
     let before = commands.len();
     for preset in ViewPreset::ALL {
-        if keyed_menu_item(ui, preset.label(), preset_key(preset), false).clicked() {
-            commands.push(Command::Glide(Box::new(Command::LookFrom(preset))));
+        let command = Command::Glide(Box::new(Command::LookFrom(preset)));
+        // A model opens with the camera at three quarters.
+        let key = match preset {
+            ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
+            _ => actions::key_of(session, &command),
+        };
+        if keyed_menu_item(ui, preset.label(), key, false).clicked() {
+            commands.push(command);
         }
     }
-    let orthographic = session.camera().projection == Projection::Orthographic;
-    if keyed_menu_item(ui, "Orthographic", "5", orthographic).clicked() {
-        commands.push(Command::ToggleProjection);
+    let projection = &actions::ORTHOGRAPHIC;
+    if keyed_menu_item(ui, projection.label, projection.key(), projection.is_on(session)).clicked() {
+        commands.extend(projection.command(session));
     }
     commands.len() > before
 }
 
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let pages = [
-        ("View mode", view_modes::shown(session), SheetPage::ViewMode),
+        ("View mode", actions::view_mode_label(session), SheetPage::ViewMode),
         ("Light and background", light::label(session), SheetPage::Light),
         ("Lines over the model", "", SheetPage::Overlays),
         ("View from…", "", SheetPage::ViewFrom),
@@ -171,20 +164,18 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
             ui.close();
         }
     }
-    if menu_item(ui, "Frame the model", false).clicked() {
-        commands.push(Command::Glide(Box::new(Command::FrameModel)));
-        ui.close();
-    }
-    if menu_item(ui, "Turntable", session.turntable()).clicked() {
-        commands.push(Command::ToggleTurntable);
-        ui.close();
+    for action in [&actions::FRAME_MODEL, &actions::TURNTABLE] {
+        if menu_item(ui, action.label, action.is_on(session)).clicked() {
+            commands.extend(action.command(session));
+            ui.close();
+        }
     }
     let (label, request) = other_theme(ui);
     if menu_item(ui, label, false).clicked() {
         state.requests.push(request);
         ui.close();
     }
-    if menu_item(ui, "Keys", false).clicked() {
+    if menu_item(ui, actions::HELP.label, false).clicked() {
         state.help_open = true;
         ui.close();
     }

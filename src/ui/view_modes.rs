@@ -4,17 +4,10 @@ use egui::Ui;
 
 use super::skeleton;
 use super::widgets::{keyed_menu_item, section_name};
+use crate::actions;
 use crate::anim::SkinView;
 use crate::scene::ViewMode;
 use crate::session::{Command, JointCommand, LookCommand, Session};
-
-/// The name of what is shown: colours of the skin stand in place of the view mode's.
-pub(super) fn shown(session: &Session) -> &'static str {
-    match session.joints().skin_view() {
-        Some(view) => view.label(),
-        None => session.look().view_mode.label(),
-    }
-}
 
 /// A line for each mode, and below them what can be seen of a skin. Whether one was chosen.
 pub(super) fn items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
@@ -22,7 +15,11 @@ pub(super) fn items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>)
     let mut chosen = false;
     for mode in ViewMode::ALL {
         // The key goes to the next one.
-        let key = if mode == in_force.cycled(1) { "T" } else { "" };
+        let key = if mode == in_force.cycled(1) {
+            actions::NEXT_VIEW_MODE.key()
+        } else {
+            ""
+        };
         let on = mode == in_force && skin_view.is_none();
         if keyed_menu_item(ui, mode.label(), key, on).clicked() {
             commands.push(LookCommand::SetViewMode(mode).into());
@@ -34,10 +31,10 @@ pub(super) fn items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>)
         ui.add_space(6.0);
         section_name(ui, "Skin");
         for view in SkinView::ALL {
-            let key = if view == SkinView::Weight { "W" } else { "" };
             let on = skin_view == Some(view);
-            if keyed_menu_item(ui, view.label(), key, on).clicked() {
-                commands.push(JointCommand::SetSkinView((!on).then_some(view)).into());
+            let command = JointCommand::SetSkinView((!on).then_some(view)).into();
+            if keyed_menu_item(ui, view.label(), actions::key_of(session, &command), on).clicked() {
+                commands.push(command);
                 chosen = true;
             }
         }

@@ -1,5 +1,6 @@
 //! Each key of the table does what the table says.
 
+use bindpose::actions::{self, Group};
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
 use bindpose::session::{Command, File, SPEEDS, SubsetCommand};
@@ -22,6 +23,37 @@ fn open() -> Window {
 fn assert_frame(window: &Window, frame: f32) {
     let at = window.time_secs() * 30.0;
     assert!((at - frame).abs() < 1e-3, "frame {at} instead of {frame}");
+}
+
+/// The README's table of keys: two rows beside each other, the first half on the left.
+fn readme_table() -> String {
+    let cells: Vec<String> = Group::ALL
+        .into_iter()
+        .flat_map(actions::rows)
+        .map(|row| format!("`{}` | {}", actions::keys_of(row), row[0].does))
+        .collect();
+    let (left, right) = cells.split_at(cells.len().div_ceil(2));
+    let mut table = "| key | does | | key | does |\n|---|---|---|---|---|\n".to_owned();
+    for (index, cell) in left.iter().enumerate() {
+        let other = right.get(index).map_or(" | ", String::as_str);
+        table += &format!("| {cell} | | {other} |\n");
+    }
+    table
+}
+
+#[test]
+fn the_readme_has_the_table_of_actions() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/README.md");
+    let readme = std::fs::read_to_string(path).expect("the README");
+    let start = readme.find("| key | does |").expect("the table of keys");
+    let end = start + readme[start..].find("\n\n").expect("its end") + 1;
+    let table = readme_table();
+    if std::env::var_os("BLESS").is_some() {
+        let renewed = format!("{}{table}{}", &readme[..start], &readme[end..]);
+        std::fs::write(path, renewed).expect("the README is written");
+        return;
+    }
+    assert_eq!(&readme[start..end], table, "BLESS=1 writes it anew");
 }
 
 #[test]

@@ -4,6 +4,7 @@ use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec2, Widget
 
 use super::tree_row::counted_vertices;
 use super::{SkeletonState, key_table, numbers, vertex_panel};
+use crate::actions;
 use crate::anim::JointReadout;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, Session};
@@ -60,7 +61,7 @@ fn show_joint(
     commands: &mut Vec<Command>,
 ) {
     let joint = readout.joint;
-    if section_with_action(ui, "Bone", Some("Rename")) {
+    if section_with_action(ui, "Bone", Some(actions::NAME_BONE.label)) {
         state.rename_selected(ui, session);
     }
     value_row(ui, "Number in the file", &readout.bone.to_string());

@@ -4,7 +4,6 @@ mod digits;
 mod formula;
 mod joint_panel;
 mod key_table;
-pub(super) mod keys;
 mod legend;
 mod marks;
 mod names;

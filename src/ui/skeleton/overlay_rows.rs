@@ -3,6 +3,7 @@
 use egui::{Align2, FontId, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::SkeletonState;
+use crate::actions;
 use crate::anim::GhostPlan;
 use crate::scene::BoneStyle;
 use crate::session::{Command, JointCommand, Session};
@@ -10,8 +11,8 @@ use crate::ui::icons::Icon;
 use crate::ui::popover::gap;
 use crate::ui::theme::Tokens;
 use crate::ui::widgets::{
-    Slider, control_size, icon_button, number_field, paint_elided, section_name, section_with_action, segmented,
-    switch_row,
+    Slider, action_switch, control_size, icon_button, number_field, paint_elided, section_name, section_with_action,
+    segmented, switch_row,
 };
 use crate::ui::wording::shortened;
 
@@ -40,18 +41,14 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
     let joints = session.joints();
     gap(ui);
     section_name(ui, "Skeleton");
-    if switch_row(ui, "Bones", "B", joints.bones_visible()).clicked() {
-        commands.push(JointCommand::SetBonesVisible(!joints.bones_visible()).into());
-    }
+    action_switch(ui, session, &actions::BONES, commands);
     if joints.bones_visible() {
         let styles = BoneStyle::ALL.map(|style| (style, style.label()));
         if let Some(style) = segmented(ui, "Bones", &styles, Some(joints.bone_style())) {
             commands.push(JointCommand::SetBoneStyle(style).into());
         }
     }
-    if switch_row(ui, "Names of bones", "Shift B", joints.labels_visible()).clicked() {
-        commands.push(JointCommand::SetLabelsVisible(!joints.labels_visible()).into());
-    }
+    action_switch(ui, session, &actions::BONE_NAMES, commands);
     gap(ui);
     section_name(ui, "Pose");
     bind_pose(ui, session, commands);
@@ -64,8 +61,9 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
 fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let share = session.bind_share();
     if session.clip().is_some() {
-        if switch_row(ui, "Bind pose", "K", share >= 0.5).clicked() {
-            commands.push(Command::ToggleBindPose);
+        let toggle = &actions::BIND_POSE;
+        if switch_row(ui, toggle.label, toggle.key(), share >= 0.5).clicked() {
+            commands.extend(toggle.command(session));
         }
         let text = format!("{:.0} %", share * 100.0);
         if let Some(share) = Slider::new("To bind pose", share, 0.0..=1.0, &text).show(ui) {

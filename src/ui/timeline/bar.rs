@@ -8,6 +8,7 @@ use super::axis::TimeAxis;
 use super::marks::{MarkShape, mark_radius};
 use super::seam::SeamReading;
 use super::time_area;
+use crate::actions;
 use crate::model::Clip;
 use crate::session::{Command, Session};
 
@@ -101,10 +102,16 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
     paint_bracket(ui, session, &response, pos2(x, rect.center().y), sign, rect.height());
     let label = format!("{name} {secs:.3} s");
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &label));
-    let key = if end == End::In { "I" } else { "O" };
+    let here = if end == End::In {
+        &actions::RANGE_IN
+    } else {
+        &actions::RANGE_OUT
+    };
     response.on_hover_text(format!(
-        "{label}, frame {}\n{key}: here; Shift I: all",
-        clip.frame_at(secs)
+        "{label}, frame {}\n{}: here; {}: all",
+        clip.frame_at(secs),
+        here.key(),
+        actions::CLEAR_RANGE.key(),
     ));
 }
 

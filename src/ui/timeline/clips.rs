@@ -11,6 +11,7 @@ use super::super::widgets::{
     Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
 };
 use super::super::wording::{counted, trimmed};
+use crate::actions;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, Session};
 
 /// Width of the popover.
@@ -26,7 +27,7 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
     let name = session.clip().map_or("", |clip| clip.name.as_str());
     let label = format!("Clip {name}");
     let response = TextButton::new(name, &label).list().width(width).show(ui);
-    let response = response.on_hover_text(format!("{name}\nNext clip: C"));
+    let response = response.on_hover_text(format!("{name}\nNext clip: {}", actions::NEXT_CLIP.key()));
     popover::show_above(ui, &response, WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
         section_name(ui, &counted(open.model.clips.len(), "clip"));

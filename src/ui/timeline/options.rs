@@ -7,6 +7,7 @@ use super::super::theme::{ROW_HEIGHT, Tokens};
 use super::super::widgets::{TypedValue, control_size, section_name, section_with_action, segmented, typed_number};
 use super::super::wording::trimmed;
 use super::{TimelineState, controls, seam_list};
+use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
 use crate::session::{Command, SPEEDS, Session};
 
@@ -43,11 +44,11 @@ pub(super) fn show(
 fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let speed = session.playback().speed();
     section_name(ui, "Speed");
-    let text = format!("{}×", trimmed(speed));
+    let text = speed_label(speed);
     if let Some(speed) = typed_row(ui, "Times as fast", &text, &trimmed(speed)) {
         commands.push(Command::SetSpeed(speed as f32));
     }
-    let labels = SPEEDS.map(|speed| format!("{}×", trimmed(speed)));
+    let labels = SPEEDS.map(speed_label);
     let choices: Vec<(f32, &str)> = SPEEDS.into_iter().zip(labels.iter().map(String::as_str)).collect();
     let in_force = SPEEDS.into_iter().find(|choice| (choice - speed).abs() < 1e-4);
     for row in choices.chunks(IN_A_ROW) {

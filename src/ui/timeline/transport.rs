@@ -8,9 +8,9 @@ use super::super::popover;
 use super::super::state::{SheetPage, UiState};
 use super::super::theme::{CONTROL_RADIUS, Tokens};
 use super::super::widgets::{control_size, icon_button};
-use super::super::wording::trimmed;
 use super::readouts::{self, ReadoutWidths};
 use super::{TimelineState, bar, clips, controls, options, strip_height};
+use crate::actions;
 use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
 use crate::session::{Command, Session};
@@ -33,22 +33,21 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     let row = vec2(ui.available_width(), height);
     ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
-        let joint = session.joints().selected();
         ui.spacing_mut().item_spacing.x = 2.0;
-        controls::end_button(ui, Direction::Backward, commands);
+        controls::end_button(ui, session, Direction::Backward, commands);
         if with_keys {
-            controls::key_button(ui, Direction::Backward, joint, commands);
+            controls::key_button(ui, session, Direction::Backward, commands);
         }
-        controls::frame_button(ui, Direction::Backward, commands);
+        controls::frame_button(ui, session, Direction::Backward, commands);
         controls::backward_button(ui, session, commands);
         ui.add_space(3.0);
         controls::play_button(ui, session, 34.0, commands);
         ui.add_space(3.0);
-        controls::frame_button(ui, Direction::Forward, commands);
+        controls::frame_button(ui, session, Direction::Forward, commands);
         if with_keys {
-            controls::key_button(ui, Direction::Forward, joint, commands);
+            controls::key_button(ui, session, Direction::Forward, commands);
         }
-        controls::end_button(ui, Direction::Forward, commands);
+        controls::end_button(ui, session, Direction::Forward, commands);
         ui.spacing_mut().item_spacing.x = SPACING;
         ui.add_space(4.0);
         clips::button(ui, session, state, Rangef::new(92.0, 200.0), commands);
@@ -85,11 +84,11 @@ pub(in crate::ui) fn narrow(
         let others = 44.0 + CLIP_WIDTH_NARROW + end.width + 4.0 * button;
         let with_frames = low && ui.available_width() - others >= LEAST_BAR_WITH_FRAMES;
         if with_frames {
-            controls::frame_button(ui, Direction::Backward, commands);
+            controls::frame_button(ui, session, Direction::Backward, commands);
         }
         controls::play_button(ui, session, 44.0, commands);
         if with_frames {
-            controls::frame_button(ui, Direction::Forward, commands);
+            controls::frame_button(ui, session, Direction::Forward, commands);
         }
         let mut bar_width = ui.available_width() - button;
         if low {
@@ -181,7 +180,7 @@ fn speed_button(
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
     }
-    let text = format!("{}×", trimmed(speed));
+    let text = actions::speed_label(speed);
     let color = if (speed - 1.0).abs() < 1e-4 {
         tokens.muted
     } else {
@@ -191,7 +190,13 @@ fn speed_button(
     ui.painter()
         .text(rect.center(), Align2::CENTER_CENTER, &text, font, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
-    let response = response.on_hover_text("Speed ([ slower, ] faster, \\ as the file), range and seam");
+    let hint = format!(
+        "Speed ({} slower, {} faster, {} as the file), range and seam",
+        actions::SLOWER.key(),
+        actions::FASTER.key(),
+        actions::NORMAL_SPEED.key(),
+    );
+    let response = response.on_hover_text(hint);
     popover::show_above(ui, &response, options::WIDTH, |ui| {
         options::show(ui, session, state, with_steps, commands);
     });
@@ -209,11 +214,12 @@ fn sheet_button(ui: &mut Ui, open: bool) -> bool {
 
 fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let (icon, label) = match session.playback().loop_mode() {
-        LoopMode::Once => (Icon::Once, "Plays once (L)"),
-        LoopMode::Loop => (Icon::Loop, "Loops (L)"),
-        LoopMode::PingPong => (Icon::PingPong, "Plays there and back (L)"),
+        LoopMode::Once => (Icon::Once, "Plays once"),
+        LoopMode::Loop => (Icon::Loop, "Loops"),
+        LoopMode::PingPong => (Icon::PingPong, "Plays there and back"),
     };
-    if icon_button(ui, icon, label, false).clicked() {
-        commands.push(Command::CycleLoopMode);
+    let action = &actions::NEXT_LOOP_MODE;
+    if icon_button(ui, icon, &action.hint_of(label), false).clicked() {
+        commands.extend(action.command(session));
     }
 }

@@ -6,6 +6,8 @@ use egui::{Align2, Color32, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec
 use super::super::icons::{self, Icon};
 use super::super::theme::{self, CONTROL_RADIUS, Tokens};
 use super::{TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
+use crate::actions::Action;
+use crate::session::{Command, Session};
 
 /// Width of an icon in a button with words, with the room after it.
 const ICON_WIDTH: f32 = 21.0;
@@ -32,6 +34,13 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Res
     icons::paint(ui.painter(), rect, icon, color);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     response.on_hover_text(label)
+}
+
+/// A square button of an action of the session, with its key in the tooltip.
+pub(crate) fn action_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
+    if icon_button(ui, icon, &action.hint(), action.is_on(session)).clicked() {
+        commands.extend(action.command(session));
+    }
 }
 
 /// A button with words on a quiet ground, as wide as they need within its width; what is longer ends in an ellipsis.

@@ -17,7 +17,7 @@ use egui::{
     Ui, Vec2,
 };
 
-pub(super) use button::{TextButton, icon_button, keyed_menu_item, menu_item, valued_menu_item};
+pub(super) use button::{TextButton, action_button, icon_button, keyed_menu_item, menu_item, valued_menu_item};
 pub(super) use chip::{chip, chip_size, paint_chip};
 pub(super) use color::{color_button, color_picker, color32_from_linear, gradient_shape};
 pub(super) use number::number_field;
@@ -27,7 +27,7 @@ pub(super) use row::{
 };
 pub(super) use segmented::segmented;
 pub(super) use slider::Slider;
-pub(super) use switch::switch_row;
+pub(super) use switch::{action_switch, switch_row};
 pub(super) use typed::{TypedValue, typed_number};
 
 use super::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};

@@ -4,6 +4,8 @@ use egui::{Align2, Color32, FontId, Rect, Response, Role, Sense, StrokeKind, Ui,
 
 use super::super::theme::{self, CONTROL_RADIUS, Tokens};
 use super::{MOUSE_CONTROL, control_size, focus_ring, key_hint};
+use crate::actions::Action;
+use crate::session::{Command, Session};
 
 const TRACK_WIDTH: f32 = 26.0;
 const TRACK_HEIGHT: f32 = 15.0;
@@ -32,6 +34,13 @@ pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Respo
         .text(key_at, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
     response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
     response
+}
+
+/// The row of an action of the session that is on or off.
+pub(crate) fn action_switch(ui: &mut Ui, session: &Session, action: &Action, commands: &mut Vec<Command>) {
+    if switch_row(ui, action.label, action.key(), action.is_on(session)).clicked() {
+        commands.extend(action.command(session));
+    }
 }
 
 fn paint_track(ui: &Ui, track: Rect, response: &Response, on: bool) {

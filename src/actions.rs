@@ -1,0 +1,447 @@
+//! The table of actions: what a person can ask for by a key, a button or a line of a menu. Keys, the table of keys, tooltips, menus
+//! and the README's table all read it, so a new action with its key is one entry here.
+//!
+//! Keys are words as people read them: `Shift Space`, `Ctrl 1`, `←`. This module knows no window.
+
+use crate::anim::{Direction, SkinView};
+use crate::scene::{Overlay, Projection, ViewPreset};
+use crate::session::{Command, JointCommand, LookCommand, Session};
+
+/// What an action asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ask {
+    /// Something of the session.
+    Command(Command),
+    /// Show or hide the table of keys.
+    Help,
+    /// Close what is on top, or clear the selection.
+    Close,
+    /// Type a name for the selected bone.
+    NameBone,
+    /// Read the open files again.
+    ReadAgain,
+    /// Save the view as a picture.
+    SavePicture {
+        /// Without the background, whatever was chosen.
+        transparent: bool,
+    },
+}
+
+/// The parts of the table of keys, in the order of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// Playing and stepping.
+    Time,
+    /// Where the camera is.
+    Camera,
+    /// Bones and skin.
+    Bones,
+    /// How the model is shown, and the rest.
+    Picture,
+}
+
+impl Group {
+    /// All groups, in order.
+    pub const ALL: [Self; 4] = [Self::Time, Self::Camera, Self::Bones, Self::Picture];
+}
+
+/// One action. Its methods answer for a session as it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Action {
+    /// Where it stands in the table of keys.
+    pub group: Group,
+    /// What it does, in the words of the table of keys. Neighbours with the same words share a row.
+    pub does: &'static str,
+    /// What a button or a line of a menu says.
+    pub label: &'static str,
+    /// The keys that ask for it. The first one is shown. Empty if it has none.
+    pub keys: &'static [&'static str],
+    /// Whether it is asked for again while its key is held.
+    pub repeats: bool,
+    /// Whether Shift with its key asks for nothing. Otherwise Shift is ignored where it has no meaning of its own.
+    pub without_shift: bool,
+    ask: fn(&Session) -> Option<Ask>,
+    now: fn(&Session) -> Option<String>,
+}
+
+impl Action {
+    const fn new(
+        group: Group,
+        keys: &'static [&'static str],
+        does: &'static str,
+        label: &'static str,
+        ask: fn(&Session) -> Option<Ask>,
+    ) -> Self {
+        Self {
+            group,
+            does,
+            label,
+            keys,
+            repeats: false,
+            without_shift: false,
+            ask,
+            now: |_| None,
+        }
+    }
+
+    const fn now(self, now: fn(&Session) -> Option<String>) -> Self {
+        Self { now, ..self }
+    }
+
+    const fn repeats(self) -> Self {
+        Self { repeats: true, ..self }
+    }
+
+    const fn without_shift(self) -> Self {
+        Self {
+            without_shift: true,
+            ..self
+        }
+    }
+
+    /// What it asks for. None when it is not possible: a model without bones shows none.
+    pub fn ask(&self, session: &Session) -> Option<Ask> {
+        (self.ask)(session)
+    }
+
+    /// The command it asks for, if it is possible and about the session.
+    pub fn command(&self, session: &Session) -> Option<Command> {
+        match self.ask(session)? {
+            Ask::Command(command) => Some(command),
+            _ => None,
+        }
+    }
+
+    /// What of it is in force: `on`, `1×`, `Lit`. None while it is off, or when there is nothing to say.
+    pub fn in_force(&self, session: &Session) -> Option<String> {
+        (self.now)(session)
+    }
+
+    /// Whether it is on.
+    pub fn is_on(&self, session: &Session) -> bool {
+        self.in_force(session).is_some()
+    }
+
+    /// The key that is shown beside it; empty if it has none.
+    pub fn key(&self) -> &'static str {
+        self.keys.first().copied().unwrap_or_default()
+    }
+
+    /// Its label with its key: `Turntable`, `Frame the model (Shift F)`.
+    pub fn hint(&self) -> String {
+        self.hint_of(self.label)
+    }
+
+    /// Other words with its key: `Pause (Space)`.
+    pub fn hint_of(&self, words: &str) -> String {
+        match self.key() {
+            "" => words.to_owned(),
+            key => format!("{words} ({key})"),
+        }
+    }
+}
+
+/// A row of the table of keys: actions of one group that share their words.
+pub type Row = &'static [Action];
+
+/// The rows of a group, without actions that have no key.
+pub fn rows(group: Group) -> impl Iterator<Item = Row> {
+    ALL.chunk_by(|a, b| (a.group, a.does) == (b.group, b.does))
+        .filter(move |row| row[0].group == group && !row[0].key().is_empty())
+}
+
+/// The keys of a row: `← →`, `Shift ← →`, `F, Shift F`.
+pub fn keys_of(row: Row) -> String {
+    let keys: Vec<&str> = row.iter().map(Action::key).collect();
+    let split = |key: &&'static str| key.rsplit_once(' ').unwrap_or(("", key));
+    let (first_modifier, _) = row.first().map_or(("", ""), |action| split(&action.key()));
+    if row.iter().any(|action| split(&action.key()).0 != first_modifier) {
+        return keys.join(", ");
+    }
+    let keys: Vec<&str> = row.iter().map(|action| split(&action.key()).1).collect();
+    format!("{first_modifier} {}", keys.join(" ")).trim().to_owned()
+}
+
+/// The key that asks for a command now; empty if none does.
+pub fn key_of(session: &Session, command: &Command) -> &'static str {
+    let asked = ALL
+        .iter()
+        .find(|action| action.command(session).as_ref() == Some(command));
+    asked.map_or("", Action::key)
+}
+
+/// A speed as it is shown: `1×`, `0.75×`.
+pub fn speed_label(speed: f32) -> String {
+    format!("{}×", (speed * 100.0).round() / 100.0)
+}
+
+/// The name of what is shown of the surface: colours of the skin take the place of the view mode.
+pub fn view_mode_label(session: &Session) -> &'static str {
+    match session.joints().skin_view() {
+        Some(view) => view.label(),
+        None => session.look().view_mode.label(),
+    }
+}
+
+fn ask(command: impl Into<Command>) -> Option<Ask> {
+    Some(Ask::Command(command.into()))
+}
+
+fn glide(command: Command) -> Option<Ask> {
+    ask(Command::Glide(Box::new(command)))
+}
+
+/// Asks only for a model that has bones.
+fn with_bones(session: &Session, command: impl Into<Command>) -> Option<Ask> {
+    (session.joints().count() > 0).then(|| Ask::Command(command.into()))
+}
+
+fn step_key(session: &Session, direction: Direction) -> Option<Ask> {
+    ask(Command::StepKey {
+        direction,
+        joint: session.joints().selected(),
+    })
+}
+
+fn on(is_on: bool) -> Option<String> {
+    is_on.then(|| "on".to_owned())
+}
+
+fn overlay_on(session: &Session, overlay: Overlay) -> Option<String> {
+    on(session.look().overlays.has(overlay))
+}
+
+fn plays(session: &Session, backward: bool) -> Option<String> {
+    let playback = session.playback();
+    on(playback.is_playing() && playback.is_backward() == backward)
+}
+
+fn range_on(session: &Session) -> Option<String> {
+    on(session.playback().range_secs().is_some())
+}
+
+fn speed(session: &Session) -> Option<String> {
+    Some(speed_label(session.playback().speed()))
+}
+
+macro_rules! actions {
+    ($($(#[$doc:meta])* $name:ident: $action:expr;)*) => {
+        $($(#[$doc])* pub const $name: Action = $action;)*
+
+        /// All actions, in the order of the table of keys.
+        pub const ALL: &[Action] = &[$($name),*];
+    };
+}
+
+actions! {
+    /// Play or pause.
+    PLAY: Action::new(Group::Time, &["Space"], "play or pause", "Play", |_| ask(Command::TogglePlay))
+        .now(|session| plays(session, false));
+    /// Play backward or pause.
+    PLAY_BACKWARD: Action::new(Group::Time, &["Shift Space"], "play backward", "Backward", |_| {
+        ask(Command::TogglePlayBackward)
+    })
+    .now(|session| plays(session, true));
+    /// One frame back.
+    FRAME_BACK: Action::new(Group::Time, &["←", ","], "one frame", "One frame back", |_| ask(Command::StepFrames(-1)))
+        .repeats();
+    /// One frame on.
+    FRAME_ON: Action::new(Group::Time, &["→", "."], "one frame", "One frame on", |_| ask(Command::StepFrames(1)))
+        .repeats();
+    /// Ten frames back.
+    TEN_FRAMES_BACK: Action::new(Group::Time, &["Shift ←", "Shift ,"], "ten frames", "Ten frames back", |_| {
+        ask(Command::StepFrames(-10))
+    })
+    .repeats();
+    /// Ten frames on.
+    TEN_FRAMES_ON: Action::new(Group::Time, &["Shift →", "Shift ."], "ten frames", "Ten frames on", |_| {
+        ask(Command::StepFrames(10))
+    })
+    .repeats();
+    /// To the next key of the selected joint, or of any.
+    NEXT_KEY: Action::new(Group::Time, &["↑"], "next, previous key", "Next key", |session| {
+        step_key(session, Direction::Forward)
+    })
+    .repeats();
+    /// To the previous key of the selected joint, or of any.
+    PREVIOUS_KEY: Action::new(Group::Time, &["↓"], "next, previous key", "Previous key", |session| {
+        step_key(session, Direction::Backward)
+    })
+    .repeats();
+    /// To the first frame of what plays.
+    FIRST_FRAME: Action::new(Group::Time, &["Home"], "first, last frame", "First frame", |_| ask(Command::SeekStart));
+    /// To the last frame of what plays.
+    LAST_FRAME: Action::new(Group::Time, &["End"], "first, last frame", "Last frame", |_| ask(Command::SeekEnd));
+    /// Begin the range at the present time.
+    RANGE_IN: Action::new(Group::Time, &["I"], "range in, out", "Range in", |_| ask(Command::SetRangeStart(None)))
+        .now(range_on);
+    /// End the range at the present time.
+    RANGE_OUT: Action::new(Group::Time, &["O"], "range in, out", "Range out", |_| ask(Command::SetRangeEnd(None)))
+        .now(range_on)
+        .without_shift();
+    /// Play the whole clip again.
+    CLEAR_RANGE: Action::new(Group::Time, &["Shift I"], "no range", "Clear the range", |_| ask(Command::ClearRange));
+    /// Play slower.
+    SLOWER: Action::new(Group::Time, &["["], "slower, faster, 1×", "Slower", |_| ask(Command::Slower)).now(speed).repeats();
+    /// Play faster.
+    FASTER: Action::new(Group::Time, &["]"], "slower, faster, 1×", "Faster", |_| ask(Command::Faster)).now(speed).repeats();
+    /// Play at the speed of the file.
+    NORMAL_SPEED: Action::new(Group::Time, &["\\"], "slower, faster, 1×", "Speed 1×", |_| ask(Command::SetSpeed(1.0)))
+        .now(speed);
+    /// To the next loop mode: once, loop, there and back.
+    NEXT_LOOP_MODE: Action::new(Group::Time, &["L"], "next loop mode", "Loop mode", |_| ask(Command::CycleLoopMode))
+        .now(|session| Some(session.playback().loop_mode().label().to_owned()));
+    /// To the next clip.
+    NEXT_CLIP: Action::new(Group::Time, &["C"], "next clip", "Next clip", |_| ask(Command::CycleClip(1)));
+    /// To the previous clip.
+    PREVIOUS_CLIP: Action::new(Group::Time, &["Shift C"], "previous clip", "Previous clip", |_| ask(Command::CycleClip(-1)));
+
+    /// Frame what is selected, or the model.
+    FRAME_SELECTION: Action::new(Group::Camera, &["F"], "frame the selection, all", "Frame the selection", |_| {
+        glide(Command::FrameSelection)
+    });
+    /// Frame the whole clip.
+    FRAME_MODEL: Action::new(Group::Camera, &["Shift F"], "frame the selection, all", "Frame the model", |_| {
+        glide(Command::FrameModel)
+    });
+    /// View from the front.
+    FRONT: Action::new(Group::Camera, &["1"], "front, right, top", "Front", |_| glide(Command::LookFrom(ViewPreset::Front)));
+    /// View from the right.
+    RIGHT: Action::new(Group::Camera, &["3"], "front, right, top", "Right", |_| glide(Command::LookFrom(ViewPreset::Right)));
+    /// View from above.
+    TOP: Action::new(Group::Camera, &["7"], "front, right, top", "Top", |_| glide(Command::LookFrom(ViewPreset::Top)));
+    /// View from the back.
+    BACK: Action::new(Group::Camera, &["Ctrl 1"], "the opposite side", "Back", |_| glide(Command::LookFrom(ViewPreset::Back)));
+    /// View from the left.
+    LEFT: Action::new(Group::Camera, &["Ctrl 3"], "the opposite side", "Left", |_| glide(Command::LookFrom(ViewPreset::Left)));
+    /// View from below.
+    BOTTOM: Action::new(Group::Camera, &["Ctrl 7"], "the opposite side", "Bottom", |_| {
+        glide(Command::LookFrom(ViewPreset::Bottom))
+    });
+    /// Orthographic or perspective.
+    ORTHOGRAPHIC: Action::new(Group::Camera, &["5"], "orthographic", "Orthographic", |_| ask(Command::ToggleProjection))
+        .now(|session| on(session.camera().projection == Projection::Orthographic));
+    /// View from an upper corner.
+    ISOMETRIC: Action::new(Group::Camera, &["9"], "isometric, reset", "Isometric", |_| {
+        glide(Command::LookFrom(ViewPreset::Isometric))
+    });
+    /// The camera that a model opens with.
+    RESET_CAMERA: Action::new(Group::Camera, &["0"], "isometric, reset", "Reset the camera", |_| glide(Command::ResetCamera));
+    /// The camera goes round the model.
+    TURNTABLE: Action::new(Group::Camera, &[], "turntable", "Turntable", |_| ask(Command::ToggleTurntable))
+        .now(|session| on(session.turntable()));
+
+    /// Bones over the model.
+    BONES: Action::new(Group::Bones, &["B"], "bones", "Bones", |session| {
+        with_bones(session, JointCommand::SetBonesVisible(!session.joints().bones_visible()))
+    })
+    .now(|session| on(session.joints().bones_visible()));
+    /// Names at the bones.
+    BONE_NAMES: Action::new(Group::Bones, &["Shift B"], "names of bones", "Names of bones", |session| {
+        with_bones(session, JointCommand::SetLabelsVisible(!session.joints().labels_visible()))
+    })
+    .now(|session| on(session.joints().labels_visible()));
+    /// Weights of the selected bone on the skin.
+    WEIGHTS: Action::new(Group::Bones, &["W"], "weights of the bone", "Weights", |session| {
+        let shown = session.joints().skin_view() == Some(SkinView::Weight);
+        with_bones(session, JointCommand::SetSkinView((!shown).then_some(SkinView::Weight)))
+    })
+    .now(|session| on(session.joints().skin_view() == Some(SkinView::Weight)));
+    /// Between the clip and the bind pose.
+    BIND_POSE: Action::new(Group::Bones, &["K"], "bind pose, clip", "Bind pose", |session| {
+        with_bones(session, Command::ToggleBindPose)
+    })
+    .now(|session| on(session.bind_share() >= 1.0));
+    /// Name the selected bone.
+    NAME_BONE: Action::new(Group::Bones, &["F2"], "name the bone", "Rename", |session| {
+        session.joints().selected().map(|_| Ask::NameBone)
+    });
+
+    /// To the next view mode.
+    NEXT_VIEW_MODE: Action::new(Group::Picture, &["T"], "view mode", "View mode", |_| ask(LookCommand::CycleViewMode(1)))
+        .now(|session| Some(view_mode_label(session).to_owned()));
+    /// To the previous view mode.
+    PREVIOUS_VIEW_MODE: Action::new(Group::Picture, &["Shift T"], "previous view mode", "Previous view mode", |_| {
+        ask(LookCommand::CycleViewMode(-1))
+    });
+    /// To the other light.
+    OTHER_LIGHT: Action::new(Group::Picture, &["V"], "the other light", "Light", |_| ask(LookCommand::ToggleLight))
+        .now(|session| Some(session.look().light.label().to_owned()));
+    /// Grid on the ground.
+    GRID: Action::new(Group::Picture, &["G"], "ground grid", "Ground grid", |_| {
+        ask(LookCommand::ToggleOverlay(Overlay::Grid))
+    })
+    .now(|session| overlay_on(session, Overlay::Grid));
+    /// Edges of triangles.
+    WIREFRAME: Action::new(Group::Picture, &["Z"], "wireframe", "Wireframe", |_| {
+        ask(LookCommand::ToggleOverlay(Overlay::Wireframe))
+    })
+    .now(|session| overlay_on(session, Overlay::Wireframe));
+    /// Normals of vertices.
+    NORMALS: Action::new(Group::Picture, &["N"], "vertex normals", "Vertex normals", |_| {
+        ask(LookCommand::ToggleOverlay(Overlay::Normals))
+    })
+    .now(|session| overlay_on(session, Overlay::Normals));
+    /// Axes of the world.
+    AXES: Action::new(Group::Picture, &["X"], "axes", "Axes", |_| ask(LookCommand::ToggleOverlay(Overlay::Axes)))
+        .now(|session| overlay_on(session, Overlay::Axes));
+    /// Read the open files again.
+    READ_AGAIN: Action::new(Group::Picture, &["R"], "read the files again", "Read the files again", |_| Some(Ask::ReadAgain))
+        .without_shift();
+    /// Save the view as a picture.
+    SAVE_PICTURE: Action::new(Group::Picture, &["P"], "save a picture", "Save PNG", |_| {
+        Some(Ask::SavePicture { transparent: false })
+    });
+    /// Save the view as a picture without its background.
+    SAVE_TRANSPARENT: Action::new(Group::Picture, &["Shift P"], "with transparent ground", "Save PNG, transparent", |_| {
+        Some(Ask::SavePicture { transparent: true })
+    });
+    /// Show or hide the table of keys.
+    HELP: Action::new(Group::Picture, &["?"], "this table", "Keys", |_| Some(Ask::Help));
+    /// Close what is on top, or clear the selection.
+    CLOSE: Action::new(Group::Picture, &["Esc"], "close, then leave with Tab", "Close", |_| Some(Ask::Close));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_asks_for_two_things() {
+        let mut keys: Vec<&str> = ALL.iter().flat_map(|action| action.keys).copied().collect();
+        let count = keys.len();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), count);
+    }
+
+    #[test]
+    fn keys_of_a_row_name_a_common_modifier_once() {
+        let row_of = |does: &str| {
+            let mut all = Group::ALL.into_iter().flat_map(rows);
+            keys_of(all.find(|row| row[0].does == does).expect("a row"))
+        };
+        assert_eq!(row_of("one frame"), "← →");
+        assert_eq!(row_of("ten frames"), "Shift ← →");
+        assert_eq!(row_of("frame the selection, all"), "F, Shift F");
+        assert_eq!(row_of("the opposite side"), "Ctrl 1 3 7");
+    }
+
+    #[test]
+    fn the_key_of_a_command_is_found_by_what_it_does() {
+        let session = Session::new(true);
+        let wireframe = LookCommand::ToggleOverlay(Overlay::Wireframe).into();
+        let bounds = LookCommand::ToggleOverlay(Overlay::Bounds).into();
+        assert_eq!(key_of(&session, &wireframe), "Z");
+        assert_eq!(key_of(&session, &bounds), "");
+        assert_eq!(BONES.ask(&session), None, "there are no bones");
+    }
+
+    #[test]
+    fn speeds_are_short() {
+        assert_eq!(
+            [1.0, 0.75, 0.05, 1.234].map(speed_label),
+            ["1×", "0.75×", "0.05×", "1.23×"]
+        );
+    }
+}
