@@ -1,20 +1,20 @@
 //! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
 
-use egui::{Align, Align2, Layout, Rangef, RichText, Sense, Ui, vec2};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, Align2, Color32, Layout, Rangef, RichText, ScrollArea, Sense, Ui, vec2};
 
-use super::excerpt;
 use super::icons::Icon;
-use super::theme::{self, Tokens};
+use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use super::widgets::{TextButton, control_size, icon_button, rule};
+use super::wording::shortened;
+use crate::format::Excerpt;
 use crate::session::{Command, GPU_REFUSED, LoadError, Session};
-
-const CARD_MARGIN: f32 = 12.0;
 
 /// The card's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let is_sound = error.diagnostic.code == GPU_REFUSED;
-    let title = match super::wording::shortened(&error.file_name, 40) {
+    let title = match shortened(&error.file_name, 40) {
         name if name.is_empty() && is_sound => "The view could not be drawn".to_owned(),
         name if name.is_empty() => "Nothing to open".to_owned(),
         name => format!("{name} could not be {}", if is_sound { "drawn" } else { "read" }),
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             }
         });
     });
-    rule(ui, CARD_MARGIN);
+    rule(ui, MARGIN);
     ui.label(RichText::new(&error.diagnostic.message).color(tokens.text));
     if let Some(lines) = &error.excerpt {
         ui.add_space(9.0);
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             .as_ref()
             .map(|expected| format!("expected {expected}"));
         let words = (place.unwrap_or_default(), expected.unwrap_or_default());
-        excerpt::show(ui, lines, Some((&words.0, &words.1)), tokens.error);
+        show_excerpt(ui, lines, Some((&words.0, &words.1)), tokens.error);
     }
     ui.add_space(9.0);
     let after = if session.open_model().is_some() {
@@ -73,4 +73,58 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             );
         });
     });
+}
+
+/// Lines of a file with a mark under what is meant. Draws them on a quiet ground. `heading` stands above them, `expected` beside the mark.
+pub(super) fn show_excerpt(
+    ui: &mut Ui,
+    excerpt: &Excerpt,
+    heading_and_expected: Option<(&str, &str)>,
+    mark_color: Color32,
+) {
+    let tokens = Tokens::of(ui);
+    let mono = |color| TextFormat {
+        font_id: theme::mono(12.0),
+        color,
+        line_height: Some(19.0),
+        ..Default::default()
+    };
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = f32::INFINITY;
+    let (heading, expected) = heading_and_expected.unwrap_or_default();
+    if !heading.is_empty() {
+        job.append(&format!("{heading}\n"), 0.0, mono(tokens.muted));
+    }
+    let last = excerpt.lines.len().saturating_sub(1);
+    for (index, (number, line)) in excerpt.numbered_lines().enumerate() {
+        job.append(&format!("{number} | "), 0.0, mono(tokens.faint));
+        if index == last {
+            let (before, marked, after) = excerpt.marked_parts();
+            job.append(before, 0.0, mono(tokens.text));
+            job.append(marked, 0.0, mono(mark_color));
+            job.append(after, 0.0, mono(tokens.text));
+            let indent = " ".repeat(excerpt.mark_column as usize - 1);
+            let mark = "^".repeat(excerpt.mark_length as usize);
+            let number_width = number.len();
+            job.append(&format!("\n{:number_width$} | ", ""), 0.0, mono(tokens.faint));
+            job.append(&format!("{indent}{mark} {expected}\n"), 0.0, mono(mark_color));
+        } else {
+            job.append(&format!("{line}\n"), 0.0, mono(tokens.text));
+        }
+    }
+    let text = job.text.trim_end().len();
+    job.text.truncate(text);
+    if let Some(last) = job.sections.last_mut() {
+        last.byte_range.end = egui::text::ByteIndex(text);
+    }
+    egui::Frame::new()
+        .fill(tokens.field)
+        .corner_radius(CONTROL_RADIUS)
+        .inner_margin(10.0)
+        .show(ui, |ui| {
+            ui.take_available_width();
+            ScrollArea::horizontal()
+                .id_salt("excerpt")
+                .show(ui, |ui| ui.add(egui::Label::new(job).extend()));
+        });
 }

@@ -2,15 +2,22 @@
 
 use egui::{Pos2, Rect, Ui, pos2};
 
-use super::layout::{Arrangement, INSPECTOR_WIDTH, SIDE_WIDTH, bar_height, page_width, shut_sheet_height};
-use super::panel::shown_rect;
+use super::panel::{Arrangement, INSPECTOR_WIDTH, SIDE_WIDTH, bar_height, shown_rect, strip_height};
+use super::skeleton::state::is_inspected;
 use super::skeleton::{self, LegendShape};
-use super::state::UiState;
+use super::state::{SheetPage, UiState};
 use super::theme::MARGIN;
 use super::timeline;
+use super::widgets::SHEET_HANDLE_HEIGHT;
 use crate::scene::Insets;
 use crate::session::Session;
 
+/// Share of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
+const BESIDE_SHARE: f32 = 0.44;
+const TIMELINE_BESIDE_SHARE: f32 = 0.62;
+const MOST_BESIDE: f32 = 560.0;
+/// Margin in the sheet, but for its upper edge.
+pub(super) const SHEET_MARGIN: i8 = 14;
 /// In a narrow window a figure in the middle reaches about so far to either side.
 const FIGURE_REACH: f32 = 80.0;
 /// The least width beside the findings in which something of a model is seen.
@@ -52,7 +59,7 @@ fn beside_findings(
 ) -> Option<(f32, f32)> {
     let open = state.diagnostics_open && arrangement == Arrangement::Wide;
     let list = shown_rect(ui, "diagnostics").filter(|_| open)?;
-    let inspects = session.subsets().selected().is_some() || skeleton::is_inspected(session);
+    let inspects = session.subsets().selected().is_some() || is_inspected(session);
     let inspector = if inspects { INSPECTOR_WIDTH + 2.0 * MARGIN } else { 0.0 };
     let left = list.max.x + MARGIN - window.min.x;
     let free = window.width() - left - inspector;
@@ -127,4 +134,20 @@ pub(super) fn covered_by_timeline(ui: &Ui, session: &Session, state: &UiState, a
 fn covered_beside(state: &UiState, window: Rect, arrangement: Arrangement) -> f32 {
     let page = state.sheet.filter(|_| arrangement == Arrangement::Low);
     page.map_or(0.0, |page| page_width(page, window) + 2.0 * MARGIN)
+}
+
+/// Height of the sheet while nothing is open in it, with its border.
+pub(super) fn shut_sheet_height(ui: &Ui, session: &Session, arrangement: Arrangement) -> f32 {
+    let strip = session.clip().map_or(0.0, |_| strip_height(ui, arrangement));
+    SHEET_HANDLE_HEIGHT + strip + f32::from(SHEET_MARGIN) + 2.0
+}
+
+/// Width of a page beside the model.
+pub(super) fn page_width(page: SheetPage, window: Rect) -> f32 {
+    let share = if page == SheetPage::Timeline {
+        TIMELINE_BESIDE_SHARE
+    } else {
+        BESIDE_SHARE
+    };
+    (share * window.width()).min(MOST_BESIDE)
 }

@@ -1,45 +1,24 @@
 //! The selected subset: its counts, its material to be changed, its maps.
 
-use egui::{Align2, FontId, Rect, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
-use super::icons::Icon;
-use super::material_fields;
+use super::model_panel::shown_color;
 use super::state::UiState;
-use super::subset_list::{paint_swatch, shown_color};
 use super::textures::{holds, picture_row};
-use super::theme::{self, MARGIN, ROW_HEIGHT, Tokens};
-use super::widgets::{control_size, icon_button, paint_elided, rule, section_name, section_with_action, value_row};
+use super::theme::{MARGIN, ROW_HEIGHT, Tokens};
+use super::widgets::{
+    Slider, color_button, control_size, is_touch, number_field, paint_elided, rule, section_name, section_with_action,
+    selected_heading, switch_row, value_row,
+};
 use super::wording::grouped;
-use crate::model::{Mesh, Submesh};
-use crate::session::{Command, MapSlot, OpenModel, Session, SubsetCommand};
+use crate::model::{Material, Reflectance};
+use crate::scene::{linear_from_srgb8, srgb8_from_linear};
+use crate::session::{Command, MAX_SPEC_POWER, MapSlot, OpenModel, Session, SubsetCommand};
 
-/// Height of the heading, as in the panel on the left.
-const HEADING_HEIGHT: f32 = 22.0;
-
-/// Vertices of the subset that was counted last.
-#[derive(Debug, Default)]
-pub(super) struct VertexCount {
-    of: Option<(u64, usize)>,
-    count: usize,
-}
-
-impl VertexCount {
-    /// How many vertices the triangles of a subset use.
-    fn of(&mut self, model_revision: u64, subset: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
-        if self.of != Some((model_revision, subset)) {
-            let start = submesh.triangle_start as usize * 3;
-            let end = start + submesh.triangle_count as usize * 3;
-            let mut used: Vec<u32> = mesh.indices.get(start..end).unwrap_or_default().to_vec();
-            used.sort_unstable();
-            used.dedup();
-            *self = Self {
-                of: Some((model_revision, subset)),
-                count: used.len(),
-            };
-        }
-        self.count
-    }
-}
+/// Width of the labels of values.
+const LABEL_WIDTH: f32 = 90.0;
+/// Room between fields.
+const SPACING: f32 = 5.0;
 
 /// The panel's contents. Nothing while nothing is selected.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -55,7 +34,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         return;
     };
 
-    if heading(ui, &values.name, shown_color(session, material)) {
+    let swatch = Some(shown_color(session, material));
+    if selected_heading(ui, &values.name, Tokens::of(ui).text, swatch) {
         commands.push(SubsetCommand::Select(None).into());
     }
     rule(ui, MARGIN);
@@ -68,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     if section_with_action(ui, "Material", action) {
         commands.push(Command::ResetMaterial(material));
     }
-    if let Some(edited) = material_fields::show(ui, values) {
+    if let Some(edited) = material_fields(ui, values) {
         commands.push(Command::EditMaterial {
             index: material,
             material: edited,
@@ -81,23 +61,6 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
             map_row(ui, session, open, state, material, slot);
         }
     }
-}
-
-/// The name in its colour, and a button that closes. Whether it was clicked.
-fn heading(ui: &mut Ui, name: &str, color: [f32; 3]) -> bool {
-    let size = vec2(ui.available_width(), HEADING_HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), color, 1.0);
-    let side = control_size(ui);
-    let at = pos2(rect.min.x + 18.0, rect.center().y);
-    let (font, most) = (theme::semibold(13.0), rect.max.x - side - at.x);
-    paint_elided(ui.painter(), at, name, font, Tokens::of(ui).text, most);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Selected: {name}")));
-    // The cross stands where the edges of the rows below end, and its field around it.
-    let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
-    // Apart from the rows, which it must not make wider.
-    let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
-    icon_button(&mut corner, Icon::Close, "Clear the selection (Esc)", false).clicked()
 }
 
 /// A map that the material names: the picture, or that it is missing.
@@ -134,7 +97,90 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
     paint_elided(ui.painter(), rect.left_center(), name, font, tokens.muted, room);
     response.widget_info(|| {
         let label = format!("{what} map: {name}, {words}");
-        egui::WidgetInfo::labeled(egui::Role::Label, true, label)
+        WidgetInfo::labeled(Role::Label, true, label)
     });
     response.on_hover_text(format!("{what} map: {name}\n{hint}"));
+}
+
+/// The values of a material. The material with what was changed, when something was.
+fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
+    let mut edited = material.clone();
+    match &mut edited.reflectance {
+        Reflectance::Fresnel { fresnel0, roughness } => {
+            color_row(ui, "Diffuse", &mut edited.diffuse);
+            color_row(ui, "Fresnel R0", fresnel0);
+            let text = format!("{roughness:.2}");
+            if let Some(rougher) = Slider::new("Roughness", *roughness, 0.0..=1.0, &text).show(ui) {
+                *roughness = rougher;
+            }
+        }
+        Reflectance::Phong {
+            ambient,
+            specular,
+            spec_power,
+            reflectivity,
+        } => {
+            color_row(ui, "Ambient", ambient);
+            color_row(ui, "Diffuse", &mut edited.diffuse);
+            color_row(ui, "Specular", specular);
+            power_row(ui, spec_power);
+            color_row(ui, "Reflectivity", reflectivity);
+        }
+    }
+    if switch_row(ui, "Alpha clip", "", material.alpha_clip).clicked() {
+        edited.alpha_clip = !material.alpha_clip;
+    }
+    (edited != *material).then_some(edited)
+}
+
+/// A linear colour: to choose by eye, and its three numbers.
+fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3]) {
+    row(ui, label, |ui, height| {
+        let side = Vec2::splat(height);
+        let shown = color.map(srgb8_from_linear);
+        if let Some(chosen) = color_button(ui, label, side, shown) {
+            // Only the channels that were changed: the others keep what eight bits cannot say.
+            for channel in 0..3 {
+                if chosen[channel] != shown[channel] {
+                    color[channel] = linear_from_srgb8(chosen[channel]);
+                }
+            }
+        }
+        let width = (ui.available_width() - 2.0 * SPACING) / 3.0;
+        for (value, name) in color.iter_mut().zip(["red", "green", "blue"]) {
+            let label = format!("{label}: {name}");
+            let size = vec2(width, height);
+            if let Some(number) = number_field(ui, &label, size, *value, 0.0..=1.0, (0.005, 3)) {
+                *value = number;
+            }
+        }
+    });
+}
+
+fn power_row(ui: &mut Ui, power: &mut f32) {
+    row(ui, "Power", |ui, height| {
+        let size = vec2(ui.available_width(), height);
+        let speed = 0.25 + *power * 0.01;
+        if let Some(number) = number_field(ui, "Power: number", size, *power, 0.0..=MAX_SPEC_POWER, (speed, 1)) {
+            *power = number;
+        }
+    });
+}
+
+/// A label, and fields of a height behind it.
+fn row(ui: &mut Ui, label: &str, fields: impl FnOnce(&mut Ui, f32)) {
+    let height = if is_touch(ui) { 40.0 } else { 22.0 };
+    let row_height = control_size(ui).max(height + 4.0);
+    let size = vec2(ui.available_width(), row_height);
+    ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        ui.set_min_height(row_height);
+        ui.spacing_mut().item_spacing.x = SPACING;
+        let (rect, response) = ui.allocate_exact_size(vec2(LABEL_WIDTH - SPACING, row_height), Sense::hover());
+        let font = FontId::proportional(13.0);
+        let color = Tokens::of(ui).muted;
+        ui.painter()
+            .text(rect.left_center(), Align2::LEFT_CENTER, label, font, color);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, label));
+        fields(ui, height);
+    });
 }

@@ -2,8 +2,8 @@
 
 use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 
-use super::flight::FLIGHT_KEYS;
 use super::state::UiState;
+use super::viewport::FLIGHT_KEYS;
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, JointCommand, Session, SubsetCommand};
 

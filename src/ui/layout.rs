@@ -3,59 +3,18 @@
 
 use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
 
-use super::panel::{PANEL_AROUND, Panel, scrolled};
-use super::skeleton::SidePage;
+use super::free_room::{self, SHEET_MARGIN, page_width, shut_sheet_height};
+use super::panel::{Arrangement, INSPECTOR_WIDTH, PANEL_AROUND, Panel, SIDE_WIDTH, bar_height, scrolled};
+use super::skeleton::state::{SidePage, has_joints, is_inspected};
 use super::state::{SheetPage, UiState};
-use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
+use super::theme::MARGIN;
 use super::{
-    diagnostics_panel, free_room, inspector, light, model_panel, overlays, picture, skeleton, timeline, title_bar,
-    toolbar, view_modes, widgets,
+    diagnostics_panel, inspector, light, model_panel, overlays, picture, skeleton, timeline, toolbar, widgets,
 };
 use crate::session::{Command, Session};
 
-/// Width of the panel on the left.
-pub(super) const SIDE_WIDTH: f32 = 246.0;
-/// Width of the inspector on the right.
-pub(super) const INSPECTOR_WIDTH: f32 = 288.0;
 /// Share of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
 const PAGE_SHARE: f32 = 0.47;
-/// Share of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
-const BESIDE_SHARE: f32 = 0.44;
-const TIMELINE_BESIDE_SHARE: f32 = 0.62;
-const MOST_BESIDE: f32 = 560.0;
-/// Margin in the sheet, but for its upper edge.
-const SHEET_MARGIN: i8 = 14;
-/// Margin around the controls of the bars at the top.
-const BAR_MARGIN: f32 = 4.0;
-
-/// How the panels share the window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Arrangement {
-    /// Panels around the view.
-    Wide,
-    /// A bar above, below a sheet with the timeline and with what was opened.
-    Narrow,
-    /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
-    Low,
-}
-
-impl Arrangement {
-    pub(super) fn of(window: Rect) -> Self {
-        if window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH {
-            Self::Low
-        } else if window.width() >= NARROW_WIDTH {
-            Self::Wide
-        } else {
-            Self::Narrow
-        }
-    }
-}
-
-/// Height of the bars at the top.
-pub(super) fn bar_height(ui: &Ui) -> f32 {
-    widgets::control_size(ui) + 2.0 * BAR_MARGIN
-}
-
 /// Wide windows.
 pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
     let left_top = window.min + Vec2::splat(MARGIN);
@@ -72,7 +31,7 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
             ui.set_height(widgets::control_size(ui) - 6.0);
             // What the toolbar leaves, without the panel's own margins and border.
             let most = toolbar.min.x - MARGIN - left_top.x - PANEL_AROUND;
-            title_bar::show(ui, session, most, true);
+            toolbar::title(ui, session, most, true);
         });
     let covered = timeline::covered_height(ui, session, &state.timeline);
     let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
@@ -85,7 +44,7 @@ pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect
         });
     }
     show_legend(ui, session, state, window, Arrangement::Wide);
-    let inspects_joint = skeleton::is_inspected(session);
+    let inspects_joint = is_inspected(session);
     let inspects = session.subsets().selected().is_some() || inspects_joint;
     if state.diagnostics_open {
         let at = side_top + vec2(SIDE_WIDTH + MARGIN, 0.0);
@@ -129,7 +88,7 @@ fn side_panel(
     commands: &mut Vec<Command>,
 ) {
     let top = ui.cursor().min.y;
-    if skeleton::has_joints(session) {
+    if has_joints(session) {
         skeleton::show_pages(ui, &mut state.skeleton);
         ui.add_space(8.0);
     }
@@ -160,7 +119,7 @@ pub(super) fn narrow(
                 ui.set_height(widgets::control_size(ui));
                 ui.add_space(8.0);
                 let most = ui.available_width() - toolbar::narrow_width(ui);
-                title_bar::show(ui, session, most, false);
+                toolbar::title(ui, session, most, false);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     toolbar::show_narrow(ui, session, state, commands);
                 });
@@ -221,12 +180,6 @@ fn sheet(
         })
 }
 
-/// Height of the sheet while nothing is open in it, with its border.
-pub(super) fn shut_sheet_height(ui: &Ui, session: &Session, arrangement: Arrangement) -> f32 {
-    let strip = session.clip().map_or(0.0, |_| timeline::strip_height(ui, arrangement));
-    widgets::SHEET_HANDLE_HEIGHT + strip + f32::from(SHEET_MARGIN) + 2.0
-}
-
 /// What was opened, beside the model: from the bar to the timeline's upper edge.
 fn page_beside(
     ui: &Ui,
@@ -251,16 +204,6 @@ fn page_beside(
     });
 }
 
-/// Width of a page beside the model.
-pub(super) fn page_width(page: SheetPage, window: Rect) -> f32 {
-    let share = if page == SheetPage::Timeline {
-        TIMELINE_BESIDE_SHARE
-    } else {
-        BESIDE_SHARE
-    };
-    (share * window.width()).min(MOST_BESIDE)
-}
-
 /// A page of the sheet, which scrolls when it is higher than its room.
 fn show_page(
     ui: &mut Ui,
@@ -282,7 +225,7 @@ fn show_page(
 /// Whether the sheet has room for the side panel: nothing is inspected.
 fn is_side_page(session: &Session, state: &UiState) -> bool {
     let names = state.skeleton.is_naming();
-    let inspects = session.subsets().selected().is_some() || skeleton::is_inspected(session);
+    let inspects = session.subsets().selected().is_some() || is_inspected(session);
     !state.diagnostics_open && (!inspects || names)
 }
 
@@ -302,7 +245,7 @@ fn sheet_page(
         SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {
             widgets::section_name(ui, "View mode");
-            view_modes::items(ui, session, commands);
+            toolbar::view_mode_items(ui, session, commands);
         }
         SheetPage::Light => light::show(ui, session, commands),
         SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),

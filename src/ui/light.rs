@@ -1,18 +1,17 @@
 //! Light on the model, what is behind it, and what that costs.
 
-use egui::{Align2, FontId, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
-use super::passes;
-use super::popover::gap;
-use super::theme::Tokens;
+use super::panel::popover_gap;
+use super::theme::{CONTROL_RADIUS, Tokens};
 use super::widgets::{
-    Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, section_name, segmented,
-    switch_row,
+    Slider, color_picker, control_size, focus_ring, icon_button, keyed_section_name, paint_elided, pressed_row_height,
+    section_name, segmented, switch_row,
 };
 use crate::actions;
-use crate::scene::{Background, Light};
-use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, Session};
+use crate::scene::{Background, Light, Pass};
+use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, Session};
 
 /// Colours that a background of one colour begins with: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
@@ -28,7 +27,7 @@ pub(super) fn label(session: &Session) -> &'static str {
 
 /// A dot on the button while something is left out because the device is too slow.
 pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
-    if passes::note(session).is_some() {
+    if slow_passes(session).is_some() {
         let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
         ui.painter().circle_filled(at, 3.0, Tokens::of(ui).warning);
     }
@@ -55,16 +54,16 @@ pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) 
         exposure(ui, look.exposure_stops, commands);
     }
     environment_turn(ui, look.environment_turn_radians, commands);
-    gap(ui);
+    popover_gap(ui);
     background(ui, session, commands);
-    gap(ui);
+    popover_gap(ui);
     section_name(ui, "Green of normal maps");
     let directions = [(false, "DirectX ↓"), (true, "OpenGL ↑")];
     if let Some(flipped) = segmented(ui, "Normal maps", &directions, Some(look.normal_green_flipped)) {
         commands.push(LookCommand::SetNormalGreenFlipped(flipped).into());
     }
-    gap(ui);
-    passes::show(ui, session, commands);
+    popover_gap(ui);
+    passes(ui, session, commands);
 }
 
 fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
@@ -135,4 +134,72 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
             commands.push(Command::ClearSky);
         }
     });
+}
+
+/// Which costly steps of drawing are on, and which the device is too slow for.
+fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let tokens = Tokens::of(ui);
+    section_name(ui, "Passes");
+    let quality = session.quality();
+    for pass in Pass::ALL {
+        let state = quality.state(pass);
+        let (words, color) = match state {
+            PassState::Drawn => ("on", tokens.text),
+            PassState::Off => ("off", tokens.faint),
+            PassState::TooSlow => ("too slow here", tokens.warning),
+        };
+        let (choice, hint) = match state {
+            PassState::Drawn => (PassChoice::Off, "Leave it out"),
+            PassState::Off => (PassChoice::Auto, "Draw it while frames are quick"),
+            PassState::TooSlow => (PassChoice::On, "Draw it however long frames take"),
+        };
+        if pass_row(ui, pass.label(), words, color).on_hover_text(hint).clicked() {
+            commands.push(Command::SetPass(pass, choice));
+        }
+    }
+    if let Some(note) = slow_passes(session) {
+        ui.add_space(4.0);
+        let small = RichText::new(note).font(FontId::proportional(12.0));
+        ui.label(small.color(tokens.warning));
+    }
+}
+
+/// `Ambient occlusion is off: frames took too long`; nothing while the device keeps up.
+fn slow_passes(session: &Session) -> Option<String> {
+    let quality = session.quality();
+    let slow: Vec<&str> = Pass::ALL
+        .into_iter()
+        .filter(|&pass| quality.state(pass) == PassState::TooSlow)
+        .map(Pass::label)
+        .collect();
+    let (last, others) = slow.split_last()?;
+    let names = match others {
+        [] => (*last).to_owned(),
+        others => format!("{} and {}", others.join(", "), last.to_lowercase()),
+    };
+    let verb = if others.is_empty() { "is" } else { "are" };
+    Some(format!("{names} {verb} off: frames took too long"))
+}
+
+fn pass_row(ui: &mut Ui, label: &str, words: &str, color: Color32) -> Response {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), pressed_row_height(ui));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let around = rect.expand2(vec2(6.0, 0.0));
+    if response.hovered() {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+    }
+    focus_ring(ui, around, &response);
+    let font = FontId::proportional(13.0);
+    let painter = ui.painter();
+    painter.text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        label,
+        font.clone(),
+        tokens.text,
+    );
+    painter.text(rect.right_center(), Align2::RIGHT_CENTER, words, font, color);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {words}")));
+    response
 }

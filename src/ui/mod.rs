@@ -1,54 +1,42 @@
 //! The interface. It reads a [`Session`] and answers with [`Command`]s; what is open and shut is its own [`UiState`].
 
 mod diagnostics_panel;
-mod drag_trail;
 mod error_card;
-mod excerpt;
-mod finding_goal;
-mod flight;
 mod free_room;
 mod help;
 mod icons;
-mod input_order;
+mod input;
 mod inspector;
-mod keyboard;
 mod keys;
 mod layout;
 mod light;
-mod material_fields;
 mod model_panel;
 mod overlays;
 mod panel;
-mod passes;
 mod picture;
-mod popover;
 mod skeleton;
 mod split;
 mod state;
-mod subset_list;
 mod textures;
 pub mod theme;
 mod thumbnails;
 mod timeline;
-mod title_bar;
 mod toolbar;
-mod view_modes;
 mod viewport;
 mod widgets;
 mod wording;
 
 use egui::{Align2, Popup, Rect, Ui, Vec2, pos2, vec2};
 
+pub use keys::{escape_shuts, owns_key};
+pub use picture::picture_name;
+pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
+
 use crate::scene::Theme;
 use crate::session::{Command, LoadError, Session, SubsetCommand};
-pub use keys::{escape_shuts, owns_key};
-pub use picture::{MAX_PICTURE_SIDE, picture_name};
+use input::{InputOrder, MOST_PASSES};
+use panel::{Arrangement, PANEL_AROUND, Panel, bar_height};
 use state::Framed;
-pub use state::{Request, SheetPage, UiState};
-
-use input_order::{InputOrder, MOST_PASSES};
-use layout::{Arrangement, bar_height};
-use panel::{PANEL_AROUND, Panel};
 use theme::MARGIN;
 
 /// Width of the card that tells why a file was not opened, where there is room for it.

@@ -1,34 +1,45 @@
 //! What is open: counts, handedness, up axis, size, the count of diagnostics, subsets, textures, other models of the drop.
 
-use egui::{Align2, Color32, FontId, Popup, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
+use super::icons::{self, Icon};
 use super::panel::scrolled;
-use super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::widgets::{choice_row, menu_item, paint_chip, pressed_row_height, rule, section_name, value_row};
-use super::wording::{counted, grouped, measured, shortened};
-use super::{UiState, skeleton, subset_list, textures, title_bar};
+use super::skeleton::state::has_joints;
+use super::state::UiState;
+use super::textures;
+use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
+use super::widgets::{
+    choice_row, focus_ring, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row_height, rule,
+    section_name, section_with_action, value_row,
+};
+use super::wording::{counted, dialect_name, grouped, measured, shortened};
 use crate::diagnostic::Severity;
-use crate::model::{Handedness, UpAxis};
-use crate::session::{Command, OpenModel, Session};
+use crate::model::{Handedness, Submesh, UpAxis};
+use crate::scene::display_color;
+use crate::session::{Command, MapSlot, OpenModel, Session, SubsetCommand};
 
-/// Margin inside the panel.
-pub(super) const PANEL_MARGIN: f32 = 12.0;
+/// Subsets listed before the list scrolls.
+const ROWS: f32 = 8.0;
+/// From this width on a row has room for its count beside the icons.
+const WIDE_ROW: f32 = 280.0;
+/// Width of an icon of a row where a mouse is the pointer.
+const ICON_WIDTH: f32 = 22.0;
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     // Where there is a skeleton, the panel's pages are its heading.
-    if !skeleton::has_joints(session) {
+    if !has_joints(session) {
         heading(ui);
     }
     counts(ui, open);
     space_rows(ui, session, commands);
     bounds_row(ui, open);
     diagnostics_row(ui, session, state);
-    rule(ui, PANEL_MARGIN);
-    subset_list::show(ui, session, open, state, commands);
+    rule(ui, MARGIN);
+    subset_list(ui, session, open, state, commands);
     if session.maps().checklist().named > 0 {
-        rule(ui, PANEL_MARGIN);
+        rule(ui, MARGIN);
         textures::show(ui, session, open, state);
     }
     other_models(ui, session, commands);
@@ -39,12 +50,12 @@ fn heading(ui: &mut Ui) {
     let (at, font) = (heading.left_center(), theme::semibold(13.0));
     ui.painter()
         .text(at, Align2::LEFT_CENTER, "Model", font, Tokens::of(ui).text);
-    rule(ui, PANEL_MARGIN);
+    rule(ui, MARGIN);
 }
 
 fn counts(ui: &mut Ui, open: &OpenModel) {
     let model = &open.model;
-    value_row(ui, "Dialect", title_bar::dialect_name(open.dialect));
+    value_row(ui, "Dialect", dialect_name(open.dialect));
     value_row(ui, "Vertices", &grouped(model.mesh.vertex_count()));
     value_row(ui, "Triangles", &grouped(model.mesh.triangle_count()));
     value_row(ui, "Bones", &grouped(model.skeleton.joint_count()));
@@ -107,7 +118,7 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if models.len() < 2 {
         return;
     }
-    rule(ui, PANEL_MARGIN);
+    rule(ui, MARGIN);
     section_name(ui, "In this drop");
     let open_path = session.open_model().map(|open| open.file.path.as_str());
     let list = scrolled("drop", 5.0 * 26.0);
@@ -162,4 +173,178 @@ fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
             tokens.warning,
         ),
     }
+}
+
+/// The subsets: which are drawn, which one is selected.
+fn subset_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
+    let all_drawn = !session.subsets().left_out().contains(&true);
+    let action = (!all_drawn).then_some("Show all");
+    if section_with_action(ui, "Subsets", action) {
+        commands.push(SubsetCommand::ShowAll.into());
+    }
+    let list = scrolled("subsets", ROWS * pressed_row_height(ui));
+    list.auto_shrink([false, true]).show(ui, |ui| {
+        for (index, submesh) in open.model.mesh.submeshes.iter().enumerate() {
+            let subset = Subset::new(session, index, submesh);
+            if subset.show(ui, commands) {
+                state.hovered_subset = Some(index);
+            }
+        }
+    });
+}
+
+/// The colour in which a subset's material is shown, linear. A map that is there brings its own colours; the tint only stands
+/// in for one that is missing.
+pub(super) fn shown_color(session: &Session, material: usize) -> [f32; 3] {
+    let Some(values) = session.materials().get(material) else {
+        return [0.0; 3];
+    };
+    match session.maps().image(material, MapSlot::Diffuse) {
+        Some(_) => values.diffuse,
+        None => display_color(material, values),
+    }
+}
+
+/// One row.
+struct Subset<'a> {
+    index: usize,
+    name: &'a str,
+    triangles: String,
+    color: [f32; 3],
+    visible: bool,
+    alone: bool,
+    selected: bool,
+}
+
+impl<'a> Subset<'a> {
+    fn new(session: &'a Session, index: usize, submesh: &Submesh) -> Self {
+        let material = submesh.material as usize;
+        let subsets = session.subsets();
+        Self {
+            index,
+            name: session.materials().get(material).map_or("", |values| &values.name),
+            triangles: grouped(submesh.triangle_count as usize),
+            color: shown_color(session, material),
+            visible: subsets.is_visible(index),
+            alone: subsets.solo() == Some(index),
+            selected: subsets.selected() == Some(index),
+        }
+    }
+
+    /// Whether the pointer is over it.
+    fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) -> bool {
+        let tokens = Tokens::of(ui);
+        let size = vec2(ui.available_width(), pressed_row_height(ui));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let around = rect.expand2(vec2(6.0, 0.0));
+        let touch = is_touch(ui);
+        let over = response.contains_pointer() && !touch;
+        if self.selected {
+            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
+        } else if over {
+            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+        }
+        focus_ring(ui, around, &response);
+        response.widget_info(|| {
+            let label = format!("{}, {} triangles", self.name, self.triangles);
+            WidgetInfo::selected(Role::ListItem, true, self.selected, label)
+        });
+
+        let opacity = if self.visible { 1.0 } else { 0.35 };
+        paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
+        let icons_shown = over || touch || response.has_focus();
+        let end = self.show_end(ui, rect, &response, icons_shown, commands);
+        let color = if self.selected { tokens.accent } else { tokens.text };
+        let left = rect.min.x + 18.0;
+        let middle = pos2(left, rect.center().y);
+        let font = FontId::proportional(13.0);
+        paint_elided(
+            ui.painter(),
+            middle,
+            self.name,
+            font,
+            color.gamma_multiply(opacity.max(0.55)),
+            end - 6.0 - left,
+        );
+
+        if response.clicked() {
+            let alone = ui.input(|input| input.modifiers.alt);
+            let selected = (!self.selected).then_some(self.index);
+            let asked = if alone {
+                SubsetCommand::Solo(self.index)
+            } else {
+                SubsetCommand::Select(selected)
+            };
+            commands.push(asked.into());
+        }
+        over
+    }
+
+    /// What stands at the right end: the icons under the pointer or where one of them is on, else the count of triangles.
+    /// Where it begins.
+    fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, all: bool, commands: &mut Vec<Command>) -> f32 {
+        let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
+        let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };
+        let verb = if self.visible { "Hide" } else { "Show" };
+        let visible = SubsetCommand::SetVisible {
+            subset: self.index,
+            visible: !self.visible,
+        };
+        let alone = SubsetCommand::Solo(self.index);
+        let icons = [
+            (
+                all || !self.visible,
+                eye,
+                format!("{verb} {}", self.name),
+                false,
+                visible,
+            ),
+            (
+                all || self.alone,
+                Icon::Solo,
+                format!("Show {} alone (Alt click)", self.name),
+                self.alone,
+                alone,
+            ),
+        ];
+        // Each icon has its place, whether or not the other is shown.
+        let mut right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
+        let mut begins = None;
+        for (shown, icon, label, on, command) in icons {
+            let place = Rect::from_min_max(pos2(right - width, rect.min.y), pos2(right, rect.max.y));
+            right = place.min.x;
+            if shown {
+                begins = Some(right);
+                if row_icon(ui, place, row, icon, &label, on) {
+                    commands.push(command.into());
+                }
+            }
+        }
+        let count_at = match begins {
+            Some(x) if rect.width() >= WIDE_ROW => pos2(x - 6.0, rect.center().y),
+            Some(x) => return x,
+            None => rect.right_center(),
+        };
+        let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
+        let painter = ui.painter();
+        painter
+            .text(count_at, Align2::RIGHT_CENTER, &self.triangles, font, color)
+            .min
+            .x
+    }
+}
+
+/// A small icon in a row. Whether it was clicked.
+fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
+    let tokens = Tokens::of(ui);
+    let response = ui.interact(place, row.id.with(icon), Sense::click());
+    let color = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tokens.accent,
+        (false, hovered) => tokens.muted_to_text(hovered),
+    };
+    let box_of = Rect::from_center_size(place.center(), Vec2::splat(16.0));
+    icons::paint(ui.painter(), box_of, icon, color);
+    focus_ring(ui, place, &response);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
+    response.on_hover_text(label).clicked()
 }

@@ -1,12 +1,30 @@
-//! Lines over and beside the model.
+//! Lines over and beside the model; bones, their names, bind pose, ghosts, trails.
 
-use egui::Ui;
+use egui::{Align2, FontId, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::skeleton::{self, SkeletonState};
-use super::widgets::{Slider, section_name, switch_row};
+use super::icons::Icon;
+use super::panel::popover_gap;
+use super::skeleton::state::{SkeletonState, has_joints};
+use super::theme::Tokens;
+use super::widgets::{
+    Slider, action_switch, control_size, icon_button, number_field, paint_elided, section_name, section_with_action,
+    segmented, switch_row,
+};
+use super::wording::shortened;
 use crate::actions;
-use crate::scene::{Overlay, Overlays};
-use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, Session};
+use crate::anim::GhostPlan;
+use crate::scene::{BoneStyle, Overlay, Overlays};
+use crate::session::{Command, JointCommand, LookCommand, MAX_LINE_LENGTH, Session};
+
+/// Ghosts that are shown when they are switched on.
+const FIRST_GHOSTS: GhostPlan = GhostPlan {
+    before: 3,
+    after: 3,
+    step_frames: 5,
+};
+/// The most of either side, and frames between two, that can be asked for.
+const MOST_GHOSTS: f32 = 16.0;
+const MOST_STEP: f32 = 120.0;
 
 /// The popover's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
@@ -23,14 +41,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
             line_length(ui, overlays.line_length, commands);
         }
     }
-    skeleton::show_overlay_rows(ui, session, state, commands);
+    skeleton_rows(ui, session, state, commands);
 }
 
 /// Whether anything beside the ground is drawn over the model.
 pub(super) fn any_beside_the_grid(session: &Session) -> bool {
     let overlays = &session.look().overlays;
     let mut lines = Overlay::ALL.into_iter().filter(|&overlay| overlay != Overlay::Grid);
-    lines.any(|overlay| overlays.has(overlay)) || skeleton::any_shown(session)
+    lines.any(|overlay| overlays.has(overlay)) || any_of_skeleton(session)
 }
 
 fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
@@ -38,5 +56,133 @@ fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
     let slider = Slider::new("Line length", length, 0.0..=MAX_LINE_LENGTH, &text);
     if let Some(length) = slider.reset_to(Overlays::default().line_length).show(ui) {
         commands.push(LookCommand::SetLineLength(length).into());
+    }
+}
+
+/// Whether anything of the skeleton is drawn over the model.
+fn any_of_skeleton(session: &Session) -> bool {
+    let joints = session.joints();
+    let over = joints.bones_visible() || !joints.trails().is_empty();
+    over || session.ghost_plan().is_some() || session.bind_ghost() || session.bind_share() > 0.0
+}
+
+/// Bones, names, bind pose, ghosts, trails.
+fn skeleton_rows(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+    if !has_joints(session) {
+        return;
+    }
+    let joints = session.joints();
+    popover_gap(ui);
+    section_name(ui, "Skeleton");
+    action_switch(ui, session, &actions::BONES, commands);
+    if joints.bones_visible() {
+        let styles = BoneStyle::ALL.map(|style| (style, style.label()));
+        if let Some(style) = segmented(ui, "Bones", &styles, Some(joints.bone_style())) {
+            commands.push(JointCommand::SetBoneStyle(style).into());
+        }
+    }
+    action_switch(ui, session, &actions::BONE_NAMES, commands);
+    popover_gap(ui);
+    section_name(ui, "Pose");
+    bind_pose(ui, session, commands);
+    if session.clip().is_some() {
+        ghosts(ui, session, commands);
+        trails(ui, session, state, commands);
+    }
+}
+
+fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let share = session.bind_share();
+    if session.clip().is_some() {
+        let toggle = &actions::BIND_POSE;
+        if switch_row(ui, toggle.label, toggle.key(), share >= 0.5).clicked() {
+            commands.extend(toggle.command(session));
+        }
+        let text = format!("{:.0} %", share * 100.0);
+        if let Some(share) = Slider::new("To bind pose", share, 0.0..=1.0, &text).show(ui) {
+            commands.push(Command::SetBindShare(share));
+        }
+    }
+    if switch_row(ui, "Bind pose as a veil", "", session.bind_ghost()).clicked() {
+        commands.push(Command::SetBindGhost(!session.bind_ghost()));
+    }
+}
+
+fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let plan = session.ghost_plan();
+    if switch_row(ui, "Ghosts", "", plan.is_some()).clicked() {
+        commands.push(Command::SetGhosts(plan.is_none().then_some(FIRST_GHOSTS)));
+    }
+    let Some(plan) = plan else { return };
+    ui.horizontal(|ui| {
+        let gap = ui.spacing().item_spacing.x;
+        let size = vec2((ui.available_width() - 2.0 * gap) / 3.0, control_size(ui));
+        let mut field = |label: &str, value: u32, range| {
+            ui.vertical(|ui| {
+                ui.set_width(size.x);
+                let (name, _) = ui.allocate_exact_size(vec2(size.x, 15.0), Sense::hover());
+                let short = label.rsplit(' ').next().unwrap_or(label);
+                let (font, color) = (FontId::proportional(11.0), Tokens::of(ui).muted);
+                ui.painter()
+                    .text(name.center(), Align2::CENTER_CENTER, short, font, color);
+                number_field(ui, label, size, value as f32, range, (0.1, 0))
+            })
+            .inner
+            .map(|number| number.round() as u32)
+        };
+        let before = field("Ghosts before", plan.before, 0.0..=MOST_GHOSTS);
+        let after = field("Ghosts after", plan.after, 0.0..=MOST_GHOSTS);
+        let step = field("Ghosts every frames", plan.step_frames, 1.0..=MOST_STEP);
+        let asked = GhostPlan {
+            before: before.unwrap_or(plan.before),
+            after: after.unwrap_or(plan.after),
+            step_frames: step.unwrap_or(plan.step_frames),
+        };
+        if asked != plan {
+            commands.push(Command::SetGhosts(Some(asked)));
+        }
+    });
+    ui.add_space(6.0);
+}
+
+/// The joints whose way through the clip is drawn.
+fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+    let trails = session.joints().trails();
+    let selected = session.joints().selected();
+    if let Some(joint) = selected.filter(|joint| !trails.contains(joint))
+        && switch_row(
+            ui,
+            &format!("Trail of {}", shortened(&session.joint_label(joint), 18)),
+            "",
+            false,
+        )
+        .clicked()
+    {
+        commands.push(JointCommand::ToggleTrail(joint).into());
+    }
+    if trails.is_empty() {
+        return;
+    }
+    popover_gap(ui);
+    if section_with_action(ui, "Trails", Some("Clear")) {
+        commands.push(JointCommand::ClearTrails.into());
+    }
+    for &joint in trails {
+        let name = session.joint_label(joint);
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), control_size(ui)), Sense::hover());
+        if response.contains_pointer() {
+            state.hovered = Some(joint);
+        }
+        let side = control_size(ui);
+        let tokens = Tokens::of(ui);
+        let font = FontId::proportional(13.0);
+        let room = rect.width() - side;
+        paint_elided(ui.painter(), rect.left_center(), &name, font, tokens.text, room);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Trail: {name}")));
+        let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
+        let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));
+        if icon_button(&mut corner, Icon::Close, &format!("Leave the trail of {name}"), false).clicked() {
+            commands.push(JointCommand::ToggleTrail(joint).into());
+        }
     }
 }

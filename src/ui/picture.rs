@@ -2,14 +2,12 @@
 
 use egui::{Rangef, Ui, vec2};
 
-use super::state::UiState;
+use super::panel::popover_gap;
+use super::state::{MAX_PICTURE_SIDE, PictureChoice, UiState};
+use super::theme::Tokens;
 use super::widgets::{TextButton, control_size, menu_item, number_field, section_name, switch_row};
-use super::{popover, theme};
 use crate::actions;
 use crate::session::Session;
-
-/// The longest side that can be asked for.
-pub const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// Sizes with a name, in pixels.
 const PRESETS: [(&str, [u32; 2]); 3] = [
@@ -17,24 +15,6 @@ const PRESETS: [(&str, [u32; 2]); 3] = [
     ("4K  3840 × 2160", [3840, 2160]),
     ("Square  2048 × 2048", [2048, 2048]),
 ];
-
-/// How a picture is to be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct PictureChoice {
-    /// Width and height in pixels; the window's unless chosen.
-    size: Option<[u32; 2]>,
-    /// Without what is behind the model.
-    pub(super) transparent: bool,
-}
-
-impl PictureChoice {
-    /// Width and height in pixels, now that the window is as it is.
-    pub(super) fn size_in_pixels(&self, ui: &Ui) -> [u32; 2] {
-        let window = ui.ctx().content_rect().size() * ui.pixels_per_point();
-        let pixels = |side: f32| (side.round() as u32).clamp(1, MAX_PICTURE_SIDE);
-        self.size.unwrap_or([pixels(window.x), pixels(window.y)])
-    }
-}
 
 /// The popover's contents.
 pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
@@ -55,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     if response.clicked() {
         state.picture.transparent = !state.picture.transparent;
     }
-    popover::gap(ui);
+    popover_gap(ui);
     let width = Rangef::point(ui.available_width());
     if TextButton::new(actions::SAVE_PICTURE.label, &actions::SAVE_PICTURE.hint())
         .width(width)
@@ -89,7 +69,7 @@ fn size_fields(ui: &mut Ui, size: [u32; 2], choice: &mut PictureChoice) {
 }
 
 fn words(ui: &mut Ui, text: &str, width: f32) {
-    let color = theme::Tokens::of(ui).muted;
+    let color = Tokens::of(ui).muted;
     let (rect, _) = ui.allocate_exact_size(vec2(width, control_size(ui)), egui::Sense::hover());
     let font = egui::FontId::proportional(13.0);
     ui.painter()

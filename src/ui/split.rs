@@ -2,8 +2,7 @@
 
 use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::layout::bar_height;
-use super::panel::shown_rect;
+use super::panel::{bar_height, shown_rect};
 use super::theme::{MARGIN, Tokens};
 use super::widgets::{arrow_steps, is_touch, paint_chip};
 use crate::scene::Light;

@@ -2,15 +2,18 @@
 
 use egui::{Rect, Ui};
 
-use super::diagnostics_panel::ShownFinding;
-use super::inspector::VertexCount;
-use super::keyboard::Keyboard;
-use super::picture::PictureChoice;
-use super::skeleton::SkeletonState;
+use super::input::Keyboard;
+use super::skeleton::state::SkeletonState;
 use super::thumbnails::Thumbnails;
-use super::timeline::TimelineState;
+use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
+use crate::diagnostic::Diagnostic;
+use crate::format::Excerpt;
+use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
+
+/// The longest side that can be asked for.
+pub const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// What only the page around the interface can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +26,7 @@ pub enum Request {
     PickClips,
     /// Take this theme, whatever the system says.
     UseTheme(Theme),
-    /// Save the view as a picture; [`picture_name`](super::picture_name) says how the file is called.
+    /// Save the view as a picture; [`picture_name`](crate::ui::picture_name) says how the file is called.
     SavePicture {
         /// Width and height in pixels.
         size: [u32; 2],
@@ -117,5 +120,55 @@ impl UiState {
             size,
             transparent: transparent || self.picture.transparent,
         });
+    }
+}
+
+/// The finding whose lines are shown. They are read from the file once, when it is opened.
+#[derive(Debug)]
+pub(super) struct ShownFinding {
+    pub(super) finding: Diagnostic,
+    pub(super) excerpt: Option<Excerpt>,
+}
+
+/// Vertices of the subset that was counted last.
+#[derive(Debug, Default)]
+pub(super) struct VertexCount {
+    of: Option<(u64, usize)>,
+    count: usize,
+}
+
+impl VertexCount {
+    /// How many vertices the triangles of a subset use.
+    pub(super) fn of(&mut self, model_revision: u64, subset: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
+        if self.of != Some((model_revision, subset)) {
+            let start = submesh.triangle_start as usize * 3;
+            let end = start + submesh.triangle_count as usize * 3;
+            let mut used: Vec<u32> = mesh.indices.get(start..end).unwrap_or_default().to_vec();
+            used.sort_unstable();
+            used.dedup();
+            *self = Self {
+                of: Some((model_revision, subset)),
+                count: used.len(),
+            };
+        }
+        self.count
+    }
+}
+
+/// How a picture is to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct PictureChoice {
+    /// Width and height in pixels; the window's unless chosen.
+    pub(super) size: Option<[u32; 2]>,
+    /// Without what is behind the model.
+    pub(super) transparent: bool,
+}
+
+impl PictureChoice {
+    /// Width and height in pixels, now that the window is as it is.
+    pub(super) fn size_in_pixels(&self, ui: &Ui) -> [u32; 2] {
+        let window = ui.ctx().content_rect().size() * ui.pixels_per_point();
+        let pixels = |side: f32| (side.round() as u32).clamp(1, MAX_PICTURE_SIDE);
+        self.size.unwrap_or([pixels(window.x), pixels(window.y)])
     }
 }

@@ -1,18 +1,27 @@
-//! Top right: what of the model is shown and in which light, from where, pictures, opening files, help.
+//! The bar at the top. On its left: whose page this is and which file is open. On its right: what of the model is shown and in which
+//! light, from where, pictures, opening files, help.
 
-use egui::{Rangef, RectAlign, Ui};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Color32, FontId, Rangef, RectAlign, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
-use super::skeleton::SkeletonState;
+use super::panel::{popover, popover_menu};
+use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
+use super::theme::{self, Tokens};
 use super::widgets::{
-    TextButton, action_button, control_size, icon_button, keyed_menu_item, menu_item, valued_menu_item,
+    TextButton, action_button, chip, chip_size, control_size, icon_button, keyed_menu_item, menu_item, section_name,
+    valued_menu_item,
 };
-use super::{light, overlays, picture, popover, view_modes};
+use super::wording::dialect_name;
+use super::{light, overlays, picture};
 use crate::actions;
-use crate::scene::{Theme, ViewPreset};
-use crate::session::{Command, Session};
+use crate::anim::SkinView;
+use crate::scene::{Theme, ViewMode, ViewPreset};
+use crate::session::{Command, JointCommand, LookCommand, Session};
 
+/// Room between the words of the title.
+const TITLE_SPACING: f32 = 10.0;
 /// Width of the popover with light, background and passes.
 const LIGHT_WIDTH: f32 = 288.0;
 /// The light's button is as wide for either light, so that nothing beside it moves.
@@ -33,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
         action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
         let camera = icon_button(ui, Icon::Camera, &actions::SAVE_PICTURE.hint_of("Picture…"), false);
-        popover::show(ui, &camera, 224.0, |ui| picture::show(ui, state));
+        popover(ui, &camera, 224.0, |ui| picture::show(ui, state));
         theme_button(ui, state);
         open_button(ui, state);
         if icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open).clicked() {
@@ -46,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
     let dots = icon_button(ui, Icon::Dots, "More", false);
-    popover::menu(ui, &dots, RectAlign::BOTTOM_END, 230.0, |ui| {
+    popover_menu(ui, &dots, RectAlign::BOTTOM_END, 230.0, |ui| {
         more_menu(ui, session, state, commands);
     });
     open_button(ui, state);
@@ -68,8 +77,8 @@ fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
     let button = button.on_hover_text(actions::NEXT_VIEW_MODE.hint());
-    popover::menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
-        if view_modes::items(ui, session, commands) {
+    popover_menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
+        if view_mode_items(ui, session, commands) {
             ui.close();
         }
     });
@@ -85,7 +94,7 @@ fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let other = &actions::OTHER_LIGHT;
     let hint = format!("Light and background ({}: {})", other.key(), other.does);
     let button = button.on_hover_text(hint);
-    popover::show(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, commands));
+    popover(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, commands));
 }
 
 fn lighting(session: &Session) -> String {
@@ -95,7 +104,7 @@ fn lighting(session: &Session) -> String {
 fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let on = overlays::any_beside_the_grid(session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
-    popover::show(ui, &button, 236.0, |ui| overlays::show(ui, session, state, commands));
+    popover(ui, &button, 236.0, |ui| overlays::show(ui, session, state, commands));
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
@@ -122,7 +131,7 @@ fn theme_button(ui: &mut Ui, state: &mut UiState) {
 
 fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let cube = icon_button(ui, Icon::Cube, "View from…", false);
-    popover::menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
+    popover_menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
         if view_from_items(ui, session, commands) {
             ui.close();
         }
@@ -179,4 +188,72 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
         state.help_open = true;
         ui.close();
     }
+}
+
+/// A line for each mode, and below them what can be seen of a skin. Whether one was chosen.
+pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
+    let (in_force, skin_view) = (session.look().view_mode, session.joints().skin_view());
+    let mut chosen = false;
+    for mode in ViewMode::ALL {
+        // The key goes to the next one.
+        let key = if mode == in_force.cycled(1) {
+            actions::NEXT_VIEW_MODE.key()
+        } else {
+            ""
+        };
+        let on = mode == in_force && skin_view.is_none();
+        if keyed_menu_item(ui, mode.label(), key, on).clicked() {
+            commands.push(LookCommand::SetViewMode(mode).into());
+            commands.push(JointCommand::SetSkinView(None).into());
+            chosen = true;
+        }
+    }
+    if has_joints(session) {
+        ui.add_space(6.0);
+        section_name(ui, "Skin");
+        for view in SkinView::ALL {
+            let on = skin_view == Some(view);
+            let command = JointCommand::SetSkinView((!on).then_some(view)).into();
+            if keyed_menu_item(ui, view.label(), actions::key_of(session, &command), on).clicked() {
+                commands.push(command);
+                chosen = true;
+            }
+        }
+    }
+    chosen
+}
+
+/// Name, file, dialect, no wider than `most`. What is too long of the file's name ends in an ellipsis.
+pub(super) fn title(ui: &mut Ui, session: &Session, most: f32, with_dialect: bool) {
+    let tokens = Tokens::of(ui);
+    ui.horizontal_centered(|ui| {
+        ui.spacing_mut().item_spacing.x = TITLE_SPACING;
+        let start = ui.cursor().min.x;
+        text(ui, "Bindpose", theme::semibold(13.5), tokens.text, f32::INFINITY);
+        let Some(open) = session.open_model() else { return };
+        let dialect = dialect_name(open.dialect);
+        let dialect_width = if with_dialect {
+            TITLE_SPACING + chip_size(ui, dialect).x
+        } else {
+            0.0
+        };
+        let room = most - (ui.cursor().min.x - start) - dialect_width;
+        let font = FontId::proportional(13.0);
+        let name = open.file.base_name();
+        text(ui, name, font, tokens.muted, room).on_hover_text(&open.file.path);
+        if with_dialect {
+            chip(ui, dialect, tokens.muted);
+        }
+    });
+}
+
+fn text(ui: &mut Ui, text: &str, font: FontId, color: Color32, most: f32) -> Response {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
+    job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
+    let galley = ui.painter().layout_job(job);
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x, 22.0), Sense::hover());
+    let at = pos2(rect.min.x, rect.center().y - galley.size().y * 0.5);
+    ui.painter().galley(at, galley, color);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    response
 }

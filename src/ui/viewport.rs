@@ -2,11 +2,9 @@
 
 use std::f32::consts::PI;
 
-use egui::{Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
-use glam::Vec2;
+use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
+use glam::{Vec2, Vec3};
 
-use super::drag_trail::DragTrail;
-use super::flight::Flight;
 use crate::session::{Command, LookCommand};
 
 /// Radians of orbit for a drag over the height of the view.
@@ -123,4 +121,106 @@ fn drag(
 pub(super) fn in_picture(rect: Rect, at: Pos2) -> Vec2 {
     let share = (at - rect.min) / rect.size();
     Vec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
+}
+
+/// Radians that the head turns for a drag over the height of the view.
+const LOOK_PER_HEIGHT: f32 = PI * 0.6;
+
+/// Keys and where they fly: to the right, up, forward.
+pub(super) const FLIGHT_KEYS: [(Key, Vec3); 6] = [
+    (Key::W, Vec3::Z),
+    (Key::S, Vec3::NEG_Z),
+    (Key::D, Vec3::X),
+    (Key::A, Vec3::NEG_X),
+    (Key::E, Vec3::Y),
+    (Key::Q, Vec3::NEG_Y),
+];
+
+/// A flight from the first key under the held button until the button is let go.
+#[derive(Debug, Default)]
+struct Flight {
+    flying: bool,
+    asked: (Vec3, bool),
+}
+
+impl Flight {
+    /// Reads keys and the drag. Whether the drag turns the head instead of carrying the scene.
+    fn update(&mut self, ui: &Ui, view: &Response, height: f32, commands: &mut Vec<Command>) -> bool {
+        let button = ui.input(|input| input.pointer.button_down(PointerButton::Secondary));
+        let held = button && view.is_pointer_button_down_on();
+        let typing = ui.ctx().text_edit_focused();
+        let wanted = if held && !typing { keys_held(ui) } else { Vec3::ZERO };
+        self.flying = held && (self.flying || wanted != Vec3::ZERO);
+        let asked = (wanted, wanted != Vec3::ZERO && ui.input(|input| input.modifiers.shift));
+        if asked != self.asked {
+            self.asked = asked;
+            let (direction, fast) = asked;
+            commands.push(Command::Fly { direction, fast });
+        }
+        let moved = view.drag_delta() / height * LOOK_PER_HEIGHT;
+        if self.flying && moved != egui::Vec2::ZERO {
+            commands.push(Command::FlyLook {
+                yaw_radians: moved.x,
+                pitch_radians: -moved.y,
+            });
+        }
+        self.flying
+    }
+}
+
+fn keys_held(ui: &Ui) -> Vec3 {
+    ui.input(|input| {
+        let held = FLIGHT_KEYS.iter().filter(|(key, _)| input.key_down(*key));
+        held.map(|&(_, direction)| direction).sum()
+    })
+}
+
+/// Only this last part of a drag counts: who slows down before letting go means to stop.
+const RECENT_SECS: f64 = 0.08;
+
+/// What a drag did lately.
+#[derive(Clone, Debug, Default)]
+struct DragTrail {
+    /// When, and how far since the step before.
+    steps: Vec<(f64, Vec2)>,
+}
+
+impl DragTrail {
+    /// The drag went on.
+    fn add(&mut self, now_secs: f64, moved: Vec2) {
+        self.steps.retain(|&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
+        self.steps.push((now_secs, moved));
+    }
+
+    /// Another drag, or none.
+    fn clear(&mut self) {
+        self.steps.clear();
+    }
+
+    /// Movement a second over the recent part of the drag.
+    fn rate_per_sec(&self, now_secs: f64) -> Vec2 {
+        let recent = self
+            .steps
+            .iter()
+            .filter(|&&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
+        recent.map(|&(_, moved)| moved).sum::<Vec2>() / RECENT_SECS as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_steady_drag_has_its_rate_and_one_that_waits_has_none() {
+        let mut trail = DragTrail::default();
+        for step in 0..20 {
+            trail.add(f64::from(step) * 0.01, Vec2::new(0.02, -0.01));
+        }
+        let rate = trail.rate_per_sec(0.19);
+        assert!((rate - Vec2::new(2.0, -1.0)).abs().max_element() < 0.3, "{rate}");
+        assert_eq!(trail.rate_per_sec(0.4), Vec2::ZERO, "it stood still before the end");
+        trail.clear();
+        assert_eq!(trail.rate_per_sec(0.19), Vec2::ZERO);
+    }
 }

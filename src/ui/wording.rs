@@ -1,5 +1,7 @@
 //! Numbers and names as people read them.
 
+use crate::format::Dialect;
+
 /// A whole number with its thousands grouped by narrow spaces: `13 748`.
 pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
@@ -49,6 +51,23 @@ pub(super) fn trimmed(number: f32) -> String {
 /// `1 note`, `2 notes`.
 pub(super) fn counted(count: usize, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
+}
+
+/// What people call a dialect.
+pub(super) fn dialect_name(dialect: Dialect) -> &'static str {
+    match dialect {
+        Dialect::D3d12 => "D3D12 book",
+        Dialect::D3d11 => "D3D11 book",
+        Dialect::Imm => "imm exporter",
+    }
+}
+
+/// `1 vertex`, `945 vertices`.
+pub(super) fn counted_vertices(count: u32) -> String {
+    match count {
+        1 => "1 vertex".to_owned(),
+        count => format!("{} vertices", grouped(count as usize)),
+    }
 }
 
 #[cfg(test)]

@@ -1,36 +1,32 @@
 //! The selected joint: what it hangs from, where it is now, its matrices and keys; below it the selected vertex.
 
-use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::tree_row::counted_vertices;
-use super::{SkeletonState, key_table, numbers, vertex_panel};
+use super::numbers::{fitted, show_matrix, show_parts};
+use super::state::{KeyPart, SkeletonState, Space};
+use super::vertex_panel;
 use crate::actions;
-use crate::anim::JointReadout;
+use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, Session};
-use crate::ui::icons::Icon;
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, control_size, focus_ring, icon_button, paint_elided, rule, section_with_action,
-    section_with_labelled_action, segmented, switch_row, value_row,
+    TextButton, focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_with_action,
+    section_with_labelled_action, segmented, selected_heading, switch_row, value_row,
 };
+use crate::ui::wording::{counted, counted_vertices, grouped};
 
-/// Height of the heading, as in the panel on the left.
-const HEADING_HEIGHT: f32 = 22.0;
+/// Keys listed before the list scrolls.
+const ROWS: f32 = 8.0;
+/// Right ends of the columns of frame and time.
+const FRAME_END: f32 = 34.0;
+const TIME_END: f32 = 86.0;
+/// Width of a column of numbers.
+const KEY_COLUMN: f32 = 56.0;
 /// Children that are listed: hundreds may hang from one joint.
 const CHILDREN: usize = 12;
 /// Where values begin.
 const LABEL_WIDTH: f32 = 72.0;
-
-/// What a transform is relative to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Space {
-    /// The parent.
-    #[default]
-    Local,
-    /// The model.
-    Model,
-}
 
 /// The panel's contents. Nothing while nothing is selected.
 pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
@@ -38,7 +34,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
     let joint = state.reading.joint.take();
     let vertex = state.reading.vertex.take();
     if let Some(readout) = &joint {
-        if heading(ui, &session.joint_label(readout.joint)) {
+        if selected_heading(ui, &session.joint_label(readout.joint), Tokens::of(ui).accent, None) {
             commands.push(JointCommand::Select(None).into());
         }
         rule(ui, MARGIN);
@@ -84,7 +80,7 @@ fn show_joint(
     }
     ui.add_space(4.0);
     let digits = state.reading.digits;
-    numbers::show_parts(ui, parts, digits);
+    show_parts(ui, parts, digits);
     let matrices = [
         ("Offset", "offset", &readout.offset),
         (
@@ -99,7 +95,7 @@ fn show_joint(
         if section_with_labelled_action(ui, name, Some(("Copy", &label))) {
             ui.ctx().copy_text(matrix.to_text(in_books));
         }
-        numbers::show_matrix(ui, name, matrix, digits);
+        show_matrix(ui, name, matrix, digits);
     }
     ui.add_space(8.0);
     let all = TextButton::new("Copy all numbers", "Copy all numbers of the bone");
@@ -112,29 +108,7 @@ fn show_joint(
     if switch_row(ui, "Trail through the clip", "", trail).clicked() {
         commands.push(JointCommand::ToggleTrail(joint).into());
     }
-    key_table::show(ui, session, &mut state.key_part, joint, commands);
-}
-
-/// The name, and a button that closes. Whether it was clicked.
-pub(super) fn heading(ui: &mut Ui, name: &str) -> bool {
-    let size = vec2(ui.available_width(), HEADING_HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let side = control_size(ui);
-    let (font, most) = (theme::semibold(13.0), rect.width() - side);
-    paint_elided(
-        ui.painter(),
-        rect.left_center(),
-        name,
-        font,
-        Tokens::of(ui).accent,
-        most,
-    );
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Selected: {name}")));
-    // The cross stands where the edges of the rows below end, and its field around it.
-    let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
-    // Apart from the rows, which it must not make wider.
-    let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
-    icon_button(&mut corner, Icon::Close, "Clear the selection (Esc)", false).clicked()
+    key_list(ui, session, &mut state.key_part, joint, commands);
 }
 
 /// Parent and children as links.
@@ -211,4 +185,84 @@ fn joint_link(ui: &mut Ui, name: &str) -> Response {
     paint_elided(ui.painter(), at, name, font, tokens.accent, width - 10.0);
     response.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     response
+}
+
+/// The keys of a joint's track in the clip that is shown. Only the rows in view are laid out; a click goes to the key.
+fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointIndex, commands: &mut Vec<Command>) {
+    rule(ui, MARGIN);
+    let clip = session.clip();
+    let track = clip.and_then(|clip| clip.tracks.get(joint.index()));
+    let (Some(clip), Some(track)) = (clip, track.filter(|track| track.has_keys())) else {
+        section_with_labelled_action(ui, "Keys", None);
+        ui.label(egui::RichText::new("No keys: it stays at rest.").color(Tokens::of(ui).muted));
+        return;
+    };
+    let copy = ("Copy", "Copy: keys as a table");
+    if section_with_labelled_action(ui, &counted(track.key_count(), "key"), Some(copy)) {
+        ui.ctx().copy_text(key_table(clip, track));
+    }
+    let parts = [
+        (KeyPart::Position, "Position"),
+        (KeyPart::Rotation, "Euler"),
+        (KeyPart::Scale, "Scale"),
+    ];
+    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(*part)) {
+        *part = chosen;
+    }
+    ui.add_space(4.0);
+    let height = pressed_row_height(ui);
+    let rows = key_rows(clip, track);
+    // The key that is in force now: the last one that is not after it.
+    let now_secs = session.playback().time_secs();
+    let now = track.times_secs().partition_point(|&secs| secs <= now_secs);
+    ScrollArea::vertical()
+        .id_salt(("keys", joint.0))
+        .max_height(ROWS * height)
+        .min_scrolled_height(ROWS * height)
+        .auto_shrink([false, true])
+        .show_rows(ui, height, rows.len(), |ui, range| {
+            for row in rows.skip(range.start).take(range.len()) {
+                let in_force = row.key + 1 == now;
+                if key_row(ui, &row, *part, in_force) {
+                    let time_secs = row.time_secs;
+                    commands.extend([Command::Pause, Command::Seek { time_secs }]);
+                }
+            }
+        });
+}
+
+/// Whether it was clicked.
+fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::click());
+    let around = rect.expand2(vec2(6.0, 0.0));
+    if in_force {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
+    } else if response.hovered() && !is_touch(ui) {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+    }
+    focus_ring(ui, around, &response);
+    let numbers = match part {
+        KeyPart::Position => row.parts.position.to_array().map(|number| fitted(number, 3)),
+        KeyPart::Rotation => row.parts.euler_xyz_degrees.to_array().map(|number| fitted(number, 2)),
+        KeyPart::Scale => row.parts.scale.to_array().map(|number| fitted(number, 4)),
+    };
+    let (frame, time) = (grouped(row.frame as usize), format!("{:.3}", row.time_secs));
+    // The scroll bar lies over the last points of the row.
+    let right = rect.max.x - 8.0;
+    let cells = [
+        (rect.min.x + FRAME_END, &frame, tokens.faint),
+        (rect.min.x + TIME_END, &time, tokens.muted),
+        (right - 2.0 * KEY_COLUMN, &numbers[0], tokens.text),
+        (right - KEY_COLUMN, &numbers[1], tokens.text),
+        (right, &numbers[2], tokens.text),
+    ];
+    for (end, text, color) in cells {
+        let at = pos2(end, rect.center().y);
+        ui.painter()
+            .text(at, Align2::RIGHT_CENTER, text, theme::mono(10.5), color);
+    }
+    let label = format!("Key {}, {time} s: {}", row.key, numbers.join(" "));
+    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, in_force, &label));
+    response.clicked()
 }

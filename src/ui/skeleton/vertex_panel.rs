@@ -1,18 +1,26 @@
 //! The selected vertex: which joints move it and how much, and how it comes to its place.
 
+use egui::text::LayoutJob;
 use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use glam::Vec3;
 
-use super::joint_panel::heading;
-use super::numbers::row;
-use super::{SkeletonState, vertex_sum};
+use super::numbers::{Digits, Formula, LINE_HEIGHT, number_column, row, rule_over_numbers, show_line, show_matrix};
+use super::state::SkeletonState;
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use crate::ui::widgets::{
-    focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_name, section_with_labelled_action,
+    focus_ring, is_touch, paint_elided, paint_fold_mark, pressed_row_height, rule, section_name,
+    section_with_labelled_action, selected_heading,
 };
 use crate::ui::wording::grouped;
 
+/// Size of formulas that stand before numbers, and of the one that stands above all.
+const LABEL_SIZE: f32 = 12.0;
+// Four terms fill the slimmest panel.
+const FORMULA_SIZE: f32 = 13.0;
+/// Room for the mark before a name.
+const CHEVRON_WIDTH: f32 = 14.0;
 /// Where bars begin and end, from the left and from the right.
 const BAR_START: f32 = 86.0;
 const BAR_END: f32 = 52.0;
@@ -25,7 +33,8 @@ pub(super) fn show(
     explanation: &VertexExplanation,
     commands: &mut Vec<Command>,
 ) {
-    if heading_of(ui, explanation.vertex) {
+    let name = format!("Vertex {}", grouped(explanation.vertex as usize));
+    if selected_heading(ui, &name, Tokens::of(ui).accent, None) {
         commands.push(JointCommand::SelectVertex(None).into());
     }
     rule(ui, MARGIN);
@@ -47,16 +56,12 @@ pub(super) fn show(
         state.explains = !state.explains;
     }
     if state.explains {
-        vertex_sum::show(ui, session, state, explanation);
+        show_sum(ui, session, state, explanation);
         return;
     }
     let digits = state.reading.digits;
     row(ui, "Bind", &digits.place(explanation.bind_position.to_array()));
     row(ui, "Place", &digits.place(explanation.position.to_array()));
-}
-
-fn heading_of(ui: &mut Ui, vertex: u32) -> bool {
-    heading(ui, &format!("Vertex {}", grouped(vertex as usize)))
 }
 
 /// A joint, a bar as long as its weight, and the weight.
@@ -100,4 +105,194 @@ fn influence_bar(
     if response.clicked() {
         commands.push(JointCommand::Select(Some(influence.joint)).into());
     }
+}
+
+/// The formula of the book's chapter on one vertex, with the numbers of the present time, to be followed with a finger:
+/// `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`, row vectors.
+/// A line for the bind place, two for each influence or all its matrices, a line for what they come to.
+fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanation: &VertexExplanation) {
+    let tokens = Tokens::of(ui);
+    let digits = state.reading.digits;
+    show_formula(ui, explanation.influences.len());
+    ui.add_space(4.0);
+    let label = Formula::new(LABEL_SIZE, tokens.muted).plain("Bind place ").bold("v");
+    let bind = explanation.bind_position.to_array();
+    show_line(ui, "Bind", label.into_job(), &digits.place(bind));
+    for (slot, influence) in explanation.influences.iter().enumerate() {
+        ui.add_space(5.0);
+        show_influence(ui, session, state, explanation, (slot, influence));
+    }
+    rule_over_numbers(ui);
+    let label = Formula::new(LABEL_SIZE, tokens.text)
+        .plain("Place ")
+        .bold("v")
+        .plain("'");
+    let sum = explanation.position.to_array();
+    show_line(ui, "Place", label.into_job(), &digits.place(sum));
+    ui.add_space(8.0);
+    let copy = ("Copy as text", "Copy: the sum of the vertex as text");
+    if section_with_labelled_action(ui, "All numbers", Some(copy)) {
+        ui.ctx()
+            .copy_text(explanation.to_text(|joint| session.joint_name(joint)));
+    }
+}
+
+/// `v' = w0·v·F0 + w1·v·F1` and what F is.
+fn show_formula(ui: &mut Ui, influences: usize) {
+    let tokens = Tokens::of(ui);
+    let formula = || Formula::new(FORMULA_SIZE, tokens.text);
+    let mut sum = formula().bold("v").plain("'").plain(" = ");
+    let mut spoken = "v' = ".to_owned();
+    for slot in 0..influences {
+        let sign = if slot == 0 { "" } else { " + " };
+        sum = sum.plain(sign).weighted(slot);
+        spoken += &format!("{sign}w{slot}·v·F{slot}");
+    }
+    if influences == 0 {
+        sum = sum.bold("v");
+        spoken += "v";
+    }
+    let meaning = Formula::new(LABEL_SIZE, tokens.muted)
+        .bold("F")
+        .plain(" = offset · toRoot, for row vectors");
+    let lines = [
+        (sum, spoken),
+        (meaning, "F = offset · toRoot, for row vectors".to_owned()),
+    ];
+    for (line, spoken) in lines {
+        let galley = ui.painter().layout_job(line.into_job());
+        let size = vec2(ui.available_width(), galley.size().y + 4.0);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        ui.painter().galley(rect.min + vec2(0.0, 2.0), galley, tokens.text);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
+    }
+}
+
+/// What one joint does: its row, its matrices when they are unfolded, and its part of the sum.
+fn show_influence(
+    ui: &mut Ui,
+    session: &Session,
+    state: &mut SkeletonState,
+    explanation: &VertexExplanation,
+    (slot, influence): (usize, &ExplainedInfluence),
+) {
+    let tokens = Tokens::of(ui);
+    let digits = state.reading.digits;
+    let name = session.joint_label(influence.joint);
+    let unfolded = state.unfolded.get(slot).copied().unwrap_or_default();
+    let pressed = influence_row(ui, state, &name, unfolded, (slot, influence));
+    if pressed && let Some(place) = state.unfolded.get_mut(slot) {
+        *place = !unfolded;
+    }
+    if unfolded {
+        show_matrices(ui, digits, &name, explanation.bind_position, (slot, influence));
+    }
+    let label = Formula::new(LABEL_SIZE, tokens.muted).weighted(slot).into_job();
+    let weighted = digits.place(influence.weighted.to_array());
+    show_line(ui, &format!("{name}: w·v·F"), label, &weighted);
+}
+
+/// offset, toRoot and their product, and the bind place through it: each row of the product times a number of `v`, added up.
+fn show_matrices(
+    ui: &mut Ui,
+    digits: Digits,
+    name: &str,
+    bind_position: Vec3,
+    (slot, influence): (usize, &ExplainedInfluence),
+) {
+    let tokens = Tokens::of(ui);
+    let symbol = |symbol: &str| Formula::new(LABEL_SIZE, tokens.text).plain(symbol);
+    caption(ui, symbol("offset"), "bind space to bone");
+    show_matrix(ui, &format!("{name}: offset"), &influence.offset, digits);
+    caption(ui, symbol("· toRoot"), "bone to model");
+    show_matrix(ui, &format!("{name}: toRoot"), &influence.to_root, digits);
+    caption(ui, symbol("= ").bold("F").below(slot), "each row times a number of v");
+    let [x, y, z] = digits.place(bind_position.to_array());
+    let factors = [x, y, z, "1".to_owned()];
+    for (row, (factor, [x, y, z, _])) in factors.iter().zip(influence.final_transform.0).enumerate() {
+        let spoken = format!("{name}: F, row {}: {factor} times", row + 1);
+        product_line(ui, &spoken, factor, &digits.matrix([x, y, z]));
+    }
+    rule_over_numbers(ui);
+    let label = Formula::new(LABEL_SIZE, tokens.muted).moved(slot).into_job();
+    let moved = digits.place(influence.moved.to_array());
+    show_line(ui, &format!("{name}: v·F"), label, &moved);
+}
+
+/// Name and weight, and the mark that unfolds. Whether it was clicked.
+fn influence_row(
+    ui: &mut Ui,
+    state: &mut SkeletonState,
+    name: &str,
+    unfolded: bool,
+    (slot, influence): (usize, &ExplainedInfluence),
+) -> bool {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::click());
+    let around = rect.expand2(vec2(6.0, 0.0));
+    let over = response.contains_pointer() && !is_touch(ui);
+    if over {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+        state.hovered = Some(influence.joint);
+    }
+    focus_ring(ui, around, &response);
+    let center = rect.left_center() + vec2(4.0, 0.0);
+    let color = tokens.muted_to_text(over || response.has_focus());
+    paint_fold_mark(ui.painter(), center, !unfolded, color);
+
+    let weight = format!("{:.3}", influence.weight);
+    let (right, font) = (rect.right_center(), theme::mono(11.0));
+    let drawn = ui
+        .painter()
+        .text(right, Align2::RIGHT_CENTER, &weight, font, tokens.text);
+    let symbol = Formula::new(LABEL_SIZE, tokens.muted)
+        .plain("w")
+        .below(slot)
+        .plain(" =");
+    let galley = ui.painter().layout_job(symbol.into_job());
+    let left = drawn.min.x - 6.0 - galley.size().x;
+    let at = pos2(left, rect.center().y - 0.5 * galley.size().y);
+    ui.painter().galley(at, galley, tokens.muted);
+    let (at, font) = (
+        rect.left_center() + vec2(CHEVRON_WIDTH, 0.0),
+        FontId::proportional(13.0),
+    );
+    paint_elided(ui.painter(), at, name, font, tokens.text, left - 8.0 - at.x);
+    let verb = if unfolded { "Fold" } else { "Unfold" };
+    response.widget_info(|| {
+        WidgetInfo::selected(
+            Role::Button,
+            true,
+            unfolded,
+            format!("{verb} the matrices of {name}, weight {weight}"),
+        )
+    });
+    response.clicked()
+}
+
+/// What stands below: a symbol, and in words what it does.
+fn caption(ui: &mut Ui, symbol: Formula, words: &str) {
+    let tokens = Tokens::of(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT + 3.0), Sense::hover());
+    let galley = ui.painter().layout_job(symbol.into_job());
+    let y = rect.center().y + 1.5;
+    let at = pos2(rect.min.x, y - 0.5 * galley.size().y);
+    ui.painter().galley(at, galley, tokens.text);
+    let font = FontId::proportional(11.0);
+    ui.painter()
+        .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, words, font, tokens.faint);
+}
+
+/// `0.6676 ×` and a row of the final matrix: four such lines add up to the product.
+fn product_line(ui: &mut Ui, spoken: &str, factor: &str, numbers: &[String; 3]) {
+    let tokens = Tokens::of(ui);
+    let line = Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), LINE_HEIGHT));
+    let end = pos2(line.max.x - 3.0 * number_column(line.width()), line.center().y);
+    let times = ui
+        .painter()
+        .text(end, Align2::RIGHT_CENTER, "×", theme::mono(11.0), tokens.faint);
+    let at = pos2(times.min.x - 4.0, end.y);
+    ui.painter()
+        .text(at, Align2::RIGHT_CENTER, factor, theme::mono(11.0), tokens.muted);
+    show_line(ui, spoken, LayoutJob::default(), numbers);
 }

@@ -2,8 +2,6 @@
 
 use egui::{CursorIcon, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::super::widgets::{arrow_steps, focus_ring, is_touch};
 use super::axis::TimeAxis;
 use super::marks::{MarkShape, mark_radius};
 use super::seam::SeamReading;
@@ -11,6 +9,8 @@ use super::time_area;
 use crate::actions;
 use crate::model::Clip;
 use crate::session::{Command, Session};
+use crate::ui::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::widgets::{arrow_steps, focus_ring, is_touch};
 
 /// Room at both ends, where the range's ends are taken hold of.
 const END_ROOM: f32 = 12.0;

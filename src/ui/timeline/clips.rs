@@ -2,17 +2,16 @@
 
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::super::icons::{self, Icon};
-use super::super::panel::scrolled;
-use super::super::popover;
-use super::super::state::{Request, UiState};
-use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::super::widgets::{
-    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
-};
-use super::super::wording::{counted, trimmed};
 use crate::actions;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, Session};
+use crate::ui::icons::{self, Icon};
+use crate::ui::panel::{popover_above, popover_gap, scrolled};
+use crate::ui::state::{Request, UiState};
+use crate::ui::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::widgets::{
+    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
+};
+use crate::ui::wording::{counted, trimmed};
 
 /// Width of the popover.
 const WIDTH: f32 = 320.0;
@@ -28,7 +27,7 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
     let label = format!("Clip {name}");
     let response = TextButton::new(name, &label).list().width(width).show(ui);
     let response = response.on_hover_text(format!("{name}\nNext clip: {}", actions::NEXT_CLIP.key()));
-    popover::show_above(ui, &response, WIDTH, |ui| {
+    popover_above(ui, &response, WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
         section_name(ui, &counted(open.model.clips.len(), "clip"));
         let shown = list(ui, session, open, commands);
@@ -40,7 +39,7 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
             state.requests.push(Request::PickClips);
         }
         if open.model.clips.len() > 1 {
-            popover::gap(ui);
+            popover_gap(ui);
             mixing(ui, session, open, commands);
         }
         if shown {
@@ -169,7 +168,7 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
         let clip = clip.and_then(|clip| open.model.clips.get(clip));
         clip.map_or("", |clip| clip.name.as_str())
     });
-    popover::gap(ui);
+    popover_gap(ui);
     if section_with_action(ui, "Blend", Some("End")) {
         commands.push(Command::ClearBlend);
     }

@@ -1,16 +1,101 @@
-//! How curves are drawn: lines, keys as dots, names with values.
+//! The motion of the selected joint as lines over time: controls, lines, keys as dots, names with values.
 
 use egui::{Align2, Color32, FontId, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::super::theme::{self, Tokens};
-use super::axis::TimeAxis;
-use super::curves::Curves;
+use super::axis::{END_ROOM, TimeAxis};
+use super::curves::{CurveOf, Curves, Part, RotationAs, SampledOf};
 use super::marks::MERGE_POINTS;
-use super::plot::ValueAxis;
-use super::ruler::RULER_HEIGHT;
-use crate::anim::CurvePoint;
+use super::state::TimelineState;
+use super::time_area::{self, RULER_HEIGHT, segmented_of_width, split_x};
+use crate::anim::{CurvePoint, CurveSpace};
 use crate::model::JointIndex;
-use crate::session::Session;
+use crate::session::{Command, Session};
+use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
+
+/// Points of the width from sample to sample.
+const SAMPLE_SPACING: f32 = 2.0;
+/// Samples at most: a width beyond that is of no screen.
+const MOST_SAMPLES: usize = 2048;
+
+/// What can be chosen.
+pub(super) fn controls(ui: &mut Ui, curves: &mut Curves) {
+    let parts = [
+        (Part::Translation, "Translation"),
+        (Part::Rotation, "Rotation"),
+        (Part::Scale, "Scale"),
+    ];
+    if let Some(part) = segmented_of_width(ui, 246.0, "Part", &parts, curves.part) {
+        curves.part = part;
+    }
+    if curves.part == Part::Rotation {
+        let kinds = [(RotationAs::Quaternion, "Quaternion"), (RotationAs::Euler, "Euler")];
+        if let Some(kind) = segmented_of_width(ui, 164.0, "Rotation as", &kinds, curves.rotation) {
+            curves.rotation = kind;
+        }
+    }
+    let spaces = [(CurveSpace::Local, "Local"), (CurveSpace::Model, "Model")];
+    if let Some(space) = segmented_of_width(ui, 124.0, "Space", &spaces, curves.space) {
+        curves.space = space;
+    }
+}
+
+/// Fills what is left of the sheet.
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
+    let (Some(open), Some(clip_index), Some(clip)) = (session.open_model(), session.clip_index(), session.clip())
+    else {
+        return;
+    };
+    let area = ui.available_rect_before_wrap();
+    let split = split_x(area);
+    let plot = Rect::from_min_max(pos2(split, area.min.y), area.max);
+    ui.painter().rect_filled(plot, CONTROL_RADIUS, Tokens::of(ui).field);
+    let Some(joint) = session.joints().selected() else {
+        paint_hint(ui, plot);
+        return;
+    };
+    let span_secs = state.window.span_secs([clip.start_secs, clip.end_secs]);
+    let axis = TimeAxis::new(plot.x_range(), END_ROOM, span_secs);
+    let count = (axis.points().span() / SAMPLE_SPACING).ceil().max(1.0) as usize + 1;
+    let of = SampledOf {
+        curve: CurveOf {
+            clips_revision: session.clips_revision(),
+            clip: clip_index,
+            joint,
+            space: state.curves.space,
+        },
+        span_secs,
+        count: count.min(MOST_SAMPLES),
+    };
+    state.curves.sample(session, open, of);
+
+    let ruler_rect = Rect::from_min_max(plot.min, pos2(plot.max.x, plot.min.y + RULER_HEIGHT));
+    time_area::paint_ruler(ui, clip, &axis, ruler_rect, plot.max.y);
+    let lines_rect = Rect::from_min_max(pos2(plot.min.x, ruler_rect.max.y), plot.max);
+    let values = paint_lines(ui, &state.curves, &axis, lines_rect, area.min.x);
+    paint_keys(
+        ui,
+        &state.curves,
+        open.key_times(clip_index, Some(joint)),
+        &axis,
+        &values,
+    );
+
+    let response = ui.interact(lines_rect, ui.scope_id().with("curves"), Sense::click_and_drag());
+    let label = format!("Curves of {}", session.joint_label(joint));
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
+    time_area::scrub(&response, &axis, commands);
+    let ruler = time_area::ruler(ui, session, &axis, ruler_rect, commands);
+    let read_secs = response
+        .hover_pos()
+        .filter(|_| !response.dragged())
+        .map_or(session.playback().time_secs(), |at| axis.seen_time_at(at.x));
+    let read = state.curves.point_at(session, open, read_secs);
+    paint_legend(ui, session, &state.curves, joint, &read, area, split);
+    time_area::paint_pointer(ui, &response, &axis, lines_rect.y_range());
+    time_area::paint_head_below_ruler(ui, session, &axis, ruler_rect, plot.max.y);
+    time_area::navigate(ui, &response, clip, &axis, state, false);
+    time_area::navigate(ui, &ruler, clip, &axis, state, false);
+}
 
 /// Room that names and values take left of the lines.
 const LEGEND_WIDTH: f32 = 100.0;
@@ -22,7 +107,7 @@ fn channel_color(ui: &Ui, channel: usize) -> Color32 {
 }
 
 /// What stands where there is no joint to show.
-pub(super) fn paint_hint(ui: &Ui, plot: Rect) {
+fn paint_hint(ui: &Ui, plot: Rect) {
     let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
     let words = "Choose a bone in the dope sheet to see how it moves.";
     let galley = ui.painter().layout(words.to_owned(), font, color, plot.width() - 24.0);
@@ -32,7 +117,7 @@ pub(super) fn paint_hint(ui: &Ui, plot: Rect) {
 }
 
 /// The lines, and behind them round values. Where values are.
-pub(super) fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_left: f32) -> ValueAxis {
+fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_left: f32) -> ValueAxis {
     let (tokens, split) = (Tokens::of(ui), rect.min.x);
     let channels = curves.channels().len();
     let all = curves
@@ -66,7 +151,7 @@ pub(super) fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect,
 }
 
 /// A dot at each key, where there is room for dots.
-pub(super) fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, values: &ValueAxis) {
+fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, values: &ValueAxis) {
     let seen = axis.points().expand(1.0);
     let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
     let count = times_secs[first..].partition_point(|&secs| axis.x_of(secs) <= seen.max);
@@ -92,7 +177,7 @@ pub(super) fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &Ti
 }
 
 /// The joint and its values at the time that is read, left of the lines.
-pub(super) fn paint_legend(
+fn paint_legend(
     ui: &Ui,
     session: &Session,
     curves: &Curves,
@@ -132,4 +217,100 @@ pub(super) fn paint_legend(
     let legend = Rect::from_min_size(pos2(left, area.min.y + RULER_HEIGHT), vec2(LEGEND_WIDTH, 5.0 * step));
     let response = ui.interact(legend, ui.scope_id().with("legend"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words.join(", ")));
+}
+
+/// Room above and below the curves, as a share of what they take.
+const HEADROOM: f32 = 0.08;
+/// Lines are this far apart at least.
+const LINE_SPACING: f32 = 34.0;
+
+/// A range of values along a height, the greatest above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ValueAxis {
+    height: Rangef,
+    values: [f32; 2],
+}
+
+impl ValueAxis {
+    /// All of some values with room around them. Values that hardly differ are not blown up beyond a thousandth of what
+    /// they are.
+    fn fitted(height: Rangef, values: impl Iterator<Item = f32>) -> Self {
+        let finite = values.filter(|value| value.is_finite());
+        let (least, most) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), value| {
+            (least.min(value), most.max(value))
+        });
+        let (least, most) = if least <= most { (least, most) } else { (0.0, 0.0) };
+        let middle = 0.5 * (least + most);
+        let least_half = (1e-3 * least.abs().max(most.abs())).max(1e-3);
+        let half = (0.5 * (most - least)).max(least_half) * (1.0 + 2.0 * HEADROOM);
+        Self {
+            height,
+            values: [middle - half, middle + half],
+        }
+    }
+
+    /// Where a value is.
+    fn y_of(&self, value: f32) -> f32 {
+        let share = (value - self.values[0]) / (self.values[1] - self.values[0]);
+        self.height.max - share * self.height.span()
+    }
+
+    /// Round values with room between them, and the decimals that tell them apart.
+    fn lines(&self) -> (Vec<f32>, usize) {
+        let [least, most] = self.values;
+        let count = (self.height.span() / LINE_SPACING).max(1.0);
+        let step = round_up((most - least) / count);
+        let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
+        let [first, last] = [(least / step).ceil(), (most / step).floor()];
+        // A count of lines, so that no step is lost to rounding.
+        let lines = (0..=(last - first).clamp(0.0, 100.0) as u32).map(|line| (first + line as f32) * step);
+        (lines.collect(), decimals)
+    }
+}
+
+/// The next of 1, 2 and 5 times a power of ten.
+fn round_up(step: f32) -> f32 {
+    let power = 10.0_f32.powf(step.max(1e-9).log10().floor());
+    let part = step / power;
+    let round = [1.0, 2.0, 5.0].into_iter().find(|&round| part <= round * 1.0001);
+    power * round.unwrap_or(10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(values: &[f32]) -> ValueAxis {
+        ValueAxis::fitted(Rangef::new(0.0, 200.0), values.iter().copied())
+    }
+
+    #[test]
+    fn all_values_are_inside_and_greater_ones_above() {
+        let axis = axis(&[-3.0, 7.0, 2.0, f32::NAN]);
+        let [low, high] = [-3.0, 7.0].map(|value| axis.y_of(value));
+        assert!(high > 5.0 && low < 195.0 && high < low);
+    }
+
+    #[test]
+    fn what_stands_still_is_in_the_middle() {
+        for value in [0.0, 5.0, -12_000.0] {
+            assert!((axis(&[value, value]).y_of(value) - 100.0).abs() < 1e-2);
+        }
+        assert!(axis(&[]).y_of(0.0).is_finite());
+    }
+
+    #[test]
+    fn lines_are_round_and_have_room() {
+        let (lines, decimals) = axis(&[-3.0, 7.0]).lines();
+        assert_eq!((lines, decimals), (vec![-2.0, 0.0, 2.0, 4.0, 6.0], 0));
+        let (lines, decimals) = axis(&[0.1, 0.2]).lines();
+        assert_eq!(decimals, 2);
+        assert!(
+            lines.windows(2).all(|pair| (pair[1] - pair[0] - 0.02).abs() < 1e-5),
+            "{lines:?}"
+        );
+        for step in [1e-4, 0.3, 1.0, 4.9, 700.0] {
+            assert!(round_up(step) >= step * 0.999 && round_up(step) <= step * 2.5);
+        }
+    }
 }

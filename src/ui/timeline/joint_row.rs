@@ -2,18 +2,17 @@
 
 use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::super::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark};
-use super::super::wording::counted;
 use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
-use super::folded::FoldedBranch;
 use super::marks::{MarkShape, mark_radius};
-use super::rows::{Row, SeenRow};
+use super::rows::{FoldedBranch, Row, SeenRow};
 use super::state::TimelineState;
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
+use crate::ui::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark};
+use crate::ui::wording::counted;
 
 /// Room that a branch begins further to the right than its parent.
 const INDENT: f32 = 11.0;

@@ -1,9 +1,9 @@
 //! What is seen where a loop begins again: read when it changed, and told in words.
 
-use super::super::wording::measured;
 use crate::anim::{JointSeam, Seam};
 use crate::model::JointIndex;
 use crate::session::Session;
+use crate::ui::wording::measured;
 
 /// A distance below this share of the model's size is none: files round their numbers to about six digits.
 const NO_SHARE: f32 = 1e-5;

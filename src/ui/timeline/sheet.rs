@@ -1,15 +1,16 @@
-//! What opens above the strip: dope sheet or curves, and the controls of each.
+//! What opens above the strip: dope sheet or curves, and the controls of each; and the edge that opens it.
 
-use egui::{Rect, Sense, Ui, UiBuilder, vec2};
+use egui::{CursorIcon, FontId, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
-use super::super::icons::Icon;
-use super::super::state::UiState;
-use super::super::theme::Tokens;
-use super::super::widgets::{TextButton, control_size, icon_button, segmented};
-use super::super::wording::counted;
 use super::state::{SheetTab, TimelineState};
-use super::{controls, curves, dope_sheet};
+use super::time_area::segmented_of_width;
+use super::{controls, curve_plot, dope_sheet};
 use crate::session::{Command, JointCommand, Session};
+use crate::ui::icons::Icon;
+use crate::ui::state::UiState;
+use crate::ui::theme::Tokens;
+use crate::ui::widgets::{TextButton, control_size, icon_button};
+use crate::ui::wording::counted;
 
 /// Room between the controls and what they control.
 const GAP: f32 = 6.0;
@@ -49,7 +50,7 @@ fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands:
         }
         match state.tab {
             SheetTab::Keys => keys_controls(ui, session, state, commands),
-            SheetTab::Curves => state.curves.controls(ui),
+            SheetTab::Curves => curve_plot::controls(ui, &mut state.curves),
         }
         if state.window.is_part() && icon_button(ui, Icon::Frame, "All of the time", false).clicked() {
             state.window.show_all();
@@ -58,7 +59,7 @@ fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands:
     ui.add_space(GAP);
     match state.tab {
         SheetTab::Keys => dope_sheet::show(ui, session, state, commands),
-        SheetTab::Curves => curves::show(ui, session, state, commands),
+        SheetTab::Curves => curve_plot::show(ui, session, state, commands),
     }
 }
 
@@ -84,11 +85,11 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     let color = Tokens::of(ui).muted;
     let galley = ui
         .painter()
-        .layout_no_wrap(words.clone(), egui::FontId::proportional(12.5), color);
+        .layout_no_wrap(words.clone(), FontId::proportional(12.5), color);
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 8.0, control_size(ui)), Sense::hover());
     let at = rect.left_center() + vec2(4.0, -0.5 * galley.size().y);
     ui.painter().galley(at, galley, color);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
     if start_secs < end_secs && TextButton::new("As range", "As range").show(ui).clicked() {
         commands.push(Command::ClearRange);
         commands.push(Command::SetRangeStart(Some(start_secs)));
@@ -96,21 +97,36 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     }
 }
 
-/// A switch among other controls.
-pub(super) fn segmented_of_width<T: Copy + PartialEq>(
-    ui: &mut Ui,
-    width: f32,
-    name: &str,
-    choices: &[(T, &str)],
-    in_force: T,
-) -> Option<T> {
-    let (rect, _) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::hover());
-    let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(name));
-    segmented(&mut child, name, choices, Some(in_force))
-}
+/// The panel's upper edge lies over the panel's margin.
+const REACH: f32 = 9.0;
 
-/// Where names end and time begins.
-pub(super) fn split_x(area: Rect) -> f32 {
-    let names = if area.width() < 600.0 { 124.0 } else { 196.0 };
-    area.min.x + names
+/// The upper edge of the panel whose contents begin here. Dragged, it opens the sheet and sizes it.
+pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
+    let contents = ui.max_rect();
+    let edge = Rect::from_x_y_ranges(contents.x_range(), contents.min.y - REACH..=contents.min.y - 1.0);
+    let response = ui
+        .interact(edge, ui.scope_id().with("edge"), Sense::click_and_drag())
+        .on_hover_cursor(CursorIcon::ResizeVertical);
+    if response.drag_started() && !state.open {
+        state.dragged_height = Some(0.0);
+    }
+    if response.dragged() {
+        let height = state.dragged_height.or(state.sheet_height(ui)).unwrap_or(0.0);
+        state.drag_height(height - response.drag_delta().y);
+    }
+    if response.drag_stopped() {
+        state.settle_height(ui);
+    }
+    if response.double_clicked() {
+        state.open = !state.open;
+    }
+    let tokens = Tokens::of(ui);
+    let color = if response.hovered() || response.dragged() {
+        tokens.muted
+    } else {
+        tokens.hairline
+    };
+    let grip = Rect::from_center_size(edge.center() - vec2(0.0, 1.0), vec2(38.0, 3.0));
+    ui.painter().rect_filled(grip, 1.5, color);
+    response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Height of the dope sheet"));
 }

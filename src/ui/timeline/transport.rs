@@ -1,20 +1,22 @@
-//! The strip: transport, clip, bar, read-outs, speed and loop mode.
+//! The panel of the timeline. Its strip: transport, clip, bar, read-outs, speed and loop mode; in a wide window the sheet above it.
 
 use egui::{Align2, FontId, Rangef, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::super::icons::Icon;
-use super::super::layout::Arrangement;
-use super::super::popover;
-use super::super::state::{SheetPage, UiState};
-use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::super::widgets::{control_size, icon_button};
-use super::readouts::{self, ReadoutWidths};
-use super::{TimelineState, bar, clips, controls, options, strip_height};
+use super::controls::ReadoutWidths;
+use super::state::TimelineState;
+use super::{bar, clips, controls, options, sheet};
 use crate::actions;
 use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
 use crate::session::{Command, Session};
+use crate::ui::icons::Icon;
+use crate::ui::panel::{Arrangement, STRIP_AROUND, popover_above, strip_height};
+use crate::ui::state::{SheetPage, UiState};
+use crate::ui::theme::{CONTROL_RADIUS, MARGIN, Tokens};
+use crate::ui::widgets::{control_size, icon_button};
 
+/// Room between sheet and transport.
+const SHEET_GAP: f32 = 8.0;
 /// The least width of the clip's name on a phone.
 const CLIP_WIDTH_NARROW: f32 = 84.0;
 /// The width of the speed on a phone.
@@ -26,8 +28,27 @@ const SPACING: f32 = 6.0;
 /// From this width on there are buttons for steps from key to key.
 const KEY_BUTTONS_WIDTH: f32 = 1060.0;
 
+/// The panel's contents in a wide window.
+pub(in crate::ui) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    sheet::show_edge(ui, &mut state.timeline);
+    if let Some(height) = state.timeline.sheet_height(ui) {
+        sheet::show(ui, session, &mut state.timeline, height, commands);
+        ui.add_space(SHEET_GAP);
+    }
+    strip(ui, session, state, commands);
+}
+
+/// Room that the panel takes from a wide window's lower edge, with margins.
+pub(in crate::ui) fn covered_height(ui: &Ui, session: &Session, state: &TimelineState) -> f32 {
+    if session.clip().is_none() {
+        return 0.0;
+    }
+    let sheet = state.sheet_height(ui);
+    strip_height(ui, Arrangement::Wide) + sheet.map_or(0.0, |height| height + SHEET_GAP) + STRIP_AROUND + MARGIN * 2.0
+}
+
 /// The strip in one row, for wide windows.
-pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(clip) = session.clip() else { return };
     let height = strip_height(ui, Arrangement::Wide);
     let row = vec2(ui.available_width(), height);
@@ -57,8 +78,8 @@ pub(super) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         let right_width = widths.time + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
         let bar_width = (ui.available_width() - right_width).max(60.0);
         bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 30.0), commands);
-        readouts::time(ui, session, widths.time, commands);
-        readouts::frame(ui, session, clip, widths.frame, commands);
+        controls::time_readout(ui, session, widths.time, commands);
+        controls::frame_readout(ui, session, clip, widths.frame, commands);
         speed_button(ui, session, &mut state.timeline, 48.0, !with_keys, commands);
         loop_button(ui, session, commands);
         if sheet_button(ui, state.timeline.open) {
@@ -156,9 +177,9 @@ impl EndOfStrip {
         commands: &mut Vec<Command>,
     ) {
         ui.spacing_mut().item_spacing.x = SPACING;
-        readouts::time(ui, session, self.widths.time, commands);
+        controls::time_readout(ui, session, self.widths.time, commands);
         if self.shows_frame {
-            readouts::frame(ui, session, clip, self.widths.frame, commands);
+            controls::frame_readout(ui, session, clip, self.widths.frame, commands);
         }
         speed_button(ui, session, state, SPEED_WIDTH_NARROW, self.with_steps, commands);
         loop_button(ui, session, commands);
@@ -197,7 +218,7 @@ fn speed_button(
         actions::NORMAL_SPEED.key(),
     );
     let response = response.on_hover_text(hint);
-    popover::show_above(ui, &response, options::WIDTH, |ui| {
+    popover_above(ui, &response, options::WIDTH, |ui| {
         options::show(ui, session, state, with_steps, commands);
     });
 }

@@ -1,13 +1,15 @@
-//! Buttons: an icon, words, a line of a menu.
+//! Buttons: an icon, words, a line of a menu, one of a few, a switch.
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align2, Color32, FontId, Rangef, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Color32, FontId, Rangef, Rect, Response, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+};
 
-use super::super::icons::{self, Icon};
-use super::super::theme::{self, CONTROL_RADIUS, Tokens};
-use super::{TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
+use super::control::{MOUSE_CONTROL, TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
 use crate::actions::Action;
 use crate::session::{Command, Session};
+use crate::ui::icons::{self, Icon};
+use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
 /// Width of an icon in a button with words, with the room after it.
 const ICON_WIDTH: f32 = 21.0;
@@ -159,4 +161,102 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: boo
         .text(right, Align2::RIGHT_CENTER, behind, font_behind, tokens.faint);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
     response
+}
+
+/// A switch with a place for each choice, over the whole width. What was chosen, when something was.
+pub(crate) fn segmented<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    choices: &[(T, &str)],
+    in_force: Option<T>,
+) -> Option<T> {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), control_size(ui));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
+    let inner = rect.shrink(2.0);
+    let width = inner.width() / choices.len().max(1) as f32;
+    let mut chosen = None;
+    for (index, &(choice, label)) in choices.iter().enumerate() {
+        let left = inner.min.x + index as f32 * width;
+        let place = Rect::from_min_max(pos2(left, inner.min.y), pos2(left + width, inner.max.y));
+        // By touch the whole height can be pressed.
+        let target = Rect::from_x_y_ranges(place.x_range(), rect.y_range());
+        let part = ui.interact(target, response.id.with(index), Sense::click());
+        let on = in_force == Some(choice);
+        let color = match (on, part.hovered()) {
+            (true, _) => tokens.accent,
+            (false, true) => tokens.text,
+            (false, false) => tokens.muted,
+        };
+        if on {
+            ui.painter()
+                .rect_filled(place, CONTROL_RADIUS - 2, tokens.accent_ground);
+        }
+        focus_ring(ui, place, &part);
+        let font = FontId::proportional(12.5);
+        ui.painter()
+            .text(place.center(), Align2::CENTER_CENTER, label, font, color);
+        part.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{name}: {label}")));
+        if part.clicked() {
+            chosen = Some(choice);
+        }
+    }
+    chosen
+}
+
+const TRACK_WIDTH: f32 = 26.0;
+const TRACK_HEIGHT: f32 = 15.0;
+
+/// A row that turns something on or off, with the key that does the same (or none).
+pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Response {
+    let tokens = Tokens::of(ui);
+    let height = control_size(ui).max(MOUSE_CONTROL);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+    let around = rect.expand2(vec2(6.0, 0.0));
+    if response.hovered() {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+    }
+    focus_ring(ui, around, &response);
+    let font = FontId::proportional(13.0);
+    ui.painter()
+        .text(rect.left_center(), Align2::LEFT_CENTER, label, font, tokens.text);
+    let track = Rect::from_center_size(
+        pos2(rect.max.x - TRACK_WIDTH * 0.5, rect.center().y),
+        vec2(TRACK_WIDTH, TRACK_HEIGHT),
+    );
+    paint_track(ui, track, &response, on);
+    let key_at = pos2(track.min.x - 10.0, rect.center().y);
+    let key = key_hint(ui, key);
+    ui.painter()
+        .text(key_at, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
+    response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
+    response
+}
+
+/// The row of an action of the session that is on or off.
+pub(crate) fn action_switch(ui: &mut Ui, session: &Session, action: &Action, commands: &mut Vec<Command>) {
+    if switch_row(ui, action.label, action.key(), action.is_on(session)).clicked() {
+        commands.extend(action.command(session));
+    }
+}
+
+fn paint_track(ui: &Ui, track: Rect, response: &Response, on: bool) {
+    let tokens = Tokens::of(ui);
+    let share = ui.ctx().animate_bool_with_time(response.id, on, 0.1);
+    let off_ground = tokens.field_hovered;
+    let ground = if share > 0.0 {
+        off_ground.lerp_to_gamma(tokens.accent, share)
+    } else {
+        off_ground
+    };
+    ui.painter().rect_filled(track, TRACK_HEIGHT * 0.5, ground);
+    if !on {
+        let border = egui::Stroke::new(1.0, tokens.hairline);
+        ui.painter()
+            .rect_stroke(track, TRACK_HEIGHT * 0.5, border, StrokeKind::Inside);
+    }
+    let knob_x = lerp(track.min.x + 7.5..=track.max.x - 7.5, share);
+    let knob = if on { Color32::WHITE } else { tokens.muted };
+    ui.painter().circle_filled(pos2(knob_x, track.center().y), 5.0, knob);
 }

@@ -1,14 +1,13 @@
 //! Choosing a colour: a square of saturation and value, a bar of hues, the hexadecimal number.
 
 use egui::{
-    Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Rangef, Response, Role, Sense, Shape,
-    Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Pos2, Rangef, Rect, Response, Role, Sense,
+    Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::super::theme::{CONTROL_RADIUS, Tokens};
-use super::hsv::{Hsv, hsv_from_srgb, srgb_from_hsv};
-use super::{MOUSE_CONTROL, control_size, focus_ring};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring};
 use crate::scene::srgb8_from_linear;
+use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
 /// Height of the square.
 const SQUARE_HEIGHT: f32 = 112.0;
@@ -124,13 +123,13 @@ fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hs
 }
 
 /// Where the pointer holds a field.
-fn held(response: &Response) -> Option<egui::Pos2> {
+fn held(response: &Response) -> Option<Pos2> {
     let holds = response.is_pointer_button_down_on() || response.clicked();
     response.interact_pointer_pos().filter(|_| holds)
 }
 
 /// A ring that can be seen on every colour.
-fn mark(ui: &Ui, at: egui::Pos2, color: Color32) {
+fn mark(ui: &Ui, at: Pos2, color: Color32) {
     ui.painter()
         .circle(at, 6.0, color, Stroke::new(3.0, Color32::from_black_alpha(90)));
     ui.painter().circle_stroke(at, 6.0, Stroke::new(1.6, Color32::WHITE));
@@ -154,8 +153,18 @@ fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]>
     typed
 }
 
+/// A square in a colour (linear).
+pub(crate) fn paint_swatch(ui: &Ui, center: Pos2, color: [f32; 3], opacity: f32) {
+    let swatch = Rect::from_center_size(center, vec2(10.0, 10.0));
+    let color = color32_from_linear(color).gamma_multiply(opacity);
+    ui.painter().rect_filled(swatch, 2.5, color);
+    // A dark material on a dark panel still has an outline.
+    let outline = Stroke::new(1.0, Tokens::of(ui).field_hovered);
+    ui.painter().rect_stroke(swatch, 2.5, outline, StrokeKind::Inside);
+}
+
 /// A linear colour as egui paints it.
-pub(crate) fn color32_from_linear(linear: [f32; 3]) -> Color32 {
+fn color32_from_linear(linear: [f32; 3]) -> Color32 {
     color32(linear.map(srgb8_from_linear))
 }
 
@@ -181,6 +190,38 @@ fn from_hex(text: &str) -> Option<[u8; 3]> {
     }
 }
 
+/// Hue, saturation, value.
+type Hsv = [f32; 3];
+
+/// What a colour is made of. Grey has hue 0, black has saturation 0 too.
+fn hsv_from_srgb(srgb: [u8; 3]) -> Hsv {
+    let [red, green, blue] = srgb.map(|channel| f32::from(channel) / 255.0);
+    let (most, least) = (red.max(green).max(blue), red.min(green).min(blue));
+    let spread = most - least;
+    if spread <= 0.0 {
+        return [0.0, 0.0, most];
+    }
+    let sixths = if most == red {
+        (green - blue) / spread
+    } else if most == green {
+        2.0 + (blue - red) / spread
+    } else {
+        4.0 + (red - green) / spread
+    };
+    [(sixths / 6.0).rem_euclid(1.0), spread / most, most]
+}
+
+/// The colour made of these, rounded.
+fn srgb_from_hsv([hue, saturation, value]: Hsv) -> [u8; 3] {
+    // Each channel is a trapezoid over the hue circle, a third of it apart from the next.
+    let channel = |offset: f32| {
+        let sixths = (offset + hue * 6.0).rem_euclid(6.0);
+        let share = sixths.min(4.0 - sixths).clamp(0.0, 1.0);
+        ((value - value * saturation * share) * 255.0).round() as u8
+    };
+    [channel(5.0), channel(3.0), channel(1.0)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -194,5 +235,34 @@ mod tests {
             assert_eq!(from_hex(bad), None, "{bad:?}");
         }
         assert_eq!(hex([0x05, 0xA9, 0xFF]), "#05a9ff");
+    }
+
+    #[test]
+    fn known_colours_are_taken_apart() {
+        let cases = [
+            ([0, 0, 0], [0.0, 0.0, 0.0]),
+            ([255, 255, 255], [0.0, 0.0, 1.0]),
+            ([255, 0, 0], [0.0, 1.0, 1.0]),
+            ([0, 255, 0], [1.0 / 3.0, 1.0, 1.0]),
+            ([0, 0, 255], [2.0 / 3.0, 1.0, 1.0]),
+            ([255, 255, 0], [1.0 / 6.0, 1.0, 1.0]),
+        ];
+        for (srgb, hsv) in cases {
+            let found = hsv_from_srgb(srgb);
+            let off = found.iter().zip(hsv).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(off < 1e-6, "{srgb:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_was_taken_apart_comes_together_again() {
+        for red in (0..=255).step_by(15) {
+            for green in (0..=255).step_by(15) {
+                for blue in (0..=255).step_by(15) {
+                    let srgb = [red as u8, green as u8, blue as u8];
+                    assert_eq!(srgb_from_hsv(hsv_from_srgb(srgb)), srgb);
+                }
+            }
+        }
     }
 }

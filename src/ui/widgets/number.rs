@@ -1,10 +1,114 @@
-//! A number that is dragged or typed.
+//! Numbers: between two ends, dragged or typed, and read-outs that become a field.
 
 use std::ops::RangeInclusive;
 
-use egui::{DragValue, TextStyle, Ui, Vec2};
+use egui::text::{CCursor, CCursorRange};
+use egui::{
+    Align, Align2, Color32, CornerRadius, CursorIcon, DragValue, FontId, Id, Key, Modifiers, Rect, Response, Role,
+    Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
 
-use super::super::keyboard::press_field;
+use super::control::{MOUSE_CONTROL, arrow_steps, control_size, focus_ring};
+use crate::ui::input::press_field;
+use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
+
+/// Width of the label before the track.
+const LABEL_WIDTH: f32 = 90.0;
+/// Width of the number behind the track: it stands still while the number changes.
+const NUMBER_WIDTH: f32 = 56.0;
+const KNOB_RADIUS: f32 = 6.0;
+/// Steps of the arrow keys over the whole range.
+const KEY_STEPS: f32 = 50.0;
+
+/// A row with a label, a track with a knob, and the number in words of the caller.
+#[derive(Clone, Debug)]
+pub(crate) struct Slider<'a> {
+    label: &'a str,
+    value: f32,
+    range: RangeInclusive<f32>,
+    text: &'a str,
+    reset_to: f32,
+}
+
+impl<'a> Slider<'a> {
+    /// A slider at a value, which `text` gives in words.
+    pub(crate) fn new(label: &'a str, value: f32, range: RangeInclusive<f32>, text: &'a str) -> Self {
+        let reset_to = *range.start();
+        Self {
+            label,
+            value,
+            range,
+            text,
+            reset_to,
+        }
+    }
+
+    /// What a double click brings back, and where the filled part of the track begins. The range's start unless told.
+    pub(crate) fn reset_to(self, reset_to: f32) -> Self {
+        Self { reset_to, ..self }
+    }
+
+    /// Shows it. The new value, when there is one.
+    pub(crate) fn show(self, ui: &mut Ui) -> Option<f32> {
+        let tokens = Tokens::of(ui);
+        let height = control_size(ui).max(MOUSE_CONTROL);
+        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let painter = ui.painter();
+        let (font, left) = (FontId::proportional(13.0), row.left_center());
+        painter.text(left, Align2::LEFT_CENTER, self.label, font, tokens.muted);
+        let font = theme::mono(12.0);
+        painter.text(row.right_center(), Align2::RIGHT_CENTER, self.text, font, tokens.text);
+
+        let ends = row.min.x + LABEL_WIDTH + KNOB_RADIUS..=row.max.x - NUMBER_WIDTH - KNOB_RADIUS;
+        let target = Rect::from_x_y_ranges(*ends.start() - KNOB_RADIUS..=*ends.end() + KNOB_RADIUS, row.y_range());
+        let response = ui.interact(target, ui.next_auto_id().with(self.label), Sense::click_and_drag());
+        ui.skip_ahead_auto_ids(1);
+        let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
+        self.paint(ui, *ends.start(), *ends.end(), row.center().y, &response);
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(self.value), self.label));
+        self.asked(ui, *ends.start(), *ends.end(), &response)
+    }
+
+    /// What pointer and keys ask for.
+    fn asked(&self, ui: &Ui, left: f32, right: f32, response: &Response) -> Option<f32> {
+        let (start, end) = (*self.range.start(), *self.range.end());
+        let steps = arrow_steps(ui, response);
+        if steps != 0.0 {
+            return Some((self.value + steps * (end - start) / KEY_STEPS).clamp(start, end));
+        }
+        if response.double_clicked() {
+            return Some(self.reset_to);
+        }
+        let pressed = response.is_pointer_button_down_on() || response.clicked();
+        let pointer = response.interact_pointer_pos().filter(|_| pressed)?;
+        let share = ((pointer.x - left) / (right - left).max(1.0)).clamp(0.0, 1.0);
+        let value = start + share * (end - start);
+        // Near what a double click brings back, the knob stays there: a whole place is easier to find again.
+        let near = (value - self.reset_to).abs() < 0.015 * (end - start);
+        Some(if near { self.reset_to } else { value })
+    }
+
+    fn paint(&self, ui: &Ui, left: f32, right: f32, y: f32, response: &Response) {
+        let tokens = Tokens::of(ui);
+        let (start, end) = (*self.range.start(), *self.range.end());
+        let x_of = |value: f32| left + ((value - start) / (end - start)).clamp(0.0, 1.0) * (right - left);
+        let (origin, knob) = (x_of(self.reset_to), x_of(self.value));
+        let band = |from: f32, to: f32| Rect::from_min_max(pos2(from.min(to), y - 1.5), pos2(from.max(to), y + 1.5));
+        ui.painter()
+            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.field_hovered);
+        ui.painter().rect_filled(band(origin, knob), 1.5, tokens.accent);
+        let active = response.hovered() || response.is_pointer_button_down_on();
+        let center = pos2(knob, y);
+        if response.has_focus() || response.is_pointer_button_down_on() {
+            ui.painter()
+                .circle_filled(center, KNOB_RADIUS + 4.0, tokens.accent_ground);
+        }
+        let ground = tokens.panel.to_opaque();
+        let color = if active { tokens.accent } else { tokens.muted };
+        let radius = KNOB_RADIUS - 0.75;
+        ui.painter().circle(center, radius, ground, Stroke::new(1.5, color));
+    }
+}
 
 /// A field for a number, dragged by `speed` a point, with `decimals` always shown so that it stands still. The new value,
 /// when there is one.
@@ -20,7 +124,7 @@ pub(crate) fn number_field(
     let response = ui
         .scope(|ui| {
             ui.style_mut().drag_value_text_style = TextStyle::Monospace;
-            ui.spacing_mut().button_padding = egui::vec2(2.0, 2.0);
+            ui.spacing_mut().button_padding = vec2(2.0, 2.0);
             ui.spacing_mut().interact_size = size;
             let field = DragValue::new(&mut changed)
                 .range(range)
@@ -40,4 +144,162 @@ pub(crate) fn number_field(
     });
     response.on_hover_text(label);
     (changed != value).then_some(changed)
+}
+
+/// Characters that can be typed: more than any number needs.
+const MOST_CHARS: usize = 24;
+
+/// A number in words of the caller.
+#[derive(Clone, Debug)]
+pub(crate) struct TypedValue<'a> {
+    /// Tells it apart from others.
+    name: &'static str,
+    text: &'a str,
+    typed: &'a str,
+    width: f32,
+    color: Color32,
+    font: FontId,
+    ground: Color32,
+    align: Align,
+}
+
+impl<'a> TypedValue<'a> {
+    /// A read-out of this text. Its field begins with `typed`, all of it marked.
+    pub(crate) fn new(ui: &Ui, name: &'static str, text: &'a str, typed: &'a str) -> Self {
+        let tokens = Tokens::of(ui);
+        Self {
+            name,
+            text,
+            typed,
+            width: 72.0,
+            color: tokens.text,
+            font: theme::mono(12.0),
+            ground: tokens.field,
+            align: Align::Max,
+        }
+    }
+
+    /// Its width, whatever it says.
+    pub(crate) fn width(self, width: f32) -> Self {
+        Self { width, ..self }
+    }
+
+    /// Quiet words on no ground.
+    pub(crate) fn quiet(self, color: Color32, align: Align) -> Self {
+        Self {
+            color,
+            font: FontId::proportional(13.0),
+            ground: Color32::TRANSPARENT,
+            align,
+            ..self
+        }
+    }
+
+    /// Shows it. What was typed when Enter ended it, and the read-out itself while it is one.
+    pub(crate) fn show(self, ui: &mut Ui) -> (Option<String>, Response) {
+        let (rect, response) = ui.allocate_exact_size(vec2(self.width, control_size(ui)), Sense::click());
+        let id = Id::unique(("typed", self.name));
+        if response.is_pointer_button_down_on() {
+            press_field(ui);
+        }
+        if response.clicked() {
+            ui.data_mut(|data| data.insert_temp(id, self.typed.to_owned()));
+        }
+        let field = Rect::from_center_size(rect.center(), vec2(rect.width(), MOUSE_CONTROL));
+        let typed: Option<String> = ui.data(|data| data.get_temp(id));
+        match typed {
+            Some(typed) => (self.edit(ui, field, id, typed, response.clicked()), response),
+            None => {
+                self.paint(ui, field, &response);
+                let label = format!("{} {}", self.name, self.text);
+                response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+                (None, response.on_hover_cursor(CursorIcon::Text))
+            }
+        }
+    }
+
+    fn paint(&self, ui: &Ui, field: Rect, response: &Response) {
+        let tokens = Tokens::of(ui);
+        let active = response.hovered() || response.has_focus();
+        let ground = if active { tokens.field_hovered } else { self.ground };
+        ui.painter().rect_filled(field, CONTROL_RADIUS, ground);
+        focus_ring(ui, field, response);
+        let (at, anchor) = match self.align {
+            Align::Min => (field.left_center() + vec2(4.0, 0.0), Align2::LEFT_CENTER),
+            Align::Center => (field.center(), Align2::CENTER_CENTER),
+            Align::Max => (field.right_center() - vec2(7.0, 0.0), Align2::RIGHT_CENTER),
+        };
+        ui.painter().text(at, anchor, self.text, self.font.clone(), self.color);
+    }
+
+    /// The field. What was typed when Enter ended it.
+    fn edit(&self, ui: &mut Ui, field: Rect, id: Id, mut typed: String, begins: bool) -> Option<String> {
+        let tokens = Tokens::of(ui);
+        ui.painter().rect_filled(field, CONTROL_RADIUS, tokens.field_hovered);
+        let outline = Stroke::new(1.5, tokens.accent);
+        ui.painter()
+            .rect_stroke(field, CornerRadius::same(CONTROL_RADIUS), outline, StrokeKind::Inside);
+        let inside = field.shrink2(vec2(6.0, 0.0));
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inside));
+        let mut output = TextEdit::singleline(&mut typed)
+            .id(id.with("field"))
+            .font(theme::mono(12.0))
+            .frame(egui::Frame::NONE)
+            .margin(Vec2::ZERO)
+            .char_limit(MOST_CHARS)
+            .align(Align2::LEFT_CENTER)
+            .min_size(inside.size())
+            .desired_width(inside.width())
+            .show(&mut child);
+        let response = &output.response;
+        response.widget_info(|| {
+            WidgetInfo::labeled(Role::TextInput, true, format!("Type the {}", self.name.to_lowercase()))
+        });
+        if begins {
+            response.request_focus();
+            let all = CCursorRange::two(CCursor::new(0), CCursor::new(typed.chars().count()));
+            output.state.cursor.set_char_range(Some(all));
+            output.state.clone().store(ui.ctx(), response.id);
+        } else if response.lost_focus() || !response.has_focus() {
+            ui.data_mut(|data| data.remove::<String>(id));
+            let entered = ui.input(|input| input.key_pressed(Key::Enter));
+            // What Esc shut, it has shut.
+            ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+            return entered.then_some(typed);
+        }
+        ui.data_mut(|data| data.insert_temp(id, typed));
+        None
+    }
+}
+
+/// The first number in what was typed: `1.25 s`, `1,25`, `31 of 75`. None when there is none.
+pub(crate) fn typed_number(typed: &str) -> Option<f64> {
+    let typed = typed.trim().replace(',', ".").replace('−', "-");
+    let end = typed
+        .find(|letter: char| !matches!(letter, '0'..='9' | '.' | '-' | '+'))
+        .unwrap_or(typed.len());
+    let number: f64 = typed[..end].parse().ok()?;
+    number.is_finite().then_some(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_as_people_write_them() {
+        for (typed, number) in [
+            ("1.25", Some(1.25)),
+            (" 1,25 s", Some(1.25)),
+            ("31 of 75", Some(31.0)),
+            ("0.5×", Some(0.5)),
+            ("−2", Some(-2.0)),
+            (".5", Some(0.5)),
+            ("", None),
+            ("soon", None),
+            ("1.2.3", None),
+        ] {
+            assert_eq!(typed_number(typed), number, "{typed:?}");
+        }
+    }
 }

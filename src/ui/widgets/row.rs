@@ -1,11 +1,15 @@
 //! Rows of panels: headings, facts, choices, hairlines.
 
-use egui::{Align2, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::super::icons::{self, Icon};
-use super::super::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
-use super::{MOUSE_CONTROL, control_size, icon_button, is_touch, key_hint, pressed_row_height};
+use super::button::icon_button;
+use super::color::paint_swatch;
+use super::control::{MOUSE_CONTROL, control_size, is_touch, key_hint, paint_elided, pressed_row_height};
+use crate::ui::icons::{self, Icon};
+use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
+/// Height of the heading of what is selected, as of the panel on the left.
+const SELECTED_HEIGHT: f32 = 22.0;
 /// Height of the name of a part.
 const SECTION_HEIGHT: f32 = 21.0;
 
@@ -72,6 +76,33 @@ pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
         icon_button(ui, Icon::Close, "Close", false).clicked()
     })
     .inner
+}
+
+/// The name of what is selected, after a swatch in a colour (linear) if it has one, and a button that clears the selection. Whether
+/// it was clicked.
+pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: Option<[f32; 3]>) -> bool {
+    let size = vec2(ui.available_width(), SELECTED_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let mut at = rect.left_center();
+    if let Some(swatch) = swatch {
+        paint_swatch(ui, at + vec2(5.0, 0.0), swatch, 1.0);
+        at.x += 18.0;
+    }
+    let side = control_size(ui);
+    paint_elided(
+        ui.painter(),
+        at,
+        name,
+        theme::semibold(13.0),
+        color,
+        rect.max.x - side - at.x,
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Selected: {name}")));
+    // The cross stands where the edges of the rows below end, and its field around it.
+    let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
+    // Apart from the rows, which it must not make wider.
+    let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
+    icon_button(&mut corner, Icon::Close, "Clear the selection (Esc)", false).clicked()
 }
 
 /// The name of a part of a panel: 11 points, capitals.

@@ -1,11 +1,13 @@
-//! The order of input within a frame. egui finds out once a pass which widget lies under the pointer and which one has the
-//! keyboard, so a press and what follows it must not fall into one pass, nor Tab and the letters after it. A slow frame brings many
-//! events at once: they are dealt with in as many passes as they need, all in the same frame.
+//! Input: its order within a frame, and who has the keyboard.
+//!
+//! egui finds out once a pass which widget lies under the pointer and which one has the keyboard, so a press and what follows it must
+//! not fall into one pass, nor Tab and the letters after it. A slow frame brings many events at once: they are dealt with in as many
+//! passes as they need, all in the same frame.
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
 
-use egui::{Context, Event, Key, RawInput};
+use egui::{Context, Event, Id, Key, Popup, RawInput, Ui};
 
 /// Passes of one frame: what is left waits for the next one.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
@@ -94,6 +96,73 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
         waits
     };
     events.iter().position(waits).unwrap_or(events.len())
+}
+
+/// Who had the keyboard when the last pass ended, and which button opened what hangs from one.
+#[derive(Debug, Default)]
+pub(super) struct Keyboard {
+    focused: Option<Id>,
+    typing: bool,
+    opener: Option<Id>,
+}
+
+impl Keyboard {
+    /// Whether keys were typed into a field when this pass began: it had the keyboard, or had it until a key of this pass.
+    pub(super) fn was_typing(&self, ctx: &Context) -> bool {
+        self.typing || ctx.text_edit_focused()
+    }
+
+    /// Whether keys are typed into a field as this pass ends, or it is being pressed.
+    pub(super) fn is_typing(&mut self, ctx: &Context) -> bool {
+        let pressed = ctx.data_mut(|data| data.remove_temp::<()>(pressed_field()).is_some());
+        self.typing = pressed || ctx.text_edit_focused();
+        self.typing
+    }
+
+    /// Gives the keyboard back to whom something that was shut had taken it from. `popover_was_open`: when this pass began;
+    /// `escape_shut`: Esc has shut something.
+    pub(super) fn give_back(&mut self, ctx: &Context, popover_was_open: bool, escape_shut: bool) {
+        let before = self.focused;
+        let focused = ctx.memory(|memory| memory.focused());
+        let clicked = ctx.interaction_snapshot(|interaction| interaction.clicked);
+        let opens = |button: &Id| Popup::is_id_open(ctx, popup_of(*button));
+        if let Some(button) = [clicked, focused].into_iter().flatten().find(opens) {
+            self.opener = Some(button);
+        }
+        let hung = |id: Id| {
+            let layer = ctx.read_response(id).map(|response| response.layer_id.id);
+            layer.is_some() && layer == self.opener.map(popup_of)
+        };
+        let popover_shut = popover_was_open && !Popup::is_any_open(ctx);
+        if (popover_shut || escape_shut) && focused.is_none_or(|id| popover_shut && hung(id)) {
+            // With a mouse nobody has it.
+            let heir = before.and_then(|id| {
+                if escape_shut && !hung(id) {
+                    Some(id)
+                } else {
+                    self.opener
+                }
+            });
+            if let Some(id) = heir {
+                ctx.memory_mut(|memory| memory.request_focus(id));
+            }
+        }
+        self.focused = ctx.memory(|memory| memory.focused());
+    }
+}
+
+/// Says that the pointer presses a field: until it has the keyboard no key is a shortcut.
+pub(super) fn press_field(ui: &Ui) {
+    ui.data_mut(|data| data.insert_temp(pressed_field(), ()));
+}
+
+fn pressed_field() -> Id {
+    Id::unique("a field is pressed")
+}
+
+/// What hangs from a button, by the name that egui gives it.
+fn popup_of(button: Id) -> Id {
+    button.with("popup")
 }
 
 #[cfg(test)]

@@ -1,0 +1,215 @@
+//! What of the skeleton's panels is open, and what they read of the session before they are laid out.
+
+use egui::{Rect, Ui};
+use glam::Vec2;
+
+use super::naming::Naming;
+use super::numbers::Digits;
+use crate::anim::{JointReadout, SkinView, VertexExplanation};
+use crate::model::JointIndex;
+use crate::scene::{LabelPlace, joint_colors};
+use crate::session::{Command, JointCommand, JointRow, Session};
+use crate::ui::viewport::in_picture;
+
+/// What the panel on the left is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::ui) enum SidePage {
+    /// Facts, subsets, textures.
+    #[default]
+    Model,
+    /// The tree of joints.
+    Skeleton,
+}
+
+/// What of the skeleton's panels is open, and what they read.
+#[derive(Debug, Default)]
+pub(in crate::ui) struct SkeletonState {
+    pub(in crate::ui) page: SidePage,
+    pub(super) reading: Reading,
+    pub(super) tree: TreeState,
+    pub(super) naming: Naming,
+    pub(super) space: Space,
+    pub(super) key_part: KeyPart,
+    pub(super) explains: bool,
+    /// Influences of the explained vertex whose matrices are shown, by slot: the next vertex looks like this one.
+    pub(super) unfolded: [bool; 4],
+    /// The joint whose row or link is under the pointer in this pass.
+    pub(in crate::ui) hovered: Option<JointIndex>,
+    /// Where the pointer is over the view itself: x right, y up, −1…1.
+    pointer_in_view: Option<Vec2>,
+    model: u64,
+}
+
+impl SkeletonState {
+    /// Reads what the panels of this pass show.
+    pub(in crate::ui) fn read(&mut self, ui: &Ui, session: &mut Session, window: Rect) {
+        if self.model != session.model_revision() {
+            self.model = session.model_revision();
+            self.naming = Naming::default();
+            self.tree = TreeState::default();
+        }
+        if !has_joints(session) {
+            self.page = SidePage::Model;
+        }
+        self.hovered = None;
+        let pointer = ui.input(|input| input.pointer.hover_pos());
+        let over_view = |at| ui.ctx().layer_id_at(at) == Some(ui.layer_id());
+        let held = ui.input(|input| input.pointer.any_down());
+        self.pointer_in_view = pointer
+            .filter(|&at| window.contains(at) && !held && over_view(at))
+            .map(|at| in_picture(window, at));
+        self.reading.take(session, window.height());
+    }
+
+    /// Lets the joint under the pointer stand out; `elsewhere` it is in another panel.
+    pub(in crate::ui) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
+        let bones_at = self.pointer_in_view.filter(|_| session.joints().bones_visible());
+        match (self.hovered.or(elsewhere), bones_at) {
+            (None, Some(pointer)) => commands.push(JointCommand::HoverAt(Some(pointer)).into()),
+            (hovered, _) if session.joints().hovered() != hovered => {
+                commands.push(JointCommand::Hover(hovered).into());
+            }
+            _ => {}
+        }
+    }
+
+    /// Turns the panel on the left to a page; the tree scrolls to the joint that is selected next.
+    pub(in crate::ui) fn show_page(&mut self, session: &Session, page: SidePage) {
+        self.page = if has_joints(session) { page } else { SidePage::Model };
+        self.naming.proposing = false;
+        self.tree.reset();
+    }
+
+    /// Whether a joint is being named in its row.
+    pub(in crate::ui) fn is_naming(&self) -> bool {
+        self.naming.of.is_some()
+    }
+
+    /// Whether a field for a name is on its way: its row may have to be scrolled to.
+    pub(in crate::ui) fn awaits_field(&self) -> bool {
+        self.naming.awaits_field()
+    }
+
+    /// Ends the naming of a joint whose row was not shown in this pass.
+    pub(in crate::ui) fn settle_naming(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
+        self.naming.settle(ui, commands);
+    }
+
+    /// Lets the selected joint be named in its row.
+    pub(in crate::ui) fn rename_selected(&mut self, ui: &Ui, session: &Session) {
+        if let Some(joint) = session.joints().selected() {
+            self.page = SidePage::Skeleton;
+            self.tree.reveal(joint);
+            self.naming.begin(ui, session, joint);
+        }
+    }
+}
+
+/// Whether the inspector is about a joint or a vertex.
+pub(in crate::ui) fn is_inspected(session: &Session) -> bool {
+    session.joints().selected().is_some() || session.joints().selected_vertex().is_some()
+}
+
+pub(in crate::ui) fn has_joints(session: &Session) -> bool {
+    session.joints().count() > 0
+}
+
+/// What of the tree is shown.
+#[derive(Debug, Default)]
+pub(super) struct TreeState {
+    pub(super) query: String,
+    pub(super) rows: Vec<JointRow>,
+    /// The selected joint that was scrolled to.
+    shown: Option<JointIndex>,
+}
+
+impl TreeState {
+    /// Shows a joint that the search may have left out, and scrolls to it.
+    pub(super) fn reveal(&mut self, joint: JointIndex) {
+        if !self.rows.iter().any(|row| row.joint == joint) {
+            self.query.clear();
+        }
+        self.shown = None;
+    }
+
+    /// Shows the whole tree, and scrolls to the selected joint anew.
+    pub(super) fn reset(&mut self) {
+        self.query.clear();
+        self.shown = None;
+    }
+
+    /// Does not scroll to a joint that is selected by its own row.
+    pub(super) fn select_in_place(&mut self, joint: JointIndex) {
+        self.shown = Some(joint);
+    }
+
+    /// The place of the selected joint among the rows, once after it was selected.
+    pub(super) fn row_to_show(&mut self, selected: Option<JointIndex>) -> Option<usize> {
+        if self.shown == selected {
+            return None;
+        }
+        self.shown = selected;
+        self.rows.iter().position(|row| Some(row.joint) == selected)
+    }
+}
+
+/// What a transform is relative to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Space {
+    /// The parent.
+    #[default]
+    Local,
+    /// The model.
+    Model,
+}
+
+/// What of the keys is listed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum KeyPart {
+    #[default]
+    Position,
+    Rotation,
+    Scale,
+}
+
+/// Least distance between the names of two joints, in points.
+const LABEL_SPACING: f32 = 22.0;
+
+/// Numbers and places, in buffers that are kept.
+#[derive(Debug, Default)]
+pub(super) struct Reading {
+    pub(super) labels: Vec<LabelPlace>,
+    pub(super) joint: Option<JointReadout>,
+    pub(super) vertex: Option<VertexExplanation>,
+    /// How the numbers of joint and vertex are shown.
+    pub(super) digits: Digits,
+    /// Where the vertex is in the picture: x right, y up, −1…1.
+    pub(super) vertex_at: Option<Vec2>,
+    /// Colour of each joint (sRGB), while the skin shows the strongest one of each vertex.
+    pub(super) colors_srgb: Vec<[u8; 4]>,
+    colors_of: Option<u64>,
+}
+
+impl Reading {
+    /// Reads a session whose picture is this high, in points.
+    pub(super) fn take(&mut self, session: &mut Session, height: f32) {
+        session.joint_labels(LABEL_SPACING / height.max(1.0), &mut self.labels);
+        let bounds = session.open_model().map(|open| &open.bind_bounds);
+        self.digits = bounds.map_or_else(Digits::default, Digits::for_bounds);
+        let selected = session.joints().selected();
+        self.joint = selected.and_then(|joint| session.inspect_joint(joint));
+        self.vertex = session.explain_vertex();
+        let position = self.vertex.as_ref().map(|explained| explained.position);
+        self.vertex_at = position.and_then(|position| session.place_in_picture(position));
+
+        let shown = session.joints().skin_view() == Some(SkinView::DominantJoint);
+        let wanted = shown.then_some(session.model_revision());
+        if self.colors_of != wanted {
+            self.colors_of = wanted;
+            self.colors_srgb = match session.open_model().filter(|_| shown) {
+                Some(open) => joint_colors(&open.model.skeleton),
+                None => Vec::new(),
+            };
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! What controls have in common: their size, the ring of the one that has the keyboard, words that end in an ellipsis, arrow keys;
+//! and chips, small rounded labels.
+
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{
+    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Role, Sense, Shape,
+    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
+};
+
+use crate::ui::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+
+/// Side of a control where a mouse is the pointer.
+pub(super) const MOUSE_CONTROL: f32 = 28.0;
+/// Side of a control where fingers are.
+pub(super) const TOUCH_CONTROL: f32 = 44.0;
+
+/// Sizes controls for fingers or for a mouse, from the next pass on.
+pub(crate) fn size_for_touch(ctx: &egui::Context, touch: bool) {
+    let side = if touch { TOUCH_CONTROL } else { MOUSE_CONTROL };
+    if ctx.global_style().spacing.interact_size.y != side {
+        ctx.all_styles_mut(|style| style.spacing.interact_size = Vec2::splat(side));
+        ctx.request_repaint();
+    }
+}
+
+/// Side of a control, in points.
+pub(crate) fn control_size(ui: &Ui) -> f32 {
+    ui.spacing().interact_size.y
+}
+
+/// Whether controls are sized for fingers.
+pub(crate) fn is_touch(ui: &Ui) -> bool {
+    control_size(ui) > MOUSE_CONTROL
+}
+
+/// Whether the pointer is a finger. A screen that was touched may have a mouse too, which keeps what it can do.
+pub(crate) fn by_finger(ui: &Ui) -> bool {
+    ui.input(|input| {
+        if input.has_touch_screen() {
+            input.any_touches()
+        } else {
+            is_touch(ui)
+        }
+    })
+}
+
+/// A key to show beside what it does: fingers have none.
+pub(crate) fn key_hint<'a>(ui: &Ui, key: &'a str) -> &'a str {
+    if is_touch(ui) { "" } else { key }
+}
+
+/// Height of a row of a panel that can be pressed.
+pub(crate) fn pressed_row_height(ui: &Ui) -> f32 {
+    if is_touch(ui) { TOUCH_CONTROL } else { ROW_HEIGHT }
+}
+
+/// Shows which control has the keyboard.
+pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
+    if response.has_focus() {
+        let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
+        ui.painter()
+            .rect_stroke(rect, CornerRadius::same(CONTROL_RADIUS), stroke, StrokeKind::Inside);
+    }
+}
+
+/// Draws words that begin at a point, in the middle of their height; what is longer than `most` ends in an ellipsis.
+pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId, color: Color32, most: f32) {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
+    job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
+    let galley = painter.layout_job(job);
+    painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
+}
+
+/// The mark before something that folds: it points to the right while folded, or else down.
+pub(crate) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, color: Color32) {
+    let corners = if folded {
+        [Vec2::new(-1.7, -3.4), Vec2::new(1.7, 0.0), Vec2::new(-1.7, 3.4)]
+    } else {
+        [Vec2::new(-3.4, -1.7), Vec2::new(0.0, 1.7), Vec2::new(3.4, -1.7)]
+    };
+    let corners = corners.map(|corner| center + corner).to_vec();
+    painter.add(Shape::line(corners, Stroke::new(1.4, color)));
+}
+
+/// Steps that arrow keys ask of a control that has the keyboard: right and up count up. They are taken, so that nothing else
+/// acts on them.
+pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
+    if !response.has_focus() {
+        return 0.0;
+    }
+    let filter = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    let mut steps = 0.0;
+    ui.input_mut(|input| {
+        input.events.retain(|event| {
+            let step = match event {
+                Event::Key { key, pressed: true, .. } => match key {
+                    Key::ArrowRight | Key::ArrowUp => 1.0,
+                    Key::ArrowLeft | Key::ArrowDown => -1.0,
+                    _ => return true,
+                },
+                _ => return true,
+            };
+            steps += step;
+            false
+        });
+    });
+    steps
+}
+
+/// Room around the words, left and right together, above and below together.
+const AROUND: Vec2 = vec2(14.0, 5.0);
+
+/// A chip in a row.
+pub(crate) fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
+    let ground = Tokens::of(ui).field;
+    let galley = layout(ui.painter(), text, color);
+    let (rect, response) = ui.allocate_exact_size(galley.size() + AROUND, Sense::hover());
+    paint_chip(ui.painter(), rect.min, Align2::LEFT_TOP, text, color, ground);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    response
+}
+
+/// How large a chip is.
+pub(crate) fn chip_size(ui: &Ui, text: &str) -> Vec2 {
+    layout(ui.painter(), text, Color32::WHITE).size() + AROUND
+}
+
+/// Draws a chip whose `anchor` is at a point. Where it came to be.
+pub(crate) fn paint_chip(
+    painter: &Painter,
+    at: Pos2,
+    anchor: Align2,
+    text: &str,
+    color: Color32,
+    ground: Color32,
+) -> Rect {
+    let galley = layout(painter, text, color);
+    let rect = anchor.anchor_size(at, galley.size() + AROUND);
+    painter.rect_filled(rect, rect.height() * 0.5, ground);
+    painter.galley(rect.min + AROUND * 0.5, galley, color);
+    rect
+}
+
+fn layout(painter: &Painter, text: &str, color: Color32) -> std::sync::Arc<egui::Galley> {
+    painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.5), color)
+}
