@@ -41,6 +41,7 @@ pub mod cli;
 pub mod diagnostic;
 pub mod format;
 pub mod image;
+pub mod import;
 pub mod light;
 pub mod model;
 #[cfg(feature = "render")]

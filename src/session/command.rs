@@ -221,13 +221,6 @@ impl From<SubsetCommand> for Command {
     }
 }
 
-/// What an [`super::Session::apply`] did that others must know.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Effect {
-    /// Another model is open: a renderer must take it up.
-    pub model_replaced: bool,
-}
-
 /// Something that happened, for programs that listen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Event {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::{format, image};
+use crate::{image, import};
 
 /// One file: where it lay relative to what was dropped, and its bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,7 +115,7 @@ fn models_among(files: &[File]) -> Vec<usize> {
     if models.is_empty() {
         models = by_name(|file| !file.is_image());
         if models.len() < files.len() {
-            models.retain(|&index| format::begins_like_model(&files[index].bytes));
+            models.retain(|&index| import::begins_like_model(&files[index].bytes));
         }
     }
     models.sort_by_key(|&index| std::cmp::Reverse(files[index].bytes.len()));

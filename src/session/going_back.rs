@@ -1,6 +1,7 @@
 //! What was dropped is on the screen when the GPU has taken it. Until then what was there before is kept, and comes back when the
 //! GPU refuses.
 
+use super::changes::Changes;
 use super::{Command, Event, LoadError, Session};
 use crate::diagnostic::{Diagnostic, Severity};
 
@@ -8,11 +9,6 @@ use crate::diagnostic::{Diagnostic, Severity};
 pub const GPU_REFUSED: &str = "gpu-refused";
 
 impl Session {
-    /// What the renderer holds besides the pose and the values of the materials: other numbers, another upload.
-    pub(super) fn uploads(&self) -> [u64; 3] {
-        [self.model_revision, self.maps_revision, self.sky.revision()]
-    }
-
     /// A copy of all that is open, for [`Session::go_back`]; none when there is an older one, which the screen still shows.
     pub(super) fn to_go_back_to(&self) -> Option<Box<Self>> {
         self.before.is_none().then(|| Box::new(self.clone()))
@@ -26,19 +22,18 @@ impl Session {
     /// Learns that the GPU could not take what is open, and why. What was open before is open again, as it was; without any, or
     /// when the GPU refuses that too, nothing is. The error is shown.
     pub fn go_back(&mut self, reason: &str) {
-        let refused = self.open.as_ref().map(|open| open.file.base_name().to_owned());
-        let mut before = self.before.take().map_or_else(|| self.closed(), |before| *before);
-        // Whoever has seen the one that failed must not take this for it.
-        before.model_revision = self.model_revision + 1;
-        before.clips_revision = self.clips_revision + 1;
-        before.maps_revision = self.maps_revision + 1;
-        before.picture_revision = self.picture_revision + 1;
-        before.sky.follow(&self.sky);
-        let (aspect, insets) = (self.aspect, self.insets);
-        before.theme = self.theme;
-        before.events = std::mem::take(&mut self.events);
-        *self = before;
+        let refused = self.content.open.as_ref().map(|open| open.file.base_name().to_owned());
+        let before = self.before.take().map_or_else(|| self.closed(), |before| *before);
+        let (aspect, insets, theme) = (self.view.aspect, self.view.insets, self.view.theme);
+        *self = Self {
+            revisions: self.revisions,
+            events: std::mem::take(&mut self.events),
+            ..before
+        };
+        self.view.theme = theme;
         self.perform(Command::SetViewport { aspect, insets });
+        // Whoever has seen the one that failed must not take this for it.
+        self.commit(Changes::CONTENT);
         self.note(Event::Load);
         self.fail(LoadError::refused_by_gpu(refused.unwrap_or_default(), reason));
     }
@@ -51,11 +46,10 @@ impl Session {
     /// The same view of nothing.
     fn closed(&mut self) -> Self {
         self.clear_sky();
-        Self {
-            look: self.look,
-            quality: self.quality.clone(),
-            ..Self::new(self.reduced_motion)
-        }
+        let mut closed = Self::new(self.reduced_motion);
+        closed.view.look = self.view.look;
+        closed.quality.clone_from(&self.quality);
+        closed
     }
 }
 

@@ -1,76 +1,16 @@
 //! Clips of other files with the same bones join those of the open model.
 
-use std::collections::HashSet;
-use std::sync::Arc;
-
 use glam::Affine3A;
 
-use super::clips::ClipFacts;
-use super::replacing::replaced_notice;
-use super::{Event, File, FileSet, LoadError, OpenModel, Session, load};
+use super::files::File;
+use super::load::{LoadError, load};
+use super::open_model::{ClipFacts, JoinedFile, OpenModel};
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::{Skeleton, unique_names};
 
 /// Numbers of two bone offsets that differ by less are the same: lengths as shares of the model's size, axes as they are.
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
 const OFFSET_TOLERANCE: f32 = 1e-3;
-
-/// A file whose clips joined the open model.
-#[derive(Clone, Debug)]
-pub(super) struct JoinedFile {
-    pub(super) file: File,
-    /// What is noted of it when its bones stand elsewhere than the model's. It goes with the file.
-    offsets_differ: Option<Diagnostic>,
-}
-
-impl Session {
-    /// Adds the clips of every model of a drop; true when there was no model to join and the drop was opened.
-    pub(super) fn add_clips(&mut self, files: Vec<File>) -> bool {
-        if self.open.is_none() {
-            return self.add_files(files);
-        }
-        self.maps.forget_unused();
-        let before = self.named_clips();
-        let Some(open) = &mut self.open else {
-            return false;
-        };
-        let open = Arc::make_mut(open);
-        let had_clips = !open.model.clips.is_empty();
-        let set = FileSet::new(files);
-        let models = set.models();
-        let mut refused = models.is_empty().then(|| Box::new(LoadError::no_model(&set)));
-        // In the order of the drop, which the list of the largest first has lost.
-        let models: HashSet<&str> = models.iter().map(|file| file.path.as_str()).collect();
-        let mut joined: HashSet<&str> = HashSet::new();
-        let mut replaced = false;
-        for file in set.files().iter().filter(|file| models.contains(file.path.as_str())) {
-            // Files of one drop that have one name in several folders do not replace each other.
-            let replaces = !joined.contains(file.base_name());
-            match open.join_clips(file, replaces) {
-                Ok(replaced_some) => {
-                    joined.insert(file.base_name());
-                    replaced |= replaced_some;
-                }
-                Err(error) => refused = refused.or(Some(error)),
-            }
-        }
-        match refused {
-            Some(error) => self.fail(*error),
-            None => self.error = None,
-        }
-        if replaced {
-            self.take_up_clips(&before);
-        }
-        if !had_clips && self.show_clip(0) {
-            if !self.reduced_motion {
-                self.playback.play();
-                self.note(Event::Play);
-            }
-            self.note(Event::TimeUpdate);
-        }
-        false
-    }
-}
 
 impl OpenModel {
     /// Adds the clips of a file to the list, under names that are free. With `replaces` they take the place of clips that files
@@ -146,6 +86,38 @@ impl OpenModel {
         self.joined.iter().filter_map(|joined| joined.offsets_differ.as_ref())
     }
 
+    /// Takes the clips away that a file of this name brought, and what was found about them. The place of the first and how many
+    /// there were.
+    fn remove_joined(&mut self, file_name: &str) -> Option<(usize, usize)> {
+        let is_gone = |facts: &ClipFacts| facts.joined && facts.file_name == file_name;
+        let gone: Vec<bool> = self.clip_facts.iter().map(is_gone).collect();
+        let first = gone.iter().position(|&gone| gone)?;
+        let count = gone.iter().filter(|&&gone| gone).count();
+        let mut keeps = gone.iter().map(|gone| !gone);
+        self.model.clips.retain(|_| keeps.next().unwrap_or(true));
+        self.clip_facts.retain(|facts| !is_gone(facts));
+        let place_of = |clip: u32| gone.iter().take(clip as usize).filter(|&&gone| !gone).count() as u32;
+        self.notices.retain_mut(|notice| {
+            let Some(Subject::Clip(clip)) = notice.subject else {
+                return true;
+            };
+            notice.subject = Some(Subject::Clip(place_of(clip)));
+            gone.get(clip as usize) != Some(&true)
+        });
+        Some((first, count))
+    }
+
+    /// Lets findings be about clips some places further on, from a place on.
+    fn move_clip_notices(&mut self, from: usize, by: usize) {
+        for notice in &mut self.notices {
+            if let Some(Subject::Clip(clip)) = &mut notice.subject
+                && *clip as usize >= from
+            {
+                *clip = clip.saturating_add(by as u32);
+            }
+        }
+    }
+
     /// A note when the other model was skinned in another pose, or in other proportions.
     fn offsets_notice(&self, other: &Self) -> Option<Diagnostic> {
         let size = self.size();
@@ -170,17 +142,6 @@ impl OpenModel {
             subject: Some(Subject::Bone(first)),
             ..Diagnostic::without_place(Severity::Note, "clips-offsets-differ", message)
         })
-    }
-}
-
-impl LoadError {
-    /// A file that is sound, but not for what it was wanted for.
-    fn refused(file: &File, code: &'static str, message: String) -> Self {
-        Self {
-            file_name: file.base_name().to_owned(),
-            diagnostic: Diagnostic::without_place(Severity::Error, code, message),
-            excerpt: None,
-        }
     }
 }
 
@@ -242,4 +203,16 @@ fn joined_notice(notice: Diagnostic, file_name: &str, first: usize) -> Option<Di
         subject: Some(Subject::Clip(clip.saturating_add(first as u32))),
         ..notice
     })
+}
+
+/// A note that clips took the places of others.
+fn replaced_notice(file_name: &str, first: usize, count: usize, before: usize) -> Diagnostic {
+    let clips = |count: usize| format!("{count} clip{}", if count == 1 { "" } else { "s" });
+    let replace = if count == 1 { "replaces" } else { "replace" };
+    let (now, before) = (clips(count), clips(before));
+    let message = format!("{file_name} was added before; its {now} {replace} the {before} from then.");
+    Diagnostic {
+        subject: Some(Subject::Clip(first as u32)),
+        ..Diagnostic::without_place(Severity::Note, "clips-replaced", message)
+    }
 }

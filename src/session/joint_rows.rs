@@ -1,7 +1,7 @@
 //! The tree of joints as rows of a list, folded or searched.
 
-use super::Session;
-use crate::model::JointIndex;
+use super::joints::Joints;
+use crate::model::{JointIndex, Skeleton};
 
 /// One row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,54 +24,48 @@ pub struct JointRow {
     pub branch_vertices: u32,
 }
 
-impl Session {
-    /// The rows of the tree, depth first, in the caller's buffer. With words in `query`: all joints whose name has them,
-    /// whatever the case, or whose number in the file they are (`12`, `#12` and `bone 12` alike), and what these hang from,
-    /// unfolded.
-    pub fn joint_rows(&self, query: &str, rows: &mut Vec<JointRow>) {
-        rows.clear();
-        let Some(open) = self.open_model() else { return };
-        let bones = open.model.skeleton.file_bones();
-        let (joints, tree, counts) = (self.joints(), self.joints().tree(), self.joints().vertex_counts());
-        let query = Query::new(query);
-        let row = |joint: JointIndex, folded: bool, found: bool| JointRow {
-            joint,
-            bone: bones[joint.index()],
-            depth: tree.depth(joint),
-            has_children: tree.branch(joint).len() > 1,
-            folded,
-            found,
-            own_vertices: counts.own[joint.index()],
-            branch_vertices: counts.of_branch[joint.index()],
-        };
-        let Some(query) = query else {
-            let mut rest = tree.order();
-            while let Some(&joint) = rest.first() {
-                let branch = tree.branch(joint).len();
-                let folded = branch > 1 && joints.is_folded(joint);
-                rows.push(row(joint, folded, false));
-                rest = &rest[if folded { branch } else { 1 }..];
-            }
-            return;
-        };
-        let found = |joint: JointIndex| {
-            let bone = bones[joint.index()];
-            query.is_met_by(bone, self.joint_names().get(bone))
-        };
-        // From the end, so that what is below a joint is known before it.
-        let mut has_found = vec![false; bones.len()];
-        let parents = open.model.skeleton.parents();
-        for &joint in tree.order().iter().rev() {
-            let found = found(joint);
-            if found || has_found[joint.index()] {
-                rows.push(row(joint, false, found));
-                if let Some(parent) = parents[joint.index()] {
-                    has_found[parent.index()] = true;
-                }
+/// The rows of the tree, depth first, at the end of the caller's buffer.
+pub(super) fn joint_rows(skeleton: &Skeleton, joints: &Joints, query: &str, rows: &mut Vec<JointRow>) {
+    let bones = skeleton.file_bones();
+    let (tree, counts) = (joints.tree(), joints.vertex_counts());
+    let query = Query::new(query);
+    let row = |joint: JointIndex, folded: bool, found: bool| JointRow {
+        joint,
+        bone: bones[joint.index()],
+        depth: tree.depth(joint),
+        has_children: tree.branch(joint).len() > 1,
+        folded,
+        found,
+        own_vertices: counts.own[joint.index()],
+        branch_vertices: counts.of_branch[joint.index()],
+    };
+    let Some(query) = query else {
+        let mut rest = tree.order();
+        while let Some(&joint) = rest.first() {
+            let branch = tree.branch(joint).len();
+            let folded = branch > 1 && joints.is_folded(joint);
+            rows.push(row(joint, folded, false));
+            rest = &rest[if folded { branch } else { 1 }..];
+        }
+        return;
+    };
+    let found = |joint: JointIndex| {
+        let bone = bones[joint.index()];
+        query.is_met_by(bone, joints.names().get(bone))
+    };
+    // From the end, so that what is below a joint is known before it.
+    let mut has_found = vec![false; bones.len()];
+    let parents = skeleton.parents();
+    for &joint in tree.order().iter().rev() {
+        let found = found(joint);
+        if found || has_found[joint.index()] {
+            rows.push(row(joint, false, found));
+            if let Some(parent) = parents[joint.index()] {
+                has_found[parent.index()] = true;
             }
         }
-        rows.reverse();
     }
+    rows.reverse();
 }
 
 /// What is searched for.

@@ -1,53 +1,14 @@
-//! From one file's bytes to a model that can be shown, or to an error that can be.
+//! From the files of a drop to a model that can be shown, or to an error that can be.
 
-use glam::Vec3;
+use std::sync::Arc;
 
-use crate::anim;
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::format::{self, Dialect, Excerpt};
-use crate::model::Model;
-use crate::scene::Aabb;
-
-use super::clips::ClipFacts;
 use super::files::{File, FileSet};
-use super::joining::JoinedFile;
-
-/// A model that is on screen, with the file it came from.
-#[derive(Clone, Debug)]
-pub struct OpenModel {
-    /// The file.
-    pub file: File,
-    /// Spelling of the file.
-    pub dialect: Dialect,
-    /// The model, in the file's space.
-    pub model: Model,
-    /// What was mended or is worth knowing, in the order of the file.
-    pub notices: Vec<Diagnostic>,
-    /// Box of the bind pose, in the file's space.
-    pub bind_bounds: Aabb,
-    bind_points: Vec<Vec3>,
-    /// One for each clip of the model.
-    pub(super) clip_facts: Vec<ClipFacts>,
-    /// Files whose clips joined, in their order.
-    pub(super) joined: Vec<JoinedFile>,
-}
-
-impl OpenModel {
-    /// The space that a clip needs; the bind pose's without a clip.
-    pub fn extent(&self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
-        let index = clip.unwrap_or(usize::MAX);
-        match (self.model.clips.get(index), self.clip_facts.get(index)) {
-            (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
-            _ => (self.bind_bounds, &self.bind_points),
-        }
-    }
-
-    /// Lines of the file around a finding.
-    pub fn excerpt(&self, diagnostic: &Diagnostic) -> Option<Excerpt> {
-        let position = diagnostic.position?;
-        Some(format::excerpt(&self.file.bytes, position, diagnostic.length))
-    }
-}
+use super::maps::Maps;
+use super::open_model::OpenModel;
+use super::sky::FoundSky;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::format::{self, Excerpt};
+use crate::import;
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +44,15 @@ impl LoadError {
         }
     }
 
+    /// A file that is sound, but not for what it was wanted for.
+    pub(super) fn refused(file: &File, code: &'static str, message: String) -> Self {
+        Self {
+            file_name: file.base_name().to_owned(),
+            diagnostic: Diagnostic::without_place(Severity::Error, code, message),
+            excerpt: None,
+        }
+    }
+
     /// The whole finding as text, for the clipboard: `file:line:column: error[code]: message` and the excerpt.
     pub fn to_text(&self) -> String {
         let Diagnostic {
@@ -106,35 +76,182 @@ impl LoadError {
 /// Reads a model file.
 ///
 /// # Errors
-/// When the text is not the format, or what it says makes no model.
+/// When the file is of no format that is known here, or what it says makes no model.
 pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
-    let fail = |diagnostic: Diagnostic| {
-        let excerpt = diagnostic
-            .position
-            .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
-        Box::new(LoadError {
-            file_name: file.base_name().to_owned(),
-            diagnostic,
-            excerpt,
+    let imported = import::import(&file.bytes);
+    imported
+        .map(|imported| OpenModel::new(file, imported))
+        .map_err(|diagnostic| {
+            let excerpt = diagnostic
+                .position
+                .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
+            Box::new(LoadError {
+                file_name: file.base_name().to_owned(),
+                diagnostic: *diagnostic,
+                excerpt,
+            })
         })
-    };
-    let parsed = format::parse(&file.bytes).map_err(|error| fail(error.diagnostic()))?;
-    let (model, model_notices) =
-        Model::from_document(&parsed.document, &parsed.lines).map_err(|error| fail(error.diagnostic()))?;
-    let mut notices = parsed.notices;
-    notices.extend(model_notices);
-    notices.sort_by_key(|notice| notice.position);
-    let bind_bounds = model.bind_bounds();
-    let bind_points = anim::extreme_points(&model, None);
-    let clip_facts = vec![ClipFacts::of_file(file.base_name()); model.clips.len()];
-    Ok(OpenModel {
-        file: file.clone(),
-        dialect: parsed.document.dialect,
-        model,
-        notices,
-        bind_bounds,
-        bind_points,
-        clip_facts,
-        joined: Vec::new(),
-    })
+}
+
+/// Makes what can be shown of the files of a drop, in steps, without a session: it can run anywhere, tell how far it is, and be
+/// dropped between two steps.
+#[derive(Clone, Debug)]
+pub struct LoadJob {
+    files: Arc<FileSet>,
+    file: File,
+    maps: Maps,
+    cubes: Vec<File>,
+    sky: Option<File>,
+    joined: Vec<File>,
+    state: State,
+}
+
+#[derive(Clone, Debug)]
+enum State {
+    Model,
+    Maps(Box<OpenModel>),
+    Sky(Box<OpenModel>),
+}
+
+/// A model with all that belongs to it, ready to be shown.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    pub(super) files: Arc<FileSet>,
+    pub(super) open: OpenModel,
+    pub(super) maps: Maps,
+    pub(super) sky: Option<FoundSky>,
+}
+
+impl Loaded {
+    /// The model.
+    pub fn model(&self) -> &OpenModel {
+        &self.open
+    }
+
+    /// Its maps.
+    pub fn maps(&self) -> &Maps {
+        &self.maps
+    }
+
+    /// Whether a cube map came with it that becomes the sky.
+    pub fn has_sky(&self) -> bool {
+        self.sky.as_ref().is_some_and(FoundSky::is_another)
+    }
+}
+
+/// How far a job is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Steps that are done.
+    pub done: usize,
+    /// All steps that are known of. Images are, once the model has been read.
+    pub total: usize,
+}
+
+/// What became of a job in a step.
+#[derive(Debug)]
+pub enum LoadStep {
+    /// There is more to do.
+    Working(Box<LoadJob>),
+    /// It has ended.
+    Ended(Result<Box<Loaded>, Box<LoadError>>),
+}
+
+impl LoadJob {
+    /// A job that opens one file of a drop, which is one of [`FileSet::models`].
+    pub fn new(files: Arc<FileSet>, file: File) -> Self {
+        Self {
+            cubes: files.cubes().cloned().collect(),
+            files,
+            file,
+            maps: Maps::default(),
+            sky: None,
+            joined: Vec::new(),
+            state: State::Model,
+        }
+    }
+
+    /// Uses what an open model of the same file has: decoded images, and files whose clips joined.
+    pub(super) fn reusing(mut self, maps: Maps, joined: Vec<File>) -> Self {
+        self.maps = maps;
+        self.joined = joined;
+        self
+    }
+
+    /// Leaves the sky that is there as it is when the drop brings it again.
+    pub(super) fn keeping_sky(mut self, sky: Option<File>) -> Self {
+        self.sky = sky;
+        self
+    }
+
+    /// Leaves the drop's cube maps alone.
+    pub(super) fn without_sky(mut self) -> Self {
+        self.cubes.clear();
+        self
+    }
+
+    /// Base name of the file that it opens.
+    pub fn file_name(&self) -> &str {
+        self.file.base_name()
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        // Reading the model, saying what is missing, and the sky are a step each.
+        let (done, left) = match &self.state {
+            State::Model => (0, 2),
+            State::Maps(_) => (1, self.maps.waiting_count() + 2),
+            State::Sky(_) => (2, 1),
+        };
+        let done = done + self.maps.decoded_count();
+        Progress {
+            done,
+            total: done + left,
+        }
+    }
+
+    /// Reads the model, decodes one image, or decodes the sky.
+    pub fn step(mut self) -> LoadStep {
+        match self.state {
+            State::Model => match load(&self.file) {
+                Err(error) => LoadStep::Ended(Err(error)),
+                Ok(mut open) => {
+                    open.join_again(self.joined.iter());
+                    self.maps.begin(&open.model.materials, self.files.images().cloned());
+                    self.state = State::Maps(Box::new(open));
+                    LoadStep::Working(Box::new(self))
+                }
+            },
+            State::Maps(open) => {
+                let is_last = !self.maps.decode_next();
+                if is_last {
+                    self.maps.conclude(&open.model.materials);
+                }
+                self.state = if is_last { State::Sky(open) } else { State::Maps(open) };
+                LoadStep::Working(Box::new(self))
+            }
+            State::Sky(open) => {
+                let sky = FoundSky::among(self.cubes, self.sky.as_ref());
+                LoadStep::Ended(Ok(Box::new(Loaded {
+                    files: self.files,
+                    open: *open,
+                    maps: self.maps,
+                    sky,
+                })))
+            }
+        }
+    }
+
+    /// Does all steps.
+    ///
+    /// # Errors
+    /// As [`load`] has them: images that cannot be read are no reason to fail.
+    pub fn run(mut self) -> Result<Box<Loaded>, Box<LoadError>> {
+        loop {
+            match self.step() {
+                LoadStep::Working(job) => self = *job,
+                LoadStep::Ended(outcome) => return outcome,
+            }
+        }
+    }
 }

@@ -1,7 +1,8 @@
 //! How the model is looked at: light, view mode, background, lines, passes.
 
-use super::Session;
-use crate::scene::{Background, FrameOptions, Light, Overlay, Overlays, ViewMode};
+use std::f32::consts::TAU;
+
+use crate::scene::{Background, Light, Overlay, Overlays, ViewMode};
 
 /// The book's lights turn by this much a second.
 const BOOK_TURN_RADIANS_PER_SEC: f32 = 0.1;
@@ -82,7 +83,7 @@ impl Look {
                 self.overlays.line_length = length.clamp(0.0, MAX_LINE_LENGTH);
             }
             LookCommand::SetEnvironmentTurn(radians) if radians.is_finite() => {
-                self.environment_turn_radians = radians.rem_euclid(std::f32::consts::TAU);
+                self.environment_turn_radians = radians.rem_euclid(TAU);
             }
             LookCommand::TurnEnvironment(radians) => {
                 self.apply(LookCommand::SetEnvironmentTurn(self.environment_turn_radians + radians));
@@ -95,43 +96,11 @@ impl Look {
         }
     }
 
-    /// Lets time pass: the book's lights turn.
+    /// Lets time pass: the book's lights turn. A step that is not finite is ignored.
     pub(super) fn advance(&mut self, dt_secs: f32) {
-        self.book_lights_turn_radians =
-            (self.book_lights_turn_radians + dt_secs * BOOK_TURN_RADIANS_PER_SEC).rem_euclid(std::f32::consts::TAU);
-    }
-}
-
-impl Session {
-    /// How the model is looked at.
-    pub fn look(&self) -> &Look {
-        &self.look
-    }
-
-    pub(super) fn frame_options(&self) -> FrameOptions {
-        let Look {
-            light,
-            split,
-            view_mode,
-            background,
-            overlays,
-            environment_turn_radians,
-            exposure_stops,
-            book_lights_turn_radians,
-            normal_green_flipped,
-        } = self.look;
-        FrameOptions {
-            theme: self.theme,
-            light,
-            split,
-            view_mode,
-            background,
-            overlays,
-            passes: self.quality.passes(),
-            environment_turn_radians,
-            exposure_stops,
-            book_lights_turn_radians,
-            normal_green_flipped,
+        if dt_secs.is_finite() {
+            let radians = self.book_lights_turn_radians + dt_secs * BOOK_TURN_RADIANS_PER_SEC;
+            self.book_lights_turn_radians = radians.rem_euclid(TAU);
         }
     }
 }

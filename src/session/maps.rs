@@ -20,6 +20,8 @@ pub struct Maps {
     drops: Vec<u32>,
     decoded: Vec<Decoded>,
     last_drop: u32,
+    /// Pictures that nobody has looked at yet, the next one last.
+    waiting: Vec<usize>,
     of_materials: Vec<MaterialMaps>,
     /// Materials that each picture in use is for, and what for.
     users: BTreeMap<usize, Vec<(usize, MapSlot)>>,
@@ -43,15 +45,24 @@ impl Maps {
     /// Adds pictures that came with the model of these materials, which may be another one than before. Those that are there
     /// already keep their turn: the drop may be one that was read again.
     pub fn add(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
-        self.take_up(pictures, false);
+        self.begin(materials, pictures);
+        while self.decode_next() {}
+        self.conclude(materials);
+    }
+
+    /// The first step of [`Maps::add`]: finds what the materials name, and decodes nothing.
+    pub(super) fn begin(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
+        self.keep(pictures, false);
         self.find(materials);
     }
 
     /// Adds pictures that were dropped by themselves, which take the place of all that fit a name no better. Where none of them
     /// is used, a note says so. Whether anything is used otherwise than before.
     pub fn join(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) -> bool {
-        let (dropped, changed) = self.take_up(pictures, true);
-        let changed = self.find(materials) || changed;
+        let (dropped, replaced) = self.keep(pictures, true);
+        let changed = self.find(materials) || replaced;
+        while self.decode_next() {}
+        self.conclude(materials);
         if !dropped.iter().any(|&index| self.is_used(index)) {
             let is_sound = |&&index: &&usize| matches!(self.decoded[index], Decoded::Unused);
             let unused: Vec<_> = dropped
@@ -71,7 +82,7 @@ impl Maps {
 
     /// Keeps pictures as a drop of their own; one with a path that is there already takes its place. Their indices, and whether
     /// one that was used is another now.
-    fn take_up(&mut self, pictures: impl IntoIterator<Item = File>, are_latest: bool) -> (Vec<usize>, bool) {
+    fn keep(&mut self, pictures: impl IntoIterator<Item = File>, are_latest: bool) -> (Vec<usize>, bool) {
         self.last_drop += 1;
         let mut indices = Vec::new();
         let mut changed = false;
@@ -98,27 +109,54 @@ impl Maps {
         (indices, changed)
     }
 
-    /// Finds what the materials name and decodes it. Whether it is something else than before.
+    /// Finds what the materials name. Whether it is different from before.
     fn find(&mut self, materials: &[Material]) -> bool {
         let found = find_maps(materials, &self.pictures, &self.drops);
         let before = std::mem::replace(&mut self.of_materials, found);
         self.users = users(&self.of_materials);
         for index in 0..self.pictures.len() {
-            let picture = &self.pictures[index];
-            let name = picture.base_name();
-            self.decoded[index] = match (std::mem::take(&mut self.decoded[index]), self.is_used(index)) {
-                (Decoded::New | Decoded::Unused, true) => match image::decode(&picture.bytes, name) {
-                    Ok(image) => Decoded::Image(Arc::new(image)),
-                    Err(error) => Decoded::Failed(error.diagnostic()),
-                },
-                (Decoded::New, false) => match image::check(&picture.bytes, name) {
-                    Ok(()) => Decoded::Unused,
-                    Err(error) => Decoded::Failed(error.diagnostic()),
-                },
-                (Decoded::Image(_), false) => Decoded::Unused,
-                (known, _) => known,
-            };
+            let is_used = self.is_used(index);
+            let decoded = &mut self.decoded[index];
+            match decoded {
+                Decoded::Unused if is_used => *decoded = Decoded::New,
+                Decoded::Image(_) if !is_used => *decoded = Decoded::Unused,
+                _ => {}
+            }
         }
+        let is_new = |&index: &usize| matches!(self.decoded[index], Decoded::New);
+        self.waiting = (0..self.pictures.len()).filter(is_new).rev().collect();
+        before != self.of_materials
+    }
+
+    /// How many pictures have been looked at.
+    pub(super) fn decoded_count(&self) -> usize {
+        self.pictures.len() - self.waiting.len()
+    }
+
+    /// How many pictures [`Maps::decode_next`] has yet to look at.
+    pub(super) fn waiting_count(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// Decodes one picture that a material names, or looks whether one could be decoded that nobody names. False when none is
+    /// left.
+    pub(super) fn decode_next(&mut self) -> bool {
+        let Some(index) = self.waiting.pop() else {
+            return false;
+        };
+        let picture = &self.pictures[index];
+        let name = picture.base_name();
+        let looked_at = if self.is_used(index) {
+            image::decode(&picture.bytes, name).map(|image| Decoded::Image(Arc::new(image)))
+        } else {
+            image::check(&picture.bytes, name).map(|()| Decoded::Unused)
+        };
+        self.decoded[index] = looked_at.unwrap_or_else(|error| Decoded::Failed(error.diagnostic()));
+        true
+    }
+
+    /// Says what is missing and what could not be read, when all are decoded.
+    pub(super) fn conclude(&mut self, materials: &[Material]) {
         let could_be_read = |index: usize| matches!(self.decoded[index], Decoded::Image(_));
         self.checklist = Checklist::new(materials, &self.of_materials, could_be_read);
         // What is missing stands in the checklist; a list of findings that repeats it would hide the others.
@@ -141,7 +179,6 @@ impl Maps {
             _ => None,
         });
         self.notices.extend(failed.collect::<Vec<_>>());
-        before != self.of_materials
     }
 
     fn is_used(&self, index: usize) -> bool {

@@ -1,6 +1,5 @@
 //! Materials that are edited while one looks on.
 
-use super::Session;
 use crate::model::{Material, Reflectance};
 
 /// The greatest specular exponent that can be asked for: a highlight a few pixels wide.
@@ -10,82 +9,62 @@ pub const MAX_SPEC_POWER: f32 = 1024.0;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Materials {
     drawn: Vec<Material>,
-    revision: u64,
 }
 
 impl Materials {
+    pub(super) fn drawn(&self) -> &[Material] {
+        &self.drawn
+    }
+
     pub(super) fn get(&self, index: usize) -> Option<&Material> {
         self.drawn.get(index)
     }
 
-    pub(super) fn revision(&self) -> u64 {
-        self.revision
+    /// A model's, as its file has them.
+    pub(super) fn of_file(of_file: &[Material]) -> Self {
+        Self {
+            drawn: of_file.to_vec(),
+        }
     }
 
-    /// Takes up another model's, as the file has them.
-    pub(super) fn take_up(&mut self, of_file: &[Material]) {
-        self.drawn = of_file.to_vec();
-        self.revision += 1;
-    }
-
-    /// Takes up those of the same file read again. What was edited, beside `before`, stays so, by its name.
-    pub(super) fn take_up_again(&mut self, of_file: &[Material], before: &[Material]) {
-        let old = std::mem::take(&mut self.drawn);
-        self.take_up(of_file);
-        let edited = old.into_iter().zip(before).filter(|(drawn, before)| drawn != *before);
-        for (edited, _) in edited {
-            if let Some(drawn) = self.drawn.iter_mut().find(|drawn| drawn.name == edited.name) {
+    /// Those of a file that was read again. Materials that were edited, unlike those of the `file_before`, stay edited, by their
+    /// names.
+    pub(super) fn of_file_again(of_file: &[Material], before: Self, file_before: &[Material]) -> Self {
+        let mut materials = Self::of_file(of_file);
+        let drawn_before = before.drawn.into_iter().zip(file_before);
+        for (edited, _) in drawn_before.filter(|(drawn, of_file)| drawn != *of_file) {
+            if let Some(drawn) = materials.drawn.iter_mut().find(|drawn| drawn.name == edited.name) {
                 *drawn = with_values(drawn, &edited);
             }
         }
+        materials
     }
 
-    pub(super) fn edit(&mut self, index: usize, wanted: &Material) {
-        if let Some(drawn) = self.drawn.get_mut(index) {
-            let edited = with_values(drawn, wanted);
-            if edited != *drawn {
-                *drawn = edited;
-                self.revision += 1;
+    /// Draws a material with other values. Whether it is different now.
+    pub(super) fn edit(&mut self, index: usize, wanted: &Material) -> bool {
+        let edited = self.drawn.get(index).map(|drawn| with_values(drawn, wanted));
+        edited.is_some_and(|edited| self.replace(index, edited))
+    }
+
+    /// Draws a material as the file has it. Whether it is different now.
+    pub(super) fn reset(&mut self, index: usize, of_file: &[Material]) -> bool {
+        let of_file = of_file.get(index);
+        of_file.is_some_and(|of_file| self.replace(index, of_file.clone()))
+    }
+
+    fn replace(&mut self, index: usize, material: Material) -> bool {
+        match self.drawn.get_mut(index) {
+            Some(drawn) if *drawn != material => {
+                *drawn = material;
+                true
             }
-        }
-    }
-
-    pub(super) fn reset(&mut self, index: usize, of_file: &[Material]) {
-        if let (Some(drawn), Some(of_file)) = (self.drawn.get_mut(index), of_file.get(index))
-            && drawn != of_file
-        {
-            drawn.clone_from(of_file);
-            self.revision += 1;
+            _ => false,
         }
     }
 }
 
-impl Session {
-    /// The materials of the model on screen as they are drawn: the file's, but for what was edited.
-    pub fn materials(&self) -> &[Material] {
-        &self.materials.drawn
-    }
-
-    /// Whether a material is another one than the file's.
-    pub fn is_edited(&self, material: usize) -> bool {
-        let of_file = self.open.as_ref().and_then(|open| open.model.materials.get(material));
-        self.materials.get(material) != of_file
-    }
-
-    /// Counts changes of the materials, those by another model included.
-    pub fn materials_revision(&self) -> u64 {
-        self.materials.revision()
-    }
-
-    pub(super) fn reset_material(&mut self, material: usize) {
-        if let Some(open) = &self.open {
-            self.materials.reset(material, &open.model.materials);
-        }
-    }
-}
-
-/// A material with the values of another. Names, names of maps and the book stay. A number that is none leaves the one
-/// that was; one that is new comes into its range, and one that the file has out of it may stay.
+/// A material with the values of another. Names, names of maps and the book stay. NaN and infinity are ignored. A new value is
+/// clamped to its range. A value from the file is kept even outside the range.
 fn with_values(material: &Material, wanted: &Material) -> Material {
     Material {
         diffuse: color(material.diffuse, wanted.diffuse),

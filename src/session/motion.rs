@@ -4,7 +4,6 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
-use super::{Command, Effect, Session};
 use crate::scene::Camera;
 
 /// After this time a turn that was let go has 1/e of its rate: long enough to feel a weight, too short to wait for.
@@ -21,8 +20,6 @@ const TURNTABLE_RADIANS_PER_SEC: f32 = TAU / 12.0;
 const FLIGHT_RADII_PER_SEC: f32 = 1.0;
 /// How much faster fast flight is.
 const FAST_FLIGHT: f32 = 4.0;
-/// Flight ends this far from the scene's middle, in radii of the scene: where zooming ends too.
-const FARTHEST_RADII: f32 = 100.0;
 
 /// What moves the camera without a command.
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,7 +56,7 @@ impl Motion {
     }
 
     /// Another model: only what was chosen stays.
-    pub(super) fn take_up_model(&mut self) {
+    pub(super) fn reset_for_model(&mut self) {
         *self = Self {
             turntable: self.turntable,
             ..Self::default()
@@ -76,6 +73,74 @@ impl Motion {
     /// Whether the pointer holds the camera.
     pub(super) fn is_held(&self) -> bool {
         self.held
+    }
+
+    /// Whether the camera turns about the model.
+    pub(super) fn turntable(&self) -> bool {
+        self.turntable
+    }
+
+    /// Whether the camera moves by itself.
+    pub(super) fn is_moving(&self, has_model: bool) -> bool {
+        let needs_model = self.turns() || self.flight.is_some();
+        self.is_flung() || self.glide.is_some() || (needs_model && has_model)
+    }
+
+    /// Where a glide ends that is under way.
+    pub(super) fn goal(&self) -> Option<Camera> {
+        self.glide.map(|glide| glide.to)
+    }
+
+    /// Stays where it is on its way.
+    pub(super) fn end_glide(&mut self) {
+        self.glide = None;
+    }
+
+    /// Ends the glide that is under way at another place.
+    pub(super) fn set_goal(&mut self, to: Camera) {
+        if let Some(glide) = &mut self.glide {
+            glide.to = to;
+        }
+    }
+
+    /// Lets the camera go from one place to another, and nowhere else.
+    pub(super) fn glide(&mut self, from: Camera, to: Camera) {
+        self.interrupt();
+        self.glide = Some(Glide {
+            from,
+            to,
+            elapsed_secs: 0.0,
+        });
+    }
+
+    /// Moves the camera as it moves by itself in a time. Returns how far it flies, in radii of the scene: to the right, up,
+    /// forward.
+    pub(super) fn advance(&mut self, camera: &mut Camera, dt_secs: f32, has_model: bool) -> Vec3 {
+        if self.turns() && has_model {
+            camera.orbit(TURNTABLE_RADIANS_PER_SEC * dt_secs, 0.0);
+        }
+        if self.is_flung() {
+            // The same way in many steps as in one: the integral of a rate that decays.
+            let kept = (-dt_secs / FLING_SECS).exp();
+            let turn = self.fling * FLING_SECS * (1.0 - kept);
+            camera.orbit(turn.x, turn.y);
+            self.fling *= kept;
+            if self.fling.length() < LEAST_FLING_RADIANS_PER_SEC {
+                self.fling = Vec2::ZERO;
+            }
+        }
+        if let Some(glide) = &mut self.glide {
+            glide.elapsed_secs += dt_secs;
+            let is_there = glide.elapsed_secs >= GLIDE_SECS;
+            *camera = if is_there { glide.to } else { glide.camera() };
+            if is_there {
+                self.glide = None;
+            }
+        }
+        self.flight.map_or(Vec3::ZERO, |Flight { direction, fast }| {
+            let speed = FLIGHT_RADII_PER_SEC * if fast { FAST_FLIGHT } else { 1.0 };
+            direction * (speed * dt_secs)
+        })
     }
 
     pub(super) fn set_turntable(&mut self, turns: bool) {
@@ -130,125 +195,5 @@ impl Glide {
             pitch_radians: mix(from.pitch_radians, to.pitch_radians),
             projection: to.projection,
         }
-    }
-}
-
-impl Session {
-    /// Whether the camera turns about the model by itself.
-    pub fn turntable(&self) -> bool {
-        self.motion.turntable
-    }
-
-    /// Whether something on screen moves by itself, be it the clip, a fade between clips or the camera: then another frame is due.
-    pub fn is_moving(&self) -> bool {
-        self.is_animating() || self.is_fading() || self.is_camera_moving()
-    }
-
-    fn is_camera_moving(&self) -> bool {
-        let motion = &self.motion;
-        let needs_model = motion.turns() || motion.flight.is_some();
-        motion.is_flung() || motion.glide.is_some() || (needs_model && self.open.is_some())
-    }
-
-    /// Does what was asked, and lets the camera go there instead of jumping.
-    pub(super) fn glide(&mut self, command: Command) -> Effect {
-        if self.reduced_motion || !command.sends_camera() {
-            return self.perform(command);
-        }
-        let from = self.camera;
-        // Sent again on its way, it goes from here to where it would have been sent from there.
-        if let Some(glide) = self.motion.glide.take() {
-            self.camera = glide.to;
-        }
-        let effect = self.perform(command);
-        let to = std::mem::replace(&mut self.camera, from);
-        self.camera.projection = to.projection;
-        if self.camera != to {
-            // One way at a time.
-            self.motion.interrupt();
-            self.motion.glide = Some(Glide {
-                from,
-                to,
-                elapsed_secs: 0.0,
-            });
-        }
-        effect
-    }
-
-    /// Changes the camera, or where it is going while it glides.
-    pub(super) fn change_goal(&mut self, change: impl FnOnce(&mut Self)) {
-        let Some(glide) = self.motion.glide else {
-            return change(self);
-        };
-        let here = std::mem::replace(&mut self.camera, glide.to);
-        change(self);
-        let to = std::mem::replace(&mut self.camera, here);
-        self.camera.projection = to.projection;
-        self.motion.glide = Some(Glide { to, ..glide });
-    }
-
-    /// Lets time pass for the camera.
-    pub(super) fn advance_camera(&mut self, dt_secs: f32) {
-        if !(self.is_camera_moving() && dt_secs.is_finite() && dt_secs > 0.0) {
-            return;
-        }
-        if self.motion.turns() && self.open.is_some() {
-            self.camera.orbit(TURNTABLE_RADIANS_PER_SEC * dt_secs, 0.0);
-        }
-        if self.motion.is_flung() {
-            // The same way in many steps as in one: the integral of a rate that decays.
-            let kept = (-dt_secs / FLING_SECS).exp();
-            let turn = self.motion.fling * FLING_SECS * (1.0 - kept);
-            self.camera.orbit(turn.x, turn.y);
-            self.motion.fling *= kept;
-            if self.motion.fling.length() < LEAST_FLING_RADIANS_PER_SEC {
-                self.motion.fling = Vec2::ZERO;
-            }
-        }
-        if let Some(glide) = &mut self.motion.glide {
-            glide.elapsed_secs += dt_secs;
-            let is_there = glide.elapsed_secs >= GLIDE_SECS;
-            self.camera = if is_there { glide.to } else { glide.camera() };
-            if is_there {
-                self.motion.glide = None;
-            }
-        }
-        if let Some(Flight { direction, fast }) = self.motion.flight {
-            let speed = FLIGHT_RADII_PER_SEC * if fast { FAST_FLIGHT } else { 1.0 };
-            self.fly_on(direction * (speed * dt_secs));
-        }
-    }
-
-    /// `way` in radii of the scene.
-    fn fly_on(&mut self, way: Vec3) {
-        let bounds = self.world_bounds();
-        let (center, radius) = (bounds.center(), bounds.radius().max(1e-6));
-        // Whoever is farther out already comes nearer or stays.
-        let farthest = (FARTHEST_RADII * radius).max(self.camera.eye().distance(center));
-        self.camera.fly(way * radius);
-        let off = self.camera.eye() - center;
-        let target = self.camera.target - (off - off.clamp_length_max(farthest));
-        if target.is_finite() {
-            self.camera.target = target;
-        }
-        // An orthographic view grows instead; it ends where zooming does.
-        self.zoom(1.0, Vec2::ZERO);
-    }
-}
-
-impl Command {
-    /// Whether it says where the camera shall be.
-    fn sends_camera(&self) -> bool {
-        matches!(
-            self,
-            Self::Orbit { .. }
-                | Self::Pan { .. }
-                | Self::Zoom { .. }
-                | Self::FrameModel
-                | Self::FrameSelection
-                | Self::LookFrom(_)
-                | Self::ResetCamera
-                | Self::SetViewport { .. }
-        )
     }
 }

@@ -1,29 +1,58 @@
-//! Taking up what was dropped.
+//! Opening what was dropped: a model with its maps and sky, or clips that join the open model.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
-use super::{Event, File, FileSet, LoadError, Maps, OpenModel, Session, load};
-use crate::anim::{Playback, PoseBuffers};
-use crate::scene::Camera;
+use super::actor::Actor;
+use super::changes::Changes;
+use super::content::Content;
+use super::files::{File, FileSet};
+use super::load::{LoadError, LoadJob, Loaded};
+use super::materials::Materials;
+use super::mixer::Blend;
+use super::sky::FoundSky;
+use super::{Event, Session};
+/// What plays, by the names of clips.
+#[derive(Clone, Debug)]
+struct ShownClips {
+    shown: Option<String>,
+    blended: Option<(String, f32)>,
+}
 
 impl Session {
-    pub(super) fn add_files(&mut self, files: Vec<File>) -> bool {
-        self.maps.forget_unused();
-        let files = FileSet::new(files);
-        let Some(path) = self.wanted_model(&files) else {
-            self.add_pictures(&files);
-            return false;
-        };
-        // The old set stays while the new model is not there: its other models can still be opened.
-        let previous = std::mem::replace(&mut self.files, files);
-        let opened = self.open_file(&path);
-        if opened {
-            self.take_up_sky(self.files.cubes().cloned().collect());
-        } else {
-            self.files = previous;
+    pub(super) fn add_files(&mut self, files: Vec<File>) {
+        self.content.maps.forget_unused();
+        let files = Arc::new(FileSet::new(files));
+        match self.wanted_model(&files).and_then(|path| files.get(&path).cloned()) {
+            // The old set stays while the new model is not there: its other models can still be opened.
+            Some(file) => self.load(LoadJob::new(files, file).keeping_sky(self.sky_file().cloned())),
+            None => self.add_pictures(&files),
         }
-        opened
+    }
+
+    pub(super) fn open_file(&mut self, path: &str) {
+        if let Some(file) = self.content.files.get(path).cloned() {
+            self.load(LoadJob::new(Arc::clone(&self.content.files), file).without_sky());
+        }
+    }
+
+    fn load(&mut self, job: LoadJob) {
+        match self.reuse(job).run() {
+            Ok(loaded) => self.replace_model(*loaded),
+            Err(error) => self.fail(*error),
+        }
+    }
+
+    /// Gives a job what the open model has of the same file.
+    fn reuse(&self, job: LoadJob) -> LoadJob {
+        match &self.content.open {
+            Some(open) if open.file.base_name() == job.file_name() => {
+                let joined = open.joined.iter().map(|joined| joined.file.clone());
+                // The model alone, dropped again, keeps the pictures that came before.
+                job.reusing(self.content.maps.clone(), joined.collect())
+            }
+            _ => job,
+        }
     }
 
     /// The path of the model to open: the largest, but where the models of the open drop come again, the one that is on screen.
@@ -34,10 +63,10 @@ impl Session {
                 .map(|file| file.path.clone())
                 .collect::<BTreeSet<_>>()
         };
-        let on_screen = self.open.as_ref().map(|open| &open.file.path);
+        let on_screen = self.content.open.as_ref().map(|open| &open.file.path);
         let again = on_screen.filter(|&path| {
             let models = paths(files);
-            models.contains(path) && models == paths(&self.files)
+            models.contains(path) && models == paths(&self.content.files)
         });
         again.or(files.models().first().map(|file| &file.path)).cloned()
     }
@@ -46,116 +75,183 @@ impl Session {
     fn add_pictures(&mut self, files: &FileSet) {
         let has_maps = files.images().next().is_some();
         let has_cubes = files.cubes().next().is_some();
-        match &self.open {
+        match &self.content.open {
             Some(open) if has_maps => {
-                if self.maps.join(&open.model.materials, files.images().cloned()) {
-                    self.maps_revision += 1;
+                if self.content.maps.join(&open.model.materials, files.images().cloned()) {
+                    self.content.changes.maps = true;
                 }
-                self.error = None;
+                self.content.error = None;
             }
             None if has_maps => self.fail(LoadError::no_model(files)),
-            _ if has_cubes => self.error = None,
+            _ if has_cubes => self.content.error = None,
             _ => self.fail(LoadError::no_model(files)),
         }
-        self.take_up_sky(files.cubes().cloned().collect());
-    }
-
-    pub(super) fn open_file(&mut self, path: &str) -> bool {
-        let Some(file) = self.files.get(path) else { return false };
-        match load(file) {
-            Ok(open) => {
-                self.replace_model(open);
-                true
-            }
-            Err(error) => {
-                self.fail(*error);
-                false
-            }
-        }
+        self.use_as_sky(FoundSky::among(files.cubes().cloned().collect(), self.sky_file()));
     }
 
     pub(super) fn fail(&mut self, error: LoadError) {
-        self.error = Some(error);
+        self.content.error = Some(error);
         self.note(Event::Error);
     }
 
-    /// Shows another model. The same file again keeps camera, clip, time and choices.
-    pub(super) fn replace_model(&mut self, mut open: OpenModel) {
-        let again = self
-            .open
-            .as_ref()
-            .filter(|old| old.file.base_name() == open.file.base_name());
-        let kept_clip = again.and_then(|_| Some(self.clip()?.name.clone()));
-        if let Some(old) = again {
-            open.join_again(old.joined.iter().map(|joined| &joined.file));
-        }
-        let again = again.is_some();
-        let range_secs = self.playback.range_secs();
-        let was_playing = self.playback.is_playing();
+    /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices.
+    pub(super) fn replace_model(&mut self, loaded: Loaded) {
+        let Loaded { files, open, maps, sky } = loaded;
+        let was_playing = self.actor.playback.is_playing();
+        let clip_name = self.clip().map(|clip| clip.name.clone());
+        let old = std::mem::take(&mut self.content);
+        let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
+        let again = before.is_some();
 
-        self.pose = PoseBuffers::for_skeleton(&open.model.skeleton);
-        self.posed = None;
-        self.mix.take_up_model();
-        self.error = None;
-        // The bar that was held may be gone, and nothing would let go of the time.
-        self.scrubbing = false;
-        self.model_revision += 1;
-        self.clips_revision += 1;
-        self.maps_revision += 1;
-        // The model alone, dropped again, keeps the pictures that came before.
-        if !again {
-            self.maps = Maps::default();
-        }
-        self.maps.add(&open.model.materials, self.files.images().cloned());
-        self.subsets.take_up(open.model.mesh.submeshes.len(), again);
-        self.joints.take_up(&open.model, again);
-        match &self.open {
-            Some(before) if again => self
-                .materials
-                .take_up_again(&open.model.materials, &before.model.materials),
-            _ => self.materials.take_up(&open.model.materials),
-        }
-        self.open = Some(Arc::new(open));
-        if again {
-            let time_secs = self.playback.time_secs();
-            let clips = self
-                .open
-                .as_ref()
-                .map(|open| open.model.clips.as_slice())
-                .unwrap_or_default();
-            let clip = kept_clip.and_then(|name| clips.iter().position(|clip| clip.name == name));
-            self.clip = None;
-            if self.show_clip(clip.unwrap_or(0)) {
-                if let (Some(_), Some([start_secs, end_secs])) = (clip, range_secs) {
-                    self.playback.set_range_end(end_secs);
-                    self.playback.set_range_start(start_secs);
-                }
-                self.playback.seek(time_secs);
-            } else {
-                self.playback = Playback::default();
-            }
+        let of_file = &open.model.materials;
+        let materials = match before {
+            Some(before) => Materials::of_file_again(of_file, old.materials, &before.model.materials),
+            None => Materials::of_file(of_file),
+        };
+        let subset_count = open.model.mesh.submeshes.len();
+        self.selection.subsets.reset_for_model(subset_count, again);
+        self.selection.joints.reset_for_model(&open.model, again);
+        self.actor = if again {
+            Actor::for_model_again(&open, &self.actor, clip_name.as_deref())
         } else {
-            self.motion.take_up_model();
-            self.quality.take_up_model();
-            self.bind_share = 0.0;
-            self.handedness_override = None;
-            self.up_axis_override = None;
-            self.clip = None;
-            self.playback = Playback::default();
-            self.show_clip(0);
-            self.camera = Camera {
-                projection: self.camera.projection,
-                ..Camera::default()
-            };
+            Actor::for_model(&open, &self.actor)
+        };
+        self.content = Content {
+            open: Some(Arc::new(open)),
+            files,
+            maps,
+            materials,
+            sky: old.sky,
+            error: None,
+            changes: old.changes,
+        };
+        self.content.changes |= Changes::MODEL;
+
+        if !again {
+            self.quality.reset_for_model();
+            self.view.reset_for_model();
+            self.show_first_clip();
             self.frame_model();
-            if self.clip.is_some() && !self.reduced_motion {
-                self.playback.play();
-            }
         }
         self.note(Event::Load);
-        if self.playback.is_playing() != was_playing {
+        if self.actor.playback.is_playing() != was_playing {
             self.note(if was_playing { Event::Pause } else { Event::Play });
         }
         self.note(Event::TimeUpdate);
+        self.use_as_sky(sky);
+    }
+
+    /// Goes to the first clip, if there is one, and plays it unless things are to stand still.
+    pub(super) fn show_first_clip(&mut self) {
+        if let Some(open) = &self.content.open
+            && self.actor.show_clip(open, 0)
+            && !self.reduced_motion
+        {
+            self.actor.playback.play();
+        }
+    }
+
+    /// Adds the clips of every model of a drop. Without a model to join the drop is opened.
+    pub(super) fn add_clips(&mut self, files: Vec<File>) {
+        if self.content.open.is_none() {
+            return self.add_files(files);
+        }
+        self.content.maps.forget_unused();
+        let before = self.shown_clips();
+        let Some(open) = &mut self.content.open else {
+            return;
+        };
+        let open = Arc::make_mut(open);
+        let had_clips = !open.model.clips.is_empty();
+        let set = FileSet::new(files);
+        let models = set.models();
+        let mut refused = models.is_empty().then(|| Box::new(LoadError::no_model(&set)));
+        // In the order of the drop, which the list of the largest first has lost.
+        let models: HashSet<&str> = models.iter().map(|file| file.path.as_str()).collect();
+        let mut joined: HashSet<&str> = HashSet::new();
+        let mut replaced = false;
+        for file in set.files().iter().filter(|file| models.contains(file.path.as_str())) {
+            // Files of one drop that have one name in several folders do not replace each other.
+            let replaces = !joined.contains(file.base_name());
+            match open.join_clips(file, replaces) {
+                Ok(replaced_some) => {
+                    joined.insert(file.base_name());
+                    replaced |= replaced_some;
+                }
+                Err(error) => refused = refused.or(Some(error)),
+            }
+        }
+        match refused {
+            Some(error) => self.fail(*error),
+            None => self.content.error = None,
+        }
+        if replaced {
+            self.show_clips_again(&before);
+        }
+        if !had_clips && self.content.clip_count() > 0 {
+            self.show_first_clip();
+            if self.actor.playback.is_playing() {
+                self.note(Event::Play);
+            }
+            self.note(Event::TimeUpdate);
+        }
+    }
+
+    /// What plays, to be found again among other clips.
+    fn shown_clips(&self) -> ShownClips {
+        let name = |index: usize| Some(self.content.clips().get(index)?.name.clone());
+        ShownClips {
+            shown: self.actor.clip.and_then(name),
+            blended: self.blend().and_then(|blend| Some((name(blend.clip)?, blend.share))),
+        }
+    }
+
+    /// Finds what played among clips that took the places of others. Time and range stay as far as the clip has them; when its
+    /// name is gone, the clip in its place is shown.
+    fn show_clips_again(&mut self, before: &ShownClips) {
+        self.content.changes.clips = true;
+        let Some(open) = &self.content.open else { return };
+        let actor = &mut self.actor;
+        let clips = &open.model.clips;
+        let place_of = |name: &str| clips.iter().position(|clip| clip.name == name);
+        actor.mixer.end_fades();
+        let was_at = actor.playback.time_secs();
+        let place = before.shown.as_deref().and_then(place_of);
+        match place.and_then(|place| Some((place, clips.get(place)?))) {
+            Some((place, clip)) => {
+                actor.clip = Some(place);
+                if [clip.start_secs, clip.end_secs] != [actor.playback.start_secs(), actor.playback.end_secs()] {
+                    let range_secs = actor.playback.range_secs();
+                    actor.playback.set_span(clip.start_secs, clip.end_secs);
+                    if let Some([start_secs, end_secs]) = range_secs {
+                        actor.playback.set_range_end(end_secs);
+                        actor.playback.set_range_start(start_secs);
+                    }
+                }
+            }
+            None => {
+                let last = clips.len().saturating_sub(1);
+                actor.show_clip(open, actor.clip.unwrap_or_default().min(last));
+            }
+        }
+        actor.mixer.set_blend(None);
+        if let Some((name, share)) = &before.blended
+            && let Some(clip) = place_of(name)
+        {
+            actor.set_blend(Blend { clip, share: *share }, clips.len());
+        }
+        if actor.playback.time_secs() != was_at {
+            self.note(Event::TimeUpdate);
+        }
+    }
+
+    fn use_as_sky(&mut self, found: Option<FoundSky>) {
+        let Content { sky, changes, .. } = &mut self.content;
+        changes.sky |= found.is_some_and(|found| sky.choose(found, &mut self.view.look.background));
+    }
+
+    pub(super) fn clear_sky(&mut self) {
+        let Content { sky, changes, .. } = &mut self.content;
+        changes.sky |= sky.clear(&mut self.view.look.background);
     }
 }

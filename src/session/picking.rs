@@ -1,22 +1,23 @@
-//! What of the model is at a point of the picture: the first triangle of the pose on show, without what is hidden or cut
-//! away.
+//! The first triangle that a ray meets in the pose of now, without what is hidden or cut away.
 
 use std::collections::BTreeMap;
 
-use glam::{Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3};
 
-use super::pose::OnShow;
-use super::{MapSlot, Maps, Session};
-use crate::anim;
+use super::content::Content;
+use super::maps::Maps;
+use super::subsets::Subsets;
+use super::textures::MapSlot;
+use crate::anim::{self, Palette};
 use crate::image::Image;
-use crate::model::Material;
-use crate::scene::{Hit, pick, tex_coord_at};
+use crate::model::{Material, Mesh};
+use crate::scene::{Hit, Ray, pick, tex_coord_at};
 
 /// Buffers that are kept from pick to pick.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Picker {
-    /// The pose of the positions.
-    posed: Option<OnShow>,
+    /// The revision of the pose of the positions.
+    posed: Option<u64>,
     positions: Vec<Vec3>,
     in_ray: Vec<Vec3>,
     cutouts: Cutouts,
@@ -27,63 +28,45 @@ impl Picker {
     pub(super) fn positions(&self) -> &[Vec3] {
         &self.positions
     }
-}
 
-impl Session {
-    /// Brings the picker's vertices to the pose on show.
-    pub(super) fn pose_vertices(&mut self) {
-        self.pose_now();
-        let on_show = self.on_show();
-        if let Some(open) = &self.open
-            && self.picker.posed != Some(on_show)
-        {
-            anim::skin_positions(&open.model.mesh, &self.pose.palette, &mut self.picker.positions);
-            self.picker.posed = Some(on_show);
+    /// Brings the vertices to the pose of a revision, unless they are there already.
+    pub(super) fn update(&mut self, mesh: &Mesh, palette: &Palette, pose_revision: u64) {
+        if self.posed != Some(pose_revision) {
+            anim::skin_positions(mesh, palette, &mut self.positions);
+            self.posed = Some(pose_revision);
         }
     }
 
-    /// What is at a point of the picture: x right, y up, −1…1. Subsets that are left out are looked through, and what alpha
-    /// cuts away too. Skins the mesh once a pose.
-    pub fn pick(&mut self, pointer: Vec2) -> Option<Hit> {
-        if !pointer.is_finite() {
-            return None;
-        }
-        let world_bounds = self.world_bounds();
-        let ray = self.camera.ray(pointer, self.aspect, &world_bounds);
-        let world_from_model = self.world_from_model();
-        self.pose_vertices();
-        self.picker.cutouts.take_up(self.maps_revision);
-        let Self {
-            open,
-            picker,
-            subsets,
-            materials,
-            maps,
-            ..
-        } = self;
+    /// What a ray of the world meets first of the vertices as they were posed last. Subsets that are left out are looked through,
+    /// and what alpha cuts away too.
+    pub(super) fn pick(
+        &mut self,
+        content: &Content,
+        subsets: &Subsets,
+        world_from_model: Affine3A,
+        ray: Ray,
+        maps_revision: u64,
+    ) -> Option<Hit> {
+        let Content {
+            open, maps, materials, ..
+        } = content;
+        self.cutouts.keep_of(maps_revision);
         let mesh = &open.as_ref()?.model.mesh;
         let alpha_clips = |material: usize| materials.get(material).is_some_and(|material| material.alpha_clip);
         // Before the search, which asks them in the midst of its triangles.
         for submesh in &mesh.submeshes {
             let material = submesh.material as usize;
             if alpha_clips(material) {
-                picker.cutouts.decode(material, maps);
+                self.cutouts.decode(material, maps);
             }
         }
-        let cutouts = &picker.cutouts;
+        let cutouts = &self.cutouts;
         let is_solid = |hit: &Hit| {
             let material = mesh.submeshes[hit.submesh].material as usize;
             let is_cut = || alpha_clips(material) && cutouts.is_cut(material, tex_coord_at(mesh, hit));
             subsets.is_visible(hit.submesh) && !is_cut()
         };
-        pick(
-            mesh,
-            &picker.positions,
-            world_from_model,
-            ray,
-            &mut picker.in_ray,
-            is_solid,
-        )
+        pick(mesh, &self.positions, world_from_model, ray, &mut self.in_ray, is_solid)
     }
 }
 
@@ -97,7 +80,7 @@ struct Cutouts {
 
 impl Cutouts {
     /// Forgets the alpha of other maps than these.
-    fn take_up(&mut self, maps_revision: u64) {
+    fn keep_of(&mut self, maps_revision: u64) {
         if self.maps_revision != maps_revision {
             self.maps_revision = maps_revision;
             self.of_materials.clear();

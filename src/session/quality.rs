@@ -135,7 +135,7 @@ impl Quality {
     }
 
     /// Another model may be drawn faster: all its passes are tried again.
-    pub(super) fn take_up_model(&mut self) {
+    pub(super) fn reset_for_model(&mut self) {
         self.degraded.clear();
         self.forgive();
     }

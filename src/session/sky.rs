@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{File, Session};
+use super::files::File;
 use crate::diagnostic::Diagnostic;
 use crate::image::{self, Image};
 use crate::scene::Background;
@@ -12,7 +12,6 @@ use crate::scene::Background;
 pub(super) struct Sky {
     taken: Option<Taken>,
     notices: Vec<Diagnostic>,
-    revision: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -24,81 +23,82 @@ struct Taken {
 }
 
 impl Sky {
-    pub(super) fn revision(&self) -> u64 {
-        self.revision
-    }
-
-    /// Becomes another sky than one that came before it.
-    pub(super) fn follow(&mut self, other: &Self) {
-        self.revision = other.revision + 1;
-    }
-
     /// Cube maps that could not be read.
     pub(super) fn notices(&self) -> &[Diagnostic] {
         &self.notices
     }
+
+    pub(super) fn image(&self) -> Option<&Arc<Image>> {
+        self.taken.as_ref().map(|taken| &taken.image)
+    }
+
+    pub(super) fn file(&self) -> Option<&File> {
+        self.taken.as_ref().map(|taken| &taken.file)
+    }
+
+    /// Makes what was found the sky, and the background of the view. Whether there is another sky now.
+    pub(super) fn choose(&mut self, found: FoundSky, background: &mut Background) -> bool {
+        self.notices = found.notices;
+        let Some((file, image)) = found.image else { return false };
+        let before = self.taken.take();
+        self.taken = Some(Taken {
+            file,
+            image,
+            background_before: before.map_or(*background, |taken| taken.background_before),
+        });
+        *background = Background::Sky;
+        true
+    }
+
+    /// Takes the sky away. The background that was there before it comes back. Whether there was one.
+    pub(super) fn clear(&mut self, background: &mut Background) -> bool {
+        self.notices.clear();
+        let taken = self.taken.take();
+        if let Some(taken) = &taken
+            && *background == Background::Sky
+        {
+            *background = taken.background_before;
+        }
+        taken.is_some()
+    }
 }
 
-impl Session {
-    /// The cube map that is the sky.
-    pub fn sky(&self) -> Option<&Arc<Image>> {
-        self.sky.taken.as_ref().map(|taken| &taken.image)
+/// What became of the cube maps of a drop.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FoundSky {
+    /// The largest that can be read, unless it is the sky already.
+    image: Option<(File, Arc<Image>)>,
+    /// The largest that can be read is the sky already: the folder came again, and what was chosen since stays.
+    is_kept: bool,
+    /// Those that could not be read.
+    notices: Vec<Diagnostic>,
+}
+
+impl FoundSky {
+    /// Whether one was found that is not the sky already.
+    pub(super) fn is_another(&self) -> bool {
+        self.image.is_some()
     }
 
-    /// The file of the sky.
-    pub fn sky_file(&self) -> Option<&File> {
-        self.sky.taken.as_ref().map(|taken| &taken.file)
-    }
-
-    /// Counts changes of the sky: another number, another sky.
-    pub fn sky_revision(&self) -> u64 {
-        self.sky.revision
-    }
-
-    /// Makes the largest of these cube maps the sky, and shows it. Those that cannot be read are noted, and the next largest
-    /// taken. Without any everything stays.
-    pub(super) fn take_up_sky(&mut self, mut cubes: Vec<File>) {
+    /// Decodes the largest of these cube maps, or else the next largest. `current` is the sky that is there. None without any.
+    pub(super) fn among(mut cubes: Vec<File>, current: Option<&File>) -> Option<Self> {
         if cubes.is_empty() {
-            return;
+            return None;
         }
         cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
-        self.sky.notices.clear();
-        let mut has_sky = false;
+        let mut found = Self::default();
         for file in cubes {
-            if has_sky {
-                let unreadable = image::check(&file.bytes, file.base_name()).err();
-                self.sky.notices.extend(unreadable.map(|error| error.diagnostic()));
-                continue;
-            }
-            if self.sky_file() == Some(&file) {
-                // The folder came again; what was chosen since stays.
-                has_sky = true;
-                continue;
-            }
-            match image::decode(&file.bytes, file.base_name()) {
-                Ok(image) => {
-                    let before = self.sky.taken.take();
-                    self.sky.taken = Some(Taken {
-                        file,
-                        image: Arc::new(image),
-                        background_before: before.map_or(self.look.background, |taken| taken.background_before),
-                    });
-                    self.sky.revision += 1;
-                    self.look.background = Background::Sky;
-                    has_sky = true;
-                }
-                Err(error) => self.sky.notices.push(error.diagnostic()),
-            }
+            let looked_at = if found.image.is_some() || found.is_kept {
+                image::check(&file.bytes, file.base_name())
+            } else if current == Some(&file) {
+                found.is_kept = true;
+                Ok(())
+            } else {
+                image::decode(&file.bytes, file.base_name())
+                    .map(|image| found.image = Some((file.clone(), Arc::new(image))))
+            };
+            found.notices.extend(looked_at.err().map(|error| error.diagnostic()));
         }
-    }
-
-    pub(super) fn clear_sky(&mut self) {
-        self.sky.notices.clear();
-        if let Some(taken) = self.sky.taken.take() {
-            self.sky.revision += 1;
-            if self.look.background == Background::Sky {
-                self.look.background = taken.background_before;
-            }
-        }
+        Some(found)
     }
 }

@@ -2,7 +2,6 @@
 
 use glam::Vec2;
 
-use super::Session;
 use crate::scene::Hit;
 
 /// A wish about subsets, by their index. An index that the model has not is left out.
@@ -39,7 +38,8 @@ pub struct Subsets {
     selected: Option<usize>,
     selected_at: Option<Hit>,
     hovered: Option<usize>,
-    drawn_revision: u64,
+    /// Other subsets are drawn, or stand out, since it was last asked.
+    redraw: bool,
 }
 
 impl Subsets {
@@ -73,7 +73,7 @@ impl Subsets {
         self.selected
     }
 
-    /// Where the selected one was met, when the pointer selected it. The place is that of the pose of then.
+    /// Where the selected one was met, when the pointer selected it: a position in the pose at the time of the click.
     pub fn selected_at(&self) -> Option<&Hit> {
         self.selected_at.as_ref()
     }
@@ -89,13 +89,13 @@ impl Subsets {
         self.hovered.filter(|&subset| self.is_visible(subset))
     }
 
-    /// Counts changes of what is drawn.
-    pub(super) fn drawn_revision(&self) -> u64 {
-        self.drawn_revision
+    /// Whether other subsets are drawn, or stand out, since the last call.
+    pub(super) fn take_redraw(&mut self) -> bool {
+        std::mem::take(&mut self.redraw)
     }
 
-    /// Takes up another model. With `keeps` set and as many subsets as before, all stays as it is.
-    pub(super) fn take_up(&mut self, count: usize, keeps: bool) {
+    /// Resets to the subsets of another model. With `keeps` set and as many subsets as before, all stays as it is.
+    pub(super) fn reset_for_model(&mut self, count: usize, keeps: bool) {
         if keeps && count == self.count() {
             // The place belongs to the vertices of the old file.
             self.selected_at = None;
@@ -104,7 +104,6 @@ impl Subsets {
         *self = Self {
             hidden: vec![false; count],
             left_out: vec![false; count],
-            drawn_revision: self.drawn_revision + 1,
             ..Self::default()
         };
     }
@@ -142,7 +141,7 @@ impl Subsets {
         if subset.is_none_or(|subset| subset < self.count()) && subset != self.hovered {
             let before = self.highlighted();
             self.hovered = subset;
-            self.drawn_revision += u64::from(self.highlighted() != before);
+            self.redraw |= self.highlighted() != before;
         }
     }
 
@@ -151,32 +150,7 @@ impl Subsets {
         let left_out: Vec<bool> = self.hidden.iter().enumerate().map(left_out).collect();
         if left_out != self.left_out {
             self.left_out = left_out;
-            self.drawn_revision += 1;
-        }
-    }
-}
-
-impl Session {
-    /// Which subsets are drawn, selected, hovered.
-    pub fn subsets(&self) -> &Subsets {
-        &self.subsets
-    }
-
-    pub(super) fn apply_to_subsets(&mut self, command: SubsetCommand) {
-        match command {
-            SubsetCommand::SetVisible { subset, visible } => self.subsets.set_visible(subset, visible),
-            SubsetCommand::Solo(subset) => self.subsets.toggle_solo(subset),
-            SubsetCommand::ShowAll => self.subsets.show_all(),
-            SubsetCommand::Select(subset) => self.subsets.select(subset, None),
-            SubsetCommand::SelectAt(pointer) => {
-                let hit = self.pick(pointer);
-                self.subsets.select(hit.map(|hit| hit.submesh), hit);
-            }
-            SubsetCommand::Hover(subset) => self.subsets.hover(subset),
-            SubsetCommand::HoverAt(pointer) => {
-                let hit = pointer.and_then(|pointer| self.pick(pointer));
-                self.subsets.hover(hit.map(|hit| hit.submesh));
-            }
+            self.redraw = true;
         }
     }
 }

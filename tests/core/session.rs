@@ -5,6 +5,7 @@ mod folders;
 mod going_back;
 mod joining;
 mod joints;
+mod loading;
 mod looking;
 mod maps;
 mod materials;

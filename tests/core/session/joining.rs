@@ -61,11 +61,11 @@ fn clips_join_with_free_names_and_their_files_and_nothing_is_uploaded_again() {
         session.playback().time_secs(),
     );
     let clips = |names: &[&str]| names.iter().map(|name| rigs::ragged(name, 12)).collect::<Vec<_>>();
-    let effect = session.apply(Command::AddClips(vec![
+    let changes = session.apply(Command::AddClips(vec![
         file("more/walk.m3d", &rigs::rig(12, clips(&["walk", "idle"]))),
         file("run.m3d", &rigs::rig(12, clips(&["run", "walk"]))),
     ]));
-    assert!(!effect.model_replaced && session.error().is_none());
+    assert!(!changes.model && session.error().is_none());
     assert_eq!((session.model_revision(), session.maps_revision()), (revision, maps));
     assert_eq!(
         (session.clip_index(), session.playback().time_secs()),
@@ -216,11 +216,7 @@ fn clips_come_to_a_model_that_had_none_and_play() {
 #[test]
 fn with_nothing_open_they_are_opened() {
     let mut session = Session::new(false);
-    assert!(
-        session
-            .apply(Command::AddClips(vec![models::moving("a.m3d")]))
-            .model_replaced
-    );
+    assert!(session.apply(Command::AddClips(vec![models::moving("a.m3d")])).model);
     assert_eq!(session.error(), None);
 }
 

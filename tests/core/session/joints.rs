@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use bindpose::anim::{SkinView, Trails, skin_positions};
+use bindpose::anim::{SkinView, skin_positions};
 use bindpose::model::{JointIndex, SavedNames};
 use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
 use bindpose::session::{Command, File, JointCommand, JointRow, Session, SubsetCommand};
@@ -42,6 +42,17 @@ fn rows(session: &Session, query: &str) -> Vec<JointRow> {
 
 fn bones(rows: &[JointRow]) -> Vec<u32> {
     rows.iter().map(|row| row.bone).collect()
+}
+
+/// What is drawn over the model.
+pub(super) fn over_model(session: &mut Session) -> OverlayGeometry {
+    session.frame().over_model.cloned().unwrap_or_default()
+}
+
+/// A colour for each vertex; none while the skin is shown as it is.
+pub(super) fn skin_colors(session: &mut Session) -> Vec<[u8; 4]> {
+    let colors = session.frame().vertex_colors;
+    colors.map(|colors| colors.colors_srgb.to_vec()).unwrap_or_default()
 }
 
 /// Where a world point is drawn.
@@ -335,9 +346,7 @@ fn the_bind_share_goes_from_the_clip_to_the_bind_pose_and_back() {
 fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::Seek { time_secs: 0.0 });
-    let mut out = OverlayGeometry::default();
-    session.draw_bones(&mut out);
-    assert_eq!(out, OverlayGeometry::default(), "hidden");
+    assert_eq!(over_model(&mut session), OverlayGeometry::default(), "hidden");
     session.apply(joint(SetBonesVisible(true)));
     let mut drawn = Vec::new();
     for command in [
@@ -353,11 +362,11 @@ fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
         Command::AddFiles(vec![still("c.m3d")]),
     ] {
         session.apply(command.clone());
-        session.draw_bones(&mut out);
+        let out = over_model(&mut session);
         assert!(!drawn.contains(&out), "{command:?} is seen");
-        drawn.push(out.clone());
+        drawn.push(out);
     }
-    assert_eq!(out, OverlayGeometry::default(), "no bones");
+    assert_eq!(drawn.last(), Some(&OverlayGeometry::default()), "no bones");
 }
 
 #[test]
@@ -421,18 +430,15 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::Pause);
     let vertices = session.open_model().expect("open").model.mesh.vertex_count();
-    let mut colors = vec![[0; 4]];
-    session.skin_colors(&mut colors);
     assert!(
-        colors.is_empty() && session.skin_colors_key().is_none(),
+        skin_colors(&mut session).is_empty() && session.skin_colors_key().is_none(),
         "the skin as it is"
     );
 
     let mut seen = Vec::new();
     for view in SkinView::ALL {
         session.apply(joint(SetSkinView(Some(view))));
-        session.skin_colors(&mut colors);
-        assert_eq!(colors.len(), vertices);
+        assert_eq!(skin_colors(&mut session).len(), vertices);
         let key = session.skin_colors_key().expect("shown");
         assert!(!seen.contains(&key));
         seen.push(key);
@@ -446,7 +452,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
         );
     }
     session.apply(joint(SetSkinView(Some(SkinView::Weight))));
-    session.skin_colors(&mut colors);
+    let colors = skin_colors(&mut session);
     assert!(
         colors
             .iter()
@@ -456,7 +462,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     let key = session.skin_colors_key();
     session.apply(joint(Select(Some(JointIndex(1)))));
     assert_ne!(session.skin_colors_key(), key);
-    session.skin_colors(&mut colors);
+    let colors = skin_colors(&mut session);
     let mesh = &session.open_model().expect("open").model.mesh;
     let heights: Vec<f32> = mesh.positions.iter().map(|position| position.y / 4.0).collect();
     let mut expected = Vec::new();
@@ -476,25 +482,26 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     assert_eq!(session.weighed_joint(), Some(JointIndex(0)));
     session.apply(joint(SelectVertex(Some(highest))));
     assert_eq!(session.weighed_joint(), Some(JointIndex(1)));
-    session.skin_colors(&mut colors);
+    let colors = skin_colors(&mut session);
     assert_eq!(colors, expected);
 }
 
 #[test]
 fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
     let mut session = opened(moving("a.m3d"));
-    let (mut trails, mut pose) = (Trails::default(), bindpose::anim::PoseBuffers::default());
+    // A trail of n points has n - 1 steps, each drawn as a line of two ends.
+    let steps = |session: &mut Session| over_model(session).lines.len() / 2;
+    assert_eq!(steps(&mut session), 0);
     session.apply(joint(ToggleTrail(JointIndex(1))));
-    session.follow_trails(&mut trails, &mut pose);
-    assert_eq!((trails.polylines().count(), trails.point_count()), (1, 31));
+    assert_eq!(steps(&mut session), 30);
     session.apply(Command::SelectClip(1));
-    session.follow_trails(&mut trails, &mut pose);
-    assert_eq!(trails.point_count(), 61);
+    assert_eq!(steps(&mut session), 60);
+    session.apply(joint(ToggleTrail(JointIndex(0))));
+    assert_eq!(steps(&mut session), 120);
+    session.apply(joint(ClearTrails));
+    assert_eq!(steps(&mut session), 0);
     session.apply(joint(ToggleTrail(JointIndex(1))));
-    session.follow_trails(&mut trails, &mut pose);
-    assert_eq!(trails.polylines().count(), 0);
-    Session::new(false).follow_trails(&mut trails, &mut pose);
-    assert_eq!(trails, Trails::default());
+    assert_eq!(steps(&mut session), 60);
 }
 
 #[test]
@@ -512,11 +519,9 @@ fn the_soldier_is_inspected_explained_and_coloured() {
     );
     let readout = session.inspect_joint(JointIndex(10)).expect("58 joints");
     assert!(!readout.model.is_mirrored() && readout.to_text().contains("finalTransform"));
-    let mut colors = Vec::new();
     for view in SkinView::ALL {
         session.apply(joint(SetSkinView(Some(view))));
-        session.skin_colors(&mut colors);
-        assert_eq!(colors.len(), 13_748);
+        assert_eq!(skin_colors(&mut session).len(), 13_748);
     }
     let pairs = session.mirror_pairs();
     assert!(pairs.len() >= 20, "{}", pairs.len());

@@ -417,7 +417,7 @@ fn with_nothing_open_everything_is_in_order() {
         Command::SelectClip(0),
         Command::OpenFile("a.m3d".to_owned()),
     ] {
-        assert!(!session.apply(command).model_replaced);
+        assert!(!session.apply(command).model);
     }
     session.advance(1.0);
     let frame = session.frame();

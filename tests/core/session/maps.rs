@@ -10,13 +10,13 @@ use super::models;
 use crate::documents::shared_bytes;
 
 /// A picture of one colour.
-fn picture(path: &str, color: [u8; 4]) -> File {
+pub(super) fn picture(path: &str, color: [u8; 4]) -> File {
     let pixels = color.repeat(4);
     File::new(path, encode_png(&pixels, 2, 2).expect("two by two pixels"))
 }
 
 /// The box, whose one material names these maps.
-fn mapped(path: &str, diffuse: &str, normal: &str) -> File {
+pub(super) fn mapped(path: &str, diffuse: &str, normal: &str) -> File {
     let mut document: Document = models::document();
     let material = &mut document.materials[0];
     material.diffuse_map = Some(diffuse.to_owned());

@@ -260,8 +260,8 @@ fn neither_loading_nor_another_window_glides_and_what_is_no_way_for_the_camera_i
     assert!(!session.is_moving());
     session.apply(glide(Command::FrameModel));
     assert!(!session.is_moving(), "it is there already");
-    let effect = session.apply(glide(Command::AddFiles(vec![moving("b.m3d")])));
-    assert!(effect.model_replaced);
+    let changes = session.apply(glide(Command::AddFiles(vec![moving("b.m3d")])));
+    assert!(changes.model);
     session.apply(glide(Command::Pause));
     assert!(!session.is_moving() && !session.playback().is_playing());
 }

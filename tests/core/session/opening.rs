@@ -20,8 +20,8 @@ fn open_path(session: &Session) -> Option<&str> {
 #[test]
 fn a_new_model_plays_its_first_clip_around_and_around() {
     let mut session = Session::new(false);
-    let effect = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
-    assert!(effect.model_replaced);
+    let changes = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    assert!(changes.model);
     assert_eq!(session.take_events(), [Event::Load, Event::Play, Event::TimeUpdate]);
     let playback = session.playback();
     assert_eq!(
@@ -67,8 +67,8 @@ fn the_same_file_again_keeps_camera_clip_time_and_playing() {
         let revision = session.model_revision();
 
         // Found by its name: the folder may be another one.
-        let effect = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
-        assert!(effect.model_replaced && session.model_revision() > revision);
+        let changes = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+        assert!(changes.model && session.model_revision() > revision);
         assert_eq!(session.camera(), &camera);
         assert_eq!(session.playback(), &playback);
         assert_eq!(session.clip_index(), Some(1));
@@ -137,8 +137,8 @@ fn a_failed_load_keeps_the_model_and_says_why() {
     session.apply(Command::Seek { time_secs: 0.5 });
     session.take_events();
     let (revision, picture) = (session.model_revision(), session.picture_revision());
-    let effect = session.apply(Command::AddFiles(vec![broken("in/b.m3d")]));
-    assert!(!effect.model_replaced);
+    let changes = session.apply(Command::AddFiles(vec![broken("in/b.m3d")]));
+    assert!(!changes.model);
     assert_eq!(session.take_events(), [Event::Error]);
     assert_eq!(
         (session.model_revision(), session.picture_revision()),
@@ -193,16 +193,12 @@ fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
     };
     assert_eq!(listed(&session), ["x/large.m3d", "x/middle.m3d", "x/small.m3d"]);
 
-    assert!(
-        session
-            .apply(Command::OpenFile("x/small.m3d".to_owned()))
-            .model_replaced
-    );
+    assert!(session.apply(Command::OpenFile("x/small.m3d".to_owned())).model);
     assert_eq!(open_path(&session), Some("x/small.m3d"));
     assert_eq!(listed(&session).len(), 3);
 
     let revision = session.model_revision();
-    assert!(!session.apply(Command::OpenFile("x/none.m3d".to_owned())).model_replaced);
+    assert!(!session.apply(Command::OpenFile("x/none.m3d".to_owned())).model);
     assert_eq!((session.model_revision(), session.error()), (revision, None));
 }
 
@@ -249,7 +245,7 @@ fn the_list_of_a_drop_outlives_a_drop_that_failed() {
     session.apply(Command::AddFiles(vec![broken("bad.m3d")]));
     assert_eq!(session.files().models().len(), 2);
     session.apply(Command::AddFiles(vec![picture("a.png")]));
-    assert!(session.apply(Command::OpenFile("small.m3d".to_owned())).model_replaced);
+    assert!(session.apply(Command::OpenFile("small.m3d".to_owned())).model);
 }
 
 #[test]
@@ -263,7 +259,7 @@ fn a_drop_of_pictures_has_no_model_to_join() {
         ),
     ] {
         let mut session = Session::new(false);
-        assert!(!session.apply(Command::AddFiles(files)).model_replaced);
+        assert!(!session.apply(Command::AddFiles(files)).model);
         let error = session.error().expect("nothing to open");
         assert_eq!((error.diagnostic.code, error.file_name.as_str()), ("no-model", ""));
         assert!(

@@ -1,7 +1,8 @@
 //! What was recorded plays again: the same commands and times give the same state, to the bit.
 
 use bindpose::anim::Palette;
-use bindpose::session::{Command, File, Session};
+use bindpose::scene::RenderFrame;
+use bindpose::session::{Changes, Command, File, Session};
 use proptest::prelude::*;
 
 use super::models::{moving, still};
@@ -77,13 +78,38 @@ fn run(start: &[File], steps: &[Step]) -> Vec<String> {
     steps
         .iter()
         .map(|step| {
-            match step.clone() {
-                Step::Apply(command) => drop(session.apply(command)),
-                Step::Advance(dt_secs) => session.advance(dt_secs),
-            }
-            snapshot(&mut session)
+            let changes = take(&mut session, step.clone());
+            format!("{changes:?} {}", snapshot(&mut session))
         })
         .collect()
+}
+
+fn take(session: &mut Session, step: Step) -> Changes {
+    match step {
+        Step::Apply(command) => session.apply(command),
+        Step::Advance(dt_secs) => session.advance(dt_secs),
+    }
+}
+
+/// All that a renderer is told, but for the counter of the vertex colours.
+fn told_to_renderer(session: &mut Session) -> String {
+    let RenderFrame {
+        camera,
+        world_from_model,
+        world_bounds,
+        palette,
+        hidden_submeshes,
+        highlighted_submesh,
+        vertex_colors,
+        ghosts,
+        over_model,
+        options,
+    } = session.frame();
+    let colors = vertex_colors.map(|colors| colors.colors_srgb);
+    format!(
+        "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {hidden_submeshes:?} {highlighted_submesh:?} {colors:?} \
+         {ghosts:?} {over_model:?} {options:?}"
+    )
 }
 
 fn steps(most: usize) -> impl Strategy<Value = Vec<Step>> {
@@ -102,6 +128,24 @@ proptest! {
         let (first, again) = (run(&start, &steps), run(&start, &recorded));
         for (step, (first, again)) in steps.iter().zip(first.iter().zip(&again)) {
             prop_assert_eq!(first, again, "{:?}", step);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_frame_that_differs_is_told_as_a_change_of_the_picture(steps in steps(40)) {
+        let mut session = Session::new(false);
+        session.apply(Command::AddFiles(vec![moving("a.m3d"), still("c.m3d")]));
+        let mut before = (told_to_renderer(&mut session), session.picture_revision());
+        for step in steps {
+            let changes = take(&mut session, step.clone());
+            let now = (told_to_renderer(&mut session), session.picture_revision());
+            prop_assert!(now.0 == before.0 || changes.picture, "{:?}: {changes:?}", step);
+            prop_assert_eq!(now.1 > before.1, changes.picture);
+            before = now;
         }
     }
 }

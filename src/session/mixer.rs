@@ -1,9 +1,8 @@
 //! More than one clip in a pose: a crossfade from clip to clip, and two clips that a slider blends.
 
-use super::{OpenModel, Session};
+use super::open_model::OpenModel;
 use crate::anim::{LocalPose, Playback, PoseBuffers, blend, sample};
 use crate::model::Clip;
-use crate::scene::Aabb;
 
 /// How long a crossfade takes unless another length is chosen, in seconds: seen as a way from pose to pose, not waited for.
 pub const DEFAULT_CROSSFADE_SECS: f32 = 0.3;
@@ -25,23 +24,24 @@ pub struct Blend {
 
 /// What is posed beside the clip on show.
 #[derive(Clone, Debug)]
-pub(super) struct Mix {
+pub(super) struct Mixer {
     crossfade_secs: f32,
     blend: Option<Blend>,
     /// What was on show before, the oldest first; each fades into the next, the last into the clip on show.
     fades: Vec<Fade>,
-    revision: u64,
+    /// Whether what is mixed is different since it was last asked.
+    changed: bool,
     pose: LocalPose,
     scratch: Scratch,
 }
 
-impl Default for Mix {
+impl Default for Mixer {
     fn default() -> Self {
         Self {
             crossfade_secs: DEFAULT_CROSSFADE_SECS,
             blend: None,
             fades: Vec::new(),
-            revision: 0,
+            changed: false,
             pose: LocalPose::default(),
             scratch: Scratch::default(),
         }
@@ -73,35 +73,92 @@ struct Scratch {
     out: LocalPose,
 }
 
-impl Mix {
-    /// Changes with everything that the pose depends on.
-    pub(super) fn revision(&self) -> u64 {
-        self.revision
+impl Mixer {
+    /// One that mixes nothing, with the length of crossfades of another.
+    pub(super) fn with_crossfade_of(other: &Self) -> Self {
+        Self {
+            crossfade_secs: other.crossfade_secs,
+            ..Self::default()
+        }
     }
 
-    /// Another model: only how long fades take stays.
-    pub(super) fn take_up_model(&mut self) {
-        self.end_fades();
-        self.set_blend(None);
+    /// Whether what is mixed is different since the last call.
+    pub(super) fn take_changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
+    }
+
+    pub(super) fn crossfade_secs(&self) -> f32 {
+        self.crossfade_secs
+    }
+
+    /// NaN, infinity and negative lengths are ignored; others are clamped to [`MAX_CROSSFADE_SECS`].
+    pub(super) fn set_crossfade(&mut self, secs: f32) {
+        if secs.is_finite() && secs >= 0.0 {
+            self.crossfade_secs = secs.min(MAX_CROSSFADE_SECS);
+        }
+    }
+
+    pub(super) fn blend(&self) -> Option<Blend> {
+        self.blend
+    }
+
+    /// Whether clips that played before are still seen.
+    pub(super) fn has_fades(&self) -> bool {
+        !self.fades.is_empty()
+    }
+
+    /// The clip that plays becomes one that played before, and is seen a little longer while time moves. Without a length of
+    /// crossfades it is not seen any more.
+    pub(super) fn fade_from(&mut self, clip: usize, playback: &Playback) {
+        if self.crossfade_secs <= 0.0 {
+            return self.end_fades();
+        }
+        if self.fades.len() == MOST_FADES {
+            self.fades.remove(0);
+        }
+        self.fades.push(Fade {
+            clip,
+            blend: self.blend,
+            playback: playback.clone(),
+            elapsed_secs: 0.0,
+            duration_secs: self.crossfade_secs,
+        });
+        self.changed = true;
+    }
+
+    /// Lets time pass for what fades; the clips in it move on as `playback` does.
+    pub(super) fn advance_fades(&mut self, playback: &Playback, dt_secs: f32) {
+        for fade in &mut self.fades {
+            fade.elapsed_secs += dt_secs;
+            if playback.is_playing() {
+                fade.playback.set_speed(playback.speed());
+                fade.playback.advance(dt_secs);
+            }
+        }
+        // What is behind a fade that has ended is not seen either.
+        let ended = |fade: &Fade| fade.elapsed_secs >= fade.duration_secs;
+        let ended = self.fades.iter().rposition(ended);
+        self.fades.drain(..ended.map_or(0, |last| last + 1));
+        self.changed = true;
     }
 
     /// Shows the clip on show alone, but for a blend.
     pub(super) fn end_fades(&mut self) {
         if !self.fades.is_empty() {
             self.fades.clear();
-            self.revision += 1;
+            self.changed = true;
         }
     }
 
-    fn set_blend(&mut self, blend: Option<Blend>) {
+    pub(super) fn set_blend(&mut self, blend: Option<Blend>) {
         if self.blend != blend {
             self.blend = blend;
-            self.revision += 1;
+            self.changed = true;
         }
     }
 
     /// The clips in the pose beside the one on show.
-    fn clips(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn clips(&self) -> impl Iterator<Item = usize> {
         let of_fades = self
             .fades
             .iter()
@@ -128,7 +185,7 @@ impl Mix {
     }
 }
 
-impl Mix {
+impl Mixer {
     /// The pose of the clip on show with what is blended into it, in `buffers`: of another time than now, at which nothing fades.
     pub(super) fn pose_unfaded(&mut self, open: &OpenModel, shown: &Clip, time_secs: f32, buffers: &mut PoseBuffers) {
         self.scratch.pose_layer(&open.model.clips, shown, self.blend, time_secs);
@@ -171,102 +228,4 @@ fn time_in_step(clip: &Clip, time_secs: f32, other: &Clip) -> f32 {
     let phase = (f64::from(time_secs) - start_secs) / length_secs;
     let other_start_secs = f64::from(other.start_secs);
     (other_start_secs + phase * (f64::from(other.end_secs) - other_start_secs)) as f32
-}
-
-impl Session {
-    /// How long the pose takes from one clip to the next while it plays, in seconds; 0 is at once. Paused and under reduced
-    /// motion clips change at once.
-    pub fn crossfade_secs(&self) -> f32 {
-        self.mix.crossfade_secs
-    }
-
-    /// The clip that is blended into the one on show.
-    pub fn blend(&self) -> Option<Blend> {
-        self.mix.blend
-    }
-
-    /// Whether a clip that was on show before is still seen. A fade goes on to its end when playing is paused, so that a
-    /// picture that stands still is a pose of its clip and time.
-    pub fn is_fading(&self) -> bool {
-        !self.mix.fades.is_empty() && !self.scrubbing
-    }
-
-    pub(super) fn set_crossfade(&mut self, secs: f32) {
-        if secs.is_finite() && secs >= 0.0 {
-            self.mix.crossfade_secs = secs.min(MAX_CROSSFADE_SECS);
-        }
-    }
-
-    pub(super) fn set_blend(&mut self, clip: usize, share: f32) {
-        let clips = self.open.as_ref().map_or(0, |open| open.model.clips.len());
-        if clip < clips && Some(clip) != self.clip && !share.is_nan() {
-            let share = share.clamp(0.0, 1.0);
-            self.mix.set_blend(Some(Blend { clip, share }));
-        }
-    }
-
-    pub(super) fn clear_blend(&mut self) {
-        self.mix.set_blend(None);
-    }
-
-    /// What is on show becomes what it was, and is seen a little longer while time moves. A blend goes on with the next
-    /// clip, unless it was with that one.
-    pub(super) fn fade_to(&mut self, next: usize) {
-        let duration_secs = self.mix.crossfade_secs;
-        if let Some(clip) = self.clip
-            && self.playback.is_playing()
-            && !self.scrubbing
-            && !self.reduced_motion
-            && duration_secs > 0.0
-        {
-            if self.mix.fades.len() == MOST_FADES {
-                self.mix.fades.remove(0);
-            }
-            self.mix.fades.push(Fade {
-                clip,
-                blend: self.mix.blend,
-                playback: self.playback.clone(),
-                elapsed_secs: 0.0,
-                duration_secs,
-            });
-            self.mix.revision += 1;
-        } else {
-            self.mix.end_fades();
-        }
-        if self.mix.blend.is_some_and(|blend| blend.clip == next) {
-            self.mix.set_blend(None);
-        }
-    }
-
-    /// Lets time pass for what fades.
-    pub(super) fn advance_fades(&mut self, dt_secs: f32) {
-        if !self.is_fading() || dt_secs.is_nan() || dt_secs <= 0.0 {
-            return;
-        }
-        let (playing, speed) = (self.playback.is_playing(), self.playback.speed());
-        let fades = &mut self.mix.fades;
-        for fade in fades.iter_mut() {
-            fade.elapsed_secs += dt_secs;
-            if playing {
-                fade.playback.set_speed(speed);
-                fade.playback.advance(dt_secs);
-            }
-        }
-        // What is behind a fade that has ended is not seen either.
-        let ended = fades.iter().rposition(|fade| fade.elapsed_secs >= fade.duration_secs);
-        fades.drain(..ended.map_or(0, |last| last + 1));
-        self.mix.revision += 1;
-        self.picture_revision += 1;
-    }
-
-    /// Box of all that the clips in the pose reach, in the file's space.
-    pub(super) fn reach(&mut self) -> Aabb {
-        let Some(open) = &mut self.open else {
-            return Aabb::default();
-        };
-        let of_clip = open.extent(self.clip).0;
-        self.mix
-            .clips()
-            .fold(of_clip, |reach, clip| reach.union(open.extent(Some(clip)).0))
-    }
 }

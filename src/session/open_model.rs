@@ -1,14 +1,45 @@
-//! What panels show of clips: the list, keys, seams, what moves. Computed when it is first asked for.
+//! A model that is open: its file, and what is known of it and of each clip beside what they hold. Most of it is computed when it
+//! is first asked for.
 
-use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use glam::Vec3;
 
-use super::{OpenModel, Session};
+use super::files::File;
 use crate::anim::{self, JointActivity, Seam};
+use crate::diagnostic::Diagnostic;
+use crate::format::{self, Dialect, Excerpt};
+use crate::import::Imported;
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
+
+/// A model that is on screen, with the file it came from.
+#[derive(Clone, Debug)]
+pub struct OpenModel {
+    /// The file.
+    pub file: File,
+    /// Spelling of the file.
+    pub dialect: Dialect,
+    /// The model, in the file's space.
+    pub model: Model,
+    /// What was mended or is worth knowing, in the order of the file.
+    pub notices: Vec<Diagnostic>,
+    /// Box of the bind pose, in the file's space.
+    pub bind_bounds: Aabb,
+    bind_points: Vec<Vec3>,
+    /// One for each clip of the model.
+    pub(super) clip_facts: Vec<ClipFacts>,
+    /// Files whose clips joined, in their order.
+    pub(super) joined: Vec<JoinedFile>,
+}
+
+/// A file whose clips joined the open model.
+#[derive(Clone, Debug)]
+pub(super) struct JoinedFile {
+    pub(super) file: File,
+    /// What is noted of it when its bones stand elsewhere than the model's. It goes with the file.
+    pub(super) offsets_differ: Option<Diagnostic>,
+}
 
 /// One row of the list of clips.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +113,40 @@ impl ClipFacts {
 }
 
 impl OpenModel {
+    /// A model that has just been read from a file.
+    pub(super) fn new(file: &File, imported: Imported) -> Self {
+        let Imported {
+            dialect,
+            model,
+            diagnostics,
+        } = imported;
+        Self {
+            file: file.clone(),
+            dialect,
+            notices: diagnostics,
+            bind_bounds: model.bind_bounds(),
+            bind_points: anim::extreme_points(&model, None),
+            clip_facts: vec![ClipFacts::of_file(file.base_name()); model.clips.len()],
+            joined: Vec::new(),
+            model,
+        }
+    }
+
+    /// The space that a clip needs; the bind pose's without a clip.
+    pub fn extent(&self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
+        let index = clip.unwrap_or(usize::MAX);
+        match (self.model.clips.get(index), self.clip_facts.get(index)) {
+            (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
+            _ => (self.bind_bounds, &self.bind_points),
+        }
+    }
+
+    /// Lines of the file around a finding.
+    pub fn excerpt(&self, diagnostic: &Diagnostic) -> Option<Excerpt> {
+        let position = diagnostic.position?;
+        Some(format::excerpt(&self.file.bytes, position, diagnostic.length))
+    }
+
     /// The list of clips, in the order of their indices.
     pub fn clip_list(&self) -> impl ExactSizeIterator<Item = ClipSummary<'_>> {
         self.model
@@ -128,7 +193,7 @@ impl OpenModel {
         )
     }
 
-    fn seam_between(&self, clip: &Clip, span_secs: [f32; 2]) -> Seam {
+    pub(super) fn seam_between(&self, clip: &Clip, span_secs: [f32; 2]) -> Seam {
         anim::seam(&self.model.skeleton, clip, span_secs, self.size())
     }
 
@@ -148,32 +213,5 @@ impl OpenModel {
             Some(joint) => anim::key_times(clip, joint),
             None => facts.key_times.get_or_init(|| anim::merged_key_times(clip)),
         }
-    }
-}
-
-impl Session {
-    /// Key times of the clip on show, in order: of one joint, or of all.
-    pub fn key_times(&self, joint: Option<JointIndex>) -> &[f32] {
-        match (&self.open, self.clip) {
-            (Some(open), Some(clip)) => open.key_times(clip, joint),
-            _ => &[],
-        }
-    }
-
-    /// The seam of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
-    /// nothing loops.
-    pub fn loop_seam(&self) -> Option<Cow<'_, Seam>> {
-        let (open, clip) = (self.open.as_ref()?, self.clip()?);
-        let span_secs = self.playback.seam_secs()?;
-        Some(if span_secs == [clip.start_secs, clip.end_secs] {
-            Cow::Borrowed(open.seam(self.clip?)?)
-        } else {
-            Cow::Owned(open.seam_between(clip, span_secs))
-        })
-    }
-
-    /// Where the time is in frames of the clip on show, counted from 0: 30.5 is half way from frame 30 to frame 31.
-    pub fn frame_place(&self) -> Option<f64> {
-        Some(self.clip()?.place_of(self.playback.time_secs()))
     }
 }

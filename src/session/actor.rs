@@ -1,0 +1,178 @@
+//! Who moves: the clip that plays, the time in it, what is mixed into it, and the pose that comes of all this.
+
+use super::mixer::{Blend, Mixer};
+use super::open_model::OpenModel;
+use crate::anim::{LoopMode, Playback, PoseBuffers, WrapMode};
+use crate::scene::Aabb;
+
+/// One figure of the open model. Clips are those of the model, by their indices.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Actor {
+    pub(super) clip: Option<usize>,
+    pub(super) playback: Playback,
+    /// The pointer holds the time.
+    pub(super) scrubbing: bool,
+    pub(super) mixer: Mixer,
+    /// 0 the clip's pose … 1 the bind pose.
+    pub(super) bind_share: f32,
+    pub(super) pose: PoseBuffers,
+    /// The revision of the pose in the buffers.
+    posed: Option<u64>,
+}
+
+/// What plays, and how: what a listener of [`Event::PlaybackChange`] asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PlaybackSettings {
+    clip: Option<usize>,
+    range_secs: Option<[f32; 2]>,
+    speed: f32,
+    loop_mode: LoopMode,
+    wrap_mode: WrapMode,
+}
+
+/// What the pose depends on, beside what is mixed into the clip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PoseInputs {
+    clip: Option<usize>,
+    time_secs: f32,
+    bind_share: f32,
+}
+
+impl Actor {
+    /// One for a model that has just opened, in the bind pose. The length of crossfades stays as it was chosen.
+    pub(super) fn for_model(open: &OpenModel, before: &Self) -> Self {
+        Self {
+            mixer: Mixer::with_crossfade_of(&before.mixer),
+            pose: PoseBuffers::for_skeleton(&open.model.skeleton),
+            ..Self::default()
+        }
+    }
+
+    /// The same for a file that was read again: clip (by its name), time, range and way of playing stay as far as the clips have
+    /// them.
+    pub(super) fn for_model_again(open: &OpenModel, before: &Self, clip_name: Option<&str>) -> Self {
+        let mut actor = Self {
+            playback: before.playback.clone(),
+            bind_share: before.bind_share,
+            ..Self::for_model(open, before)
+        };
+        let clips = &open.model.clips;
+        let named = clip_name.and_then(|name| clips.iter().position(|clip| clip.name == name));
+        let (time_secs, range_secs) = (actor.playback.time_secs(), actor.playback.range_secs());
+        if !actor.show_clip(open, named.unwrap_or(0)) {
+            actor.playback = Playback::default();
+            return actor;
+        }
+        if let (Some(_), Some([start_secs, end_secs])) = (named, range_secs) {
+            actor.playback.set_range_end(end_secs);
+            actor.playback.set_range_start(start_secs);
+        }
+        actor.playback.seek(time_secs);
+        actor
+    }
+
+    pub(super) fn settings(&self) -> PlaybackSettings {
+        PlaybackSettings {
+            clip: self.clip,
+            range_secs: self.playback.range_secs(),
+            speed: self.playback.speed(),
+            loop_mode: self.playback.loop_mode(),
+            wrap_mode: self.playback.wrap_mode(),
+        }
+    }
+
+    pub(super) fn pose_inputs(&self) -> PoseInputs {
+        PoseInputs {
+            clip: self.clip,
+            time_secs: self.playback.time_secs(),
+            bind_share: self.bind_share,
+        }
+    }
+
+    /// Goes to a clip's first time; false when there is no such clip.
+    pub(super) fn show_clip(&mut self, open: &OpenModel, index: usize) -> bool {
+        let Some(clip) = open.model.clips.get(index) else {
+            return false;
+        };
+        self.playback.set_span(clip.start_secs, clip.end_secs);
+        self.playback.seek(if self.playback.is_backward() {
+            clip.end_secs
+        } else {
+            clip.start_secs
+        });
+        self.clip = Some(index);
+        true
+    }
+
+    /// NaN is ignored; other values are clamped to 0…1.
+    pub(super) fn set_bind_share(&mut self, share: f32) {
+        if !share.is_nan() {
+            self.bind_share = share.clamp(0.0, 1.0);
+        }
+    }
+
+    /// Brings the pose in the buffers to the clip and the time, unless they hold the pose of this revision already.
+    pub(super) fn update_pose(&mut self, open: &OpenModel, revision: u64) {
+        if self.posed == Some(revision) {
+            return;
+        }
+        self.posed = Some(revision);
+        let skeleton = &open.model.skeleton;
+        match self.clip.and_then(|clip| open.model.clips.get(clip)) {
+            Some(clip) => {
+                self.mixer.pose(open, clip, self.playback.time_secs(), &mut self.pose);
+                self.pose.bring_toward_bind(skeleton, self.bind_share);
+            }
+            None => self.pose.set_bind_pose(skeleton),
+        }
+    }
+
+    /// Whether a clip that played before is still seen. A fade goes on to its end when playing is paused, so that a picture that
+    /// stands still is a pose of its clip and time.
+    pub(super) fn is_fading(&self) -> bool {
+        self.mixer.has_fades() && !self.scrubbing
+    }
+
+    /// Blends a second of `clip_count` clips into the one that plays.
+    pub(super) fn set_blend(&mut self, Blend { clip, share }: Blend, clip_count: usize) {
+        if clip < clip_count && Some(clip) != self.clip && !share.is_nan() {
+            let share = share.clamp(0.0, 1.0);
+            self.mixer.set_blend(Some(Blend { clip, share }));
+        }
+    }
+
+    /// The clip that plays becomes one that played before, and is seen a little longer while time moves; `at_once` ends it now. A
+    /// blend goes on with the next clip, unless it was with that one.
+    pub(super) fn fade_to(&mut self, next: usize, at_once: bool) {
+        match self.clip {
+            Some(clip) if self.playback.is_playing() && !self.scrubbing && !at_once => {
+                self.mixer.fade_from(clip, &self.playback);
+            }
+            _ => self.mixer.end_fades(),
+        }
+        if self.mixer.blend().is_some_and(|blend| blend.clip == next) {
+            self.mixer.set_blend(None);
+        }
+    }
+
+    /// Lets time pass for what fades.
+    pub(super) fn advance_fades(&mut self, dt_secs: f32) {
+        if self.is_fading() && dt_secs > 0.0 {
+            self.mixer.advance_fades(&self.playback, dt_secs);
+        }
+    }
+
+    /// Box of all that the clips in the pose reach, in the file's space; with the bind pose in it while the pose is brought there.
+    pub(super) fn reach(&self, open: &OpenModel) -> Aabb {
+        let of_clip = open.extent(self.clip).0;
+        let of_clips = self
+            .mixer
+            .clips()
+            .fold(of_clip, |reach, clip| reach.union(open.extent(Some(clip)).0));
+        if self.bind_share > 0.0 {
+            of_clips.union(open.bind_bounds)
+        } else {
+            of_clips
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! What is drawn over the model and in place of its colours: bones, trails, ghosts, colours of the skin. In buffers that are
+//! filled again only when what they show is different.
+
+use glam::{Affine3A, Vec3};
+
+use super::actor::Actor;
+use super::changes::Revisions;
+
+use super::joints::Joints;
+use super::mixer::Blend;
+use super::open_model::OpenModel;
+use super::skeleton_cache::{SkeletonCache, SkinColorsKey};
+use super::view::View;
+use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
+use crate::model::{JointIndex, Model};
+use crate::scene::{BoneColors, Ghosts, OverlayGeometry, Theme, VertexColors, joint_colors};
+
+/// How opaque the nearest ghost is, and the farthest.
+const GHOST_ALPHA: [u8; 2] = [110, 40];
+/// Ghosts of the past and of the future, and the bind pose's, sRGB.
+const PAST_SRGB: [u8; 3] = [90, 169, 255];
+const FUTURE_SRGB: [u8; 3] = [255, 180, 84];
+const BIND_SRGB: [u8; 4] = [160, 170, 190, 110];
+
+/// Buffers, and what they were filled for.
+#[derive(Clone, Debug, Default)]
+pub(super) struct OverlayCache {
+    geometry: OverlayGeometry,
+    trails: Trails,
+    trails_for: Option<TrailsKey>,
+    colors_srgb: Vec<[u8; 4]>,
+    colors_for: Option<SkinColorsKey>,
+    colors_revision: u64,
+    palettes: Vec<Palette>,
+    ghost_colors_srgb: Vec<[u8; 4]>,
+    ghosts_for: Option<GhostsKey>,
+    times_secs: Vec<f32>,
+    scratch: PoseBuffers,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct TrailsKey {
+    clips_revision: u64,
+    clip: Option<usize>,
+    blend: Option<Blend>,
+    joints: Vec<JointIndex>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct GhostsKey {
+    pose_revision: u64,
+    plan: Option<GhostPlan>,
+    bind_ghost: bool,
+}
+
+impl OverlayCache {
+    pub(super) fn geometry(&self) -> &OverlayGeometry {
+        &self.geometry
+    }
+
+    /// None while the skin is shown as it is.
+    pub(super) fn vertex_colors(&self) -> Option<VertexColors<'_>> {
+        self.colors_for?;
+        Some(VertexColors {
+            colors_srgb: &self.colors_srgb,
+            revision: self.colors_revision,
+        })
+    }
+
+    pub(super) fn ghosts(&self) -> Ghosts<'_> {
+        Ghosts {
+            palettes: &self.palettes,
+            colors_srgb: &self.ghost_colors_srgb,
+        }
+    }
+
+    /// Colours the vertices for a key, unless they have these colours already. `positions` are those of the pose for a key that
+    /// needs them.
+    pub(super) fn update_colors(
+        &mut self,
+        key: Option<SkinColorsKey>,
+        model: Option<&Model>,
+        positions: &[Vec3],
+        skeleton: &mut SkeletonCache,
+    ) {
+        if self.colors_for == key {
+            return;
+        }
+        self.colors_for = key;
+        self.colors_revision += 1;
+        self.colors_srgb.clear();
+        if let (Some(key), Some(model)) = (key, model) {
+            skeleton.skin_colors(model, key, positions, &mut self.colors_srgb);
+        }
+    }
+
+    /// Draws bones and trails anew, in the world.
+    pub(super) fn update_geometry(
+        &mut self,
+        open: Option<&OpenModel>,
+        actor: &mut Actor,
+        joints: &Joints,
+        skeleton: &SkeletonCache,
+        (theme, world_from_model): (Theme, Affine3A),
+        revisions: Revisions,
+    ) {
+        self.geometry.clear();
+        let bone_colors = BoneColors::of(theme);
+        if joints.bones_visible() {
+            skeleton.draw_bones(joints.bone_style(), joints.marked(), bone_colors, &mut self.geometry);
+        }
+        let Some(open) = open else { return };
+        if joints.trails().is_empty() || actor.clip.is_none() {
+            return;
+        }
+        self.update_trails(open, actor, joints.trails(), revisions);
+        let colors = joint_colors(&open.model.skeleton);
+        for (joint, points) in joints.trails().iter().zip(self.trails.polylines()) {
+            let color = colors.get(joint.index()).copied();
+            let [red, green, blue, _] = color.unwrap_or(bone_colors.plain);
+            for step in points.windows(2) {
+                let [from, to] = [step[0], step[1]].map(|point| world_from_model.transform_point3(point));
+                self.geometry.line(from, to, [red, green, blue, 255]);
+            }
+        }
+    }
+
+    /// Poses the ghosts, unless they are those of the last call.
+    pub(super) fn update_ghosts(
+        &mut self,
+        open: Option<&OpenModel>,
+        actor: &mut Actor,
+        view: &View,
+        revisions: Revisions,
+    ) {
+        let wanted = GhostsKey {
+            pose_revision: revisions.pose,
+            plan: view.ghosts,
+            bind_ghost: view.bind_ghost,
+        };
+        if self.ghosts_for == Some(wanted) {
+            return;
+        }
+        self.ghosts_for = Some(wanted);
+        self.ghost_colors_srgb.clear();
+        self.palettes.clear();
+        let Some(open) = open else { return };
+        let skeleton = &open.model.skeleton;
+        let clip = actor.clip.and_then(|clip| open.model.clips.get(clip));
+        if let (Some(plan), Some(clip)) = (view.ghosts, clip) {
+            let now_secs = actor.playback.time_secs();
+            self.times_secs.clear();
+            ghost_times(clip, now_secs, plan, &mut self.times_secs);
+            let (times_secs, mixer) = (&self.times_secs, &mut actor.mixer);
+            palettes_at(times_secs, &mut self.scratch, &mut self.palettes, |time_secs, pose| {
+                mixer.pose_unfaded(open, clip, time_secs, pose);
+            });
+            let past = times_secs.iter().filter(|&&time_secs| time_secs < now_secs).count();
+            let colors = (0..times_secs.len()).map(|ghost| ghost_color(ghost, past, times_secs.len()));
+            self.ghost_colors_srgb.extend(colors);
+        }
+        if view.bind_ghost && skeleton.joint_count() > 0 {
+            self.scratch.set_bind_pose(skeleton);
+            self.palettes.push(self.scratch.palette.clone());
+            self.ghost_colors_srgb.push(BIND_SRGB);
+        }
+    }
+
+    /// Finds the ways of joints through the clip and what is blended into it, unless they are those of the last call.
+    fn update_trails(&mut self, open: &OpenModel, actor: &mut Actor, joints: &[JointIndex], revisions: Revisions) {
+        let wanted = TrailsKey {
+            clips_revision: revisions.clips,
+            clip: actor.clip,
+            blend: actor.mixer.blend(),
+            joints: joints.to_vec(),
+        };
+        if self.trails_for.as_ref() == Some(&wanted) {
+            return;
+        }
+        self.trails_for = Some(wanted);
+        let mixer = &mut actor.mixer;
+        match actor.clip.and_then(|clip| open.model.clips.get(clip)) {
+            Some(clip) => self
+                .trails
+                .follow_posed(clip, joints, &mut self.scratch, |time_secs, pose| {
+                    mixer.pose_unfaded(open, clip, time_secs, pose);
+                }),
+            None => self.trails = Trails::default(),
+        }
+    }
+}
+
+/// Nearer ghosts are more opaque. The first `past` of `count` come before now, the farthest first.
+fn ghost_color(ghost: usize, past: usize, count: usize) -> [u8; 4] {
+    let (steps_away, most, [red, green, blue]) = if ghost < past {
+        (past - ghost, past, PAST_SRGB)
+    } else {
+        (ghost - past + 1, count - past, FUTURE_SRGB)
+    };
+    let [near, far] = GHOST_ALPHA.map(f32::from);
+    let share = (steps_away - 1) as f32 / most.max(1) as f32;
+    [red, green, blue, (near + (far - near) * share) as u8]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ghosts_fade_away_from_now_on_both_sides() {
+        let alphas: Vec<u8> = (0..5).map(|ghost| ghost_color(ghost, 2, 5)[3]).collect();
+        assert!(alphas[0] < alphas[1] && alphas[2] > alphas[3] && alphas[3] > alphas[4]);
+        assert_eq!((alphas[1], alphas[2]), (GHOST_ALPHA[0], GHOST_ALPHA[0]));
+        assert_eq!(ghost_color(0, 2, 5)[..3], PAST_SRGB);
+        assert_eq!(ghost_color(4, 2, 5)[..3], FUTURE_SRGB);
+    }
+}

@@ -1,0 +1,123 @@
+//! What there is to see and to read of the pose of now: the frame for a renderer, bones, names, numbers.
+
+use super::skeleton_cache::{PlaceKey, SkinColorsKey};
+use super::view::View;
+use super::{Caches, Session};
+use crate::anim::{JointReadout, SkinView, VertexExplanation, explain_vertex};
+use crate::model::{JointIndex, Skeleton};
+use crate::scene::{Bones, LabelPlace, RenderFrame, Screen, label_places};
+
+impl Session {
+    /// All that a renderer needs for the picture of now. The box is empty and the palette too when nothing is open.
+    pub fn frame(&mut self) -> RenderFrame<'_> {
+        self.pose_now();
+        self.update_overlays();
+        RenderFrame {
+            camera: self.view.camera,
+            world_from_model: self.world_from_model(),
+            world_bounds: self.world_bounds(),
+            palette: &self.actor.pose.palette,
+            hidden_submeshes: self.selection.subsets.left_out(),
+            highlighted_submesh: self.selection.subsets.highlighted(),
+            vertex_colors: self.caches.overlays.vertex_colors(),
+            ghosts: self.caches.overlays.ghosts(),
+            over_model: Some(self.caches.overlays.geometry()),
+            options: self.frame_options(),
+        }
+    }
+
+    fn update_overlays(&mut self) {
+        self.place_bones();
+        let colors_key = self.skin_colors_key();
+        if colors_key.is_some_and(|key| key.needs_posed_vertices()) {
+            self.pose_vertices();
+        }
+        let in_world = (self.view.theme, self.world_from_model());
+        let open = self.content.open.as_deref();
+        let (actor, joints, revisions) = (&mut self.actor, &self.selection.joints, self.revisions);
+        let Caches {
+            picker,
+            skeleton,
+            overlays,
+        } = &mut self.caches;
+        let model = open.map(|open| &open.model);
+        overlays.update_colors(colors_key, model, picker.positions(), skeleton);
+        overlays.update_ghosts(open, actor, &self.view, revisions);
+        overlays.update_geometry(open, actor, joints, skeleton, in_world, revisions);
+    }
+
+    /// Brings the bones to the pose of now.
+    fn place_bones(&mut self) {
+        let key = PlaceKey {
+            pose_revision: self.revisions.pose,
+            handedness: self.handedness(),
+            up_axis: self.up_axis(),
+        };
+        if self.caches.skeleton.is_placed(key) {
+            return;
+        }
+        self.pose_now();
+        let (world_from_model, scene_radius) = (self.world_from_model(), self.world_bounds().radius());
+        let no_skeleton = Skeleton::default();
+        let open = self.content.open.as_ref();
+        let skeleton = open.map_or(&no_skeleton, |open| &open.model.skeleton);
+        let pose = &self.actor.pose.model;
+        self.caches
+            .skeleton
+            .place(key, skeleton, pose, world_from_model, scene_radius);
+    }
+
+    /// The bones of the pose of now, world space.
+    pub fn bones(&mut self) -> &Bones {
+        self.place_bones();
+        self.caches.skeleton.bones()
+    }
+
+    /// Where the names of joints stand, in the caller's buffer: the selected and the hovered first. Joints closer than `spacing`
+    /// (heights of the picture) to one before them are left out; nothing while labels are hidden.
+    pub fn joint_labels(&mut self, spacing: f32, places: &mut Vec<LabelPlace>) {
+        places.clear();
+        if self.selection.joints.labels_visible() {
+            let marked = self.selection.joints.marked();
+            let first: Vec<_> = [marked.selected, marked.hovered].into_iter().flatten().collect();
+            let screen = self.screen();
+            label_places(self.bones(), &screen, spacing, &first, places);
+        }
+    }
+
+    pub(super) fn screen(&mut self) -> Screen {
+        let world_bounds = self.world_bounds();
+        let View { camera, aspect, .. } = &self.view;
+        Screen {
+            clip_from_world: camera.clip_from_view(*aspect, &world_bounds) * camera.view_from_world(),
+            aspect: *aspect,
+        }
+    }
+
+    /// All numbers of a joint in the pose of now.
+    pub fn inspect_joint(&mut self, joint: JointIndex) -> Option<JointReadout> {
+        self.pose_now();
+        let skeleton = &self.content.open.as_ref()?.model.skeleton;
+        JointReadout::of(skeleton, self.selection.joints.tree(), &self.actor.pose, joint)
+    }
+
+    /// How the selected vertex comes to its place in the pose of now.
+    pub fn explain_vertex(&mut self) -> Option<VertexExplanation> {
+        self.pose_now();
+        let vertex = self.selection.joints.selected_vertex()?.vertex;
+        explain_vertex(&self.content.open.as_ref()?.model, &self.actor.pose, vertex)
+    }
+
+    /// What the colours of the skin depend on now: as long as it stays, they need not be asked for. None while the skin is shown
+    /// as it is. Weights are those of [`Session::weighed_joint`], all 0 without one.
+    pub fn skin_colors_key(&self) -> Option<SkinColorsKey> {
+        self.open_model()?;
+        let view = self.selection.joints.skin_view()?;
+        Some(SkinColorsKey {
+            view,
+            model_revision: self.revisions.model,
+            joint: self.weighed_joint().filter(|_| view == SkinView::Weight),
+            pose_revision: (view == SkinView::Stretch).then_some(self.revisions.pose),
+        })
+    }
+}

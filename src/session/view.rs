@@ -1,0 +1,129 @@
+//! How the model is seen: from where, how it stands in the world, in which light, with what beside it.
+
+use glam::{Affine3A, Vec3};
+
+use super::look::Look;
+use super::motion::Motion;
+use super::open_model::OpenModel;
+use crate::anim::GhostPlan;
+use crate::model::{self, Handedness, UpAxis};
+use crate::scene::{Camera, FrameOptions, Insets, Passes, Theme};
+
+/// The view of a session.
+#[derive(Clone, Debug)]
+pub(super) struct View {
+    pub(super) camera: Camera,
+    pub(super) motion: Motion,
+    /// The camera was not panned, zoomed or flown since it framed all that the clip reaches.
+    pub(super) framed: bool,
+    /// Width / height of the picture.
+    pub(super) aspect: f32,
+    /// Margins of the picture that panels cover.
+    pub(super) insets: Insets,
+    /// What was chosen over what was found.
+    pub(super) handedness: Option<Handedness>,
+    pub(super) up_axis: Option<UpAxis>,
+    pub(super) look: Look,
+    pub(super) theme: Theme,
+    pub(super) ghosts: Option<GhostPlan>,
+    pub(super) bind_ghost: bool,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            camera: Camera::default(),
+            motion: Motion::default(),
+            framed: false,
+            aspect: 1.0,
+            insets: Insets::default(),
+            handedness: None,
+            up_axis: None,
+            look: Look::default(),
+            theme: Theme::default(),
+            ghosts: None,
+            bind_ghost: false,
+        }
+    }
+}
+
+impl View {
+    /// Another model: what was chosen for the old one is forgotten, and the camera looks from the front.
+    pub(super) fn reset_for_model(&mut self) {
+        self.motion.reset_for_model();
+        self.handedness = None;
+        self.up_axis = None;
+        self.camera = Camera {
+            projection: self.camera.projection,
+            ..Camera::default()
+        };
+    }
+
+    /// Whether a picture of this view is the same as one of another, if the model stands in the world as it does there.
+    pub(super) fn shows_the_same_as(&self, other: &Self) -> bool {
+        self.camera == other.camera
+            && self.look == other.look
+            && self.theme == other.theme
+            && (self.ghosts, self.bind_ghost) == (other.ghosts, other.bind_ghost)
+    }
+
+    /// The handedness in force: chosen, or else found.
+    pub(super) fn handedness(&self, open: Option<&OpenModel>) -> Handedness {
+        let found = || open.map(|open| open.model.handedness);
+        self.handedness.or_else(found).unwrap_or_default()
+    }
+
+    /// The up axis in force: chosen, or else found.
+    pub(super) fn up_axis(&self, open: Option<&OpenModel>) -> UpAxis {
+        let found = || open.map(|open| open.model.up_axis);
+        self.up_axis.or_else(found).unwrap_or_default()
+    }
+
+    /// The file's space -> the world.
+    pub(super) fn world_from_model(&self, open: Option<&OpenModel>) -> Affine3A {
+        model::world_from_model(self.handedness(open), self.up_axis(open))
+    }
+
+    /// What of it a renderer is told, with the passes that are drawn.
+    pub(super) fn frame_options(&self, passes: Passes) -> FrameOptions {
+        let Look {
+            light,
+            split,
+            view_mode,
+            background,
+            overlays,
+            environment_turn_radians,
+            exposure_stops,
+            book_lights_turn_radians,
+            normal_green_flipped,
+        } = self.look;
+        FrameOptions {
+            theme: self.theme,
+            light,
+            split,
+            view_mode,
+            background,
+            overlays,
+            passes,
+            environment_turn_radians,
+            exposure_stops,
+            book_lights_turn_radians,
+            normal_green_flipped,
+        }
+    }
+
+    /// Frames points of the world in what the panels leave free.
+    pub(super) fn frame_points(&mut self, world_points: &[Vec3]) {
+        // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
+        let centered = Insets {
+            left: 0.0,
+            right: 0.0,
+            ..self.insets
+        };
+        self.camera.frame(world_points, self.aspect, centered);
+        let (left, right) = self.camera.free_at_sides(world_points, self.aspect);
+        if left < self.insets.left || right < self.insets.right {
+            self.camera.frame(world_points, self.aspect, self.insets);
+        }
+    }
+}
