@@ -21,8 +21,8 @@
 //! use bindpose::format;
 //! use bindpose::model::Model;
 //!
-//! let bytes = format::write(&bindpose::sample::figure());
-//! let parsed = format::parse(bytes.as_bytes())?;
+//! let bytes = std::fs::read("web/sample/figure.m3d")?;
+//! let parsed = format::parse(&bytes)?;
 //! let (model, notices) = Model::from_document(&parsed.document, &parsed.lines)?;
 //! assert!(notices.is_empty());
 //!
@@ -46,7 +46,6 @@ pub mod light;
 pub mod model;
 #[cfg(feature = "render")]
 pub mod render;
-pub mod sample;
 pub mod scene;
 pub mod session;
 pub mod shaders;

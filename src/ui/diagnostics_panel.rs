@@ -199,8 +199,6 @@ impl Goal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::write;
-    use crate::sample::figure;
     use crate::session::File;
 
     /// No model that can be shown has a finding about a triangle, so no click can lead there yet.
@@ -209,7 +207,7 @@ mod tests {
         let mut session = Session::new(true);
         session.apply(Command::AddFiles(vec![File::new(
             "figure.m3d",
-            write(&figure()).into_bytes(),
+            include_bytes!("../../web/sample/figure.m3d").to_vec(),
         )]));
         let open = session.open_model().expect("the sample opens");
         let corner = open.model.mesh.indices[3 * 7];

@@ -17,6 +17,11 @@ pub(crate) const REAL_FILES: [&str; 6] = [
     "imm/column",
 ];
 
+/// The figure that the page opens with.
+pub(crate) fn figure() -> Parsed {
+    parse(include_bytes!("../../web/sample/figure.m3d")).expect("the project's own file parses")
+}
+
 /// A real file, where those are at hand.
 pub(crate) fn real_file(name: &str) -> Option<Parsed> {
     let bytes = shared_bytes(&format!("models/{name}.m3d"))?;

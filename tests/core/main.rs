@@ -8,7 +8,6 @@ mod image;
 mod light;
 mod model;
 mod rigs;
-mod sample;
 mod scene;
 mod session;
 mod shaders;

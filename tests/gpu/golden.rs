@@ -134,8 +134,8 @@ on_both_backends! {
     /// The sample, as the page opens: in the middle of a step, both lights.
     fn figure_in_the_middle_of_a_step(gpu) {
         let mut session = Session::new(true);
-        let figure = bindpose::format::write(&bindpose::sample::figure());
-        session.apply(Command::AddFiles(vec![File::new("figure.m3d", figure.into_bytes())]));
+        let figure = include_bytes!("../../web/sample/figure.m3d").to_vec();
+        session.apply(Command::AddFiles(vec![File::new("figure.m3d", figure)]));
         session.apply(Command::Seek { time_secs: 0.25 });
         session.apply(Command::SetViewport { aspect: 0.75, insets: Insets::default() });
         session.apply(Command::LookFrom(ViewPreset::ThreeQuarter));

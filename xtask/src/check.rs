@@ -92,6 +92,10 @@ fn native(steps: &mut Steps, absent: &Absent) -> Result<(), Failure> {
     // Apart from the others: together, cargo would build what binds the wasm a second time, with the features of both.
     steps.step("Tests of these commands", || {
         Line::cargo().args(["test", "--package", "xtask"]).run()
+    })?;
+    // Apart too: it stands on the core alone, without wgpu and egui.
+    steps.step("The sample is what its tool makes", || {
+        Line::cargo().args(["test", "--package", "sample-figure"]).run()
     })
 }
 

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use bindpose::format::{Parsed, parse, write};
+use bindpose::format::{Parsed, parse};
 use bindpose::model::Model;
 
 use super::palette::{SMALL_TOLERANCE, greatest_error, times_of};
+use crate::documents::figure;
 
 /// What f32 loses through the dozen joints from the pelvis to a finger, with rotations written to a few digits.
 const FIGURE_TOLERANCE: f64 = 1e-5;
@@ -70,8 +71,7 @@ fn good_fixtures_pose_as_in_the_textbook() {
 
 #[test]
 fn the_figure_poses_as_in_the_textbook() {
-    let written = write(&bindpose::sample::figure());
-    let parsed = parse(written.as_bytes()).expect("the figure is sound");
+    let parsed = figure();
     assert!(parsed.document.clips.len() > 1);
     let error = error_of(&parsed, 100).expect("its keys need no mending");
     assert!(error <= FIGURE_TOLERANCE, "{error}");

@@ -3,7 +3,7 @@
 use bindpose::anim::{PoseBuffers, Seam, VISIBLE_SHARE, seam};
 use bindpose::model::{JointIndex, Model};
 
-use crate::documents::{REAL_FILES, arm, key, model_of, offset, real_file, track, turned};
+use crate::documents::{REAL_FILES, arm, figure, key, model_of, offset, real_file, track, turned};
 use crate::rigs::{self, JOINT_COUNTS};
 
 /// The arm, two units high, with these last keys.
@@ -146,7 +146,7 @@ fn every_size_of_skeleton_has_its_seam() {
 
 #[test]
 fn the_figure_loops_without_a_seam_that_is_seen() {
-    let (model, _) = model_of(&bindpose::sample::figure());
+    let (model, _) = model_of(&figure().document);
     let bounds = model.bind_bounds();
     assert!(model.clips.len() > 1);
     for (index, clip) in model.clips.iter().enumerate() {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use bindpose::format::{Document, parse};
+use bindpose::format::Document;
 use bindpose::model::{
     Handedness, JointIndex, JointNames, JointTree, MirrorPair, Model, SavedNames, UpAxis, hierarchy_fingerprint,
     mirror_pairs, world_from_model,
@@ -11,7 +11,7 @@ use bindpose::model::{
 use glam::Affine3A;
 
 use crate::chains::{mirrored, mirrored_model};
-use crate::documents::{arm, model_of, offset, real_file, reordered};
+use crate::documents::{arm, figure, model_of, offset, real_file, reordered};
 
 fn pairs(model: &Model) -> Vec<MirrorPair> {
     let world_from_model = world_from_model(model.handedness, model.up_axis);
@@ -189,8 +189,7 @@ fn twenty_thousand_siblings_are_paired_as_quickly_as_they_are_read() {
 
 #[test]
 fn the_figure_is_paired_limb_by_limb() {
-    let written = bindpose::format::write(&bindpose::sample::figure());
-    let (model, _) = Model::from_parsed(&parse(written.as_bytes()).expect("sound")).expect("sound");
+    let (model, _) = Model::from_parsed(&figure()).expect("sound");
     let pairs = pairs(&model);
     // Seven joints of the middle, then 16 of the left and 16 of the right.
     let expected: Vec<_> = (7..23).map(|left| (left, left + 16)).collect();

@@ -1,0 +1,76 @@
+//! Makes the sample: a figure that the page opens with, so that there is something to see before a file was dropped.
+//! `cargo run --package sample-figure` writes it to `web/sample`.
+//!
+//! ```text
+//! rig -> volumes -> body -> skin (surface nets, relaxed, snapped) -> weights, charts -> Document
+//!    \-> motion (poses, two-bone legs) -> clips                                        /
+//! maps (reliefs: cloth, moulded panels, grip, visor) -> texels
+//! ```
+//!
+//! The same document on every machine: the topology depends on + − × ÷ √ alone, which IEEE 754 fixes; sines and arc tangents
+//! appear in texture coordinates and clips only, in f64, and all numbers are rounded to few decimals before they are stored.
+//! A sine that differs in its last bit between systems could still flip the last decimal of a rare number. Maps need no sine:
+//! their bytes are the same everywhere.
+
+mod body;
+mod charts;
+mod document;
+mod maps;
+mod materials;
+mod motion;
+mod rig;
+mod sdf;
+mod skin;
+mod surface_nets;
+mod volumes;
+mod weights;
+
+use std::path::{Path, PathBuf};
+
+use bindpose::format::{self, Document};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder as _};
+
+pub use maps::{SampleMap, maps};
+
+/// The sample figure: left-handed, y up, 1.8 m tall, standing on y = 0 and facing −z, with the clips `Walk`, `Run`, `Wave`
+/// and `Idle` at 30 keys a second, each of which loops.
+pub fn figure() -> Document {
+    let rig = rig::Rig::new();
+    let body = body::Body::new(&rig);
+    let skin = skin::Skin::new(&body, &rig);
+    let influences = weights::influences(&skin, &body, &rig);
+    document::document(&skin, &influences, &rig, motion::clips(&rig))
+}
+
+/// The folder that holds the committed sample.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/sample")
+}
+
+/// The file of the model.
+pub const FIGURE_NAME: &str = "figure.m3d";
+
+/// All files of the sample with their names: the model, then its maps.
+pub fn files() -> Vec<(&'static str, Vec<u8>)> {
+    let figure = (FIGURE_NAME, format::write(&figure()).into_bytes());
+    let maps = maps();
+    let maps = maps.iter().map(|map| (map.name, packed(map)));
+    std::iter::once(figure).chain(maps).collect()
+}
+
+/// As small a PNG as the encoder makes, without an alpha channel where all is opaque.
+fn packed(map: &SampleMap) -> Vec<u8> {
+    let opaque = map.rgba.chunks_exact(4).all(|texel| texel[3] == u8::MAX);
+    let (color, texels) = if opaque {
+        let rgb = map.rgba.chunks_exact(4).flat_map(|texel| &texel[..3]).copied();
+        (ExtendedColorType::Rgb8, rgb.collect())
+    } else {
+        (ExtendedColorType::Rgba8, map.rgba.clone())
+    };
+    let mut png = Vec::new();
+    PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
+        .write_image(&texels, map.side, map.side, color)
+        .expect("a square of texels");
+    png
+}
