@@ -1,5 +1,5 @@
 // The light of the books' demos. Nothing there is linear: texels, colours and lights are multiplied as they are encoded, and the
-// sum goes to the screen as it is. Twin: `light/book.rs`, same steps, same names.
+// sum goes to the screen as it is. Twin: `tests/common/twins/book.rs`, same steps, same names.
 
 // Strengths of the three lights, and what comes from everywhere (DirectX 12 book, SkinnedMesh demo).
 const BOOK_STRENGTH_0: vec3<f32> = vec3<f32>(0.9, 0.9, 0.7);

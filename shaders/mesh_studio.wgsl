@@ -1,6 +1,6 @@
 // The model under the studio light.
 
-// What a white surface that faces the light shows: a warm key, a cool rim. Twins: `light::studio::{KEY_COLOR, RIM_COLOR}`.
+// What a white surface that faces the light shows: a warm key, a cool rim. Twins in `tests/common/twins/studio.rs`.
 const KEY_COLOR: vec3<f32> = vec3<f32>(1.00, 0.975, 0.93);
 const RIM_COLOR: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
 

@@ -1,4 +1,4 @@
-// How a surface gives light back: formulas alone, without bindings. Twin: `light::pbr`.
+// How a surface gives light back: formulas alone, without bindings. Twin: `tests/common/twins/pbr.rs`.
 //
 // Roughness is perceptual; alpha, its square, is what the distribution of the micro-facets goes by.
 

@@ -1,4 +1,4 @@
-// The studio: surroundings, a soft key that casts shadows, a cool rim. Twin: `light::studio`.
+// The studio: surroundings, a soft key that casts shadows, a cool rim. Twin: `tests/common/twins/studio.rs`.
 
 // The key is a soft box, not a point: its mirror image is spread by this much of alpha.
 const KEY_SIZE: f32 = 0.08;

@@ -1,4 +1,4 @@
-// From light to colours of a screen, linear 0 … 1. Twin: `light::tone_map`.
+// From light to colours of a screen, linear 0 … 1. Twin: `tests/common/twins/tone_map.rs`.
 //
 // The Khronos PBR neutral tone mapper: base colours stay what they are, and what is brighter bends towards white without
 // turning its hue.

@@ -1,5 +1,6 @@
 //! Tests of `light`.
 
+mod book;
 mod environment;
 mod furnace;
 mod images;

@@ -14,3 +14,5 @@ mod shaders;
 #[path = "../common/shared.rs"]
 mod shared;
 mod textbook;
+#[path = "../common/twins/mod.rs"]
+mod twins;

@@ -1,6 +1,5 @@
 //! The light of the books' demos in the picture, against its twin; and both lights side by side.
 
-use bindpose::light::book::{BookSurface, PhongSurface, book_light, phong_light};
 use bindpose::model::{Material, Reflectance};
 use bindpose::scene::{Light, Pass, Passes, Theme, ViewMode};
 use glam::{Quat, Vec3};
@@ -8,6 +7,7 @@ use glam::{Quat, Vec3};
 use crate::gpu::{Gpu, difference};
 use crate::scenes::{FRONT, Scene, bent_tube, card as two_halves, material};
 use crate::textures::{HEIGHT, WHITE, WIDTH, card_once, cube, diffuse, plain};
+use crate::twins::book::{BookSurface, PhongSurface, book_light, phong_light};
 
 /// Bytes, dithered.
 const ROUNDING: u8 = 2;

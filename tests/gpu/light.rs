@@ -4,12 +4,13 @@ mod book;
 mod evaluate;
 mod upload;
 
-use bindpose::light::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
-use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
-use bindpose::light::tone_map::{exposed, tone_mapped};
 use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use bindpose::render::device::Backend;
 use glam::{Vec2, Vec3};
+
+use crate::twins::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
+use crate::twins::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
+use crate::twins::tone_map::{exposed, tone_mapped};
 
 const ANGLES: u32 = 32;
 const ROUGHNESSES: u32 = 16;

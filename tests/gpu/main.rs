@@ -47,4 +47,6 @@ mod still_life;
 mod studio_light;
 mod submeshes;
 mod textures;
+#[path = "../common/twins/mod.rs"]
+mod twins;
 mod view_modes;

@@ -3,9 +3,6 @@
 use std::sync::Arc;
 
 use bindpose::image::Image;
-use bindpose::light::book::shininess;
-use bindpose::light::studio::{StudioLights, StudioSurface, Surroundings};
-use bindpose::light::tone_map::{exposed, tone_mapped};
 use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use bindpose::model::{Material, Reflectance};
 use bindpose::scene::{Light, Pass, Passes, srgb8_from_linear};
@@ -14,6 +11,9 @@ use glam::Vec3;
 use crate::gpu::difference;
 use crate::scenes::{Scene, material};
 use crate::textures::{HEIGHT, WIDTH, card_once, dds, normal as flat, plain};
+use crate::twins::book::shininess;
+use crate::twins::studio::{StudioLights, StudioSurface, Surroundings};
+use crate::twins::tone_map::{exposed, tone_mapped};
 
 /// Bytes, dithered, from half floats that are filtered.
 const ROUNDING: u8 = 3;

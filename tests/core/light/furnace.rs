@@ -2,10 +2,11 @@
 
 use std::f32::consts::{PI, TAU};
 
-use bindpose::light::pbr::{ggx_distribution, reflectance, specular_lobe};
-use bindpose::light::studio::{StudioLights, StudioSurface, Surroundings};
 use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use glam::{Vec2, Vec3};
+
+use crate::twins::pbr::{ggx_distribution, reflectance, specular_lobe};
+use crate::twins::studio::{StudioLights, StudioSurface, Surroundings};
 
 const ANGLES: [f32; 9] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0];
 const ROUGHNESSES: [f32; 7] = [0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
@@ -159,7 +160,7 @@ fn the_distribution_is_normalised() {
 
 #[test]
 fn occlusion_and_horizon_leave_open_surfaces_alone() {
-    use bindpose::light::pbr::{horizon_fade, specular_occlusion};
+    use crate::twins::pbr::{horizon_fade, specular_occlusion};
     for n_dot_v in ANGLES {
         for alpha in [0.0, 0.2, 1.0] {
             assert!(specular_occlusion(n_dot_v, 1.0, alpha) > 0.999);

@@ -2,10 +2,11 @@
 
 use std::mem::offset_of;
 
-use bindpose::light::book::{BOOK_AMBIENT, BOOK_STRENGTHS};
-use bindpose::light::studio::{KEY_COLOR, KEY_SIZE, RIM_COLOR};
 use bindpose::shaders::{BOOK_WGSL, Environment, MESH_STUDIO, STUDIO_LIGHT, TONE_MAP_WGSL};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+use crate::twins::book::{BOOK_AMBIENT, BOOK_STRENGTHS};
+use crate::twins::studio::{KEY_COLOR, KEY_SIZE, RIM_COLOR};
 
 /// Calls everything, so that nothing is left out of the translation.
 const FRAGMENT: &str = "

@@ -1,12 +1,12 @@
 //! What a surface looks like in the studio.
 
-use bindpose::light::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
-use bindpose::light::tone_map::tone_mapped;
 use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use bindpose::scene::{Camera, Projection};
 use glam::Vec3;
 
 use crate::light::{all_directions, difference};
+use crate::twins::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
+use crate::twins::tone_map::tone_mapped;
 
 struct Studio {
     environment: Environment,

@@ -1,7 +1,8 @@
 //! The tone map.
 
-use bindpose::light::tone_map::{exposed, tone_mapped};
 use glam::Vec3;
+
+use crate::twins::tone_map::{exposed, tone_mapped};
 
 /// Where colours begin to bend: the shoulder and the veil that is taken off.
 const SHOULDER: f32 = 0.8;

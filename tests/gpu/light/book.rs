@@ -1,14 +1,14 @@
 //! The book's light on the GPU, read back, against its twin.
 
-use bindpose::light::book::{
-    BOOK_STRENGTHS, BookSurface, PhongSurface, blinn_phong, book_light, book_reflectance, phong, phong_light,
-    schlick_fresnel,
-};
 use bindpose::shaders::BOOK_WGSL;
 use glam::Vec3;
 
 use super::evaluate::evaluate;
 use super::{ANGLES, ROUGHNESSES};
+use crate::twins::book::{
+    BOOK_STRENGTHS, BookSurface, PhongSurface, blinn_phong, book_light, book_reflectance, phong, phong_light,
+    schlick_fresnel,
+};
 
 const QUANTITIES: u32 = 6;
 

@@ -2,70 +2,70 @@
 
 use std::f32::consts::PI;
 
+use bindpose::light::{BrdfTable, Prefiltered};
 use glam::Vec3;
 
 use super::pbr::{Reflectance, dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
-use super::{BrdfTable, Prefiltered};
 
 /// Twin of `KEY_SIZE`: by how much of alpha the key's mirror image is spread.
-pub const KEY_SIZE: f32 = 0.08;
+pub(crate) const KEY_SIZE: f32 = 0.08;
 
 /// The key light of the studio, a little warm: what a white surface that faces it shows.
-pub const KEY_COLOR: Vec3 = Vec3::new(1.00, 0.975, 0.93);
+pub(crate) const KEY_COLOR: Vec3 = Vec3::new(1.00, 0.975, 0.93);
 
 /// The rim light of the studio, cool: from behind, opposite to the key.
-pub const RIM_COLOR: Vec3 = Vec3::new(0.50, 0.66, 0.95);
+pub(crate) const RIM_COLOR: Vec3 = Vec3::new(0.50, 0.66, 0.95);
 
 /// A point of a surface as the light meets it. Directions are of unit length, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StudioSurface {
+pub(crate) struct StudioSurface {
     /// Diffuse colour.
-    pub albedo: Vec3,
+    pub(crate) albedo: Vec3,
     /// Mirrored share, face on.
-    pub fresnel0: Vec3,
+    pub(crate) fresnel0: Vec3,
     /// 0 smooth, 1 rough; with the gloss of the normal map, if it has any: 1 − [`shininess`](super::book::shininess).
-    pub roughness: f32,
+    pub(crate) roughness: f32,
     /// On the side of the viewer, with the normal map's bumps.
-    pub normal: Vec3,
+    pub(crate) normal: Vec3,
     /// The same without.
-    pub smooth_normal: Vec3,
+    pub(crate) smooth_normal: Vec3,
     /// Towards the viewer.
-    pub to_eye: Vec3,
+    pub(crate) to_eye: Vec3,
     /// The share of the surroundings that the point sees, 0 … 1.
-    pub ambient_occlusion: f32,
+    pub(crate) ambient_occlusion: f32,
 }
 
 /// The direct lights at a point. Colours are what a white surface that faces the light shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StudioLights {
+pub(crate) struct StudioLights {
     /// Unit, in the world.
-    pub to_key: Vec3,
+    pub(crate) to_key: Vec3,
     /// Of the key.
-    pub key_color: Vec3,
+    pub(crate) key_color: Vec3,
     /// 0 in shadow, 1 lit.
-    pub key_visible: f32,
+    pub(crate) key_visible: f32,
     /// Unit, in the world; behind the model.
-    pub to_rim: Vec3,
+    pub(crate) to_rim: Vec3,
     /// Of the rim.
-    pub rim_color: Vec3,
+    pub(crate) rim_color: Vec3,
 }
 
 /// What the bindings of `environment.wgsl` hold.
 #[derive(Clone, Copy, Debug)]
-pub struct Surroundings<'a> {
+pub(crate) struct Surroundings<'a> {
     /// Light from all around.
-    pub prefiltered: &'a Prefiltered,
+    pub(crate) prefiltered: &'a Prefiltered,
     /// How surfaces give it back.
-    pub brdf_table: &'a BrdfTable,
+    pub(crate) brdf_table: &'a BrdfTable,
     /// Cosine and sine of the turn from the world: the world's `(cos, 0, sin)` is the environment's x.
-    pub turn: (f32, f32),
+    pub(crate) turn: (f32, f32),
     /// Multiplies all its light.
-    pub intensity: f32,
+    pub(crate) intensity: f32,
 }
 
 impl Surroundings<'_> {
     /// Radiance towards the eye; linear, may exceed 1.
-    pub fn studio_light(&self, surface: &StudioSurface, lights: &StudioLights) -> Vec3 {
+    pub(crate) fn studio_light(&self, surface: &StudioSurface, lights: &StudioLights) -> Vec3 {
         let n_dot_v = surface.normal.dot(surface.to_eye).clamp(1e-3, 1.0);
         let scale_bias = self.brdf_table.lookup(n_dot_v, surface.roughness);
         let shares = reflectance(surface.albedo, surface.fresnel0, scale_bias);
@@ -86,13 +86,13 @@ impl Surroundings<'_> {
     }
 
     /// What a white surface with this normal shows.
-    pub fn environment_diffuse(&self, normal: Vec3) -> Vec3 {
+    pub(crate) fn environment_diffuse(&self, normal: Vec3) -> Vec3 {
         let normal = self.environment_from_world(normal);
         self.prefiltered.irradiance().towards(normal) * self.intensity
     }
 
     /// What a mirror of this roughness shows in a direction of any length but 0.
-    pub fn environment_specular_light(&self, direction: Vec3, roughness: f32) -> Vec3 {
+    pub(crate) fn environment_specular_light(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let towards = self.environment_from_world(direction);
         self.prefiltered.sample(towards, roughness) * self.intensity
     }

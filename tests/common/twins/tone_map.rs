@@ -7,12 +7,12 @@ const SHOULDER: f32 = 0.8 - VEIL;
 const DESATURATION: f32 = 0.15;
 
 /// Light after an exposure of so many stops more.
-pub fn exposed(radiance: Vec3, stops: f32) -> Vec3 {
+pub(crate) fn exposed(radiance: Vec3, stops: f32) -> Vec3 {
     radiance * stops.exp2()
 }
 
 /// The Khronos PBR neutral tone mapper, its veil set for the studio. `radiance` is not negative.
-pub fn tone_mapped(radiance: Vec3) -> Vec3 {
+pub(crate) fn tone_mapped(radiance: Vec3) -> Vec3 {
     let least = radiance.min_element();
     let veil = if least < 2.0 * VEIL {
         least - least * least / (4.0 * VEIL)

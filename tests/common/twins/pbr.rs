@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3};
 
 /// GGX: how densely micro-facets face `halfway`, per steradian. Both vectors are of unit length.
-pub fn ggx_distribution(normal: Vec3, halfway: Vec3, alpha: f32) -> f32 {
+pub(crate) fn ggx_distribution(normal: Vec3, halfway: Vec3, alpha: f32) -> f32 {
     let sine = normal.cross(halfway);
     let scaled_cos = normal.dot(halfway) * alpha;
     let ratio = alpha / (sine.dot(sine) + scaled_cos * scaled_cos);
@@ -13,7 +13,7 @@ pub fn ggx_distribution(normal: Vec3, halfway: Vec3, alpha: f32) -> f32 {
 }
 
 /// Smith's height-correlated shadowing and masking of GGX over 4 (n·l) (n·v). Both cosines are above 0.
-pub fn smith_visibility(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
+pub(crate) fn smith_visibility(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
     let squared = alpha * alpha;
     let towards_light = n_dot_v * (n_dot_l * n_dot_l * (1.0 - squared) + squared).sqrt();
     let towards_eye = n_dot_l * (n_dot_v * n_dot_v * (1.0 - squared) + squared).sqrt();
@@ -21,19 +21,19 @@ pub fn smith_visibility(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
 }
 
 /// What a surface mirrors at grazing angles.
-pub fn fresnel90(fresnel0: Vec3) -> f32 {
+pub(crate) fn fresnel90(fresnel0: Vec3) -> f32 {
     fresnel0.dot(Vec3::splat(50.0 / 3.0)).clamp(0.0, 1.0)
 }
 
 /// What a surface mirrors at an angle, after Schlick.
-pub fn fresnel_schlick(fresnel0: Vec3, cos_angle: f32) -> Vec3 {
+pub(crate) fn fresnel_schlick(fresnel0: Vec3, cos_angle: f32) -> Vec3 {
     let grazing = 1.0 - cos_angle.clamp(0.0, 1.0);
     let squared = grazing * grazing;
     fresnel0.lerp(Vec3::splat(fresnel90(fresnel0)), squared * squared * grazing)
 }
 
 /// The share of mirrored light of one direction, per steradian, after one bounce. `n_dot_l` and `n_dot_v` are above 0.
-pub fn specular_lobe(
+pub(crate) fn specular_lobe(
     normal: Vec3,
     to_eye: Vec3,
     to_light: Vec3,
@@ -50,19 +50,19 @@ pub fn specular_lobe(
 
 /// What becomes of light that falls on a surface evenly from all around. With an albedo of 1 the shares sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reflectance {
+pub(crate) struct Reflectance {
     /// Mirrored in one bounce.
-    pub single: Vec3,
+    pub(crate) single: Vec3,
     /// Mirrored after more bounces between the micro-facets, so without direction.
-    pub multiple: Vec3,
+    pub(crate) multiple: Vec3,
     /// Entered the surface and came back.
-    pub diffuse: Vec3,
+    pub(crate) diffuse: Vec3,
     /// By how much all bounces exceed the first, for lights of one direction.
-    pub boost: Vec3,
+    pub(crate) boost: Vec3,
 }
 
-/// The shares for one view and roughness, of which `scale_bias` comes from the [table](super::BrdfTable).
-pub fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Reflectance {
+/// The shares for one view and roughness, of which `scale_bias` comes from the [table](bindpose::light::BrdfTable).
+pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Reflectance {
     let grazing = Vec3::splat(fresnel90(fresnel0));
     let single = fresnel0 * scale_bias.x + grazing * scale_bias.y;
     let average = fresnel0 + (grazing - fresnel0) / 21.0;
@@ -79,19 +79,19 @@ pub fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Reflectanc
 }
 
 /// Where the lobe of a rough surface is strongest; not of unit length.
-pub fn dominant_direction(normal: Vec3, mirrored: Vec3, alpha: f32) -> Vec3 {
+pub(crate) fn dominant_direction(normal: Vec3, mirrored: Vec3, alpha: f32) -> Vec3 {
     let smooth_share = 1.0 - alpha;
     normal.lerp(mirrored, smooth_share * (smooth_share.sqrt() + alpha))
 }
 
 /// How much of the mirrored surroundings a point sees of which `occlusion`, 0 … 1, sees the sky.
-pub fn specular_occlusion(n_dot_v: f32, occlusion: f32, alpha: f32) -> f32 {
+pub(crate) fn specular_occlusion(n_dot_v: f32, occlusion: f32, alpha: f32) -> f32 {
     let seen = (n_dot_v + occlusion).max(1e-4);
     (seen.powf((-16.0 * alpha - 1.0).exp2()) - 1.0 + occlusion).clamp(0.0, 1.0)
 }
 
 /// Fades out mirrored directions that a bump turns below the surface itself.
-pub fn horizon_fade(mirrored: Vec3, smooth_normal: Vec3) -> f32 {
+pub(crate) fn horizon_fade(mirrored: Vec3, smooth_normal: Vec3) -> f32 {
     let above = (1.0 + 1.3 * mirrored.dot(smooth_normal)).clamp(0.0, 1.0);
     above * above
 }
