@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::diagnostic::{Diagnostic, Severity};
 
-use super::MAX_SIDE;
+use super::format::MAX_SIDE;
 
 /// A picture that could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -1,5 +1,8 @@
 //! How texels are stored.
 
+/// Texels a side of the largest picture that is read: what the largest GPUs take.
+pub const MAX_SIDE: u32 = 16_384;
+
 /// How an [`Image`](super::Image) holds its texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ImageFormat {

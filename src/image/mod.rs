@@ -23,12 +23,9 @@ pub(crate) mod srgb;
 
 pub use encode::{EncodeError, encode_png};
 pub use error::{FileKind, ImageError, ImageErrorKind, Layer};
-pub use format::{Channels, ImageFormat};
+pub use format::{Channels, ImageFormat, MAX_SIDE};
 pub use mips::MapKind;
 pub use picture::{Image, ImageKind};
-
-/// Texels a side of the largest picture that is read: what the largest GPUs take.
-pub const MAX_SIDE: u32 = 16_384;
 
 /// Reads a picture. What it is shows in its first bytes, and only for TGA, which has no signature, in its name.
 ///

@@ -1,10 +1,9 @@
-//! How much of the light from all around a surface mirrors: the second factor of the split sum (Karis 2013).
+//! How much of the environment's light a surface reflects: the second factor of the split sum (Karis 2013).
 
 use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
 
-use super::low_discrepancy::hammersley;
 use crate::image::half;
 
 /// Entries along each edge of the table that the renderer uploads.
@@ -60,8 +59,8 @@ impl BrdfTable {
     }
 }
 
-/// Scale and bias by which `fresnel0` and `fresnel90` become the share of light from all around that the GGX lobe with
-/// height-correlated Smith shadowing gives back in one bounce.
+/// Scale and bias by which `fresnel0` and `fresnel90` become the fraction of the environment's light that the GGX lobe with
+/// height-correlated Smith shadowing reflects in one bounce.
 ///
 /// Entry `column + side * row` is for n·v = `(column / (side − 1))²`, since most happens where the view grazes, and for
 /// perceptual roughness `row / (side − 1)`.
@@ -85,9 +84,9 @@ fn entry(n_dot_v: f32, roughness: f32) -> [f32; 2] {
         if n_dot_l > 0.0 {
             let (eye, light) = (smith_lambda(cos, alpha), smith_lambda(n_dot_l, alpha));
             // Visible normals hold the shadowing towards the eye already: G2 / G1 is left.
-            let share = (1.0 + eye) / (1.0 + eye + light);
+            let unshadowed = (1.0 + eye) / (1.0 + eye + light);
             let grazing = (1.0 - v_dot_h).clamp(0.0, 1.0).powi(5);
-            sum += Vec2::new(1.0 - grazing, grazing) * share;
+            sum += Vec2::new(1.0 - grazing, grazing) * unshadowed;
         }
     }
     (sum / HALF_VECTORS as f32).to_array()
@@ -106,4 +105,11 @@ fn visible_normal(to_eye: Vec3, alpha: f32, (u, v): (f32, f32)) -> Vec3 {
     let radius = (1.0 - z * z).max(0.0).sqrt();
     let halfway = Vec3::new(radius * (TAU * v).cos(), radius * (TAU * v).sin(), z) + stretched;
     (halfway * Vec3::new(alpha, alpha, 1.0)).normalize_or(Vec3::Z)
+}
+
+/// Point `index` of `count` of the Hammersley set, 0 … 1 both ways, each in the middle of its stratum.
+pub(super) fn hammersley(index: u32, count: u32) -> (f32, f32) {
+    // The radical inverse in base 2; 24 bits are exact in f32.
+    let inverse = (index.reverse_bits() >> 8) as f32 / (1u32 << 24) as f32;
+    ((index as f32 + 0.5) / count as f32, inverse)
 }

@@ -204,7 +204,7 @@ pub(super) fn solid_angles(side: usize) -> Vec<f32> {
 pub(super) fn resized(texels: &[Vec3], side: usize, new_side: usize) -> Vec<Vec3> {
     let columns = covered(side, new_side);
     let mean = |spans: &[(usize, f32)], value: &dyn Fn(usize) -> Vec3| {
-        spans.iter().map(|&(index, share)| value(index) * share).sum::<Vec3>()
+        spans.iter().map(|&(index, weight)| value(index) * weight).sum::<Vec3>()
     };
     let narrow: Vec<Vec3> = texels
         .chunks_exact(side)
@@ -218,7 +218,7 @@ pub(super) fn resized(texels: &[Vec3], side: usize, new_side: usize) -> Vec<Vec3
     columns.iter().flat_map(column_means).collect()
 }
 
-/// For each texel of a new row, which texels of the old row it covers, and which share of it each of them is.
+/// For each texel of a new row, which texels of the old row it covers, and the fraction of it that each of them is.
 fn covered(side: usize, new_side: usize) -> Vec<Vec<(usize, f32)>> {
     let per_texel = side as f32 / new_side as f32;
     let spans = |index: usize| {
@@ -227,7 +227,7 @@ fn covered(side: usize, new_side: usize) -> Vec<Vec<(usize, f32)>> {
         let reached = start as usize..(end.ceil() as usize).min(side);
         reached
             .map(|old| (old, overlap(old) / per_texel))
-            .filter(|&(_, share)| share > 0.0)
+            .filter(|&(_, fraction)| fraction > 0.0)
             .collect()
     };
     (0..new_side).map(spans).collect()

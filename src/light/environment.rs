@@ -1,20 +1,20 @@
-//! What a model stands in: light from all around.
+//! What lights a model: radiance from each direction.
 
 use glam::{Vec3, Vec3A};
 
-use super::cube::{Cube, FACES, resized, solid_angles};
-use super::{daylight, studio_set};
+use super::cube::{Cube, FACES, resized, smoothstep, solid_angles};
+use super::studio_set;
 use crate::image::srgb::{linear_from_srgb, srgb_from_linear};
 use crate::image::{Image, ImageKind};
 
-/// Texels a side of the smallest environment: below, there would be no levels to blur into.
+/// Texels a side of the smallest environment: a smaller one would have no levels for rough surfaces.
 const MIN_SIDE: usize = 16;
 
 /// Texels a side of the largest environment.
 const MAX_SIDE: usize = 128;
 
-/// Of a larger cube with mips the largest level up to this side is read. Smaller levels may hold blurred light, as cubes that
-/// were made for reflections do.
+/// Of a larger cube with mips the largest level up to this side is read. Smaller levels may hold filtered light, as cubes
+/// that were made for reflections do.
 const MAX_READ_SIDE: u32 = 512;
 
 /// Texels a side of the generated studio: its lights have soft edges.
@@ -23,10 +23,21 @@ const STUDIO_SIDE: usize = 64;
 /// Texels a side of the generated sky.
 const DAYLIGHT_SIDE: usize = 64;
 
+/// The sky straight up: sRGB (70, 120, 190).
+const ZENITH: Vec3 = Vec3::new(0.061, 0.188, 0.515);
+/// Half-way up: sRGB (134, 178, 225).
+const SKY: Vec3 = Vec3::new(0.238, 0.445, 0.753);
+/// At the horizon: sRGB (222, 232, 240).
+const HORIZON: Vec3 = Vec3::new(0.730, 0.807, 0.871);
+/// Ground in the distance: sRGB (150, 148, 144).
+const FAR_GROUND: Vec3 = Vec3::new(0.305, 0.296, 0.279);
+/// Ground below: sRGB (112, 110, 106).
+const NEAR_GROUND: Vec3 = Vec3::new(0.162, 0.156, 0.144);
+
 /// The largest radiance of a texel of a file: a sun brighter than this would show as single sparks.
 const MAX_RADIANCE: f32 = 256.0;
 
-/// Light from all around: a cube of linear radiance, a power of two from 16 to 128 texels a side.
+/// A cube of linear radiance, a power of two from 16 to 128 texels a side.
 ///
 /// Faces are +x, −x, +y, −y, +z, −z, laid out and looked up as in D3D and WebGPU.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +56,7 @@ impl Environment {
 
     /// An outdoor sky without sun: blue above, pale at the horizon, neutral ground. No channel exceeds 1.
     pub fn daylight() -> Self {
-        Self::from_fn(DAYLIGHT_SIDE, daylight::radiance)
+        Self::from_fn(DAYLIGHT_SIDE, daylight)
     }
 
     /// The environment with `radiance(direction)` in each direction of unit length. `side` becomes the next power of two
@@ -112,6 +123,15 @@ impl Environment {
         };
         self.cube.texels().flat_map(rgba).collect()
     }
+}
+
+/// The sky without sun, plain enough to stand behind anything. The direction is of unit length; y is up.
+fn daylight(direction: Vec3) -> Vec3 {
+    let up = direction.y;
+    let low = HORIZON.lerp(SKY, 1.0 - (1.0 - up.clamp(0.0, 1.0)).powi(5));
+    let sky = low.lerp(ZENITH, smoothstep(0.1, 1.0, up));
+    let ground = FAR_GROUND.lerp(NEAR_GROUND, smoothstep(0.0, -0.7, up));
+    ground.lerp(sky, smoothstep(-0.035, 0.015, up))
 }
 
 /// One face of a picture as linear light that can be averaged: neither negative nor infinite.

@@ -17,14 +17,10 @@
 
 mod brdf_table;
 mod cube;
-mod daylight;
 mod environment;
-mod irradiance;
-mod low_discrepancy;
 mod prefilter;
 mod studio_set;
 
 pub use brdf_table::{BRDF_TABLE_SIDE, BrdfTable, brdf_table};
 pub use environment::Environment;
-pub use irradiance::Irradiance;
-pub use prefilter::Prefiltered;
+pub use prefilter::{Irradiance, Prefiltered};

@@ -1,12 +1,12 @@
-//! The environment as surfaces of each roughness mirror it.
+//! The environment as surfaces of each roughness reflect it, and as matt ones show it.
 
 use std::f32::consts::{PI, TAU};
 
 use glam::{Vec3, Vec3A};
 
-use super::cube::{Cube, texel_direction};
-use super::low_discrepancy::hammersley;
-use super::{Environment, Irradiance};
+use super::Environment;
+use super::brdf_table::hammersley;
+use super::cube::{Cube, FACES, solid_angles, texel_direction};
 
 /// Texels a side of the smallest level, the one for roughness 1.
 const LAST_SIDE: usize = 4;
@@ -15,7 +15,7 @@ const LAST_SIDE: usize = 4;
 /// takes twice as many. Each stands for a patch of the environment, not for a point of it.
 const DIRECTIONS: u32 = 64;
 
-/// An environment ready to light surfaces: blurred copies for mirror light, and irradiance for diffuse light.
+/// An environment ready to light surfaces: a copy for each roughness for specular light, and irradiance for diffuse light.
 ///
 /// The copies are the first factor of the split sum (Karis 2013), for a viewer in the direction of the normal. Level `l` of
 /// `n` is for perceptual roughness `l / (n − 1)`; each has half the side of the one before.
@@ -26,7 +26,7 @@ pub struct Prefiltered {
 }
 
 impl Prefiltered {
-    /// Blurs an environment.
+    /// Filters an environment.
     pub fn of(environment: &Environment) -> Self {
         let sharp = &environment.cube;
         let mut mips = vec![sharp.clone()];
@@ -34,7 +34,7 @@ impl Prefiltered {
             mips.push(last.halved());
         }
         let level_count = level_count(sharp.side());
-        let blurred = (1..level_count).map(|level| {
+        let filtered = (1..level_count).map(|level| {
             let roughness = level as f32 / (level_count - 1) as f32;
             let directions = DIRECTIONS << (level - 1);
             let lobe = lobe(roughness * roughness, directions, sharp.side(), mips.len() - 1);
@@ -44,7 +44,7 @@ impl Prefiltered {
             })
         });
         Self {
-            levels: std::iter::once(sharp.clone()).chain(blurred).collect(),
+            levels: std::iter::once(sharp.clone()).chain(filtered).collect(),
             irradiance: Irradiance::of(environment),
         }
     }
@@ -65,12 +65,12 @@ impl Prefiltered {
         self.levels.get(level as usize).map(Cube::to_rgba16f)
     }
 
-    /// Diffuse light from all around.
+    /// Diffuse light by normal.
     pub fn irradiance(&self) -> &Irradiance {
         &self.irradiance
     }
 
-    /// Light from a direction of any length but 0, blurred for a perceptual roughness of 0 to 1: as a GPU filters it
+    /// Light from a direction of any length but 0, as a surface with a perceptual roughness of 0 to 1 reflects it, filtered as a GPU does
     /// between texels and levels.
     pub fn sample(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let last = self.levels.len() - 1;
@@ -138,4 +138,61 @@ fn gather(mips: &[Cube], lobe: &[Tap], normal: Vec3A) -> Vec3A {
         mips[tap.mip].sample(direction) * tap.weight
     };
     lobe.iter().map(light).sum()
+}
+
+/// Normalisation of the spherical harmonics 1; y, z, x; xy, yz, 3z² − 1, xz, x² − y².
+const BASIS: [f32; 9] = [
+    0.282_095, 0.488_603, 0.488_603, 0.488_603, 1.092_548, 1.092_548, 0.315_392, 1.092_548, 0.546_274,
+];
+
+/// What the cosine lobe keeps of each band, divided by π: π, 2π/3, π/4.
+const COSINE: [f32; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25, 0.25, 0.25];
+
+/// Irradiance by normal, divided by π: what a white Lambert surface shows.
+///
+/// Spherical harmonics of three bands (Ramamoorthi and Hanrahan 2001), exact to about a hundredth. All constants are in the coefficients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Irradiance {
+    coefficients: [Vec3; 9],
+}
+
+impl Irradiance {
+    /// Of all the light of an environment.
+    pub fn of(environment: &Environment) -> Self {
+        let cube = &environment.cube;
+        let side = cube.side();
+        let angles = solid_angles(side);
+        let mut coefficients = [Vec3A::ZERO; 9];
+        for face in 0..FACES {
+            for (index, &steradians) in angles.iter().enumerate() {
+                let (x, y) = (index % side, index / side);
+                let light = cube.texel(face, x, y) * steradians;
+                let polynomials = polynomials(texel_direction(side, face, x, y).normalize().into());
+                for (coefficient, polynomial) in coefficients.iter_mut().zip(polynomials) {
+                    *coefficient += light * polynomial;
+                }
+            }
+        }
+        let constant = |index: usize| BASIS[index] * BASIS[index] * COSINE[index];
+        Self {
+            coefficients: std::array::from_fn(|index| (coefficients[index] * constant(index)).into()),
+        }
+    }
+
+    /// For a surface with this normal of unit length; never negative.
+    pub fn towards(&self, normal: Vec3) -> Vec3 {
+        let terms = self.coefficients.iter().zip(polynomials(normal));
+        let sum: Vec3 = terms.map(|(coefficient, polynomial)| coefficient * polynomial).sum();
+        sum.max(Vec3::ZERO)
+    }
+
+    /// The coefficients as the uniform block has them; the fourth numbers are 0.
+    pub fn to_uniform(&self) -> [[f32; 4]; 9] {
+        self.coefficients.map(|coefficient| coefficient.extend(0.0).to_array())
+    }
+}
+
+/// The polynomials of the three bands, without their constants.
+fn polynomials(Vec3 { x, y, z }: Vec3) -> [f32; 9] {
+    [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
 }

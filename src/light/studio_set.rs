@@ -9,7 +9,7 @@ use super::cube::smoothstep;
 
 /// Above: a pale ceiling.
 const CEILING: Vec3 = Vec3::new(0.335, 0.345, 0.365);
-/// Around: dim walls.
+/// At the sides: dim walls.
 const WALL: Vec3 = Vec3::new(0.23, 0.235, 0.245);
 /// Below: darker and a little warm, as light that comes back from a floor.
 const FLOOR: Vec3 = Vec3::new(0.185, 0.175, 0.163);
