@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::failure::{Failure, Outcome};
 use super::finding::{Finding, write_finding};
-use super::{Failure, Outcome, input};
+use super::input;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::format::{self, LineIndex};
 use crate::model::Model;

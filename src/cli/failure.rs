@@ -1,15 +1,36 @@
-//! Why a command did not do what was asked.
+//! How a command went, and why it did not do what was asked.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
-use super::Outcome;
 use super::finding::write_finding;
 use super::text::{OneLine, Plain};
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
 use crate::render::{GpuError, PictureError, UploadError};
 use crate::session::LoadError;
+
+/// How it went, from best to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Outcome {
+    /// All is well.
+    Fine,
+    /// A file has errors.
+    FileHasErrors,
+    /// Wrong use, or something is missing.
+    Failed,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        Self::from(match outcome {
+            Outcome::Fine => 0,
+            Outcome::FileHasErrors => 1,
+            Outcome::Failed => 2,
+        })
+    }
+}
 
 /// A failure, in words for standard error.
 #[derive(Debug, thiserror::Error)]
@@ -93,4 +114,16 @@ fn listed(clips: &[String]) -> String {
     }
     let quoted: Vec<String> = clips.iter().map(|name| format!("\"{name}\"")).collect();
     format!("it has {}", quoted.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_outcome_counts() {
+        use Outcome::{Failed, FileHasErrors, Fine};
+        assert_eq!([Fine, Failed, FileHasErrors].into_iter().max(), Some(Failed));
+        assert_eq!([Fine, FileHasErrors, Fine].into_iter().max(), Some(FileHasErrors));
+    }
 }

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::failure::Failure;
 use super::finding::{Notice, worded_place};
+use super::input;
 use super::text::{Plain, column_width, counted, grouped};
 use super::textures::{MapState, NamedMap, Textures, Wanted, by_name, named_maps};
-use super::{Failure, input};
 use crate::anim::animated_bounds;
 use crate::diagnostic::Severity;
 use crate::format::Dialect;

@@ -1,8 +1,9 @@
-//! From a path to bytes, and from bytes to a model.
+//! What the arguments name: a file, its model, a clip, a time.
 
 use std::path::Path;
 
 use super::failure::Failure;
+use crate::model::Model;
 use crate::session::{self, File, OpenModel};
 
 /// A file's bytes. It is taken for a model whatever its name says, so that a picture is refused for what it is.
@@ -20,4 +21,33 @@ pub(super) fn load(path: &Path) -> Result<OpenModel, Failure> {
         path: path.to_owned(),
         error,
     })
+}
+
+/// The index of the named clip; of the only one when none is named. A model without clips has none to name.
+pub(super) fn choose_clip(model: &Model, path: &Path, asked: Option<&str>) -> Result<Option<usize>, Failure> {
+    let known = || model.clips.iter().map(|clip| clip.name.clone()).collect();
+    match (asked, model.clips.len()) {
+        (Some(asked), _) => {
+            let index = model.clips.iter().position(|clip| clip.name == asked);
+            index.map(Some).ok_or_else(|| Failure::UnknownClip {
+                path: path.to_owned(),
+                asked: asked.to_owned(),
+                known: known(),
+            })
+        }
+        (None, 0) => Ok(None),
+        (None, 1) => Ok(Some(0)),
+        (None, _) => Err(Failure::ClipNotNamed {
+            path: path.to_owned(),
+            known: known(),
+        }),
+    }
+}
+
+/// Seconds of a clip, as an argument.
+pub(super) fn seconds(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(time_secs) if time_secs.is_finite() => Ok(time_secs),
+        _ => Err("a time is a number of seconds".into()),
+    }
 }

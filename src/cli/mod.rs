@@ -1,15 +1,14 @@
-//! The native command `bindpose`: the core and the renderer, asked from a terminal. Nothing is computed here.
+//! The native command `bindpose`: a terminal's way to the core and the renderer, which do all the computing.
 //!
 //! Results go to standard output and failures to standard error. The exit code is 0 when all is well, 1 when a file has
 //! errors, 2 for wrong use, an unreadable file or a missing GPU; the worst of several files counts.
 
+mod appearance;
 mod check;
-mod clip;
 mod failure;
 mod finding;
 mod info;
 mod input;
-mod look;
 mod output;
 mod pose;
 mod quiet;
@@ -22,7 +21,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use failure::Failure;
+use failure::{Failure, Outcome};
 use output::UntilClosed;
 
 /// Looks at skinned .m3d models: the text format of Frank Luna's DirectX books.
@@ -45,27 +44,6 @@ enum Command {
     Check(check::Arguments),
     Pose(pose::Arguments),
     Render(render::Arguments),
-}
-
-/// How it went, from best to worst.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Outcome {
-    /// All is well.
-    Fine,
-    /// A file has errors.
-    FileHasErrors,
-    /// Wrong use, or something is missing.
-    Failed,
-}
-
-impl From<Outcome> for ExitCode {
-    fn from(outcome: Outcome) -> Self {
-        Self::from(match outcome {
-            Outcome::Fine => 0,
-            Outcome::FileHasErrors => 1,
-            Outcome::Failed => 2,
-        })
-    }
 }
 
 /// Runs the command with the arguments of this process.
@@ -111,12 +89,5 @@ mod tests {
     fn the_arguments_make_sense_to_their_parser() {
         use clap::CommandFactory as _;
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn the_worst_outcome_counts() {
-        use Outcome::{Failed, FileHasErrors, Fine};
-        assert_eq!([Fine, Failed, FileHasErrors].into_iter().max(), Some(Failed));
-        assert_eq!([Fine, FileHasErrors, Fine].into_iter().max(), Some(FileHasErrors));
     }
 }

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use glam::{Mat4, Vec3};
 use serde::Serialize;
 
+use super::failure::Failure;
+use super::input;
 use super::text::Plain;
-use super::{Failure, clip, input};
 use crate::anim::{Palette, PoseBuffers, skin_positions};
 use crate::model::{Model, Skeleton};
 
@@ -27,7 +28,7 @@ pub(super) struct Arguments {
     /// Seconds in the clip's own time [default: where the clip starts].
     ///
     /// Before its first and after its last key a bone holds still.
-    #[arg(long, value_name = "SECS", value_parser = clip::seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECS", value_parser = input::seconds, allow_negative_numbers = true)]
     time: Option<f32>,
     /// Print JSON; see below for its keys.
     #[arg(long)]
@@ -62,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
     let open = input::load(&arguments.file)?;
     let model = &open.model;
     let clip =
-        clip::choose(model, &arguments.file, arguments.clip.as_deref())?.and_then(|index| model.clips.get(index));
+        input::choose_clip(model, &arguments.file, arguments.clip.as_deref())?.and_then(|index| model.clips.get(index));
     let time_secs = arguments.time.unwrap_or(clip.map_or(0.0, |clip| clip.start_secs));
     let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
     if let Some(clip) = clip {

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
+use super::appearance::AppearanceArguments;
+use super::failure::{Failure, Outcome};
 use super::finding::write_finding;
-use super::look::LookArguments;
+use super::input;
 use super::quiet::quietly;
 use super::text::Plain;
 use super::textures::{Textures, Wanted, read_sky, write_missing};
-use super::{Failure, Outcome, clip, input};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, watched};
@@ -33,7 +34,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
     /// Seconds in the clip's own time, kept inside the clip [default: where the clip starts].
-    #[arg(long, value_name = "SECS", value_parser = clip::seconds, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECS", value_parser = input::seconds, allow_negative_numbers = true)]
     time: Option<f32>,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
@@ -44,7 +45,7 @@ pub(super) struct Arguments {
     /// Way to the GPU [default: vulkan, or gl where that is missing].
     #[arg(long, value_enum)]
     backend: Option<Backend>,
-    /// Surroundings.
+    /// The theme of the backdrop and the grid.
     #[arg(long, value_enum, default_value = "dark")]
     theme: Theme,
     /// A folder with the model's textures, folders and links in it included; may be given several times.
@@ -57,7 +58,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "WHAT", value_enum, requires = "textures")]
     deny: Vec<Denied>,
     #[command(flatten)]
-    look: LookArguments,
+    appearance: AppearanceArguments,
 }
 
 const OUTPUT: &str = "\
@@ -180,7 +181,7 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     }
     let lacks_maps = add_textures(arguments, &mut session, err)?;
     if let (Some(open), Some(asked)) = (session.open_model(), &arguments.clip)
-        && let Some(clip) = clip::choose(&open.model, path, Some(asked))?
+        && let Some(clip) = input::choose_clip(&open.model, path, Some(asked))?
     {
         session.apply(Command::SelectClip(clip));
     }
@@ -193,7 +194,7 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
         insets: Insets::default(),
     });
     session.apply(Command::SetTheme(arguments.theme.into()));
-    arguments.look.apply(&mut session);
+    arguments.appearance.apply(&mut session);
     session.apply(Command::LookFrom(arguments.view.into()));
     Ok((session, lacks_maps))
 }

@@ -1,8 +1,8 @@
 //! The real `bindpose` binary on real files: what it prints, what it writes, how it exits.
 
+mod appearance;
 mod check;
 mod info;
-mod look;
 mod pipe;
 mod pose;
 mod program;

@@ -1,16 +1,16 @@
-//! Arguments that say how the model is looked at, as the page's menus do.
+//! Arguments for how the model appears: light, view mode, background, lines, passes.
 
 use crate::scene::{Background, Light, Overlay, Pass, ViewMode};
 use crate::session::{Command, LookCommand, PassChoice, Session};
 
-/// How the model is looked at.
+/// How the model appears.
 #[derive(Debug, clap::Args)]
-pub(super) struct LookArguments {
+pub(super) struct AppearanceArguments {
     /// The light: `studio` or `book`.
     #[arg(long, value_name = "LIGHT", value_parser = light, default_value = "studio")]
     light: Light,
-    /// Divide the picture at a share of its width: the light that `--light` says on the right, the other on the left.
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    /// Divide the picture at a fraction of its width: the light that `--light` says on the right, the other on the left.
+    #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     split: Option<f32>,
     /// What of the surface to show: lit, base-color, normal-map, normal, tangent, uv, roughness, material, depth, ao, shadow.
     #[arg(long, value_name = "MODE", value_parser = view_mode, default_value = "lit")]
@@ -31,7 +31,7 @@ pub(super) struct LookArguments {
     /// Exposure of the studio light in stops, each of which doubles it.
     #[arg(long, value_name = "STOPS", value_parser = number, default_value = "0", allow_negative_numbers = true)]
     exposure: f32,
-    /// Turn the surroundings about y, degrees.
+    /// Turn the environment about y, degrees.
     #[arg(long, value_name = "DEGREES", value_parser = number, default_value = "0", allow_negative_numbers = true)]
     turn: f32,
     /// Take the green of normal maps as pointing up in the picture, the way of OpenGL.
@@ -42,7 +42,7 @@ pub(super) struct LookArguments {
     without: Vec<Pass>,
 }
 
-impl LookArguments {
+impl AppearanceArguments {
     pub(super) fn apply(&self, session: &mut Session) {
         for command in [
             LookCommand::SetLight(self.light),
@@ -109,11 +109,11 @@ fn number(text: &str) -> Result<f32, String> {
     }
 }
 
-fn share(text: &str) -> Result<f32, String> {
+fn fraction(text: &str) -> Result<f32, String> {
     number(text)
         .ok()
-        .filter(|share| (0.0..=1.0).contains(share))
-        .ok_or_else(|| "expected a share from 0 to 1".into())
+        .filter(|fraction| (0.0..=1.0).contains(fraction))
+        .ok_or_else(|| "expected a fraction from 0 to 1".into())
 }
 
 #[cfg(test)]
@@ -129,10 +129,10 @@ mod tests {
     }
 
     #[test]
-    fn shares_lie_between_0_and_1() {
-        assert_eq!(share("0.25"), Ok(0.25));
+    fn fractions_lie_between_0_and_1() {
+        assert_eq!(fraction("0.25"), Ok(0.25));
         for wrong in ["-0.1", "1.1", "NaN", "half", ""] {
-            assert!(share(wrong).is_err(), "{wrong}");
+            assert!(fraction(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -122,7 +122,7 @@ fn names_that_are_none_are_answered_with_those_that_are() {
             "expected one of shadow, reflections, contact, ao",
         ),
         (["--background", "blue"], "a colour such as #20262e"),
-        (["--split", "2"], "a share from 0 to 1"),
+        (["--split", "2"], "a fraction from 0 to 1"),
         (["--exposure", "inf"], "a finite number"),
     ] {
         let refused = run(["render", FIGURE, "-o", "nothing.png"].iter().chain(&arguments));
