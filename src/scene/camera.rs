@@ -1,17 +1,15 @@
 //! An orbiting camera in the world (left-handed, y up).
 
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
+use std::f32::consts::{FRAC_PI_4, TAU};
 
 use glam::camera::lh::proj::directx;
 use glam::{Mat4, Vec2, Vec3};
 
-use super::{Aabb, ViewPreset};
+use super::Aabb;
+use super::view_preset::{MAX_PITCH_RADIANS, ViewPreset};
 
 /// Field of view of the perspective view: π/4, as in the books' demo.
 pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_4;
-
-/// Straight up and down are left out by a hair, so that "right" stays defined while dragging.
-pub(super) const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 
 /// Distances at which sizes in view are still numbers.
 pub(super) const LEAST_DISTANCE: f32 = f32::MIN_POSITIVE * 1e6;
@@ -171,6 +169,8 @@ impl Camera {
 
 #[cfg(test)]
 mod tests {
+    use std::f32::consts::FRAC_PI_2;
+
     use super::*;
 
     fn unit_box() -> Aabb {

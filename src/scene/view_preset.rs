@@ -2,7 +2,8 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use super::camera::MAX_PITCH_RADIANS;
+/// Straight up and down are left out by a hair, so that "right" stays defined while dragging.
+pub(super) const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 
 /// A named direction to look from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
