@@ -44,6 +44,7 @@ pub mod image;
 pub mod import;
 pub mod light;
 pub mod model;
+mod modes;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod scene;

@@ -1,19 +1,20 @@
 //! Arguments for how the model appears: light, view mode, background, lines, passes.
 
+use super::input::one_of;
 use crate::scene::{Background, Light, Overlay, Pass, ViewMode};
 use crate::session::{Command, LookCommand, PassChoice, Session};
 
 /// How the model appears.
 #[derive(Debug, clap::Args)]
 pub(super) struct AppearanceArguments {
-    /// The light: `studio` or `book`.
-    #[arg(long, value_name = "LIGHT", value_parser = light, default_value = "studio")]
+    /// The light.
+    #[arg(long, value_name = "LIGHT", value_parser = one_of(&Light::ALL, Light::name), default_value = "studio")]
     light: Light,
     /// Divide the picture at a fraction of its width: the light that `--light` says on the right, the other on the left.
     #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     split: Option<f32>,
-    /// What of the surface to show: lit, base-color, normal-map, normal, tangent, uv, roughness, material, depth, ao, shadow.
-    #[arg(long, value_name = "MODE", value_parser = view_mode, default_value = "lit")]
+    /// What of the surface to show.
+    #[arg(long, value_name = "MODE", value_parser = one_of(&ViewMode::ALL, ViewMode::name), default_value = "lit")]
     view_mode: ViewMode,
     /// What is behind the model: backdrop, sky, none, or a colour such as #20262e [default: the sky when a cube map is among
     /// the textures, else backdrop].
@@ -22,8 +23,8 @@ pub(super) struct AppearanceArguments {
     /// Leave out everything behind the model; the same as `--background none`.
     #[arg(long, conflicts_with = "background")]
     transparent: bool,
-    /// Lines to draw: wireframe, normals, tangents, bounds, axes; may be given several times.
-    #[arg(long, value_name = "LINES", value_parser = overlay)]
+    /// Lines to draw; may be given several times.
+    #[arg(long, value_name = "LINES", value_parser = one_of(&Overlay::ALL, Overlay::name))]
     overlay: Vec<Overlay>,
     /// Leave out the ground grid.
     #[arg(long)]
@@ -37,8 +38,8 @@ pub(super) struct AppearanceArguments {
     /// Take the green of normal maps as pointing up in the picture, the way of OpenGL.
     #[arg(long)]
     flip_green: bool,
-    /// Leave out a costly step: shadow, reflections, contact, ao; may be given several times.
-    #[arg(long, value_name = "STEP", value_parser = pass)]
+    /// Leave out a costly step; may be given several times.
+    #[arg(long, value_name = "STEP", value_parser = one_of(&Pass::ALL, Pass::name))]
     without: Vec<Pass>,
 }
 
@@ -72,30 +73,6 @@ impl AppearanceArguments {
     }
 }
 
-/// What was understood, or the list of what could have been.
-fn one_of<T: Copy>(found: Option<T>, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, String> {
-    found.ok_or_else(|| {
-        let names: Vec<_> = all.iter().map(|&one| name(one)).collect();
-        format!("expected one of {}", names.join(", "))
-    })
-}
-
-fn light(text: &str) -> Result<Light, String> {
-    one_of(Light::from_name(text), &Light::ALL, Light::name)
-}
-
-fn view_mode(text: &str) -> Result<ViewMode, String> {
-    one_of(ViewMode::from_name(text), &ViewMode::ALL, ViewMode::name)
-}
-
-fn overlay(text: &str) -> Result<Overlay, String> {
-    one_of(Overlay::from_name(text), &Overlay::ALL, Overlay::name)
-}
-
-fn pass(text: &str) -> Result<Pass, String> {
-    one_of(Pass::from_name(text), &Pass::ALL, Pass::name)
-}
-
 fn background(text: &str) -> Result<Background, String> {
     Background::from_name(text).ok_or_else(|| "expected backdrop, sky, none, or a colour such as #20262e".into())
 }
@@ -121,9 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_that_are_none_are_answered_with_the_list() {
-        assert_eq!(light("book"), Ok(Light::Book));
-        assert_eq!(light("lamp"), Err("expected one of studio, book".into()));
+    fn backgrounds_are_names_and_colours() {
         assert_eq!(background("#20262e"), Ok(Background::Color([0x20, 0x26, 0x2e])));
         assert!(background("blue").is_err());
     }

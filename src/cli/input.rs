@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
 use super::failure::Failure;
 use crate::model::Model;
 use crate::session::{self, File, OpenModel};
@@ -50,4 +52,15 @@ pub(super) fn seconds(text: &str) -> Result<f32, String> {
         Ok(time_secs) if time_secs.is_finite() => Ok(time_secs),
         _ => Err("a time is a number of seconds".into()),
     }
+}
+
+/// Reads one of some modes by its name. Help and errors list the names.
+pub(super) fn one_of<T: Copy + Send + Sync + 'static>(
+    modes: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(modes.iter().map(move |mode| name(*mode))).try_map(move |text| {
+        let named = modes.iter().find(|mode| name(**mode) == text);
+        named.copied().ok_or("no such name")
+    })
 }

@@ -15,7 +15,7 @@ use super::textures::{Textures, Wanted, read_sky, write_missing};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, watched};
-use crate::scene::{self, Insets, ViewPreset};
+use crate::scene::{Insets, Theme, ViewPreset};
 use crate::session::{Command, Session};
 
 /// Draw a model into a PNG file.
@@ -40,13 +40,13 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
     size: [u32; 2],
     /// Where to look from; the model is framed.
-    #[arg(long, value_enum, default_value = "three-quarter")]
-    view: View,
+    #[arg(long, value_parser = input::one_of(&ViewPreset::ALL, ViewPreset::name), default_value = "three-quarter")]
+    view: ViewPreset,
     /// Way to the GPU [default: vulkan, or gl where that is missing].
     #[arg(long, value_enum)]
     backend: Option<Backend>,
     /// The theme of the backdrop and the grid.
-    #[arg(long, value_enum, default_value = "dark")]
+    #[arg(long, value_parser = input::one_of(&Theme::ALL, Theme::name), default_value = "dark")]
     theme: Theme,
     /// A folder with the model's textures, folders and links in it included; may be given several times.
     ///
@@ -78,33 +78,6 @@ Exit codes:
   2  wrong use, or something is missing: a file or folder that can be read, a clip, a GPU";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum View {
-    ThreeQuarter,
-    Front,
-    Back,
-    Left,
-    Right,
-    Top,
-    Bottom,
-    Isometric,
-}
-
-impl From<View> for ViewPreset {
-    fn from(view: View) -> Self {
-        match view {
-            View::ThreeQuarter => Self::ThreeQuarter,
-            View::Front => Self::Front,
-            View::Back => Self::Back,
-            View::Left => Self::Left,
-            View::Right => Self::Right,
-            View::Top => Self::Top,
-            View::Bottom => Self::Bottom,
-            View::Isometric => Self::Isometric,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
 enum Backend {
     Vulkan,
     Gl,
@@ -114,21 +87,6 @@ enum Backend {
 enum Denied {
     /// Exit with 1 when a map that the model names is missing or cannot be read. The picture is written all the same.
     MissingMaps,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Theme {
-    Dark,
-    Light,
-}
-
-impl From<Theme> for scene::Theme {
-    fn from(theme: Theme) -> Self {
-        match theme {
-            Theme::Dark => Self::Dark,
-            Theme::Light => Self::Light,
-        }
-    }
 }
 
 /// `1280x720`.
@@ -193,9 +151,9 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
         aspect: width as f32 / height as f32,
         insets: Insets::default(),
     });
-    session.apply(Command::SetTheme(arguments.theme.into()));
+    session.apply(Command::SetTheme(arguments.theme));
     arguments.appearance.apply(&mut session);
-    session.apply(Command::LookFrom(arguments.view.into()));
+    session.apply(Command::LookFrom(arguments.view));
     Ok((session, lacks_maps))
 }
 

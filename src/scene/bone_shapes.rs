@@ -4,39 +4,19 @@ use glam::Vec3;
 
 use super::{Bone, Bones, OverlayGeometry, Theme};
 use crate::model::JointIndex;
+use crate::modes::modes;
 
-/// How bones are drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum BoneStyle {
-    /// A line each.
-    Lines,
-    /// A long octahedron each, thick near its joint.
-    #[default]
-    Octahedra,
-    /// A line each, and the axes of each joint: x red, y green, z blue.
-    Axes,
-}
-
-impl BoneStyle {
-    /// In the order of menus.
-    pub const ALL: [Self; 3] = [Self::Lines, Self::Octahedra, Self::Axes];
-
-    /// Name for menus.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Lines => "Lines",
-            Self::Octahedra => "Octahedra",
-            Self::Axes => "Axes",
-        }
-    }
-
-    /// Name for programs and addresses.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Lines => "lines",
-            Self::Octahedra => "octahedra",
-            Self::Axes => "axes",
-        }
+modes! {
+    /// How bones are drawn.
+    #[derive(Default)]
+    pub enum BoneStyle {
+        /// A line each.
+        Lines = "lines", "Lines";
+        /// A long octahedron each, thick near its joint.
+        #[default]
+        Octahedra = "octahedra", "Octahedra";
+        /// A line each, and the axes of each joint: x red, y green, z blue.
+        Axes = "axes", "Axes";
     }
 }
 

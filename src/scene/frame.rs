@@ -2,18 +2,9 @@
 
 use glam::Affine3A;
 
-use super::{Aabb, Background, Camera, Ghosts, Light, OverlayGeometry, Overlays, Pass, Passes, VertexColors, ViewMode};
+use super::appearance::{Background, Light, Overlays, Pass, Passes, Theme, ViewMode};
+use super::{Aabb, Camera, Ghosts, OverlayGeometry, VertexColors};
 use crate::anim::Palette;
-
-/// Dark or light surroundings.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Theme {
-    /// Light things on dark ground.
-    #[default]
-    Dark,
-    /// Dark things on light ground.
-    Light,
-}
 
 /// What is drawn beside the model and how.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,7 +13,7 @@ pub struct FrameOptions {
     pub theme: Theme,
     /// How surfaces are lit.
     pub light: Light,
-    /// Where the picture is divided, as a share of its width: `light` on the right, the other on the left.
+    /// Where the picture is divided, as a fraction of its width: `light` on the right, the other on the left.
     pub split: Option<f32>,
     /// What of a surface is shown.
     pub view_mode: ViewMode,
@@ -32,7 +23,7 @@ pub struct FrameOptions {
     pub overlays: Overlays,
     /// Which costly steps are drawn.
     pub passes: Passes,
-    /// Turn of the surroundings about y, radians.
+    /// Turn of the environment about y, radians.
     pub environment_turn_radians: f32,
     /// Exposure of the studio light: each stop doubles it.
     pub exposure_stops: f32,

@@ -1,5 +1,6 @@
-//! What is looked at, and from where: plain data for a renderer.
+//! What is drawn, and from where: plain data for a renderer.
 
+mod appearance;
 mod bone_picking;
 mod bone_shapes;
 mod bones;
@@ -8,7 +9,6 @@ mod flight;
 mod frame;
 mod framing;
 mod ground;
-mod look;
 mod overlay;
 mod pick;
 mod ray;
@@ -17,14 +17,14 @@ mod tint;
 mod view_preset;
 
 pub use crate::model::Aabb;
+pub use appearance::{Background, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
 pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
 pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones};
 pub use bones::{Bone, Bones};
 pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Projection};
-pub use frame::{FrameOptions, RenderFrame, Theme};
+pub use frame::{FrameOptions, RenderFrame};
 pub use framing::Insets;
 pub use ground::Ground;
-pub use look::{Background, Light, Overlay, Overlays, Pass, Passes, ViewMode};
 pub use overlay::{Ghosts, OverlayGeometry, OverlayVertex, VertexColors};
 pub use pick::{Hit, pick, tex_coord_at};
 pub use ray::Ray;

@@ -2,57 +2,34 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use crate::modes::modes;
+
 /// Straight up and down are left out by a hair, so that "right" stays defined while dragging.
 pub(super) const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 
-/// A named direction to look from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ViewPreset {
-    /// A little to the side and from above: how a model is shown first.
-    ThreeQuarter,
-    /// The model's front.
-    Front,
-    /// The model's back.
-    Back,
-    /// The model's right side.
-    Right,
-    /// The model's left side.
-    Left,
-    /// From above.
-    Top,
-    /// From below.
-    Bottom,
-    /// Equal angles to all three axes.
-    Isometric,
+modes! {
+    /// A named direction to look from.
+    pub enum ViewPreset {
+        /// A little to the side and from above: how a model is shown first.
+        ThreeQuarter = "three-quarter", "Three-quarter";
+        /// The model's front.
+        Front = "front", "Front";
+        /// The model's back.
+        Back = "back", "Back";
+        /// The model's right side.
+        Right = "right", "Right";
+        /// The model's left side.
+        Left = "left", "Left";
+        /// From above.
+        Top = "top", "Top";
+        /// From below.
+        Bottom = "bottom", "Bottom";
+        /// Equal angles to all three axes.
+        Isometric = "isometric", "Isometric";
+    }
 }
 
 impl ViewPreset {
-    /// All presets, in the order of menus.
-    pub const ALL: [Self; 8] = [
-        Self::ThreeQuarter,
-        Self::Front,
-        Self::Back,
-        Self::Right,
-        Self::Left,
-        Self::Top,
-        Self::Bottom,
-        Self::Isometric,
-    ];
-
-    /// Name for menus.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::ThreeQuarter => "Three-quarter",
-            Self::Front => "Front",
-            Self::Back => "Back",
-            Self::Right => "Right",
-            Self::Left => "Left",
-            Self::Top => "Top",
-            Self::Bottom => "Bottom",
-            Self::Isometric => "Isometric",
-        }
-    }
-
     /// Yaw and pitch of [`Camera`](super::Camera), radians. The front of a model faces −z.
     pub fn yaw_pitch_radians(self) -> (f32, f32) {
         match self {

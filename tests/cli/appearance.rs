@@ -111,15 +111,18 @@ fn lines_exposure_turn_and_steps_change_the_picture() {
 #[test]
 fn names_that_are_none_are_answered_with_those_that_are() {
     for (arguments, expected) in [
-        (["--light", "lamp"], "expected one of studio, book"),
-        (["--view-mode", "fancy"], "expected one of lit, base-color, normal-map"),
+        (["--light", "lamp"], "[possible values: studio, book]"),
+        (
+            ["--view-mode", "fancy"],
+            "[possible values: lit, base-color, normal-map",
+        ),
         (
             ["--overlay", "lines"],
-            "expected one of grid, wireframe, normals, tangents, bounds, axes",
+            "[possible values: grid, wireframe, normals, tangents, bounds, axes]",
         ),
         (
             ["--without", "light"],
-            "expected one of shadow, reflections, contact, ao",
+            "[possible values: shadow, reflections, contact, ao]",
         ),
         (["--background", "blue"], "a colour such as #20262e"),
         (["--split", "2"], "a fraction from 0 to 1"),

@@ -1,0 +1,271 @@
+//! How a model appears: theme, light, view mode, background, lines over it, and which passes are drawn. Plain data.
+
+use crate::modes::modes;
+
+modes! {
+    /// Colours of the page, the backdrop and the grid.
+    #[derive(Default)]
+    pub enum Theme {
+        /// Light things on dark ground.
+        #[default]
+        Dark = "dark", "Dark";
+        /// Dark things on light ground.
+        Light = "light", "Light";
+    }
+}
+
+modes! {
+    /// How surfaces are lit.
+    #[derive(Default)]
+    pub enum Light {
+        /// Physically based, image-based light and a soft key: how a present-day viewer shows a model.
+        #[default]
+        Studio = "studio", "Studio";
+        /// The character demo of the DirectX 12 book; Phong for materials of the DirectX 11 book.
+        Book = "book", "Book";
+    }
+}
+
+impl Light {
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Studio => Self::Book,
+            Self::Book => Self::Studio,
+        }
+    }
+}
+
+modes! {
+    /// What of a surface is shown.
+    #[derive(Default)]
+    pub enum ViewMode {
+        /// Under the light.
+        #[default]
+        Lit = "lit", "Lit";
+        /// Diffuse colour: the material's times the map's.
+        BaseColor = "base-color", "Base colour";
+        /// The normal map as it is.
+        NormalMap = "normal-map", "Normal map";
+        /// The normal that light meets: vertex normal bent by the map. World axes as red, green, blue, 0 in the middle.
+        ShadingNormal = "normal", "Shading normal";
+        /// The tangent, likewise; its mirrored side is darker.
+        Tangent = "tangent", "Tangent";
+        /// Texture coordinates, as a checker of 8 × 8 fields a tile with u as red and v as green.
+        TexCoords = "uv", "Texture coordinates";
+        /// Roughness, black smooth … white rough, with the gloss in the alpha of normal maps: 1 − (1 − roughness) × alpha, as
+        /// both lights take it. For materials of the DirectX 11 book: what their power comes to.
+        Roughness = "roughness", "Roughness";
+        /// A colour of its own for each material.
+        Material = "material", "Material";
+        /// Distance from the viewer, near white … far black.
+        Depth = "depth", "Depth";
+        /// Ambient occlusion: black where none of the environment is seen … white where all is.
+        AmbientOcclusion = "ao", "Ambient occlusion";
+        /// How much of the first light arrives, before the surface's own turning away.
+        Shadow = "shadow", "Shadow";
+    }
+}
+
+impl ViewMode {
+    /// The mode some places further in the menu, around the end.
+    pub fn cycled(self, places: i32) -> Self {
+        let here = Self::ALL.iter().position(|&mode| mode == self).unwrap_or(0) as i64;
+        Self::ALL[(here + i64::from(places)).rem_euclid(Self::ALL.len() as i64) as usize]
+    }
+}
+
+/// What is behind the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Background {
+    /// The quiet gradient of the theme, with the ground.
+    #[default]
+    Backdrop,
+    /// The environment that lights the model.
+    Sky,
+    /// One colour, sRGB.
+    Color([u8; 3]),
+    /// Nothing: alpha 0, for pictures.
+    None,
+}
+
+impl Background {
+    /// Name for scripts, the command line and the address: `backdrop`, `sky`, `none`, or a colour such as `#20262e`.
+    pub fn name(self) -> String {
+        match self {
+            Self::Backdrop => "backdrop".into(),
+            Self::Sky => "sky".into(),
+            Self::Color([red, green, blue]) => format!("#{red:02x}{green:02x}{blue:02x}"),
+            Self::None => "none".into(),
+        }
+    }
+
+    /// The background with this [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "backdrop" => Some(Self::Backdrop),
+            "sky" => Some(Self::Sky),
+            "none" => Some(Self::None),
+            _ => {
+                let digits = name.strip_prefix('#')?;
+                if digits.len() != 6 || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+                    return None;
+                }
+                let [_, red, green, blue] = u32::from_str_radix(digits, 16).ok()?.to_be_bytes();
+                Some(Self::Color([red, green, blue]))
+            }
+        }
+    }
+}
+
+modes! {
+    /// Lines drawn over or beside the model.
+    pub enum Overlay {
+        /// The ground grid.
+        Grid = "grid", "Ground grid";
+        /// Edges of the triangles.
+        Wireframe = "wireframe", "Wireframe";
+        /// A line along each vertex normal.
+        Normals = "normals", "Vertex normals";
+        /// A line along each vertex tangent.
+        Tangents = "tangents", "Vertex tangents";
+        /// The box of all that the clip reaches.
+        Bounds = "bounds", "Bounds";
+        /// The world's axes at its origin.
+        Axes = "axes", "Axes";
+    }
+}
+
+/// Which lines are on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlays {
+    on: [bool; Overlay::ALL.len()],
+    /// Length of the lines along normals and tangents, as a fraction of the scene's radius.
+    pub line_length: f32,
+}
+
+impl Default for Overlays {
+    fn default() -> Self {
+        Self {
+            on: [true, false, false, false, false, false],
+            line_length: 0.02,
+        }
+    }
+}
+
+impl Overlays {
+    /// None at all.
+    pub fn none() -> Self {
+        Self {
+            on: [false; Overlay::ALL.len()],
+            ..Self::default()
+        }
+    }
+
+    /// Whether one is on.
+    pub fn has(&self, overlay: Overlay) -> bool {
+        self.on[overlay as usize]
+    }
+
+    /// Turns one on or off.
+    pub fn set(&mut self, overlay: Overlay, visible: bool) {
+        self.on[overlay as usize] = visible;
+    }
+}
+
+modes! {
+    /// A step of drawing that can be left out where it costs too much.
+    pub enum Pass {
+        /// The shadow of the first light.
+        Shadow = "shadow", "Shadow";
+        /// Reflections of the environment; without them its mean light is reflected.
+        Environment = "reflections", "Reflections";
+        /// The soft dark where the model is near the ground.
+        ContactShadow = "contact", "Contact shadow";
+        /// Ambient occlusion, from depth and normals in view.
+        AmbientOcclusion = "ao", "Ambient occlusion";
+    }
+}
+
+/// Which passes are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Passes([bool; Pass::ALL.len()]);
+
+impl Default for Passes {
+    fn default() -> Self {
+        Self::all()
+    }
+}
+
+impl Passes {
+    /// Everything.
+    pub fn all() -> Self {
+        Self([true; Pass::ALL.len()])
+    }
+
+    /// The least.
+    pub fn none() -> Self {
+        Self([false; Pass::ALL.len()])
+    }
+
+    /// Whether one is drawn.
+    pub fn has(&self, pass: Pass) -> bool {
+        self.0[pass as usize]
+    }
+
+    /// These, with one drawn or left out.
+    pub fn with(mut self, pass: Pass, drawn: bool) -> Self {
+        self.0[pass as usize] = drawn;
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn view_modes_follow_each_other_around_the_end() {
+        assert_eq!(ViewMode::Lit.cycled(1), ViewMode::BaseColor);
+        assert_eq!(ViewMode::Lit.cycled(-1), ViewMode::Shadow);
+        assert_eq!(ViewMode::Shadow.cycled(1), ViewMode::Lit);
+    }
+
+    #[test]
+    fn every_name_leads_back_to_what_it_names() {
+        for mode in ViewMode::ALL {
+            assert_eq!(ViewMode::from_name(mode.name()), Some(mode));
+        }
+        for light in Light::ALL {
+            assert_eq!(Light::from_name(light.name()), Some(light));
+        }
+        for overlay in Overlay::ALL {
+            assert_eq!(Overlay::from_name(overlay.name()), Some(overlay));
+        }
+        for pass in Pass::ALL {
+            assert_eq!(Pass::from_name(pass.name()), Some(pass));
+        }
+        let colored = Background::Color([0x20, 0x0a, 0xff]);
+        for background in [Background::Backdrop, Background::Sky, Background::None, colored] {
+            assert_eq!(Background::from_name(&background.name()), Some(background));
+        }
+        for wrong in ["", "#", "#20262", "20262e", "#20262g", "#ääää", "#+12-34", "Sky"] {
+            assert_eq!(Background::from_name(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn overlays_and_passes_are_switched_one_by_one() {
+        let mut overlays = Overlays::none();
+        for overlay in Overlay::ALL {
+            overlays.set(overlay, true);
+            assert!(overlays.has(overlay));
+            overlays.set(overlay, false);
+            assert!(overlays == Overlays::none());
+        }
+        for pass in Pass::ALL {
+            let without = Passes::all().with(pass, false);
+            assert!(Pass::ALL.into_iter().all(|other| without.has(other) == (other != pass)));
+        }
+    }
+}
