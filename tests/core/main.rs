@@ -7,6 +7,7 @@ mod format;
 mod image;
 mod light;
 mod model;
+mod order;
 mod rigs;
 mod scene;
 mod session;
