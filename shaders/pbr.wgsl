@@ -84,7 +84,8 @@ fn dominant_direction(normal: vec3<f32>, mirrored: vec3<f32>, alpha: f32) -> vec
     return mix(normal, mirrored, smooth_share * (sqrt(smooth_share) + alpha));
 }
 
-// How much of the mirrored surroundings a point sees of which `occlusion`, 0 … 1, sees the sky (Lagarde and de Rousiers 2014).
+// Fraction of the reflected environment that a point sees whose ambient occlusion is `occlusion`, 0 … 1 (Lagarde and de
+// Rousiers 2014).
 fn specular_occlusion(n_dot_v: f32, occlusion: f32, alpha: f32) -> f32 {
     let seen = max(n_dot_v + occlusion, 1e-4);
     return clamp(pow(seen, exp2(-16.0 * alpha - 1.0)) - 1.0 + occlusion, 0.0, 1.0);

@@ -1,4 +1,4 @@
-// The studio: surroundings, a soft key that casts shadows, a cool rim. Twin: `tests/common/twins/studio.rs`.
+// The studio: its environment, a soft key that casts shadows, a cool rim. Twin: `tests/common/twins/studio.rs`.
 
 // The key is a soft box, not a point: its mirror image is spread by this much of alpha.
 const KEY_SIZE: f32 = 0.08;
@@ -15,7 +15,7 @@ struct StudioSurface {
     smooth_normal: vec3<f32>,
     // Unit, towards the viewer.
     to_eye: vec3<f32>,
-    // The share of the surroundings that the point sees, 0 … 1.
+    // Fraction of the environment that the point sees, 0 … 1.
     ambient_occlusion: f32,
 }
 
@@ -35,12 +35,12 @@ struct StudioLights {
 fn studio_light(surface: StudioSurface, lights: StudioLights) -> vec3<f32> {
     let n_dot_v = clamp(dot(surface.normal, surface.to_eye), 1e-3, 1.0);
     let shares = reflectance(surface.albedo, surface.fresnel0, brdf_lookup(n_dot_v, surface.roughness));
-    return studio_surroundings(surface, shares, n_dot_v)
+    return studio_environment(surface, shares, n_dot_v)
         + studio_key(surface, shares, n_dot_v, lights)
         + studio_rim(surface, shares, n_dot_v, lights);
 }
 
-fn studio_surroundings(surface: StudioSurface, shares: Reflectance, n_dot_v: f32) -> vec3<f32> {
+fn studio_environment(surface: StudioSurface, shares: Reflectance, n_dot_v: f32) -> vec3<f32> {
     let alpha = surface.roughness * surface.roughness;
     let mirrored = reflect(-surface.to_eye, surface.normal);
     let towards = dominant_direction(surface.normal, mirrored, alpha);

@@ -3,7 +3,7 @@
 // The Khronos PBR neutral tone mapper: base colours stay what they are, and what is brighter bends towards white without
 // turning its hue.
 
-// The light that a surface which mirrors 4 % adds to its base colour. The original has 0.04, for surroundings of 1; the studio's
+// The light that a surface which mirrors 4 % adds to its base colour. The original has 0.04, for an environment of 1; the studio's
 // are 0.4 on the mean, and more than they add would leave base colours too deep.
 const VEIL: f32 = 0.016;
 // Where the shoulder begins: at 0.8, of which the veil is taken off.

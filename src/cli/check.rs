@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         let file = match input::read(path) {
             Ok(file) => file,
             Err(failure) => {
-                // In the order of the files, where both streams are one terminal.
+                // Keeps the order of the files where both streams go to one terminal.
                 out.flush()?;
                 outcome = outcome.max(failure.report(err));
                 continue;

@@ -16,7 +16,7 @@ use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::{MapSlot, Maps, OpenModel};
 
-/// Say what is in a model.
+/// Print what is in a model.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = JSON)]
 pub(super) struct Arguments {
@@ -191,7 +191,7 @@ impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
     }
 }
 
-/// `None` when a clip overflows: no box holds what it reaches.
+/// `None` when a clip overflows, since no box holds it then.
 fn bounds_of_all_clips(model: &Model) -> Option<Aabb> {
     if model.clips.iter().any(|clip| clip.overflow.is_some()) {
         return None;

@@ -8,7 +8,8 @@ use super::failure::Failure;
 use crate::model::Model;
 use crate::session::{self, File, OpenModel};
 
-/// A file's bytes. It is taken for a model whatever its name says, so that a picture is refused for what it is.
+/// A file's bytes. It is read as a model whatever its name is, so that a picture is refused with a message about its
+/// content.
 pub(super) fn read(path: &Path) -> Result<File, Failure> {
     let bytes = std::fs::read(path).map_err(|reason| Failure::Unreadable {
         path: path.to_owned(),
@@ -25,7 +26,7 @@ pub(super) fn load(path: &Path) -> Result<OpenModel, Failure> {
     })
 }
 
-/// The index of the named clip; of the only one when none is named. A model without clips has none to name.
+/// The index of the clip named `asked`, or of the only clip when no name is given. `None` for a model without clips.
 pub(super) fn choose_clip(model: &Model, path: &Path, asked: Option<&str>) -> Result<Option<usize>, Failure> {
     let known = || model.clips.iter().map(|clip| clip.name.clone()).collect();
     match (asked, model.clips.len()) {

@@ -51,8 +51,8 @@ pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help asked for goes to standard output with code 0, wrong use to standard error with code 2. Neither can be
-            // said to anybody when its stream is closed.
+            // Help asked for goes to standard output with code 0, wrong use to standard error with code 2. Nothing can
+            // be done when that stream is closed.
             let _ = error.print();
             return u8::try_from(error.exit_code()).map_or(Outcome::Failed.into(), ExitCode::from);
         }
@@ -64,7 +64,7 @@ pub fn main() -> ExitCode {
         Ok(outcome)
     });
     let outcome = outcome.unwrap_or_else(|failure| {
-        // What was written before the failure comes before it; that it cannot be written is no worse.
+        // What was written before the failure is shown before it; a second failure here is ignored.
         let _ = out.flush();
         failure.report(&mut err)
     });

@@ -2,8 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
-/// Writes until the reader closes its end, and nothing more from then on. The work goes on, so that the exit code of
-/// `bindpose check … | head` says the same as without `head`.
+/// Writes until the reader closes its end, and drops the rest. The command runs to its end, so that the exit code of
+/// `bindpose check … | head` is the same as without `head`.
 #[derive(Debug)]
 pub(super) struct UntilClosed<W> {
     inner: W,
@@ -15,7 +15,7 @@ impl<W: Write> UntilClosed<W> {
         Self { inner, closed: false }
     }
 
-    /// What the inner writer gave, or `swallowed` when nobody reads any more.
+    /// What the inner writer gave, or `swallowed` once the reader is gone.
     fn unless_closed<T>(&mut self, swallowed: T, write: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
         if self.closed {
             return Ok(swallowed);

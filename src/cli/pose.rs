@@ -100,12 +100,13 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
     Ok(())
 }
 
-/// The first row with a number that overflowed, which no output can say.
+/// The first row with a number that overflowed and cannot be written.
 fn not_finite<const N: usize>(rows: &[[f32; N]]) -> Option<usize> {
     rows.iter().position(|row| !row.iter().all(|number| number.is_finite()))
 }
 
-/// Sixteen numbers for each bone of the file. What our column-vector matrix has in its columns are the rows of the books'.
+/// Sixteen numbers for each bone of the file. The columns of our matrices, for column vectors, are the rows of the
+/// books'.
 fn in_file_order(skeleton: &Skeleton, palette: &Palette) -> Vec<[f32; 16]> {
     let of_bones = skeleton
         .joint_of_bone()

@@ -1,9 +1,10 @@
-//! Standard error without the words of drivers.
+//! Standard error without messages of drivers.
 
-/// Does something while whatever is written to standard error is dropped, by whomever.
+/// Runs `work` while everything that is written to standard error is dropped.
 ///
-/// Mesa's layer for choosing a device, which comes with every Vulkan instance that can show windows, asks for a compositor;
-/// where there is none, libwayland says `error: XDG_RUNTIME_DIR is invalid or not set in the environment`, and all is well.
+/// Mesa's layer for choosing a device, which comes with every Vulkan instance that can show windows, asks for a
+/// compositor. Where there is none, libwayland writes `error: XDG_RUNTIME_DIR is invalid or not set in the
+/// environment`, though all is well.
 #[cfg(unix)]
 pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
     use std::fs::File;
@@ -12,7 +13,7 @@ pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
 
     use rustix::stdio::dup2_stderr;
 
-    /// The stream as it was, which comes back in the end, also after a panic.
+    /// The original stream, which is put back in the end, also after a panic.
     struct Aside(OwnedFd);
 
     impl Aside {
@@ -26,17 +27,17 @@ pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
 
     impl Drop for Aside {
         fn drop(&mut self) {
-            // There is no stream left on which a failure could be told.
+            // There is no stream left on which to report a failure.
             let _ = dup2_stderr(&self.0);
         }
     }
 
-    // Where it cannot be put aside, it is closed or there is nothing to drop words into: they are heard then.
+    // When the stream cannot be put aside, messages are shown.
     let _aside = Aside::put();
     work()
 }
 
-/// Does something. Drivers of this system write nothing.
+/// Runs `work`. Drivers of this system write nothing.
 #[cfg(not(unix))]
 pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
     work()

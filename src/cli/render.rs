@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Where to look from; the model is framed.
     #[arg(long, value_parser = input::one_of(&ViewPreset::ALL, ViewPreset::name), default_value = "three-quarter")]
     view: ViewPreset,
-    /// Way to the GPU [default: vulkan, or gl where that is missing].
+    /// How the GPU is driven [default: vulkan, or gl where that is missing].
     #[arg(long, value_enum)]
     backend: Option<Backend>,
     /// The theme of the backdrop and the grid.
@@ -50,8 +50,8 @@ pub(super) struct Arguments {
     theme: Theme,
     /// A folder with the model's textures, folders and links in it included; may be given several times.
     ///
-    /// Read are the pictures that the model names, and the largest cube map, which becomes the sky. Maps that are missing or
-    /// cannot be read are told on standard error, a line each; the picture is drawn without them.
+    /// Reads the pictures that the model names, and the largest cube map, which becomes the sky. Maps that are missing
+    /// or cannot be read are listed on standard error, a line each; the picture is drawn without them.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
     /// What to refuse.
@@ -125,10 +125,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     })
 }
 
-/// A session that shows what was asked for, as the page's would, and whether the model lacks maps.
+/// A session that shows what the arguments ask for, as on the page, and whether maps are missing.
 fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), Failure> {
     let path = &arguments.file;
-    // At rest: time stands where it is put.
+    // Paused, so that time stays where it is set.
     let mut session = Session::new(true);
     session.apply(Command::AddFiles(vec![input::read(path)?]));
     if let Some(error) = session.error() {
@@ -157,7 +157,8 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     Ok((session, lacks_maps))
 }
 
-/// Adds what the folders have for the model and the largest cube map that can be read, as the sky. Whether maps lack.
+/// Adds the model's maps from the folders, and the largest readable cube map as the sky. Gives whether maps are
+/// missing.
 fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Write) -> Result<bool, Failure> {
     let folders = arguments.textures.as_slice();
     let materials = match session.open_model() {
@@ -186,7 +187,7 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
 fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure> {
     let open = |backend| {
         let open = || pollster::block_on(device::headless(backend));
-        // A driver that fails may say why: it is heard at the second try.
+        // When opening fails, the second try lets the driver's messages through.
         quietly(open).or_else(|_| open()).map(|gpu| (gpu, backend))
     };
     match backend {
@@ -203,7 +204,7 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu) -> Result<Vec<u
     let Gpu {
         device, queue, samples, ..
     } = gpu;
-    // Without that, an error of the driver would end the process with a panic.
+    // Otherwise an error of the driver would end the process with a panic.
     let ((mut renderer, uploaded), answer) = watched(device, || {
         let mut renderer = Renderer::with_samples(device, queue, *samples);
         let uploaded = session

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::format::is_printable;
 
-/// Text that comes from a file, without the characters that would steer the terminal. Line ends stay.
+/// Text from a file without the characters that control the terminal. Line ends stay.
 pub(super) struct Plain<'a>(pub(super) &'a str);
 
 impl fmt::Display for Plain<'_> {
@@ -20,7 +20,8 @@ impl fmt::Display for Plain<'_> {
     }
 }
 
-/// Text from outside on one line: what would end the line or steer the terminal is written as an escape, such as `\n`.
+/// Text from outside on one line: characters that end the line or control the terminal are written as escapes, such as
+/// `\n`.
 pub(super) struct OneLine<'a>(pub(super) &'a str);
 
 impl fmt::Display for OneLine<'_> {
@@ -54,7 +55,7 @@ pub(super) fn counted(count: usize, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Characters of the widest column of names. A longer name juts out of its own row and leaves the others as they are.
+/// Characters of the widest column of names. A longer name sticks out of its own row only.
 const WIDEST_COLUMN: usize = 48;
 
 /// Characters of a column that holds these names. The names come from a file, and the formatter takes no width above 65 535.

@@ -68,7 +68,7 @@ fn rgba8_block(format: ImageFormat, block: &[u8]) -> [[u8; 4]; BLOCK_TEXELS] {
     spread(&rgba, |texel| texel)
 }
 
-/// Brings a decoded byte to 0 … 255; a signed one is −127 … 127.
+/// Maps a decoded byte to 0 … 255; signed bytes are −127 … 127.
 fn unit(value: u8, signed: bool) -> u8 {
     if !signed {
         return value;
@@ -89,7 +89,7 @@ fn spread<T: Copy + Default, const N: usize>(
     texels
 }
 
-/// Puts blocks side by side; what reaches over the edges is cut off.
+/// Puts blocks side by side. Texels beyond the edges are cut off.
 fn unpack<T: Copy + Default>(
     format: ImageFormat,
     width: u32,

@@ -1,4 +1,4 @@
-//! DDS files: what is in them, checked against their length, as an [`Image`].
+//! Reads DDS files to an [`Image`], once their length was checked against the header.
 
 use super::dds_header::Header;
 use super::dds_layout::{Layout, Texels};
@@ -16,7 +16,7 @@ const DIMENSION_2D: u32 = 3;
 const DIMENSION_3D: u32 = 4;
 const MISC_CUBE: u32 = 0x4;
 
-/// Reads a DDS file. Bytes after the last texel are left alone.
+/// Reads a DDS file. Bytes after the last texel are ignored.
 pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
     let (extent, layout, shown) = open(bytes)?;
     let Extent {
@@ -52,12 +52,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
     })
 }
 
-/// Whether [`decode`] would read the file, without the work of it.
+/// Whether [`decode`] would accept the file; decodes nothing.
 pub(super) fn check(bytes: &[u8]) -> Result<(), ImageErrorKind> {
     open(bytes).map(drop)
 }
 
-/// What a sound file holds, and the texels that are shown.
+/// The content of a valid file, and the texels that are shown.
 fn open(bytes: &[u8]) -> Result<(Extent, Layout, &[u8]), ImageErrorKind> {
     let header = Header::read(bytes)?;
     let (width, height) = (header.width, header.height);
@@ -90,7 +90,7 @@ pub(super) fn cube_side(bytes: &[u8]) -> Option<u32> {
     is_cube.then_some(header.width)
 }
 
-/// Levels of each face. Writers that make no mips leave it at 0.
+/// Levels of each face. Some writers leave the count at 0 when there are no mips.
 fn level_count(header: &Header) -> Result<u32, ImageErrorKind> {
     let (width, height) = (header.width, header.height);
     let most = full_level_count(width, height);
@@ -106,7 +106,7 @@ fn level_count(header: &Header) -> Result<u32, ImageErrorKind> {
     })
 }
 
-/// All that the header promises about the length of the file. Neither side is 0.
+/// What the header says about the length of the file. Neither side is 0.
 struct Extent {
     texels: Texels,
     width: u32,
@@ -118,7 +118,7 @@ struct Extent {
 }
 
 impl Extent {
-    /// The texels of the layers that are shown, once it is sure that the file holds all layers.
+    /// The texels of the layers that are shown, once it is checked that the file holds all layers.
     fn shown_texels<'a>(&self, bytes: &'a [u8], data_start: usize) -> Result<&'a [u8], ImageErrorKind> {
         let shown_layers = if self.kind == ImageKind::Cube { 6 } else { 1 };
         let texels = bytes.get(data_start..).unwrap_or_default();
@@ -191,7 +191,7 @@ fn kind(header: &Header) -> Result<(ImageKind, u64), ImageErrorKind> {
 }
 
 /// Whether a picture in BC1 has a clear texel: the first colour of its block is not the larger, and its index is 3.
-/// Texels of a block that lie over the edge do not count, and encoders leave them as they come.
+/// Texels of a block beyond the edge are not looked at: encoders write anything there.
 fn has_holes(image: &Image) -> bool {
     let (width, height) = (image.width, image.height);
     let blocks_in_row = width.div_ceil(4);
@@ -209,7 +209,7 @@ fn has_holes(image: &Image) -> bool {
         .any(|level| (0..).zip(level.as_chunks::<8>().0).any(has_hole))
 }
 
-/// Colour by itself, out of colour times alpha. Decoded, since blocks cannot be divided.
+/// Divides premultiplied colour by alpha. Blocks are decoded for it.
 fn with_straight_alpha(image: Image) -> Image {
     let faces = 0..image.face_count();
     let levels = faces.flat_map(|face| (0..image.level_count).map(move |level| (face, level)));
@@ -220,7 +220,7 @@ fn with_straight_alpha(image: Image) -> Image {
     for [colour @ .., alpha] in data.as_chunks_mut::<4>().0 {
         let alpha = u32::from(*alpha);
         for value in colour {
-            // Under alpha 0 there is no colour to find.
+            // With alpha 0 the colour is lost.
             let straight = (u32::from(*value) * 255 + alpha / 2).checked_div(alpha);
             *value = straight.unwrap_or(0).min(255) as u8;
         }

@@ -11,12 +11,12 @@ pub(super) const HEADER_LEN: usize = 4 + 124;
 /// Bytes of the header that follows it where the four-character code is `DX10`.
 pub(super) const DX10_LEN: usize = 20;
 
-/// What the header says, in its own words.
+/// The fields of the header.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// 0 where the writer did not say.
+    /// 0 where the writer left it out.
     pub(super) mip_count: u32,
     pub(super) pixels: PixelFormat,
     /// Flags for cubes, their faces and volumes.
@@ -57,7 +57,7 @@ pub(super) struct Dx10 {
     pub(super) dimension: u32,
     pub(super) misc_flags: u32,
     pub(super) array_size: u32,
-    /// 1 straight, 2 premultiplied, 3 opaque; 0 and 4 say nothing.
+    /// 1 straight, 2 premultiplied, 3 opaque; 0 unknown, 4 custom.
     pub(super) alpha_mode: u32,
 }
 

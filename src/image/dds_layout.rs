@@ -1,4 +1,4 @@
-//! What the texels of a DDS file are, from the three ways in which its header can say so.
+//! The layout of a DDS file's texels, from the three ways in which a header can give it.
 
 use super::dds_header::{Dx10, Header, PixelFormat};
 use super::error::ImageErrorKind;
@@ -70,8 +70,8 @@ impl Layout {
         })
     }
 
-    /// Formats without a type count as unsigned; with sRGB or without is the same here, since the slot that a map is used
-    /// in says how its colours are meant.
+    /// Formats without a type count as unsigned; sRGB formats are treated like linear ones, since the slot that uses a
+    /// map decides how its colours are meant.
     fn of_dxgi(dx10: &Dx10) -> Result<Self, ImageErrorKind> {
         const R: u32 = 0xff;
         const G: u32 = 0xff00;
@@ -113,7 +113,7 @@ impl Layout {
         })
     }
 
-    /// Masks that the flags do not speak of hold nothing.
+    /// Masks without their flag are ignored.
     fn of_masks(pixels: &PixelFormat) -> Result<Self, ImageErrorKind> {
         let [r, g, b, a] = pixels.masks;
         let a = if pixels.flags & (PixelFormat::ALPHA_PIXELS | PixelFormat::ALPHA) != 0 {

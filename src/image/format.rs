@@ -1,4 +1,4 @@
-//! How texels are stored.
+//! Formats of texels.
 
 /// Texels a side of the largest picture that is read: what the largest GPUs take.
 pub const MAX_SIDE: u32 = 16_384;

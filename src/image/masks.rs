@@ -1,4 +1,4 @@
-//! Uncompressed texels whose channels are told by bit masks.
+//! Uncompressed texels whose channels are given by bit masks.
 
 use super::error::ImageErrorKind;
 use super::format::Channels;

@@ -5,19 +5,19 @@ use super::half;
 use super::picture::{Image, full_level_count, level_size};
 use super::srgb::{linear_from_srgb, srgb_from_linear};
 
-/// How the values of a map are meant, and so how they are averaged.
+/// The kind of values in a map, which decides how they are averaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MapKind {
-    /// sRGB colours: averaged as linear light, each with the weight of its alpha, since what is clear has no colour.
+    /// sRGB colours: averaged as linear light, each weighted by its alpha, since a transparent texel has no colour.
     Diffuse,
-    /// Directions of unit length: averaged as such and brought back to unit length. Alpha is a value of its own.
+    /// Directions of unit length: averaged and normalised. Alpha is averaged by itself.
     Normal,
 }
 
 /// A value that is averaged: colour times weight and weight, or direction or colour and alpha.
 type Texel = [f32; 4];
 
-/// Weight of a clear texel beside that of an opaque one: little, so that it tints no edge, but enough that an area without
+/// Weight of a transparent texel relative to an opaque one: too little to tint an edge, but enough that an area without
 /// any alpha keeps its colour.
 const CLEAR_WEIGHT: f32 = 1.0 / 1024.0;
 
@@ -32,7 +32,7 @@ impl Image {
         self.mipped(map_kind).unwrap_or(self)
     }
 
-    /// [`with_mips`](Self::with_mips) for a picture that stays; `None` where that is as it is.
+    /// [`with_mips`](Self::with_mips) of a borrowed picture; `None` where nothing would change.
     pub(crate) fn mipped(&self, map_kind: MapKind) -> Option<Self> {
         let level_count = full_level_count(self.width, self.height);
         if self.level_count > 1 || level_count == 1 {
@@ -46,8 +46,8 @@ impl Image {
         Some(self.remade(coding, [self.width, self.height], level_count, data))
     }
 
-    /// One level by itself, averaged down by halves until no side has more than `limit` texels, as
-    /// [`with_mips`](Self::with_mips) does. `None` where there is no such level. `limit` is not 0.
+    /// One level alone, halved until no side has more than `limit` texels, as [`with_mips`](Self::with_mips) does.
+    /// `None` where there is no such level. `limit` is not 0.
     #[must_use]
     pub fn reduced(&self, level: u32, map_kind: MapKind, limit: u32) -> Option<Self> {
         if level >= self.level_count {
@@ -76,7 +76,7 @@ impl Image {
         Some(self.remade(coding, size_after(halvings).into(), 1, data))
     }
 
-    /// The same picture of other texels.
+    /// The same picture with other texels.
     fn remade(&self, coding: Coding, [width, height]: [u32; 2], level_count: u32, data: Vec<u8>) -> Self {
         Self {
             width,
@@ -128,7 +128,7 @@ impl Coding {
         data.extend(bytes);
         for level in 1..level_count {
             self.append(data, &texels);
-            // From the level before rounding, so that errors do not add up.
+            // From the values before rounding, so that errors do not add up.
             let (width, height) = image.level_size(level);
             texels = halve(width, height, |index| texels[index]);
         }
@@ -191,7 +191,7 @@ fn read_direction([r, g, b, a]: [u8; 4], two_channels: bool) -> Texel {
     [x, y, z, f32::from(a) / 255.0]
 }
 
-/// The direction with unit length; straight out of the surface where opposite ones cancelled out.
+/// The direction normalised; straight out of the surface where opposite directions cancelled out.
 fn normalized(direction: [f32; 3]) -> [f32; 3] {
     let length = direction.iter().map(|value| value * value).sum::<f32>().sqrt();
     if length > 1e-3 {
@@ -225,7 +225,7 @@ fn halve(width: u32, height: u32, texel: impl Fn(usize) -> Texel) -> Vec<Texel> 
     smaller
 }
 
-/// Texels of a side and the share that each has in one of the next smaller level; the shares sum to 1.
+/// Texels of a side, and their weights in a texel of the next smaller level; the weights sum to 1.
 struct Covered {
     taps: [(u32, f32); 3],
     tap_count: usize,
@@ -241,13 +241,13 @@ impl Covered {
 fn covered(side: u32, index: u32) -> Covered {
     let first = index * 2;
     let half = side / 2;
-    let (shares, tap_count) = match side {
+    let (weights, tap_count) = match side {
         1 => ([1.0, 0.0, 0.0], 1),
         // 2n + 1 texels for n: each covers 2 + 1/n of them.
         _ if side % 2 == 1 => ([half - index, half, index + 1].map(|part| part as f32 / side as f32), 3),
         _ => ([0.5, 0.5, 0.0], 2),
     };
-    let [a, b, c] = shares;
+    let [a, b, c] = weights;
     Covered {
         taps: [(first, a), (first + 1, b), (first + 2, c)],
         tap_count,

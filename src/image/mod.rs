@@ -5,7 +5,7 @@
 //!     decode              \----> to_rgba8, to_rgba32f (where the GPU lacks the format)
 //! ```
 //! DDS files are read here, header and all; their compressed blocks by `bcdec_rs`; PNG, JPEG, TGA and BMP by `image`.
-//! No header's claim decides an allocation: sizes are compared with the bytes that are there first.
+//! No allocation trusts a header: sizes are compared with the length of the file first.
 
 mod blocks;
 mod dds;
@@ -27,10 +27,10 @@ pub use format::{Channels, ImageFormat, MAX_SIDE};
 pub use mips::MapKind;
 pub use picture::{Image, ImageKind};
 
-/// Reads a picture. What it is shows in its first bytes, and only for TGA, which has no signature, in its name.
+/// Reads a picture. Its first bytes tell the format; for TGA, which has no signature, its name does.
 ///
 /// # Errors
-/// When the bytes are no picture that is known here, or are damaged; the error names the file.
+/// When the bytes are no picture of a known format, or are damaged. The error names the file.
 ///
 /// # Examples
 /// ```
@@ -53,8 +53,8 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
     decoded.map_err(|kind| named(kind, name))
 }
 
-/// Looks whether [`decode`] can read a picture, without its texels: at the header, and whether the file is long enough for it.
-/// Only what is packed may still turn out to be damaged.
+/// Checks whether [`decode`] can read a picture, by its header and the length of the file. Compressed data may still
+/// turn out to be damaged.
 ///
 /// # Errors
 /// Those of [`decode`].
@@ -84,8 +84,8 @@ fn named(kind: ImageErrorKind, name: &str) -> ImageError {
 /// Bytes from the beginning of a file that [`cube_side`] reads at most.
 pub const CUBE_HEADER_LEN: usize = dds_header::HEADER_LEN + dds_header::DX10_LEN;
 
-/// Texels a side of each face when a file begins like a cube map, whose texels may still be damaged; `None` for anything
-/// else. Reads the header alone.
+/// Texels a side of each face when a file begins like a cube map; `None` otherwise. Reads the header alone, so the
+/// texels may be damaged.
 pub fn cube_side(bytes: &[u8]) -> Option<u32> {
     dds::cube_side(bytes)
 }

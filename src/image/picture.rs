@@ -7,7 +7,7 @@ use super::error::ImageErrorKind;
 use super::format::{Channels, ImageFormat};
 use super::{MAX_SIDE, blocks};
 
-/// What a texture is made of.
+/// The kind of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageKind {
     /// One flat picture.
@@ -21,7 +21,7 @@ pub enum ImageKind {
     },
 }
 
-/// A picture with its mips. There is at least one texel, and every level is whole.
+/// A picture with its mips. It has at least one texel, and every level is complete.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     pub(super) width: u32,
@@ -82,7 +82,7 @@ impl Image {
         self.level_count
     }
 
-    /// What it is made of.
+    /// Its kind.
     pub fn kind(&self) -> ImageKind {
         self.kind
     }

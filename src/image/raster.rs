@@ -12,7 +12,8 @@ use super::picture::{Image, ImageKind, check_size};
 /// Bytes that decoding may take: a picture of 8192 × 8192 with 4 channels of 8 bits as the file has it, and as RGBA.
 const MAX_DECODED_LEN: u64 = 512 << 20;
 
-/// No byte of a file stands for more texels: deflate makes at most 1032 bytes of one, and a PNG has 8 texels in a byte.
+/// A byte of a file holds at most this many texels: deflate makes at most 1032 bytes of one, and a PNG has 8 texels in
+/// a byte.
 const MAX_TEXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Reads a picture of a kind other than DDS.
@@ -20,7 +21,8 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKi
     let decoder = open(bytes, kind)?;
     let (width, height) = decoder.dimensions();
     let channels = match decoder.color_type() {
-        // A TGA says in the low half of its byte 17 how many bits of alpha it has, also where pixels have room for it.
+        // A TGA says in the low half of its byte 17 how many bits of alpha it has, even where pixels have room for
+        // alpha.
         ColorType::Rgba8 if kind == FileKind::Tga && bytes.get(17).is_some_and(|bits| bits & 0xf == 0) => Channels::Rgb,
         ColorType::L8 | ColorType::L16 => Channels::Grey,
         ColorType::La8 | ColorType::La16 => Channels::GreyAlpha,
@@ -50,10 +52,10 @@ pub(super) fn check(bytes: &[u8], kind: FileKind) -> Result<(), ImageErrorKind> 
     open(bytes, kind).map(drop)
 }
 
-/// Reads the header, and says what is wrong with it, its size or the end of the file; the texels may still be damaged.
+/// Reads the header and checks it, its size and the end of the file. The texels may still be damaged.
 fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErrorKind> {
     let undecodable = |error: image::ImageError| undecodable(kind, &error);
-    // The decoder would fill up a picture that stops half-way with grey.
+    // The decoder would fill the rest of a truncated picture with grey.
     if kind == FileKind::Jpeg && memchr::memmem::rfind(bytes, b"\xff\xd9").is_none() {
         return Err(ImageErrorKind::JpegCut);
     }

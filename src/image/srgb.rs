@@ -8,7 +8,7 @@ pub(crate) fn linear_from_srgb(value: u8) -> f32 {
     LINEAR[usize::from(value)]
 }
 
-/// The nearest 8-bit sRGB value of linear light; outside 0 … 1 the nearest end, of NaN 0.
+/// The nearest 8-bit sRGB value of linear light; values outside 0 … 1 are clamped, NaN becomes 0.
 pub(crate) fn srgb_from_linear(linear: f32) -> u8 {
     /// Light half-way between each sRGB value and the next.
     static BOUNDS: LazyLock<[f32; 255]> =

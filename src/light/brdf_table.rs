@@ -62,8 +62,8 @@ impl BrdfTable {
 /// Scale and bias by which `fresnel0` and `fresnel90` become the fraction of the environment's light that the GGX lobe with
 /// height-correlated Smith shadowing reflects in one bounce.
 ///
-/// Entry `column + side * row` is for n·v = `(column / (side − 1))²`, since most happens where the view grazes, and for
-/// perceptual roughness `row / (side − 1)`.
+/// Entry `column + side * row` is for n·v = `(column / (side − 1))²`, since values change most at grazing angles, and
+/// for perceptual roughness `row / (side − 1)`.
 pub fn brdf_table(side: usize) -> Vec<[f32; 2]> {
     let value = |index: usize| index as f32 / side.saturating_sub(1).max(1) as f32;
     (0..side * side)
@@ -72,7 +72,7 @@ pub fn brdf_table(side: usize) -> Vec<[f32; 2]> {
 }
 
 fn entry(n_dot_v: f32, roughness: f32) -> [f32; 2] {
-    // At exactly 0 there are no half vectors to choose from.
+    // At exactly 0 all half vectors are the same.
     let alpha = (roughness * roughness).max(1e-4);
     let cos = n_dot_v.max(1e-3);
     let to_eye = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
@@ -83,7 +83,7 @@ fn entry(n_dot_v: f32, roughness: f32) -> [f32; 2] {
         let n_dot_l = 2.0 * v_dot_h * halfway.z - cos;
         if n_dot_l > 0.0 {
             let (eye, light) = (smith_lambda(cos, alpha), smith_lambda(n_dot_l, alpha));
-            // Visible normals hold the shadowing towards the eye already: G2 / G1 is left.
+            // Sampling visible normals accounts for the masking towards the eye, G1; G2 / G1 is left.
             let unshadowed = (1.0 + eye) / (1.0 + eye + light);
             let grazing = (1.0 - v_dot_h).clamp(0.0, 1.0).powi(5);
             sum += Vec2::new(1.0 - grazing, grazing) * unshadowed;
@@ -107,7 +107,7 @@ fn visible_normal(to_eye: Vec3, alpha: f32, (u, v): (f32, f32)) -> Vec3 {
     (halfway * Vec3::new(alpha, alpha, 1.0)).normalize_or(Vec3::Z)
 }
 
-/// Point `index` of `count` of the Hammersley set, 0 … 1 both ways, each in the middle of its stratum.
+/// Point `index` of `count` of the Hammersley set, 0 … 1 both ways, the first coordinate in the middle of its stratum.
 pub(super) fn hammersley(index: u32, count: u32) -> (f32, f32) {
     // The radical inverse in base 2; 24 bits are exact in f32.
     let inverse = (index.reverse_bits() >> 8) as f32 / (1u32 << 24) as f32;

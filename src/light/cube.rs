@@ -9,7 +9,8 @@ pub(super) const FACES: usize = 6;
 
 /// Six square faces of linear RGB, laid out and looked up as in D3D and WebGPU.
 ///
-/// Each face is kept with a border of one texel, copied from its neighbours, so that filtering needs no look over edges.
+/// Each face is kept with a border of one texel, copied from its neighbours, so that filtering never reads across an
+/// edge.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cube {
     side: usize,
@@ -71,7 +72,7 @@ impl Cube {
         self.texels().flat_map(rgba).collect()
     }
 
-    /// Light from a direction of any length, bilinear and without seams.
+    /// Light from a direction of any length; bilinear, and continuous across edges.
     pub(super) fn sample(&self, direction: Vec3A) -> Vec3A {
         let (face, across, down) = face_at(direction);
         let side = self.side as f32;
@@ -87,8 +88,7 @@ impl Cube {
         upper.lerp(lower, below)
     }
 
-    /// Half the side, each texel the mean light of four: those near the corners of a face are smaller as seen from the
-    /// middle, and count less. The side is even.
+    /// The next mip: each texel is the mean of four, weighted by their solid angles. The side is even.
     pub(super) fn halved(&self) -> Self {
         let angles = solid_angles(self.side);
         Self::from_texels(self.side / 2, |face, x, y| {
@@ -113,7 +113,7 @@ impl Cube {
     }
 
     /// Copies the texels next to a face's edges from its neighbours. At a corner, where only three texels meet, the
-    /// border is their mean, as GPUs have it.
+    /// border is their mean, as on GPUs.
     fn fill_border(&mut self, face: usize) {
         let (side, last) = (self.side, self.side + 1);
         for along in 1..=side {
@@ -200,7 +200,7 @@ pub(super) fn solid_angles(side: usize) -> Vec<f32> {
     (0..side * side).map(texel).collect()
 }
 
-/// Brings a square of texels to another side: each texel is the mean of the area that it covers. Neither side is 0.
+/// Resizes a square of texels: each new texel is the mean of the area that it covers. Neither side is 0.
 pub(super) fn resized(texels: &[Vec3], side: usize, new_side: usize) -> Vec<Vec3> {
     let columns = covered(side, new_side);
     let mean = |spans: &[(usize, f32)], value: &dyn Fn(usize) -> Vec3| {
@@ -218,7 +218,7 @@ pub(super) fn resized(texels: &[Vec3], side: usize, new_side: usize) -> Vec<Vec3
     columns.iter().flat_map(column_means).collect()
 }
 
-/// For each texel of a new row, which texels of the old row it covers, and the fraction of it that each of them is.
+/// For each texel of a new row, the texels of the old row that it covers, and their weights.
 fn covered(side: usize, new_side: usize) -> Vec<Vec<(usize, f32)>> {
     let per_texel = side as f32 / new_side as f32;
     let spans = |index: usize| {

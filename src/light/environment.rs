@@ -34,7 +34,7 @@ const FAR_GROUND: Vec3 = Vec3::new(0.305, 0.296, 0.279);
 /// Ground below: sRGB (112, 110, 106).
 const NEAR_GROUND: Vec3 = Vec3::new(0.162, 0.156, 0.144);
 
-/// The largest radiance of a texel of a file: a sun brighter than this would show as single sparks.
+/// The largest radiance of a texel of a file: a brighter sun would show as single bright dots.
 const MAX_RADIANCE: f32 = 256.0;
 
 /// A cube of linear radiance, a power of two from 16 to 128 texels a side.
@@ -97,7 +97,7 @@ impl Environment {
         self.cube.side()
     }
 
-    /// Radiance from a direction of any length but 0, bilinear and without seams.
+    /// Radiance from a direction of any length but 0; bilinear, and continuous across edges.
     pub fn sample(&self, direction: Vec3) -> Vec3 {
         self.cube.sample(direction.into()).into()
     }
@@ -125,7 +125,7 @@ impl Environment {
     }
 }
 
-/// The sky without sun, plain enough to stand behind anything. The direction is of unit length; y is up.
+/// A plain sky without sun. The direction is of unit length; y is up.
 fn daylight(direction: Vec3) -> Vec3 {
     let up = direction.y;
     let low = HORIZON.lerp(SKY, 1.0 - (1.0 - up.clamp(0.0, 1.0)).powi(5));

@@ -95,14 +95,14 @@ fn level_count(side: usize) -> usize {
 struct Tap {
     /// Around +z, unit.
     direction: Vec3A,
-    /// All weights of a lobe sum to 1.
+    /// The weights of a lobe sum to 1.
     weight: f32,
     /// The level of the mip chain whose texels are about as large as the patch that the tap stands for.
     mip: usize,
 }
 
-/// GGX importance sampling of mirrored directions about the normal, with normal, view and mirrored direction the same.
-/// `alpha` is above 0, `side` that of the sharpest mip.
+/// GGX importance sampling of reflected directions, with the view along the normal. `alpha` is above 0, `side` that of
+/// the sharpest mip.
 fn lobe(alpha: f32, directions: u32, side: usize, last_mip: usize) -> Vec<Tap> {
     let alpha_squared = alpha * alpha;
     let texel_steradians = 4.0 * PI / (6 * side * side) as f32;

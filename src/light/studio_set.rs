@@ -1,17 +1,17 @@
 //! The photo studio: walls, panels of light, floor.
 //!
-//! The viewer stands at −z and looks along +z; x is to the right, y up. Radiances are linear and in units where 1 shows as
-//! white. The mean over all directions is near 0.4, so that with the direct key a base colour shows about as it is.
+//! The viewer stands at −z and looks along +z; x is to the right, y up. Radiances are linear and in units where 1 shows
+//! as white. The mean over all directions is near 0.4, so that with the key light a base colour shows about as it is.
 
 use glam::Vec3;
 
 use super::cube::smoothstep;
 
-/// Above: a pale ceiling.
+/// The ceiling: pale.
 const CEILING: Vec3 = Vec3::new(0.335, 0.345, 0.365);
-/// At the sides: dim walls.
+/// The walls: dim.
 const WALL: Vec3 = Vec3::new(0.23, 0.235, 0.245);
-/// Below: darker and a little warm, as light that comes back from a floor.
+/// The floor: darker, and a little warm.
 const FLOOR: Vec3 = Vec3::new(0.185, 0.175, 0.163);
 
 /// A rectangle of light, bright in its middle and soft at its edges.
@@ -57,7 +57,7 @@ const PANELS: [Panel; 4] = [
     },
 ];
 
-/// Light from a direction of unit length.
+/// Radiance from a direction of unit length.
 pub(super) fn radiance(direction: Vec3) -> Vec3 {
     let above = WALL.lerp(CEILING, smoothstep(0.0, 0.9, direction.y));
     let room = FLOOR.lerp(above, smoothstep(-0.45, 0.12, direction.y));
@@ -65,7 +65,7 @@ pub(super) fn radiance(direction: Vec3) -> Vec3 {
 }
 
 impl Panel {
-    /// What is seen in a direction with the panel in front of `behind`.
+    /// Radiance from a direction, with the panel in front of `behind`.
     fn over(&self, behind: Vec3, direction: Vec3) -> Vec3 {
         let towards = self.towards.normalize();
         let facing = direction.dot(towards);

@@ -85,7 +85,7 @@ pub enum Background {
     Sky,
     /// One colour, sRGB.
     Color([u8; 3]),
-    /// Nothing: alpha 0, for pictures.
+    /// Nothing: alpha 0, for saved pictures.
     None,
 }
 

@@ -1,4 +1,4 @@
-//! Bones as they are in the picture: which one is under the pointer, and where names stand.
+//! Bones in the picture: which one is under the pointer, and where names are placed.
 
 use std::collections::HashMap;
 
@@ -7,8 +7,8 @@ use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
 use super::Bones;
 use crate::model::JointIndex;
 
-/// Bones whose distances from the pointer differ by less than this share of the radius are equally near: then the one nearer
-/// to the eye is meant.
+/// Bones whose distances from the pointer differ by less than this fraction of the radius count as equally near. Of
+/// those the one nearest to the eye is picked.
 const EQUALLY_NEAR: f32 = 0.3;
 
 /// A picture's projection and shape.
@@ -26,7 +26,8 @@ impl Screen {
         Vec2::new(point.x * self.aspect, point.y) * 0.5
     }
 
-    /// Where a world point is in the picture: x right, y up, −1…1, z its depth 0…1. None outside of it and behind the eye.
+    /// Position of a world point in the picture: x right, y up, −1…1, z its depth 0…1. `None` outside the picture and
+    /// behind the eye.
     pub fn place(&self, position: Vec3) -> Option<Vec3> {
         let clip = self.clip(position);
         let place = clip.xyz() / clip.w;
@@ -39,7 +40,7 @@ impl Screen {
     }
 }
 
-/// How near something comes to the pointer, and how far it is from the eye there.
+/// Distance of something from the pointer, and its depth there.
 #[derive(Clone, Copy)]
 struct Near {
     joint: JointIndex,
@@ -48,9 +49,9 @@ struct Near {
     depth: f32,
 }
 
-/// The joint at a point of the picture (x right, y up, −1…1), not further from it than `radius`, in heights of the picture. A
-/// joint's own place goes before bones; a bone stands for the joint that it turns with. Of those that are about equally near
-/// on screen the one nearest to the eye.
+/// The joint at a point of the picture (x right, y up, −1…1), at most `radius` away from it, in heights of the picture.
+/// Joints are tried before bones; a bone gives the joint that it turns with. Of several that are about equally near on
+/// screen, the one nearest to the eye is picked.
 pub fn pick_joint(bones: &Bones, screen: &Screen, pointer: Vec2, radius: f32) -> Option<JointIndex> {
     let pointer = screen.in_heights(pointer);
     let places = bones
@@ -81,20 +82,20 @@ fn first(near: impl Iterator<Item = Near> + Clone, radius: f32) -> Option<JointI
     Some(first.joint)
 }
 
-/// The point of a segment that is nearest to the pointer on screen. What lies before the near plane is cut away.
+/// The point of a segment that is nearest to the pointer on screen. The part in front of the near plane is cut away.
 fn near_segment(screen: &Screen, joint: JointIndex, from: Vec4, to: Vec4, pointer: Vec2) -> Option<Near> {
     let (from, to) = before_eye(from, to)?;
     let [start, end] = [from, to].map(|clip| screen.in_heights(clip.xy() / clip.w));
     let way = end - start;
     let length_squared = way.length_squared();
-    let share = if length_squared > 0.0 {
+    let fraction = if length_squared > 0.0 {
         ((pointer - start).dot(way) / length_squared).clamp(0.0, 1.0)
     } else {
         0.0
     };
-    let distance = (start + way * share).distance(pointer);
+    let distance = (start + way * fraction).distance(pointer);
     // z / w is straight along a segment on screen.
-    let depth = (from.z / from.w) * (1.0 - share) + (to.z / to.w) * share;
+    let depth = (from.z / from.w) * (1.0 - fraction) + (to.z / to.w) * fraction;
     (distance.is_finite() && depth <= 1.0).then_some(Near { joint, distance, depth })
 }
 
@@ -110,19 +111,20 @@ fn before_eye(from: Vec4, to: Vec4) -> Option<(Vec4, Vec4)> {
     }
 }
 
-/// Where a joint's name stands.
+/// Where a joint's name is placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LabelPlace {
-    /// Which.
+    /// The joint.
     pub joint: JointIndex,
-    /// In the picture: x right, y up, −1…1.
+    /// Position in the picture: x right, y up, −1…1.
     pub position: Vec2,
-    /// 0…1, near … far.
+    /// Depth, 0 near … 1 far.
     pub depth: f32,
 }
 
-/// Where joints are in the picture, for their names: `first` before all others, then the nearest to the eye. A joint closer than
-/// `spacing` (heights of the picture) to one before it is left out, so that names of thousands can be read; 0 leaves out none.
+/// Positions of joints in the picture, for their names: `first` comes first, then the others from near to far. A joint
+/// closer than `spacing` (heights of the picture) to an earlier one is left out, so that names stay readable with
+/// thousands of joints; 0 leaves out none.
 pub fn label_places(bones: &Bones, screen: &Screen, spacing: f32, first: &[JointIndex], places: &mut Vec<LabelPlace>) {
     places.clear();
     let joints = (0u32..).map(JointIndex).zip(bones.world_from_joint());
@@ -147,7 +149,7 @@ pub fn label_places(bones: &Bones, screen: &Screen, spacing: f32, first: &[Joint
     }
 }
 
-/// Points with at least a distance between them, by cells of that size: one point a cell.
+/// Points that keep a least distance from each other, in a grid of cells of that size: one point a cell.
 struct Taken {
     spacing: f32,
     cells: HashMap<[i32; 2], Vec2>,
@@ -161,7 +163,7 @@ impl Taken {
         }
     }
 
-    /// Takes a point if it is far enough from all that were taken.
+    /// Takes a point if it is far enough from all points taken before.
     fn take(&mut self, point: Vec2) -> bool {
         let cell = (point / self.spacing).floor().as_ivec2().to_array();
         let around = (-1..=1).flat_map(|x| (-1..=1).map(move |y| [x, y]));

@@ -20,16 +20,16 @@ modes! {
     }
 }
 
-/// Joints that are not like the others.
+/// Joints that are drawn in a colour of their own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MarkedJoints {
-    /// The one that was selected.
+    /// The selected joint.
     pub selected: Option<JointIndex>,
-    /// The one that the pointer is over.
+    /// The joint under the pointer.
     pub hovered: Option<JointIndex>,
 }
 
-/// What a bone's joint is now, the plainest first: bones are drawn in this order.
+/// How a bone is marked. Bones are drawn in this order, so that marked ones lie on top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum State {
     Plain,
@@ -69,7 +69,7 @@ pub struct BoneColors {
 }
 
 impl BoneColors {
-    /// Colours that stand out from dark or light surroundings.
+    /// Colours that stand out from the background of a theme.
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Dark => Self {
@@ -103,19 +103,20 @@ const AXES_SRGB: [[u8; 4]; 3] = [
     [0x80, 0xCC, 0x33, 0xFF],
     [0x3D, 0x8A, 0xFA, 0xFF],
 ];
-/// Length of a joint's axes, as a share of its bone, and at most as a share of the scene's radius.
+/// Length of a joint's axes, as a fraction of its bone, and at most as a fraction of the scene's radius.
 const AXIS_LENGTH: (f32, f32) = (0.35, 0.05);
 /// Half the thickness of an octahedron, likewise.
 const HALF_THICKNESS: (f32, f32) = (0.09, 0.025);
 /// Where along its bone an octahedron is thickest.
 const THICKEST_AT: f32 = 0.15;
-/// With more bones than this octahedra get thinner, so that thousands do not become one mass; down to the least share.
+/// With more bones than this, octahedra get thinner, down to the least fraction, so that thousands do not become one
+/// mass.
 const CROWDED_FROM: f32 = 256.0;
 const LEAST_THICKNESS: f32 = 0.25;
 /// Brightness of an octahedron's four sides: enough to see its form without a light.
 const SIDES: [f32; 4] = [1.0, 0.84, 0.68, 0.84];
 
-/// Bones in a style, after what is there already in `out`.
+/// Appends the bones in a style to `out`.
 pub fn draw_bones(
     bones: &Bones,
     style: BoneStyle,

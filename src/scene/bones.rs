@@ -5,11 +5,11 @@ use glam::{Affine3A, Vec3};
 use crate::anim::ModelPose;
 use crate::model::{JointIndex, Skeleton};
 
-/// Length of a stub, as a share of the bone before it.
+/// Length of a stub, as a fraction of the bone before it.
 const STUB_LENGTH: f32 = 0.5;
-/// Longest stub, as a share of the scene's radius: a long bone before a leaf must not reach out of the model.
+/// Longest stub, as a fraction of the scene's radius: a long bone before a leaf must not reach out of the model.
 const LONGEST_STUB: f32 = 0.06;
-/// Bones shorter than this share of the scene's radius have no direction to show.
+/// Bones shorter than this fraction of the scene's radius have no direction to show.
 const LEAST_LENGTH: f32 = 1e-6;
 
 /// One bone, world space.
@@ -23,7 +23,7 @@ pub struct Bone {
     pub to: Vec3,
 }
 
-/// All bones of a pose, in buffers to keep.
+/// All bones of a pose, in buffers that are used again.
 #[derive(Clone, Debug, Default)]
 pub struct Bones {
     bones: Vec<Bone>,
@@ -34,7 +34,8 @@ pub struct Bones {
 }
 
 impl Bones {
-    /// Takes up a pose of a skeleton. `scene_radius`, in world units, gives a size to what has none of its own.
+    /// Updates the bones to a pose of a skeleton. `scene_radius`, in world units, sets the size of stubs that no bone
+    /// gives a length.
     pub fn place(&mut self, skeleton: &Skeleton, pose: &ModelPose, world_from_model: Affine3A, scene_radius: f32) {
         self.scene_radius = scene_radius.max(f32::MIN_POSITIVE);
         self.parents.clear();
@@ -86,12 +87,12 @@ impl Bones {
         &self.parents
     }
 
-    /// The radius that was given, above 0.
+    /// The scene's radius as given to `update`, above 0.
     pub fn scene_radius(&self) -> f32 {
         self.scene_radius
     }
 
-    /// Goes on in the direction in which the joint was reached; a joint that stands on its root points along its own y.
+    /// A stub in the direction from the nearest ancestor at another place; along the joint's own y where there is none.
     fn stub(&self, joint: JointIndex) -> Bone {
         let world_from_joint = &self.world_from_joint[joint.index()];
         let from = Vec3::from(world_from_joint.translation);

@@ -1,19 +1,61 @@
 //! An orbiting camera in the world (left-handed, y up).
 
-use std::f32::consts::{FRAC_PI_4, TAU};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use glam::camera::lh::proj::directx;
 use glam::{Mat4, Vec2, Vec3};
 
 use super::Aabb;
-use super::view_preset::{MAX_PITCH_RADIANS, ViewPreset};
+use crate::modes::modes;
 
 /// Field of view of the perspective view: π/4, as in the books' demo.
 pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_4;
 
-/// Distances at which sizes in view are still numbers.
+/// A hair less than straight up and down, so that "right" stays defined while dragging.
+const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
+
+/// Distances at which sizes in view stay finite.
 pub(super) const LEAST_DISTANCE: f32 = f32::MIN_POSITIVE * 1e6;
 pub(super) const GREATEST_DISTANCE: f32 = f32::MAX * 1e-6;
+
+modes! {
+    /// A named direction to look from.
+    pub enum ViewPreset {
+        /// A little to the side and from above: how a model is shown first.
+        ThreeQuarter = "three-quarter", "Three-quarter";
+        /// The model's front.
+        Front = "front", "Front";
+        /// The model's back.
+        Back = "back", "Back";
+        /// The model's right side.
+        Right = "right", "Right";
+        /// The model's left side.
+        Left = "left", "Left";
+        /// From above.
+        Top = "top", "Top";
+        /// From below.
+        Bottom = "bottom", "Bottom";
+        /// Equal angles to all three axes.
+        Isometric = "isometric", "Isometric";
+    }
+}
+
+impl ViewPreset {
+    /// Yaw and pitch of [`Camera`], radians. The front of a model faces −z.
+    pub fn yaw_pitch_radians(self) -> (f32, f32) {
+        match self {
+            Self::ThreeQuarter => (-0.62, 0.2),
+            Self::Front => (0.0, 0.0),
+            Self::Back => (PI, 0.0),
+            Self::Right => (FRAC_PI_2, 0.0),
+            Self::Left => (-FRAC_PI_2, 0.0),
+            Self::Top => (0.0, MAX_PITCH_RADIANS),
+            Self::Bottom => (0.0, -MAX_PITCH_RADIANS),
+            // atan(1/√2): the lift at which the three axes look equally long.
+            Self::Isometric => (-FRAC_PI_4, 0.615_479_7),
+        }
+    }
+}
 
 /// How depth becomes size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,8 +169,8 @@ impl Camera {
         }
     }
 
-    /// Turns about the target. Positive yaw moves the eye to its left, positive pitch lifts it. Angles that are not finite
-    /// are left out.
+    /// Turns about the target. Positive yaw moves the eye to its left, positive pitch lifts it. Angles that are not
+    /// finite are ignored.
     pub fn orbit(&mut self, yaw_radians: f32, pitch_radians: f32) {
         if !(yaw_radians.is_finite() && pitch_radians.is_finite()) {
             return;
@@ -137,8 +179,8 @@ impl Camera {
         self.pitch_radians = (self.pitch_radians + pitch_radians).clamp(-MAX_PITCH_RADIANS, MAX_PITCH_RADIANS);
     }
 
-    /// Moves the target so that what lies at its depth follows a drag. `drag` is in shares of the picture's height, x to
-    /// the right and y down. A drag out of all numbers is left out.
+    /// Moves the target so that what lies at its depth follows a drag. `drag` is in fractions of the picture's height,
+    /// x to the right and y down. A drag that leads to a target that is not finite is ignored.
     pub fn pan(&mut self, drag: Vec2) {
         self.move_target((self.up() * drag.y - self.right() * drag.x) * self.height_in_view());
     }
@@ -149,8 +191,9 @@ impl Camera {
         }
     }
 
-    /// Scales the distance by `factor` (below 1 comes nearer), holding still the point of the target's plane under the
-    /// pointer. `pointer` is in shares of the picture's height from its centre, x to the right and y down. NaN is left out.
+    /// Scales the distance by `factor` (below 1 comes nearer), and keeps the point under the pointer in its place, in
+    /// the plane of the target. `pointer` is in fractions of the picture's height from its centre, x to the right and y
+    /// down. NaN is ignored.
     pub fn zoom(&mut self, factor: f32, pointer: Vec2) {
         if factor.is_nan() {
             return;
@@ -169,8 +212,6 @@ impl Camera {
 
 #[cfg(test)]
 mod tests {
-    use std::f32::consts::FRAC_PI_2;
-
     use super::*;
 
     fn unit_box() -> Aabb {

@@ -1,4 +1,4 @@
-//! The camera as one who flies through the scene, instead of one who turns a thing about.
+//! Flying through the scene: the eye moves and turns, instead of orbiting the target.
 
 use glam::Vec3;
 
@@ -6,8 +6,8 @@ use super::{Camera, Projection};
 
 impl Camera {
     /// Moves eye and target: `way` is to the right of the picture, up in the world, and forward, in world units. In an
-    /// orthographic view, where coming nearer changes nothing, what is ahead grows instead. A way out of all numbers is left
-    /// out.
+    /// orthographic view, where coming nearer changes nothing, the picture is enlarged instead. A way that is not
+    /// finite is ignored.
     pub fn fly(&mut self, way: Vec3) {
         let sideways = self.right() * way.x + Vec3::Y * way.y;
         match self.projection {
@@ -19,8 +19,8 @@ impl Camera {
         }
     }
 
-    /// Turns the head: the eye stays and the target goes round it. Positive yaw looks to the right, positive pitch up. Angles
-    /// that are not finite are left out.
+    /// Turns the head: the eye stays and the target goes round it. Positive yaw looks to the right, positive pitch up.
+    /// Angles that are not finite are ignored.
     pub fn look_around(&mut self, yaw_radians: f32, pitch_radians: f32) {
         let eye = self.eye();
         self.orbit(yaw_radians, -pitch_radians);

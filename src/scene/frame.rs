@@ -1,12 +1,13 @@
-//! All that a renderer needs for one frame, plain data.
+//! All that a renderer needs for one frame, as plain data.
 
-use glam::Affine3A;
+use bytemuck::{Pod, Zeroable};
+use glam::{Affine3A, Vec3};
 
 use super::appearance::{Background, Light, Overlays, Pass, Passes, Theme, ViewMode};
-use super::{Aabb, Camera, Ghosts, OverlayGeometry, VertexColors};
+use super::{Aabb, Camera};
 use crate::anim::Palette;
 
-/// What is drawn beside the model and how.
+/// How the model is drawn, and what is drawn beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameOptions {
     /// Colours of backdrop and grid.
@@ -41,7 +42,7 @@ impl FrameOptions {
         self.draws_under(pass, self.light) || beside.is_some_and(|light| self.draws_under(pass, light))
     }
 
-    /// Whether a pass is drawn where this light is: it is on, and there is something in which it shows.
+    /// Whether a pass is drawn where this light is: it is on, and the view mode shows its result.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
         let lit = self.view_mode == ViewMode::Lit;
         self.passes.has(pass)
@@ -57,24 +58,85 @@ impl FrameOptions {
 /// One frame, plain data.
 #[derive(Clone, Debug)]
 pub struct RenderFrame<'a> {
-    /// From where.
+    /// The camera.
     pub camera: Camera,
-    /// The file's space -> the world. May mirror.
+    /// Model space -> world. May mirror.
     pub world_from_model: Affine3A,
     /// Box of everything the clip reaches, world space: depth range, grid, shadow.
     pub world_bounds: Aabb,
     /// Joint matrices; empty for a static model.
     pub palette: &'a Palette,
-    /// For each submesh whether it is left out; those beyond the slice are drawn.
+    /// For each submesh whether it is hidden; submeshes beyond the slice are drawn.
     pub hidden_submeshes: &'a [bool],
-    /// A submesh that stands out.
+    /// The highlighted submesh.
     pub highlighted_submesh: Option<usize>,
-    /// Colours that are shown instead of the view mode's.
+    /// Vertex colours, shown instead of the view mode's.
     pub vertex_colors: Option<VertexColors<'a>>,
-    /// Poses beside that of now.
+    /// The model in other poses.
     pub ghosts: Ghosts<'a>,
-    /// Lines and triangles that are seen through the model; none where there is nothing.
+    /// Lines and triangles that show through the model; `None` where there are none.
     pub over_model: Option<&'a OverlayGeometry>,
-    /// What is drawn beside the model and how.
+    /// How the model is drawn, and what is drawn beside it.
     pub options: FrameOptions,
+}
+
+/// A vertex of the lines and triangles over the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct OverlayVertex {
+    /// World space.
+    pub position: [f32; 3],
+    /// sRGB, straight alpha.
+    pub color_srgb: [u8; 4],
+}
+
+/// Lines and triangles, in buffers that are used again. Later ones are drawn over earlier ones.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OverlayGeometry {
+    /// Two for each line.
+    pub lines: Vec<OverlayVertex>,
+    /// Three for each triangle, clockwise seen from outside.
+    pub triangles: Vec<OverlayVertex>,
+}
+
+impl OverlayGeometry {
+    /// Empties both buffers and keeps their memory.
+    pub fn clear(&mut self) {
+        self.lines.clear();
+        self.triangles.clear();
+    }
+
+    /// Adds a line, world space.
+    pub fn line(&mut self, from: Vec3, to: Vec3, color_srgb: [u8; 4]) {
+        self.lines.extend([from, to].map(|position| OverlayVertex {
+            position: position.to_array(),
+            color_srgb,
+        }));
+    }
+
+    /// Adds a triangle, world space.
+    pub fn triangle(&mut self, corners: [Vec3; 3], color_srgb: [u8; 4]) {
+        self.triangles.extend(corners.map(|position| OverlayVertex {
+            position: position.to_array(),
+            color_srgb,
+        }));
+    }
+}
+
+/// A colour for each vertex of the mesh, in its order.
+#[derive(Clone, Copy, Debug)]
+pub struct VertexColors<'a> {
+    /// sRGB; alpha is not read. Vertices beyond the slice are black.
+    pub colors_srgb: &'a [[u8; 4]],
+    /// Changes whenever the colours change.
+    pub revision: u64,
+}
+
+/// The model in other poses, each as a ghost in one colour.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ghosts<'a> {
+    /// Joint matrices of each ghost.
+    pub palettes: &'a [crate::anim::Palette],
+    /// Colour of each ghost, sRGB, straight alpha; as many as palettes.
+    pub colors_srgb: &'a [[u8; 4]],
 }

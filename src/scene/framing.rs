@@ -1,33 +1,33 @@
-//! Where the camera must be to see all of a thing.
+//! Framing: moves the camera so that points fill the picture.
 
 use glam::{Vec2, Vec3};
 
 use super::camera::{GREATEST_DISTANCE, LEAST_DISTANCE};
 use super::{Aabb, Camera, Projection};
 
-/// Share of the picture's height and width that framing leaves to the model.
-const FRAMED_SHARE: f32 = 0.9;
+/// Fraction of the uncovered height and width that framing fills.
+const FRAMED_FRACTION: f32 = 0.9;
 
-/// Rounds of fitting and centring, which need each other in perspective: the last moves things by less than a thousandth
-/// of the picture.
+/// Rounds of fitting and centring, since each changes the other in perspective. The last moves points by less than a
+/// thousandth of the picture.
 const FRAMING_ROUNDS: usize = 8;
 
-/// Margins of a picture that are covered, for example by panels: shares of its width and height, 0…1.
+/// Margins of a picture that are covered, for example by panels: fractions of its width and height, 0…1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Insets {
-    /// Covered share of the width on the left.
+    /// Covered fraction of the width on the left.
     pub left: f32,
-    /// Covered share of the width on the right.
+    /// Covered fraction of the width on the right.
     pub right: f32,
-    /// Covered share of the height at the top.
+    /// Covered fraction of the height at the top.
     pub top: f32,
-    /// Covered share of the height at the bottom.
+    /// Covered fraction of the height at the bottom.
     pub bottom: f32,
 }
 
 impl Camera {
-    /// Moves target and distance so that all points fill the uncovered part of the picture; the direction stays. Without
-    /// points nothing changes.
+    /// Frames points: moves target and distance so that they fill the uncovered part of the picture. The direction
+    /// stays. Without points nothing changes.
     pub fn frame(&mut self, world_points: &[Vec3], aspect: f32, insets: Insets) {
         let bounds = Aabb::from_points(world_points.iter().copied());
         if bounds.is_empty() {
@@ -37,7 +37,7 @@ impl Camera {
         let free_height = (1.0 - insets.top - insets.bottom).clamp(0.2, 1.0);
         let tan_half_y = self.height_in_view() * 0.5 / self.distance;
         let tan_half = Vec2::new(tan_half_y * aspect, tan_half_y);
-        let fitted = tan_half * Vec2::new(free_width, free_height) * FRAMED_SHARE;
+        let fitted = tan_half * Vec2::new(free_width, free_height) * FRAMED_FRACTION;
         let middle_of_free = tan_half * Vec2::new(insets.left - insets.right, insets.bottom - insets.top);
         let (right, up, forward) = (self.right(), self.up(), self.forward());
         let perspective = matches!(self.projection, Projection::Perspective { .. });
@@ -46,7 +46,7 @@ impl Camera {
         let reach_up = (fitted + middle_of_free).max(Vec2::splat(1e-3));
         let reach_down = (fitted - middle_of_free).max(Vec2::splat(1e-3));
 
-        // Framed from here, what remains to be done is to centre.
+        // From this distance, only centring is left to do.
         let mut center = self.first_center(world_points, bounds.center(), fitted, middle_of_free);
         for round in 0..=FRAMING_ROUNDS {
             let mut distance = 0.0_f32;
@@ -57,7 +57,7 @@ impl Camera {
                 let needed = (in_plane / reach_up).max(-in_plane / reach_down).max_element();
                 distance = distance.max(needed + toward_eye);
             }
-            // A single point has no size to frame; one unit around it is as good as any.
+            // A single point has no size; one unit around it is framed.
             self.distance = if distance > 0.0 {
                 distance.clamp(LEAST_DISTANCE, GREATEST_DISTANCE)
             } else {
@@ -103,7 +103,7 @@ impl Camera {
         if moved.is_finite() { moved } else { center }
     }
 
-    /// How far some points reach in the picture: shares of its width, from the left edge to the leftmost and from the
+    /// How far points reach in the picture: fractions of its width, from the left edge to the leftmost and from the
     /// right edge to the rightmost.
     pub fn free_at_sides(&self, world_points: &[Vec3], aspect: f32) -> (f32, f32) {
         let bounds = Aabb::from_points(world_points.iter().copied());
@@ -155,7 +155,7 @@ mod tests {
                 let corners = corners_in_clip(&camera, &bounds, 1.6);
                 let reach = corners.iter().map(|c| c.x.abs().max(c.y.abs())).fold(0.0, f32::max);
                 assert!(
-                    (reach - FRAMED_SHARE).abs() < 1e-3,
+                    (reach - FRAMED_FRACTION).abs() < 1e-3,
                     "{preset:?} {projection:?} reaches {reach}"
                 );
                 assert!(
@@ -181,8 +181,8 @@ mod tests {
             let heights = || corners.iter().map(|corner| corner.y);
             let [lowest, highest] = [heights().fold(f32::INFINITY, f32::min), heights().fold(-1.0, f32::max)];
             let free = [2.0 * insets.bottom - 1.0, 1.0 - 2.0 * insets.top];
-            let share = (highest - lowest) / (free[1] - free[0]);
-            assert!((share - FRAMED_SHARE).abs() < 0.02, "{preset:?} fills {share}");
+            let filled = (highest - lowest) / (free[1] - free[0]);
+            assert!((filled - FRAMED_FRACTION).abs() < 0.02, "{preset:?} fills {filled}");
             assert!(
                 lowest > free[0] && highest < free[1],
                 "{preset:?}: {lowest} to {highest} in {free:?}"

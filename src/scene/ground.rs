@@ -11,7 +11,7 @@ pub struct Ground {
     pub cell: f32,
 }
 
-/// How far above y = 0 a model may float, in heights of its own, and still belong to that ground: leaps.
+/// How far above y = 0 a model may float, in heights of its own, and still have its ground there, as in a leap.
 const FLOATING_SHARE: f32 = 1.0;
 /// Minor cells that fit the radius of the scene, about.
 const CELLS_PER_RADIUS: f32 = 6.0;
@@ -28,7 +28,7 @@ impl Ground {
         let exponent = (world_bounds.radius() / CELLS_PER_RADIUS).log10().round();
         Self {
             height: if is_near_zero { 0.0 } else { floor },
-            // A single point has no size to go by.
+            // A single point has no size.
             cell: if exponent.is_finite() {
                 10f32.powf(exponent.clamp(-30.0, 30.0))
             } else {

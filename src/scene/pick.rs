@@ -1,33 +1,33 @@
-//! Which triangle a ray meets first.
+//! The first triangle that a ray hits.
 
 use glam::{Affine3A, Vec2, Vec3};
 
 use super::Ray;
 use crate::model::Mesh;
 
-/// Where a ray meets a mesh.
+/// Where a ray hits a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Index of the submesh.
     pub submesh: usize,
     /// Index of the triangle in the mesh.
     pub triangle: usize,
-    /// Shares of the triangle's corners in the point: 0…1, together 1.
+    /// Barycentric weights of the triangle's corners: 0…1, with a sum of 1.
     pub barycentric: Vec3,
-    /// The corner that is nearest, as an index into the mesh's vertices.
+    /// The nearest corner, as an index into the mesh's vertices.
     pub vertex: u32,
     /// The point, world space.
     pub position: Vec3,
-    /// Length of the ray from its beginning to the point, world units.
+    /// Distance from the ray's origin, world units.
     pub distance: f32,
 }
 
-/// The first triangle along a ray, seen from either side, that `is_solid` says is there: it is asked about each candidate
-/// in no order. `positions` are the mesh's vertices as they are posed, model space. `in_ray` is a buffer to keep.
+/// The first triangle along a ray that `is_solid` accepts, from either side. `is_solid` is asked about candidates in no
+/// particular order. `positions` are the posed vertices, model space. `in_ray` is a buffer to use again.
 ///
-/// Edges are judged by products that two neighbours share but for their sign: no ray slips through between triangles with
-/// common corners (as in "Watertight Ray/Triangle Intersection", Woop, Benthin, Wald 2013, with a turned space for their
-/// sheared one).
+/// Edges are tested by products that are equal but for their sign in two neighbouring triangles, so no ray slips
+/// through between triangles with common corners (as in "Watertight Ray/Triangle Intersection", Woop, Benthin, Wald
+/// 2013, which shears space where this turns it).
 pub fn pick(
     mesh: &Mesh,
     positions: &[Vec3],
@@ -73,7 +73,7 @@ pub fn pick(
     nearest
 }
 
-/// Where the z axis, from 0 on, meets a triangle: shares of the corners, and z.
+/// Where the z axis, from 0 on, hits a triangle: barycentric weights, and z.
 #[inline]
 fn meet(a: Vec3, b: Vec3, c: Vec3) -> Option<(Vec3, f32)> {
     let edge = |from: Vec3, to: Vec3| from.x * to.y - from.y * to.x;
@@ -83,7 +83,7 @@ fn meet(a: Vec3, b: Vec3, c: Vec3) -> Option<(Vec3, f32)> {
     }
     let barycentric = areas / areas.element_sum();
     let z = barycentric.dot(Vec3::new(a.z, b.z, c.z));
-    // A triangle seen on its edge has no area, and a number that is none.
+    // A triangle seen on its edge has no area, and the quotient is NaN.
     (z >= 0.0 && z.is_finite()).then_some((barycentric, z))
 }
 
@@ -100,12 +100,12 @@ fn nearest_corner(corners: [u32; 3], in_ray: [Vec3; 3], distance: f32) -> u32 {
     corners[index]
 }
 
-/// Texture coordinates where a mesh was met, mixed from those of the corners as the picture does.
+/// Texture coordinates of a hit, interpolated between the corners as the renderer does.
 pub fn tex_coord_at(mesh: &Mesh, hit: &Hit) -> Vec2 {
     let corners = mesh.indices.as_chunks::<3>().0.get(hit.triangle);
     let corners = corners.into_iter().flatten();
-    let shares = corners.zip(hit.barycentric.to_array());
-    shares
-        .filter_map(|(&corner, share)| Some(*mesh.tex_coords.get(corner as usize)? * share))
+    let weights = corners.zip(hit.barycentric.to_array());
+    weights
+        .filter_map(|(&corner, weight)| Some(*mesh.tex_coords.get(corner as usize)? * weight))
         .sum()
 }

@@ -1,4 +1,4 @@
-//! From a point of the picture into the scene.
+//! Rays from a point of the picture into the scene.
 
 use glam::{Affine3A, Mat3A, Vec2, Vec3, Vec3A};
 
@@ -7,14 +7,14 @@ use super::{Aabb, Camera, Projection};
 /// A half line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it begins.
+    /// Origin.
     pub origin: Vec3,
-    /// Where it goes: a unit vector.
+    /// Direction, a unit vector.
     pub direction: Vec3,
 }
 
 impl Ray {
-    /// The space of the ray: it begins at the origin and goes along z. Lengths stay.
+    /// World -> the ray's space, in which it begins at the origin and goes along z. Keeps lengths.
     pub fn ray_from_world(&self) -> Affine3A {
         let (right, up) = self.direction.any_orthonormal_pair();
         let axes = Mat3A::from_cols(right.into(), up.into(), self.direction.into()).transpose();
@@ -26,8 +26,8 @@ impl Ray {
 }
 
 impl Camera {
-    /// The ray that a point of the picture shows: x right, y up, −1…1, in a picture of `aspect` = width / height. It begins on
-    /// the near plane of [`Camera::depth_range`], since nothing before that is in the picture.
+    /// The ray that a point of the picture shows: x right, y up, −1…1, in a picture of `aspect` = width / height. It
+    /// begins on the near plane of [`Camera::depth_range`], since nothing in front of that is drawn.
     pub fn ray(&self, point: Vec2, aspect: f32, world_bounds: &Aabb) -> Ray {
         let (near, _) = self.depth_range(world_bounds);
         let half_height = self.height_in_view() * 0.5;

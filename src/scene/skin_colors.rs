@@ -1,4 +1,4 @@
-//! Colours for what can be seen of a skin, and the legends that explain them.
+//! Colours of the skin views, and the legends that explain them.
 
 use glam::Vec3;
 
@@ -9,7 +9,7 @@ use crate::model::{JointIndex, Skeleton};
 /// One stop of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegendStop {
-    /// What the colour stands for.
+    /// The value that has this colour.
     pub value: f32,
     /// sRGB.
     pub color_srgb: [u8; 4],
@@ -22,7 +22,7 @@ const fn stop(value: f32, [red, green, blue]: [u8; 3]) -> LegendStop {
     }
 }
 
-/// No weight is nearly the ground's grey; the least weight is blue.
+/// A weight of 0 is a grey near the ground's; the least weight above it is blue.
 const WEIGHT: [LegendStop; 6] = [
     stop(0.0, [0x3A, 0x40, 0x4D]),
     stop(0.1, [0x2F, 0x5F, 0xD0]),
@@ -40,7 +40,7 @@ const INFLUENCE_COUNT: [LegendStop; 5] = [
     stop(4.0, [0xE6, 0x55, 0x3A]),
 ];
 
-/// Pressed together is blue, drawn apart red, unchanged is white.
+/// Compressed is blue, stretched is red, unchanged is white.
 const STRETCH: [LegendStop; 5] = [
     stop(0.5, [0x1F, 0x56, 0xC8]),
     stop(0.8, [0x7F, 0xB2, 0xF0]),
@@ -52,8 +52,8 @@ const STRETCH: [LegendStop; 5] = [
 /// Vertices without a joint.
 const NO_JOINT_SRGB: [u8; 4] = [0x8A, 0x8F, 0x99, 0xFF];
 
-/// The stops of a view's legend, values rising: colours between them are mixed, but those of counts. None where each joint has
-/// a colour of its own.
+/// The stops of a view's legend, by ascending value. Colours between stops are interpolated, except for counts. Empty
+/// where each joint has a colour of its own.
 pub fn legend(view: SkinView) -> &'static [LegendStop] {
     match view {
         SkinView::Weight => &WEIGHT,
@@ -63,8 +63,8 @@ pub fn legend(view: SkinView) -> &'static [LegendStop] {
     }
 }
 
-/// A colour for each value, mixed from the stops on either side; beyond the ends the colour of the end, and of NaN that of the
-/// first.
+/// A colour for each value, interpolated between the stops. A value beyond the ends has the colour of the nearest end,
+/// NaN that of the first.
 pub fn colors_of_values(stops: &[LegendStop], values: &[f32], colors_srgb: &mut Vec<[u8; 4]>) {
     colors_srgb.clear();
     colors_srgb.extend(values.iter().map(|&value| color_at(stops, value)));
@@ -96,16 +96,16 @@ fn color_at(stops: &[LegendStop], value: f32) -> [u8; 4] {
     let Some(high) = high.filter(|high| high.value > low.value) else {
         return low.color_srgb;
     };
-    let share = ((value - low.value) / (high.value - low.value)).max(0.0);
+    let fraction = ((value - low.value) / (high.value - low.value)).max(0.0);
     std::array::from_fn(|channel| {
         let (low, high) = (f32::from(low.color_srgb[channel]), f32::from(high.color_srgb[channel]));
-        (low + (high - low) * share).round() as u8
+        (low + (high - low) * fraction).round() as u8
     })
 }
 
-/// The golden angle as a share of the circle: steps of it never come close to an earlier one for long.
+/// The golden angle as a fraction of the circle: multiples of it spread evenly.
 const GOLDEN_TURN: f32 = 0.381_966;
-/// Hues of neighbours are at least this share of the circle apart.
+/// Hues of neighbours are at least this fraction of the circle apart.
 const NEIGHBOURS_APART: f32 = 0.125;
 /// How many siblings before a joint count as its neighbours.
 const SIBLINGS: usize = 2;
@@ -113,8 +113,9 @@ const SIBLINGS: usize = 2;
 const LIGHTNESS: f32 = 0.74;
 const CHROMA: f32 = 0.125;
 
-/// A colour for each joint: hues in steps of the golden angle, where a step that comes too close to the parent or to the two
-/// siblings before is passed over. Three neighbours rule out at most three quarters of the circle, so a step soon fits.
+/// A colour for each joint: hues in steps of the golden angle, where a step that comes too close to the parent's hue or
+/// to those of the two siblings before is skipped. Three neighbours exclude at most three quarters of the circle, so a
+/// step soon fits.
 pub fn joint_colors(skeleton: &Skeleton) -> Vec<[u8; 4]> {
     let mut hues: Vec<f32> = Vec::with_capacity(skeleton.joint_count());
     let mut last_children: Vec<[Option<u32>; SIBLINGS]> = vec![[None; SIBLINGS]; skeleton.joint_count() + 1];
@@ -133,7 +134,7 @@ pub fn joint_colors(skeleton: &Skeleton) -> Vec<[u8; 4]> {
     hues.into_iter().map(color_of_hue).collect()
 }
 
-/// Shorter way between two hues, 0…0.5 of the circle.
+/// Distance between two hues the shorter way, 0…0.5 of the circle.
 fn apart(a: f32, b: f32) -> f32 {
     let way = (a - b).abs();
     way.min(1.0 - way)

@@ -1,4 +1,4 @@
-//! The colour that stands for a material while its maps are not there.
+//! The colour in which a material is shown while its maps are missing.
 
 use crate::image::srgb;
 use crate::model::Material;
@@ -19,7 +19,7 @@ const TINTS_SRGB: [[u8; 3]; 7] = [
     [0x7A, 0x6C, 0x80],
 ];
 
-/// Words in the name of a material or its map, and what they look like.
+/// Words in the name of a material or its map, and the colour that they stand for.
 const HINTS: [(&str, [u8; 3]); 16] = [
     ("head", SKIN),
     ("face", SKIN),
@@ -39,18 +39,18 @@ const HINTS: [(&str, [u8; 3]); 16] = [
     ("ground", SAND),
 ];
 
-/// A channel above this counts as part of a white, which books use to say "the map has the colour".
+/// A colour whose channels are all above this counts as white. The books' files are white where the map has the colour.
 const WHITE_FROM: f32 = 0.7;
 /// How far the channels of a white may differ.
 const WHITE_SPREAD: f32 = 0.1;
 
-/// The colour in which a material is shown, linear: its diffuse colour, or a quiet tint of its own when that is a plain white
-/// meant to be multiplied with a map. A material without a map keeps even white.
+/// The colour in which a material is shown without its maps, linear: its diffuse colour; where that is a plain white to
+/// be multiplied with a map, a quiet tint. A material that names no map keeps its white.
 pub fn display_color(material_index: usize, material: &Material) -> [f32; 3] {
     stand_in_color(material_index, material).unwrap_or(material.diffuse.map(|channel| channel.clamp(0.0, 1.0)))
 }
 
-/// The quiet tint, linear, of a material whose diffuse colour only waits for a map.
+/// The quiet tint, linear, of a material whose diffuse colour is a plain white to be multiplied with a map.
 pub fn stand_in_color(material_index: usize, material: &Material) -> Option<[f32; 3]> {
     let [red, green, blue] = material.diffuse;
     let least = red.min(green).min(blue);

@@ -9,7 +9,7 @@ use bindpose::render::device::Backend;
 use glam::{Vec2, Vec3};
 
 use crate::twins::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
-use crate::twins::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
+use crate::twins::studio::{EnvironmentLight, KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface};
 use crate::twins::tone_map::{exposed, tone_mapped};
 
 const ANGLES: u32 = 32;
@@ -39,7 +39,7 @@ impl Room<'_> {
         let alpha = roughness * roughness;
         let to_eye = Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), n_dot_v, 0.0);
         let to_light = Vec3::new(-0.5, 0.6, 0.3).normalize();
-        let surroundings = Surroundings {
+        let environment = EnvironmentLight {
             prefiltered: self.prefiltered,
             brdf_table: self.brdf_table,
             turn: self.turn,
@@ -64,8 +64,8 @@ impl Room<'_> {
                 )
             }
             3 => tone_mapped(exposed(Vec3::new(n_dot_v, roughness, 0.3) * 2.0, roughness * 4.0 - 2.0)),
-            4 => surroundings.environment_diffuse(to_eye),
-            5 => surroundings.environment_specular_light(mirrored(to_eye, roughness), roughness),
+            4 => environment.environment_diffuse(to_eye),
+            5 => environment.environment_specular_light(mirrored(to_eye, roughness), roughness),
             6 => self.brdf_table.lookup(n_dot_v, roughness).extend(0.0),
             _ => {
                 let lights = StudioLights {
@@ -97,7 +97,7 @@ impl Room<'_> {
                         ..plain
                     },
                 };
-                surroundings.studio_light(&surface, &lights)
+                environment.studio_light(&surface, &lights)
             }
         }
     }

@@ -12,20 +12,20 @@ use crate::gpu::difference;
 use crate::scenes::{Scene, material};
 use crate::textures::{HEIGHT, WIDTH, card_once, dds, normal as flat, plain};
 use crate::twins::book::shininess;
-use crate::twins::studio::{StudioLights, StudioSurface, Surroundings};
+use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface};
 use crate::twins::tone_map::{exposed, tone_mapped};
 
 /// Bytes, dithered, from half floats that are filtered.
 const ROUNDING: u8 = 3;
 
-/// Turned away from the key, which stands above at the right, and from the rim behind: the surroundings alone are left.
+/// Turned away from the key, which stands above at the right, and from the rim behind: only the environment lights it.
 const NORMAL: Vec3 = Vec3::new(-0.6, -0.36, -0.714);
 
 on_both_backends! {
     fn the_picture_has_the_colours_of_the_twin(gpu) {
         let prefiltered = Prefiltered::of(&Environment::studio());
         let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
-        let surroundings = Surroundings {
+        let environment = EnvironmentLight {
             prefiltered: &prefiltered,
             brdf_table: &brdf_table,
             // For a viewer who looks along +z.
@@ -69,7 +69,7 @@ on_both_backends! {
                 to_eye: Vec3::NEG_Z,
                 ambient_occlusion: 1.0,
             };
-            let shown = tone_mapped(exposed(surroundings.studio_light(&surface, &no_lights), stops));
+            let shown = tone_mapped(exposed(environment.studio_light(&surface, &no_lights), stops));
             let [red, green, blue] = shown.to_array().map(srgb8_from_linear);
             let expected = [red, green, blue, 255];
             assert!(

@@ -84,7 +84,7 @@ pub(crate) fn dominant_direction(normal: Vec3, mirrored: Vec3, alpha: f32) -> Ve
     normal.lerp(mirrored, smooth_share * (smooth_share.sqrt() + alpha))
 }
 
-/// How much of the mirrored surroundings a point sees of which `occlusion`, 0 … 1, sees the sky.
+/// Fraction of the reflected environment that a point sees whose ambient occlusion is `occlusion`, 0 … 1.
 pub(crate) fn specular_occlusion(n_dot_v: f32, occlusion: f32, alpha: f32) -> f32 {
     let seen = (n_dot_v + occlusion).max(1e-4);
     (seen.powf((-16.0 * alpha - 1.0).exp2()) - 1.0 + occlusion).clamp(0.0, 1.0)

@@ -31,7 +31,7 @@ pub(crate) struct StudioSurface {
     pub(crate) smooth_normal: Vec3,
     /// Towards the viewer.
     pub(crate) to_eye: Vec3,
-    /// The share of the surroundings that the point sees, 0 … 1.
+    /// Fraction of the environment that the point sees, 0 … 1.
     pub(crate) ambient_occlusion: f32,
 }
 
@@ -52,10 +52,10 @@ pub(crate) struct StudioLights {
 
 /// What the bindings of `environment.wgsl` hold.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Surroundings<'a> {
-    /// Light from all around.
+pub(crate) struct EnvironmentLight<'a> {
+    /// The environment, filtered.
     pub(crate) prefiltered: &'a Prefiltered,
-    /// How surfaces give it back.
+    /// How surfaces reflect it.
     pub(crate) brdf_table: &'a BrdfTable,
     /// Cosine and sine of the turn from the world: the world's `(cos, 0, sin)` is the environment's x.
     pub(crate) turn: (f32, f32),
@@ -63,18 +63,18 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) intensity: f32,
 }
 
-impl Surroundings<'_> {
+impl EnvironmentLight<'_> {
     /// Radiance towards the eye; linear, may exceed 1.
     pub(crate) fn studio_light(&self, surface: &StudioSurface, lights: &StudioLights) -> Vec3 {
         let n_dot_v = surface.normal.dot(surface.to_eye).clamp(1e-3, 1.0);
         let scale_bias = self.brdf_table.lookup(n_dot_v, surface.roughness);
         let shares = reflectance(surface.albedo, surface.fresnel0, scale_bias);
-        self.studio_surroundings(surface, &shares, n_dot_v)
+        self.studio_environment(surface, &shares, n_dot_v)
             + studio_key(surface, &shares, n_dot_v, lights)
             + studio_rim(surface, &shares, n_dot_v, lights)
     }
 
-    fn studio_surroundings(&self, surface: &StudioSurface, shares: &Reflectance, n_dot_v: f32) -> Vec3 {
+    fn studio_environment(&self, surface: &StudioSurface, shares: &Reflectance, n_dot_v: f32) -> Vec3 {
         let alpha = surface.roughness * surface.roughness;
         let mirrored = (-surface.to_eye).reflect(surface.normal);
         let towards = dominant_direction(surface.normal, mirrored, alpha);

@@ -6,7 +6,7 @@ use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use glam::{Vec2, Vec3};
 
 use crate::twins::pbr::{ggx_distribution, reflectance, specular_lobe};
-use crate::twins::studio::{StudioLights, StudioSurface, Surroundings};
+use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface};
 
 const ANGLES: [f32; 9] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0];
 const ROUGHNESSES: [f32; 7] = [0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0];
@@ -30,7 +30,7 @@ fn dark() -> StudioLights {
 fn a_white_surface_vanishes_in_a_white_room() {
     let prefiltered = Prefiltered::of(&Environment::from_fn(16, |_| Vec3::ONE));
     let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
-    let room = Surroundings {
+    let room = EnvironmentLight {
         prefiltered: &prefiltered,
         brdf_table: &brdf_table,
         turn: (0.6, 0.8),

@@ -5,7 +5,7 @@ use bindpose::scene::{Camera, Projection};
 use glam::Vec3;
 
 use crate::light::{all_directions, difference};
-use crate::twins::studio::{KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface, Surroundings};
+use crate::twins::studio::{EnvironmentLight, KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface};
 use crate::twins::tone_map::tone_mapped;
 
 struct Studio {
@@ -24,8 +24,8 @@ impl Studio {
         }
     }
 
-    fn turned(&self, turn: (f32, f32)) -> Surroundings<'_> {
-        Surroundings {
+    fn turned(&self, turn: (f32, f32)) -> EnvironmentLight<'_> {
+        EnvironmentLight {
             prefiltered: &self.prefiltered,
             brdf_table: &self.brdf_table,
             turn,
@@ -76,12 +76,12 @@ fn the_studio_turns_with_the_viewer() {
         let right = camera.right();
         let ahead = right.cross(Vec3::Y);
         assert!(ahead.dot(camera.forward()) > 0.9);
-        let surroundings = studio.turned((right.x, right.z));
+        let environment = studio.turned((right.x, right.z));
         for local in all_directions(40) {
             let world = right * local.x + Vec3::Y * local.y + ahead * local.z;
-            let found = surroundings.environment_specular_light(world, 0.0);
+            let found = environment.environment_specular_light(world, 0.0);
             assert!(difference(found, studio.environment.sample(local)) < 1e-3, "{local}");
-            let diffuse = surroundings.environment_diffuse(world);
+            let diffuse = environment.environment_diffuse(world);
             assert!(
                 difference(diffuse, studio.prefiltered.irradiance().towards(local)) < 1e-4,
                 "{local}"
@@ -93,7 +93,7 @@ fn the_studio_turns_with_the_viewer() {
 #[test]
 fn nothing_of_skin_or_cloth_is_burnt_out_and_nothing_is_black() {
     let studio = Studio::new();
-    let surroundings = studio.turned((1.0, 0.0));
+    let environment = studio.turned((1.0, 0.0));
     for normal in seen_normals() {
         for (albedo, roughness) in [(0.6, 0.4), (0.6, 0.9), (0.05, 0.35)] {
             let surface = StudioSurface {
@@ -102,7 +102,7 @@ fn nothing_of_skin_or_cloth_is_burnt_out_and_nothing_is_black() {
                 ..surface(normal)
             };
             for key_visible in [0.0, 1.0] {
-                let shown = tone_mapped(surroundings.studio_light(&surface, &lights(key_visible)));
+                let shown = tone_mapped(environment.studio_light(&surface, &lights(key_visible)));
                 // sRGB 247.
                 assert!(shown.max_element() < 0.93, "{normal}, {albedo}, {roughness}: {shown}");
                 // sRGB 14 for nearly black cloth, 61 for skin.
@@ -118,7 +118,7 @@ fn nothing_of_skin_or_cloth_is_burnt_out_and_nothing_is_black() {
 #[test]
 fn a_base_colour_shows_about_as_it_is() {
     let studio = Studio::new();
-    let surroundings = studio.turned((1.0, 0.0));
+    let environment = studio.turned((1.0, 0.0));
     let color = Vec3::new(0.16, 0.20, 0.12);
     let (mut sum, mut count) = (Vec3::ZERO, 0.0);
     for normal in seen_normals() {
@@ -129,7 +129,7 @@ fn a_base_colour_shows_about_as_it_is() {
             ..surface(normal)
         };
         let key_visible = normal.dot(lights(1.0).to_key).clamp(0.0, 1.0).sqrt();
-        sum += tone_mapped(surroundings.studio_light(&surface, &lights(key_visible))) * weight;
+        sum += tone_mapped(environment.studio_light(&surface, &lights(key_visible))) * weight;
         count += weight;
     }
     let ratio = sum / count / color;
@@ -139,14 +139,14 @@ fn a_base_colour_shows_about_as_it_is() {
 #[test]
 fn the_rim_is_cool_and_hugs_the_silhouette() {
     let studio = Studio::new();
-    let surroundings = studio.turned((1.0, 0.0));
+    let environment = studio.turned((1.0, 0.0));
     let rim = |normal: Vec3| {
         let without = StudioLights {
             rim_color: Vec3::ZERO,
             ..lights(1.0)
         };
         let surface = surface(normal.normalize());
-        surroundings.studio_light(&surface, &lights(1.0)) - surroundings.studio_light(&surface, &without)
+        environment.studio_light(&surface, &lights(1.0)) - environment.studio_light(&surface, &without)
     };
     let silhouette = rim(Vec3::new(-0.9, 0.4, -0.1));
     assert!(silhouette.z > 0.2 && silhouette.z > 1.5 * silhouette.x, "{silhouette}");
@@ -156,16 +156,16 @@ fn the_rim_is_cool_and_hugs_the_silhouette() {
 }
 
 #[test]
-fn the_key_goes_with_its_shadow_and_the_surroundings_with_their_occlusion() {
+fn the_key_goes_with_its_shadow_and_the_environment_with_its_occlusion() {
     let studio = Studio::new();
-    let surroundings = studio.turned((1.0, 0.0));
+    let environment = studio.turned((1.0, 0.0));
     let facing = surface(Vec3::new(0.4, 0.6, -0.7).normalize());
-    let [lit, half, shadowed] = [1.0, 0.5, 0.0].map(|visible| surroundings.studio_light(&facing, &lights(visible)));
+    let [lit, half, shadowed] = [1.0, 0.5, 0.0].map(|visible| environment.studio_light(&facing, &lights(visible)));
     assert!(difference(lit + shadowed, half * 2.0) < 1e-5);
     assert!(lit.min_element() > 2.0 * shadowed.max_element(), "{lit} {shadowed}");
     let hidden = StudioSurface {
         ambient_occlusion: 0.0,
         ..facing
     };
-    assert!(surroundings.studio_light(&hidden, &lights(0.0)).max_element() < 1e-3);
+    assert!(environment.studio_light(&hidden, &lights(0.0)).max_element() < 1e-3);
 }
