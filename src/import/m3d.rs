@@ -1,6 +1,6 @@
 //! The books' text format.
 
-use super::Imported;
+use super::imported::Imported;
 use crate::diagnostic::Diagnostic;
 use crate::format;
 use crate::model::Model;

@@ -1,21 +1,11 @@
 //! Files of other programs become models: one file here for each format, all with the same result.
 
+mod imported;
 mod m3d;
 
-use crate::diagnostic::Diagnostic;
-use crate::format::Dialect;
-use crate::model::Model;
+pub use imported::Imported;
 
-/// What came out of a file.
-#[derive(Clone, Debug)]
-pub struct Imported {
-    /// Spelling of the file.
-    pub dialect: Dialect,
-    /// The model, in the file's space.
-    pub model: Model,
-    /// What was mended or is worth knowing, in the order of the file.
-    pub diagnostics: Vec<Diagnostic>,
-}
+use crate::diagnostic::Diagnostic;
 
 /// Whether a file begins as one of the formats does, whatever its name.
 ///
