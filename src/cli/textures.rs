@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::finding::write_finding;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
 use crate::model::Material;
 use crate::session::{File, MapNames, MapSlot, MapSource, Maps, find_maps};
@@ -212,7 +212,7 @@ fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
     };
     let label = map.slot.label();
     warning(
-        "map-missing",
+        &codes::MAP_MISSING,
         format!("No file fits the {label} \"{name}\" of material \"{material}\"{others}."),
     )
 }
@@ -228,8 +228,12 @@ fn without_name(finding: &Diagnostic, path: &Path) -> Diagnostic {
     }
 }
 
-fn warning(code: &'static str, message: String) -> Diagnostic {
-    Diagnostic::without_place(Severity::Warning, code, message)
+/// A warning whatever the code's usual severity: a map that is missing was asked for here.
+fn warning(code: &Code, message: String) -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        ..code.says(message)
+    }
 }
 
 /// What a file holds.
@@ -269,7 +273,7 @@ pub(super) fn read_sky(path: &Path) -> Result<File, Box<Diagnostic>> {
 }
 
 fn unreadable(reason: &io::Error) -> Diagnostic {
-    warning("file-unreadable", format!("The file cannot be read: {reason}."))
+    warning(&codes::FILE_UNREADABLE, format!("The file cannot be read: {reason}."))
 }
 
 /// A walk through folders. Each folder is met once, however many links lead to it.
@@ -324,7 +328,7 @@ impl<'a> Walk<'a> {
         }
         if self.entries_met > MOST_ENTRIES {
             let message = format!("More than {MOST_ENTRIES} files and folders were met; the others are skipped.");
-            self.warn(folder.to_owned(), "folder-too-large", message);
+            self.warn(folder.to_owned(), &codes::FOLDER_TOO_LARGE, message);
         }
         Ok(())
     }
@@ -335,9 +339,9 @@ impl<'a> Walk<'a> {
             Ok(metadata) => metadata.file_type(),
             Err(reason) => {
                 let (code, what) = if entry.is_link {
-                    ("link-broken", "link cannot be followed")
+                    (&codes::LINK_BROKEN, "link cannot be followed")
                 } else {
-                    ("file-unreadable", "file cannot be read")
+                    (&codes::FILE_UNREADABLE, "file cannot be read")
                 };
                 self.warn(entry.path, code, format!("The {what}: {reason}; skipped."));
                 return None;
@@ -354,7 +358,11 @@ impl<'a> Walk<'a> {
         if kind.is_file() {
             self.pictures.push(entry.path);
         } else if self.names.fit(&name) {
-            self.warn(entry.path, "not-a-file", "This is no regular file; skipped.".to_owned());
+            self.warn(
+                entry.path,
+                &codes::NOT_A_FILE,
+                "This is no regular file; skipped.".to_owned(),
+            );
         }
         None
     }
@@ -362,7 +370,7 @@ impl<'a> Walk<'a> {
     fn entries_or_warning(&mut self, folder: &Path) -> Vec<Entry> {
         self.entries(folder).unwrap_or_else(|reason| {
             let message = format!("The folder cannot be read: {reason}; skipped.");
-            self.warn(folder.to_owned(), "folder-unreadable", message);
+            self.warn(folder.to_owned(), &codes::FOLDER_UNREADABLE, message);
             Vec::new()
         })
     }
@@ -389,7 +397,7 @@ impl<'a> Walk<'a> {
         Ok(entries)
     }
 
-    fn warn(&mut self, path: PathBuf, code: &'static str, message: String) {
+    fn warn(&mut self, path: PathBuf, code: &Code, message: String) {
         self.warnings.push((path, warning(code, message)));
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::label::Section;
 use super::relatives::Stranger;
-use crate::diagnostic::{Diagnostic, Position, Severity};
+use crate::diagnostic::{Code, Diagnostic, Position, codes};
 
 /// A file that could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -171,23 +171,23 @@ impl Value {
 }
 
 impl ParseErrorKind {
-    /// The stable name of this kind of error; the table is in the documentation of [`format`](super).
-    pub fn code(&self) -> &'static str {
+    /// The row of the table of codes.
+    pub fn code(&self) -> &'static Code {
         match self {
-            Self::Empty => "empty-file",
-            Self::Stranger(stranger) if stranger.is_relative() => "relative-format",
-            Self::Stranger(_) => "other-format",
-            Self::NotM3d { .. } => "not-m3d",
-            Self::CountMissing { .. } => "count-missing",
-            Self::WrongSection { .. } => "wrong-section",
-            Self::RowCount { .. } => "row-count",
-            Self::UnexpectedEnd { .. } => "unexpected-end",
-            Self::ValueMissing { .. } => "value-missing",
-            Self::WrongLabel { .. } => "wrong-label",
-            Self::NotANumber { .. } => "not-a-number",
-            Self::NotInRange { .. } => "not-in-range",
-            Self::MaterialIncomplete { .. } => "material-incomplete",
-            Self::MostlyZeros { .. } => "mostly-zeros",
+            Self::Empty => &codes::EMPTY_FILE,
+            Self::Stranger(stranger) if stranger.is_relative() => &codes::RELATIVE_FORMAT,
+            Self::Stranger(_) => &codes::OTHER_FORMAT,
+            Self::NotM3d { .. } => &codes::NOT_M3D,
+            Self::CountMissing { .. } => &codes::COUNT_MISSING,
+            Self::WrongSection { .. } => &codes::WRONG_SECTION,
+            Self::RowCount { .. } => &codes::ROW_COUNT,
+            Self::UnexpectedEnd { .. } => &codes::UNEXPECTED_END,
+            Self::ValueMissing { .. } => &codes::VALUE_MISSING,
+            Self::WrongLabel { .. } => &codes::WRONG_LABEL,
+            Self::NotANumber { .. } => &codes::NOT_A_NUMBER,
+            Self::NotInRange { .. } => &codes::NOT_IN_RANGE,
+            Self::MaterialIncomplete { .. } => &codes::MATERIAL_INCOMPLETE,
+            Self::MostlyZeros { .. } => &codes::MOSTLY_ZEROS,
         }
     }
 
@@ -229,7 +229,7 @@ impl ParseErrorKind {
 impl fmt::Display for ParseErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => write!(f, "The file is empty."),
+            Self::Empty | Self::MaterialIncomplete { .. } => f.write_str(self.code().sentence),
             Self::Stranger(stranger) => write!(f, "{stranger}"),
             Self::NotM3d { found } => {
                 write!(
@@ -308,7 +308,6 @@ impl fmt::Display for ParseErrorKind {
                 "{} must be a whole number from {smallest} to {largest}, but \"{found}\" was found.",
                 value.subject()
             ),
-            Self::MaterialIncomplete { .. } => write!(f, "The material that begins here has too few lines to be one."),
             Self::MostlyZeros { zeros } => write!(
                 f,
                 "The file ends in {zeros} bytes of value 0, more than stand before them: it was not written or copied whole."
@@ -335,7 +334,7 @@ impl ParseError {
             position: Some(self.position),
             places: vec![self.position],
             length: self.length,
-            ..Diagnostic::without_place(Severity::Error, self.kind.code(), self.kind.to_string())
+            ..self.kind.code().says(self.kind.to_string())
         }
     }
 }

@@ -34,53 +34,8 @@
 //! (sums of weights, order of keys, subsets against triangles) is for [`model`](crate::model); only indices are held against
 //! their counts here, since only here the column is known.
 //!
-//! # Codes
-//!
-//! The same as [`CODES`]:
-//!
-//! | code | severity | meaning |
-//! |---|---|---|
-//! | `empty-file` | error | nothing but blanks |
-//! | `other-format` | error | another format, which the message names |
-//! | `relative-format` | error | a variant of this format that is laid out differently |
-//! | `not-m3d` | error | text that does not begin as an .m3d file does |
-//! | `count-missing` | error | the header lacks the count of materials, vertices or triangles |
-//! | `wrong-section` | error | a section stands where another one belongs |
-//! | `row-count` | error | fewer or more rows than announced |
-//! | `unexpected-end` | error | the file ends too early |
-//! | `value-missing` | error | a line ends before its last value |
-//! | `wrong-label` | error | a label is not the one that belongs there |
-//! | `not-a-number` | error | a word where a number belongs |
-//! | `not-in-range` | error | no whole number, or one out of range |
-//! | `material-incomplete` | error | a material with too few lines to be one |
-//! | `mostly-zeros` | error | more bytes of value 0 at the end than there are before them |
-//! | `ruler-missing` | warning | a section begins without its ruler |
-//! | `ruler-unknown` | note | a ruler names something else |
-//! | `comment` | note | a comment line above the header; left out |
-//! | `counts-all-zero` | warning | every count of the header is 0 |
-//! | `count-assumed` | warning | the header lacks the count of bones or clips, taken as 0 |
-//! | `section-missing` | note | an empty section is not there, though the others of a skinned model are |
-//! | `label-unknown` | note | a line that is not known was left out |
-//! | `label-repeated` | warning | a line came twice; the last one holds |
-//! | `material-line-missing` | warning | a material lacks a line; its default holds |
-//! | `alpha-clip-unreadable` | warning | AlphaClip is neither a number nor a truth value; taken as 0 |
-//! | `values-surplus` | note | more on a line than belongs there; left out |
-//! | `row-split` | note | a row goes on in the next line |
-//! | `number-mended` | warning | a number in a foreign spelling |
-//! | `number-not-finite` | warning | a number that is not finite was replaced |
-//! | `tangent-sign-missing` | note | a tangent of three numbers |
-//! | `subset-label` | note | a misspelt label of the subset table |
-//! | `subset-vertex-range` | note | an unreadable vertex range of a subset |
-//! | `blend-index-unused` | note | a blend index without weight names no bone |
-//! | `blend-data-unused` | note | blend data in a file without bones |
-//! | `bone-number` | note | a bone's label has another number than its place |
-//! | `bone-offset-label` | note | a second word of a bone offset's label |
-//! | `brace-missing` | warning | a brace is missing |
-//! | `brace-surplus` | warning | a brace too many |
-//! | `text-surplus` | warning | something behind the last section |
-//! | `zeros-surplus` | warning | bytes of value 0 at the end; left out |
+//! The codes of errors and notices are [`codes::OF_PARSER`](crate::diagnostic::codes::OF_PARSER).
 
-mod codes;
 mod cursor;
 mod document;
 mod error;
@@ -95,7 +50,6 @@ mod relatives;
 mod sections;
 mod write;
 
-pub use codes::CODES;
 pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};

@@ -2,7 +2,7 @@
 
 use super::error::quoted;
 use super::label::Section;
-use crate::diagnostic::{Diagnostic, Position, Severity};
+use crate::diagnostic::{Code, Diagnostic, Position, codes};
 
 /// A kind of finding that does not stop the reader.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,38 +60,38 @@ pub(super) enum Notice {
 }
 
 impl Notice {
-    /// Stable code and severity.
-    fn entry(&self) -> (&'static str, Severity) {
+    fn code(&self) -> &'static Code {
         match self {
-            Self::RulerMissing(_) => ("ruler-missing", Severity::Warning),
-            Self::RulerUnknown { .. } => ("ruler-unknown", Severity::Note),
-            Self::Comment => ("comment", Severity::Note),
-            Self::CountsAllZero => ("counts-all-zero", Severity::Warning),
-            Self::CountAssumed(_) => ("count-assumed", Severity::Warning),
-            Self::SectionMissing(_) => ("section-missing", Severity::Note),
-            Self::LabelUnknown { .. } => ("label-unknown", Severity::Note),
-            Self::LabelRepeated(_) => ("label-repeated", Severity::Warning),
-            Self::MaterialLineMissing(_) => ("material-line-missing", Severity::Warning),
-            Self::AlphaClipUnreadable => ("alpha-clip-unreadable", Severity::Warning),
-            Self::ValuesSurplus => ("values-surplus", Severity::Note),
-            Self::RowSplit => ("row-split", Severity::Note),
-            Self::NumberMended => ("number-mended", Severity::Warning),
-            Self::NumberNotFinite => ("number-not-finite", Severity::Warning),
-            Self::TangentSignMissing => ("tangent-sign-missing", Severity::Note),
-            Self::SubsetLabel(_) => ("subset-label", Severity::Note),
-            Self::SubsetVertexRange => ("subset-vertex-range", Severity::Note),
-            Self::BlendIndexUnused => ("blend-index-unused", Severity::Note),
-            Self::BlendDataUnused => ("blend-data-unused", Severity::Note),
-            Self::BoneNumber => ("bone-number", Severity::Note),
-            Self::BoneOffsetLabel => ("bone-offset-label", Severity::Note),
-            Self::BraceMissing(_) => ("brace-missing", Severity::Warning),
-            Self::BraceSurplus => ("brace-surplus", Severity::Warning),
-            Self::TextSurplus => ("text-surplus", Severity::Warning),
-            Self::ZerosSurplus(_) => ("zeros-surplus", Severity::Warning),
+            Self::RulerMissing(_) => &codes::RULER_MISSING,
+            Self::RulerUnknown { .. } => &codes::RULER_UNKNOWN,
+            Self::Comment => &codes::COMMENT,
+            Self::CountsAllZero => &codes::COUNTS_ALL_ZERO,
+            Self::CountAssumed(_) => &codes::COUNT_ASSUMED,
+            Self::SectionMissing(_) => &codes::SECTION_MISSING,
+            Self::LabelUnknown { .. } => &codes::LABEL_UNKNOWN,
+            Self::LabelRepeated(_) => &codes::LABEL_REPEATED,
+            Self::MaterialLineMissing(_) => &codes::MATERIAL_LINE_MISSING,
+            Self::AlphaClipUnreadable => &codes::ALPHA_CLIP_UNREADABLE,
+            Self::ValuesSurplus => &codes::VALUES_SURPLUS,
+            Self::RowSplit => &codes::ROW_SPLIT,
+            Self::NumberMended => &codes::NUMBER_MENDED,
+            Self::NumberNotFinite => &codes::NUMBER_NOT_FINITE,
+            Self::TangentSignMissing => &codes::TANGENT_SIGN_MISSING,
+            Self::SubsetLabel(_) => &codes::SUBSET_LABEL,
+            Self::SubsetVertexRange => &codes::SUBSET_VERTEX_RANGE,
+            Self::BlendIndexUnused => &codes::BLEND_INDEX_UNUSED,
+            Self::BlendDataUnused => &codes::BLEND_DATA_UNUSED,
+            Self::BoneNumber => &codes::BONE_NUMBER,
+            Self::BoneOffsetLabel => &codes::BONE_OFFSET_LABEL,
+            Self::BraceMissing(_) => &codes::BRACE_MISSING,
+            Self::BraceSurplus => &codes::BRACE_SURPLUS,
+            Self::TextSurplus => &codes::TEXT_SURPLUS,
+            Self::ZerosSurplus(_) => &codes::ZEROS_SURPLUS,
         }
     }
 
     fn message(&self, count: u32) -> String {
+        let sentence = self.code().sentence;
         let several = |one: &str, many: &str| {
             if count == 1 {
                 one.to_owned()
@@ -104,11 +104,8 @@ impl Notice {
             Self::RulerUnknown { section, found } => {
                 format!("A ruler says \"{found}\" where the {} section begins.", section.name())
             }
-            Self::Comment => several(
-                "A comment line above the header was left out.",
-                "comment lines above the header were left out.",
-            ),
-            Self::CountsAllZero => "Every count of the header is 0: the file holds nothing.".into(),
+            Self::Comment => several(sentence, "comment lines above the header were left out."),
+            Self::CountsAllZero | Self::TextSurplus => sentence.to_owned(),
             Self::CountAssumed(name) => format!("The header does not say how many {name} there are; taken as none."),
             Self::SectionMissing(section) => format!("There is no {} section; its count is 0.", section.name()),
             Self::LabelUnknown { section, label } => match count {
@@ -127,24 +124,21 @@ impl Notice {
                 &format!("materials have no {label} line; its default is used."),
             ),
             Self::AlphaClipUnreadable => several(
-                "An AlphaClip is neither a number nor true or false; taken as 0.",
+                sentence,
                 "AlphaClip values are neither a number nor true or false; taken as 0.",
             ),
-            Self::ValuesSurplus => several(
-                "A line holds more than belongs there; the rest was left out.",
-                "lines hold more than belongs there; the rest was left out.",
-            ),
-            Self::RowSplit => several("A row goes on in the next line.", "rows go on in the next line."),
+            Self::ValuesSurplus => several(sentence, "lines hold more than belongs there; the rest was left out."),
+            Self::RowSplit => several(sentence, "rows go on in the next line."),
             Self::NumberMended => several(
-                "A number is written in a foreign way, such as \"1,5\" or \"1.0f\", and was read by its sense.",
+                sentence,
                 "numbers are written in a foreign way, such as \"1,5\" or \"1.0f\", and were read by their sense.",
             ),
             Self::NumberNotFinite => several(
-                "A number is not finite and was replaced, by 1 for scales and a quaternion's w, otherwise by 0.",
+                sentence,
                 "numbers are not finite and were replaced, by 1 for scales and a quaternion's w, otherwise by 0.",
             ),
             Self::TangentSignMissing => several(
-                "A tangent has three numbers; the fourth, the bitangent's sign, is taken as 1.",
+                sentence,
                 "tangents have three numbers; the fourth, the bitangent's sign, is taken as 1.",
             ),
             Self::SubsetLabel(label) => several(
@@ -152,31 +146,30 @@ impl Notice {
                 &format!("labels of the subset table are spelt \"{label}\"; they were read by their place."),
             ),
             Self::SubsetVertexRange => several(
-                "A vertex range of the subset table is unreadable; it is not used.",
+                sentence,
                 "values of vertex ranges of the subset table are unreadable; they are not used.",
             ),
             Self::BlendIndexUnused => several(
-                "A blend index names no bone, but has weight 0; bone 0 stands in.",
+                sentence,
                 "blend indices name no bone, but have weight 0; bone 0 stands in.",
             ),
             Self::BlendDataUnused => several(
-                "A vertex has blend weights or indices though there are no bones; they were left out.",
+                sentence,
                 "lines of blend weights or indices stand in a file without bones; they were left out.",
             ),
             Self::BoneNumber => several(
-                "A bone's label has another number than its place; the place holds.",
+                sentence,
                 "bones' labels have other numbers than their places; the places hold.",
             ),
             Self::BoneOffsetLabel => several(
-                "A bone offset has its bone's number before the sixteen numbers.",
+                sentence,
                 "bone offsets have their bone's number before the sixteen numbers.",
             ),
             Self::BraceMissing(brace) => several(
                 &format!("A \"{brace}\" is missing."),
                 &format!("\"{brace}\" are missing."),
             ),
-            Self::BraceSurplus => several("A brace too many was left out.", "braces too many were left out."),
-            Self::TextSurplus => "There is something behind the last section; it was left out.".into(),
+            Self::BraceSurplus => several(sentence, "braces too many were left out."),
             Self::ZerosSurplus(1) => "The file ends in a byte of value 0; it was left out.".into(),
             Self::ZerosSurplus(bytes) => format!("The file ends in {bytes} bytes of value 0; they were left out."),
         }
@@ -238,14 +231,14 @@ impl Notices {
         self.tallies
             .into_iter()
             .map(|tally| {
-                let (code, severity) = tally.notice.entry();
+                let code = tally.notice.code();
                 Diagnostic {
                     found: tally.notice.found(),
                     position: tally.places.first().copied(),
                     length: tally.length,
                     count: tally.count,
                     places: tally.places,
-                    ..Diagnostic::without_place(severity, code, tally.notice.message(tally.count))
+                    ..code.says(tally.notice.message(tally.count))
                 }
             })
             .collect()

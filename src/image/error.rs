@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, codes};
 
 use super::format::MAX_SIDE;
 
@@ -17,14 +17,14 @@ pub struct ImageError {
 }
 
 impl ImageError {
-    /// Stable kebab-case name of this kind of error.
-    pub fn code(&self) -> &'static str {
+    /// The row of the table of codes.
+    pub fn code(&self) -> &'static Code {
         self.kind.code()
     }
 
     /// The finding for the panel. A model shows on without a map, so it is a warning.
     pub fn diagnostic(&self) -> Diagnostic {
-        Diagnostic::without_place(Severity::Warning, self.code(), self.to_string())
+        self.code().says(self.to_string())
     }
 }
 
@@ -171,27 +171,27 @@ pub enum ImageErrorKind {
 }
 
 impl ImageErrorKind {
-    /// Stable kebab-case name of this kind of error.
-    pub fn code(&self) -> &'static str {
+    /// The row of the table of codes.
+    pub fn code(&self) -> &'static Code {
         match self {
-            Self::Empty => "image-empty",
-            Self::Unrecognized => "image-unrecognized",
-            Self::DdsSignature(_) => "dds-signature",
-            Self::DdsHeaderCut { .. } => "dds-header-cut",
-            Self::DdsHeaderField { .. } => "dds-header-field",
+            Self::Empty => &codes::IMAGE_EMPTY,
+            Self::Unrecognized => &codes::IMAGE_UNRECOGNIZED,
+            Self::DdsSignature(_) => &codes::DDS_SIGNATURE,
+            Self::DdsHeaderCut { .. } => &codes::DDS_HEADER_CUT,
+            Self::DdsHeaderField { .. } => &codes::DDS_HEADER_FIELD,
             Self::DdsFourCc(_) | Self::DdsDxgiFormat(_) | Self::DdsPixelFlags(_) | Self::DdsBitCount(_) => {
-                "dds-unsupported"
+                &codes::DDS_UNSUPPORTED
             }
-            Self::DdsMask { .. } => "dds-mask",
-            Self::Dimension(_) => "image-dimension",
-            Self::PartialCube(_) | Self::CubeNotSquare { .. } => "image-cube",
-            Self::NoSlices => "image-no-slices",
-            Self::Size { .. } => "image-size",
-            Self::MipCount { .. } => "image-mip-count",
-            Self::Cut { .. } | Self::JpegCut => "image-cut",
-            Self::Implausible { .. } => "image-implausible",
-            Self::DataLength { .. } => "image-data-length",
-            Self::Undecodable { .. } => "image-undecodable",
+            Self::DdsMask { .. } => &codes::DDS_MASK,
+            Self::Dimension(_) => &codes::IMAGE_DIMENSION,
+            Self::PartialCube(_) | Self::CubeNotSquare { .. } => &codes::IMAGE_CUBE,
+            Self::NoSlices => &codes::IMAGE_NO_SLICES,
+            Self::Size { .. } => &codes::IMAGE_SIZE,
+            Self::MipCount { .. } => &codes::IMAGE_MIP_COUNT,
+            Self::Cut { .. } | Self::JpegCut => &codes::IMAGE_CUT,
+            Self::Implausible { .. } => &codes::IMAGE_IMPLAUSIBLE,
+            Self::DataLength { .. } => &codes::IMAGE_DATA_LENGTH,
+            Self::Undecodable { .. } => &codes::IMAGE_UNDECODABLE,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Why a document cannot become a model.
 
-use crate::diagnostic::{Diagnostic, Position, Severity, Subject};
+use crate::diagnostic::{Code, Diagnostic, Position, Subject, codes};
 
 /// A document that names what does not exist, or a hierarchy that has no order.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -112,25 +112,25 @@ pub enum ModelErrorKind {
 }
 
 impl ModelError {
-    /// Stable kebab-case name of the broken rule.
-    pub fn code(&self) -> &'static str {
+    /// The row of the table of codes.
+    pub fn code(&self) -> &'static Code {
         match self.kind {
-            ModelErrorKind::ParentOutOfRange { .. } => "parent-out-of-range",
-            ModelErrorKind::ParentCycle { .. } => "parent-cycle",
-            ModelErrorKind::BoneCountMismatch { .. } => "bone-count-mismatch",
-            ModelErrorKind::VertexOutOfRange { .. } => "vertex-out-of-range",
-            ModelErrorKind::InfluenceOutOfRange { .. } => "influence-out-of-range",
-            ModelErrorKind::ParentNotBefore { .. } => "parent-not-before",
-            ModelErrorKind::JointCountMismatch { .. } => "joint-count-mismatch",
-            ModelErrorKind::FileBoneNotUnique { .. } => "file-bone-not-unique",
-            ModelErrorKind::MatrixNotFinite { .. } => "matrix-not-finite",
-            ModelErrorKind::NoKeys => "no-keys",
-            ModelErrorKind::KeyNotAfter { .. } => "key-not-after",
-            ModelErrorKind::KeyNotFinite { .. } => "key-not-finite",
+            ModelErrorKind::ParentOutOfRange { .. } => &codes::PARENT_OUT_OF_RANGE,
+            ModelErrorKind::ParentCycle { .. } => &codes::PARENT_CYCLE,
+            ModelErrorKind::BoneCountMismatch { .. } => &codes::BONE_COUNT_MISMATCH,
+            ModelErrorKind::VertexOutOfRange { .. } => &codes::VERTEX_OUT_OF_RANGE,
+            ModelErrorKind::InfluenceOutOfRange { .. } => &codes::INFLUENCE_OUT_OF_RANGE,
+            ModelErrorKind::ParentNotBefore { .. } => &codes::PARENT_NOT_BEFORE,
+            ModelErrorKind::JointCountMismatch { .. } => &codes::JOINT_COUNT_MISMATCH,
+            ModelErrorKind::FileBoneNotUnique { .. } => &codes::FILE_BONE_NOT_UNIQUE,
+            ModelErrorKind::MatrixNotFinite { .. } => &codes::MATRIX_NOT_FINITE,
+            ModelErrorKind::NoKeys => &codes::NO_KEYS,
+            ModelErrorKind::KeyNotAfter { .. } => &codes::KEY_NOT_AFTER,
+            ModelErrorKind::KeyNotFinite { .. } => &codes::KEY_NOT_FINITE,
         }
     }
 
-    /// The same as a finding, for panels and outputs.
+    /// The same as a diagnostic, for panels and outputs.
     pub fn diagnostic(&self) -> Diagnostic {
         let subject = match self.kind {
             ModelErrorKind::ParentOutOfRange { bone, .. } => Some(Subject::Bone(bone)),
@@ -158,7 +158,7 @@ impl ModelError {
             position: self.position,
             places: self.position.into_iter().collect(),
             subject,
-            ..Diagnostic::without_place(Severity::Error, self.code(), self.kind.to_string())
+            ..self.code().says(self.kind.to_string())
         }
     }
 }

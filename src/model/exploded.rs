@@ -4,7 +4,7 @@ use glam::{Affine3A, Vec3};
 
 use super::notes::{Notes, Place};
 use super::{Clip, Mesh, Skeleton};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
 
 /// Triangles looked at for a clip, spread over the mesh: enough for a fraction.
@@ -32,8 +32,8 @@ pub(super) fn note_exploded(mesh: &Mesh, skeleton: &Skeleton, clips: &[Clip], li
     for (index, clip) in (0u32..).zip(clips) {
         let share = torn_share(mesh, looked_at, &first_key_palette(skeleton, clip));
         if share > TORN_SHARE {
-            notes.warn(
-                "exploded",
+            notes.add(
+                &codes::EXPLODED,
                 Place::on(Subject::Clip(index), lines.clips.get(index as usize).map(|lines| lines.clip)),
                 format!(
                     "{:.0} % of the edges are torn at the first key of \"{}\": its keys do not belong to the bone offsets \

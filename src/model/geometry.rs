@@ -8,7 +8,7 @@ use super::normals::mended_normals;
 use super::notes::{Notes, Place, Tally, counted};
 use super::tangents::mended_tangents;
 use super::{Handedness, Mesh, ModelError, ModelErrorKind, Skeleton};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex};
 
 /// Vertices that the books' 16-bit indices can name.
@@ -26,7 +26,7 @@ pub(super) fn mesh_from_document(
     if vertices.len() > BOOK_VERTEX_LIMIT {
         let count = vertices.len();
         let message = format!("There are {count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}.");
-        notes.note("many-vertices", Place::default(), message);
+        notes.add(&codes::MANY_VERTICES, Place::default(), message);
     }
     let positions = finite_stream(vertices, lines, notes, "position", |vertex| vertex.position);
     let tex_coords = finite_stream(vertices, lines, notes, "texture coordinate", |vertex| vertex.tex_coords);
@@ -85,8 +85,8 @@ fn finite_stream<const N: usize>(
         })
         .collect();
     if mended.count > 0 {
-        notes.warn(
-            "vertex-not-finite",
+        notes.add(
+            &codes::VERTEX_NOT_FINITE,
             Place::of_rows(&mended, Subject::Vertex, &lines.vertices),
             format!(
                 "{} a {field} that is not finite; taken as 0.",

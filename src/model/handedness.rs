@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::Handedness;
 use super::normals::is_direction;
 use super::notes::{Notes, Place};
+use crate::diagnostic::codes;
 
 /// Below this share of agreeing triangles the answer is a guess. Real files agree on more than 99 %.
 const CLEAR_SHARE: f64 = 0.8;
@@ -31,8 +32,8 @@ pub(super) fn handedness_of(positions: &[Vec3], normals: &[Vec3], indices: &[u32
     };
     let tested = agree + disagree;
     if f64::from(majority) < CLEAR_SHARE * f64::from(tested) {
-        notes.note(
-            "handedness-unclear",
+        notes.add(
+            &codes::HANDEDNESS_UNCLEAR,
             Place::default(),
             format!("{agree} of {tested} triangles wind as in a left-handed file, the rest as in a right-handed one."),
         );

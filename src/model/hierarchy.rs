@@ -7,7 +7,7 @@ use glam::{Affine3A, Mat4};
 
 use super::notes::{Notes, Place, Tally, counted};
 use super::{JointIndex, ModelError, ModelErrorKind, Skeleton};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{Document, LineMap};
 
 /// Bones that the loaders of both books can hold in their constant buffer.
@@ -32,8 +32,8 @@ pub(super) fn skeleton_from_document(
     let file_bones = parents_first(&bone_parents, lines)?;
     note_order(&file_bones, &bone_parents, lines, notes);
     if bone_count > BOOK_BONE_LIMIT {
-        notes.note(
-            "many-bones",
+        notes.add(
+            &codes::MANY_BONES,
             Place::default(),
             format!("There are {bone_count} bones; the books' shaders hold {BOOK_BONE_LIMIT}."),
         );
@@ -131,8 +131,8 @@ fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, note
         }
     }
     let stand = counted(late.count, "bone stands", "bones stand");
-    notes.note(
-        "bones-reordered",
+    notes.add(
+        &codes::BONES_REORDERED,
         Place::of_rows(&late, Subject::Bone, &lines.bone_parents),
         format!("{stand} before the parent; the joints are sorted and keep the file's numbers for display."),
     );
@@ -160,25 +160,25 @@ fn offsets(rows: &[[f32; 16]], lines: &LineMap, notes: &mut Notes) -> Vec<Affine
             joint_from_bind
         })
         .collect();
-    let mut warn = |code, tally: Tally, rule: &str| {
+    let mut warn = |code: &Code, tally: Tally, rule: &str| {
         if tally.count > 0 {
             let offsets = counted(tally.count, "bone offset has", "bone offsets have");
             let place = Place::of_rows(&tally, Subject::Bone, &lines.bone_offsets);
-            notes.warn(code, place, format!("{offsets} {rule}"));
+            notes.add(code, place, format!("{offsets} {rule}"));
         }
     };
     warn(
-        "offset-not-finite",
+        &codes::OFFSET_NOT_FINITE,
         not_finite,
         "a number that is not finite; the identity stands in.",
     );
     warn(
-        "offset-not-affine",
+        &codes::OFFSET_NOT_AFFINE,
         not_affine,
         "a fourth column that is not 0 0 0 1; that column was left out.",
     );
     warn(
-        "offset-singular",
+        &codes::OFFSET_SINGULAR,
         singular,
         "no inverse; the bone's place in the bind pose is unknown.",
     );

@@ -2,7 +2,7 @@
 
 use super::notes::{Notes, Place, Tally, counted};
 use super::{Influences, ModelError, ModelErrorKind, Skeleton};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex};
 
 /// A sum of weights that is off by more than this was not meant to be rounded.
@@ -94,8 +94,8 @@ impl Mended {
         let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertices);
         let vertices = |tally: &Tally| counted(tally.count, "vertex has", "vertices have");
         if self.invalid.count > 0 {
-            notes.warn(
-                "weights-invalid",
+            notes.add(
+                &codes::WEIGHTS_INVALID,
                 place(&self.invalid),
                 format!(
                     "{} a blend weight that is negative or not finite; taken as 0.",
@@ -104,8 +104,8 @@ impl Mended {
             );
         }
         if self.off_sum.count > 0 {
-            notes.warn(
-                "weights-not-normalized",
+            notes.add(
+                &codes::WEIGHTS_NOT_NORMALIZED,
                 place(&self.off_sum),
                 format!(
                     "{} blend weights whose sum is off from 1 by more than {SUM_TOLERANCE}; normalised.",
@@ -114,15 +114,15 @@ impl Mended {
             );
         }
         if self.unweighted.count > 0 {
-            notes.warn(
-                "weights-all-zero",
+            notes.add(
+                &codes::WEIGHTS_ALL_ZERO,
                 place(&self.unweighted),
                 format!("{} no blend weight; not moved by any bone.", vertices(&self.unweighted)),
             );
         }
         if self.high_bone.count > 0 {
-            notes.note(
-                "bone-index-above-byte",
+            notes.add(
+                &codes::BONE_INDEX_ABOVE_BYTE,
                 place(&self.high_bone),
                 format!(
                     "{} a bone above {BOOK_BONE_INDEX}, which the books' loaders cannot hold.",

@@ -7,7 +7,7 @@ use super::names::unique;
 use super::notes::{Notes, Place, Tally, counted};
 use super::track::unit;
 use super::{Clip, LocalJoint, ModelError, Skeleton, Track};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{BoneAnimation, ClipLines, Document, LineMap};
 
 /// A rotation whose length is off by more than this was not meant to be rounded.
@@ -28,18 +28,18 @@ pub(super) fn clips_from_document(
         document.clips.iter().map(|clip| clip.name.as_str()),
         "clip",
         |index, name| {
-            notes.note(
-                "duplicate-clip-name",
+            notes.add(
+                &codes::DUPLICATE_CLIP_NAME,
                 Place::of(Subject::Clip(index), &clip_lines),
                 format!("Another clip has the same name; this one is shown as \"{name}\"."),
             );
         },
     );
     for (index, _) in (0u32..).zip(&document.clips).filter(|(_, clip)| clip.name.is_empty()) {
-        notes.note(
-            "clip-unnamed",
+        notes.add(
+            &codes::CLIP_UNNAMED,
             Place::of(Subject::Clip(index), &clip_lines),
-            "This clip has no name; it is shown with its number.".into(),
+            codes::CLIP_UNNAMED.sentence.into(),
         );
     }
     let no_lines = ClipLines::default();
@@ -116,65 +116,65 @@ impl ClipReader<'_> {
         let at_clip = Place::on(Subject::Clip(self.clip), clip_line);
         if bone_count < joint_count {
             let missing = counted(joint_count - bone_count, "bone has", "bones have");
-            notes.warn(
-                "clip-bones-missing",
+            notes.add(
+                &codes::CLIP_BONES_MISSING,
                 at_clip,
                 format!("{missing} no track in this clip; at rest as in the bind pose."),
             );
         }
         if bone_count > joint_count {
             let more = counted(bone_count - joint_count, "track", "tracks");
-            notes.warn(
-                "clip-bones-extra",
+            notes.add(
+                &codes::CLIP_BONES_EXTRA,
                 at_clip,
                 format!("The clip has {more} more than the skeleton has bones; left out."),
             );
         }
-        let mut warn = |code, tally: Tally, one: &str, many: &str, rule: &str| {
+        let mut warn = |code: &Code, tally: Tally, one: &str, many: &str, rule: &str| {
             if tally.count > 0 {
                 let place = Place::of_rows_in(Subject::Clip(self.clip), &tally, &self.lines.bones, clip_line);
-                notes.warn(code, place, format!("{} {rule}", counted(tally.count, one, many)));
+                notes.add(code, place, format!("{} {rule}", counted(tally.count, one, many)));
             }
         };
         let bones = ("bone has", "bones have");
         let keys = ("key has", "keys have");
         warn(
-            "track-empty",
+            &codes::TRACK_EMPTY,
             mended.empty,
             bones.0,
             bones.1,
             "no keys in this clip; at rest as in the bind pose.",
         );
         warn(
-            "keys-not-finite",
+            &codes::KEYS_NOT_FINITE,
             mended.not_finite,
             keys.0,
             keys.1,
             "a number that is not finite or a time beyond 10⁹ s; left out.",
         );
         warn(
-            "keys-not-sorted",
+            &codes::KEYS_NOT_SORTED,
             mended.unsorted,
             bones.0,
             bones.1,
             "keys that are not in the order of time; sorted.",
         );
         warn(
-            "keys-at-equal-times",
+            &codes::KEYS_AT_EQUAL_TIMES,
             mended.equal_times,
             keys.0,
             keys.1,
             "the time of the key before; the first and the last key of a time are kept as a jump.",
         );
         warn(
-            "rotation-not-unit",
+            &codes::ROTATION_NOT_UNIT,
             mended.not_unit,
             keys.0,
             keys.1,
             "a rotation that is not of unit length; normalised.",
         );
         warn(
-            "rotation-zero",
+            &codes::ROTATION_ZERO,
             mended.zero_rotation,
             keys.0,
             keys.1,

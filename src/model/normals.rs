@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::Handedness;
 use super::handedness::facing;
 use super::notes::{Notes, Place, Tally, counted};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
 
 /// Shorter than this is no direction.
@@ -33,8 +33,8 @@ pub(super) fn mended_normals(
         }
     }
     let computed = if missing.count > 0 {
-        notes.warn(
-            "normals-missing",
+        notes.add(
+            &codes::NORMALS_MISSING,
             Place::of_rows(&missing, Subject::Vertex, &lines.vertices),
             format!(
                 "{} a normal that is zero or not finite; computed from the triangles.",

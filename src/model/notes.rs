@@ -2,8 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::CODES;
-use crate::diagnostic::{Diagnostic, Position, Severity, Subject};
+use crate::diagnostic::{Code, Diagnostic, Position, Subject};
 
 /// The start of a line.
 pub(super) fn line_start(line: u32) -> Position {
@@ -23,22 +22,9 @@ impl Notes {
     /// Findings of one code up to this many are told apart.
     const MOST_APART: u32 = 4;
 
-    /// Something worth knowing; nothing was changed.
-    pub(super) fn note(&mut self, code: &'static str, place: Place, message: String) {
-        self.push(Severity::Note, code, place, message);
-    }
-
-    /// Something was mended or left out.
-    pub(super) fn warn(&mut self, code: &'static str, place: Place, message: String) {
-        self.push(Severity::Warning, code, place, message);
-    }
-
-    fn push(&mut self, severity: Severity, code: &'static str, place: Place, message: String) {
-        debug_assert!(
-            CODES.iter().any(|&(listed, of, _)| (listed, of) == (code, severity)),
-            "the table of codes lacks {code} as a {severity}"
-        );
-        let met = self.met.entry(code).or_default();
+    /// Adds a diagnostic.
+    pub(crate) fn add(&mut self, code: &Code, place: Place, message: String) {
+        let met = self.met.entry(code.name).or_default();
         *met = met.saturating_add(1);
         if *met > Self::MOST_APART {
             return;
@@ -49,7 +35,7 @@ impl Notes {
             subject: place.subject,
             count: place.count,
             places,
-            ..Diagnostic::without_place(severity, code, message)
+            ..code.says(message)
         });
     }
 

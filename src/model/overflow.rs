@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::notes::{Notes, Place};
 use super::track_group::joint_at;
 use super::{Clip, Mesh, Skeleton, Track};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
 
 /// Beyond it a pose is taken to overflow. It leaves room for the sums that make a pose, each of which must fit into `f32`.
@@ -36,7 +36,7 @@ pub(super) fn note_overflows(mesh: &Mesh, skeleton: &Skeleton, clips: &mut [Clip
                 "At {time_secs} s of \"{}\" bone {bone}, or a vertex on it, is taken beyond 10³⁷: numbers overflow there.",
                 clip.name
             );
-            notes.warn("pose-overflows", Place::on(Subject::Clip(index), line), message);
+            notes.add(&codes::POSE_OVERFLOWS, Place::on(Subject::Clip(index), line), message);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::notes::{Notes, Place, counted};
 use super::surface::default_material;
 use super::{Material, Submesh};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Subset};
 
 /// The ranges to draw. May add one default material for subsets that have none.
@@ -22,8 +22,8 @@ pub(super) fn submeshes_from_document(
         if materials.is_empty() {
             materials.push(default_material(materials));
         }
-        notes.warn(
-            "no-subsets",
+        notes.add(
+            &codes::NO_SUBSETS,
             Place::default(),
             format!("The file has no subset; all {triangle_count} triangles are drawn with the first material."),
         );
@@ -52,8 +52,8 @@ pub(super) fn submeshes_from_document(
     if let Some(first) = without_material {
         materials.push(default_material(materials));
         let count = document.subsets.len() - first as usize;
-        notes.warn(
-            "subset-without-material",
+        notes.add(
+            &codes::SUBSET_WITHOUT_MATERIAL,
             Place::of(Subject::Subset(first), &lines.subsets),
             format!(
                 "{} no material; drawn in a default grey.",
@@ -72,8 +72,8 @@ fn clamped(index: u32, subset: &Subset, triangle_count: u32, lines: &LineMap, no
     let count = subset.face_count.min(triangle_count - start);
     if (start, count) != (subset.face_start, subset.face_count) {
         let (first, wanted) = (subset.face_start, subset.face_count);
-        notes.warn(
-            "subset-out-of-range",
+        notes.add(
+            &codes::SUBSET_OUT_OF_RANGE,
             Place::of(Subject::Subset(index), &lines.subsets),
             format!(
                 "Subset {index} asks for {wanted} triangles from {first} on, but the file has {triangle_count}; {count} of \
@@ -101,8 +101,8 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
     undrawn += triangle_count - drawn_to;
     if undrawn > 0 {
         let belong = counted(undrawn as usize, "triangle belongs", "triangles belong");
-        notes.warn(
-            "triangles-undrawn",
+        notes.add(
+            &codes::TRIANGLES_UNDRAWN,
             Place::default(),
             format!("{belong} to no subset; not drawn."),
         );
@@ -113,8 +113,8 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
             "triangle belongs",
             "triangles belong",
         );
-        notes.note(
-            "triangles-shared",
+        notes.add(
+            &codes::TRIANGLES_SHARED,
             Place::default(),
             format!("{belong} to more than one subset."),
         );
@@ -133,8 +133,8 @@ fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes
             && highest == subset.vertex_count - 1
             && u64::from(subset.vertex_start) + u64::from(subset.vertex_count) <= document.vertices.len() as u64;
         if fits && highest < subset.vertex_start {
-            notes.note(
-                "indices-look-relative",
+            notes.add(
+                &codes::INDICES_LOOK_RELATIVE,
                 Place::of(Subject::Subset(index), &lines.subsets),
                 format!(
                     "The triangles of subset {index} name only vertices before its VertexStart {}; they are taken as they \

@@ -3,7 +3,7 @@
 use super::names::unique;
 use super::notes::{Notes, Place};
 use super::{Material, Reflectance};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Subject, codes};
 use crate::format::{self, Document, LineMap};
 
 /// What a subset without a material is drawn with: a mid grey that reads as no colour of the file.
@@ -29,8 +29,8 @@ pub(super) fn materials_from_document(document: &Document, lines: &LineMap, note
         document.materials.iter().map(|material| material.name.as_str()),
         "material",
         |index, name| {
-            notes.note(
-                "duplicate-material-name",
+            notes.add(
+                &codes::DUPLICATE_MATERIAL_NAME,
                 Place::of(Subject::Material(index), &lines.materials),
                 format!("Another material has the same name; this one is shown as \"{name}\"."),
             );

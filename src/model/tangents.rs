@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Vec3, Vec4};
 use super::Mesh;
 use super::normals::is_direction;
 use super::notes::{Notes, Place, Tally, counted};
-use crate::diagnostic::Subject;
+use crate::diagnostic::{Code, Subject, codes};
 use crate::format::LineMap;
 
 /// Unit tangents for a mesh that has its other streams. Those that are zero or not finite follow the u axis of the
@@ -39,10 +39,10 @@ pub(super) fn mended_tangents(
             axes[index].tangent(mesh.normals[index])
         };
     }
-    let mut warn = |code, tally: Tally, rule: &str| {
+    let mut warn = |code: &Code, tally: Tally, rule: &str| {
         if tally.count > 0 {
             let place = Place::of_rows(&tally, Subject::Vertex, &lines.vertices);
-            notes.warn(
+            notes.add(
                 code,
                 place,
                 format!("{} {rule}", counted(tally.count, "vertex has", "vertices have")),
@@ -50,9 +50,9 @@ pub(super) fn mended_tangents(
         }
     };
     let rule = "a tangent that is zero or not finite; computed from the texture coordinates.";
-    warn("tangents-missing", missing, rule);
+    warn(&codes::TANGENTS_MISSING, missing, rule);
     warn(
-        "tangent-sign",
+        &codes::TANGENT_SIGN,
         signs,
         "a tangent whose fourth number is not 1 or −1; its sign is kept.",
     );

@@ -3,10 +3,7 @@
 
 use super::changes::Changes;
 use super::{Command, Event, LoadError, Session};
-use crate::diagnostic::{Diagnostic, Severity};
-
-/// The finding that something open could not be brought to the GPU.
-pub const GPU_REFUSED: &str = "gpu-refused";
+use crate::diagnostic::codes;
 
 impl Session {
     /// A copy of all that is open, for [`Session::go_back`]; none when there is an older one, which the screen still shows.
@@ -58,7 +55,7 @@ impl LoadError {
         let message = format!("This cannot be drawn here: {reason}.");
         Self {
             file_name,
-            diagnostic: Diagnostic::without_place(Severity::Error, GPU_REFUSED, message),
+            diagnostic: codes::GPU_REFUSED.says(message),
             excerpt: None,
         }
     }

@@ -5,7 +5,7 @@ use glam::Affine3A;
 use super::files::File;
 use super::load::{LoadError, load};
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
-use crate::diagnostic::{Diagnostic, Severity, Subject};
+use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
 use crate::model::{Skeleton, unique_names};
 
 /// Numbers of two bone offsets that differ by less are the same: lengths as shares of the model's size, axes as they are.
@@ -23,10 +23,10 @@ impl OpenModel {
         let refuse = |code, message| Err(Box::new(LoadError::refused(file, code, message)));
         let (ours, theirs) = (self.file.base_name(), file.base_name());
         if let Some(difference) = difference(&self.model.skeleton, ours, &other.model.skeleton, theirs) {
-            return refuse("clips-bones-differ", difference);
+            return refuse(&codes::CLIPS_BONES_DIFFER, difference);
         }
         if other.model.clips.is_empty() {
-            return refuse("clips-none", format!("{theirs} has no clips to add."));
+            return refuse(&codes::CLIPS_NONE, format!("{theirs} has no clips to add."));
         }
         let offsets_differ = self.offsets_notice(&other);
         let replaced = if replaces { self.remove_joined(theirs) } else { None };
@@ -140,7 +140,7 @@ impl OpenModel {
         );
         Some(Diagnostic {
             subject: Some(Subject::Bone(first)),
-            ..Diagnostic::without_place(Severity::Note, "clips-offsets-differ", message)
+            ..codes::CLIPS_OFFSETS_DIFFER.says(message)
         })
     }
 }
@@ -192,7 +192,7 @@ fn joined_notice(notice: Diagnostic, file_name: &str, first: usize) -> Option<Di
         return None;
     };
     // Names were made free anew for this list.
-    if notice.code == "duplicate-clip-name" {
+    if notice.code == codes::DUPLICATE_CLIP_NAME.name {
         return None;
     }
     Some(Diagnostic {
@@ -213,6 +213,6 @@ fn replaced_notice(file_name: &str, first: usize, count: usize, before: usize) -
     let message = format!("{file_name} was added before; its {now} {replace} the {before} from then.");
     Diagnostic {
         subject: Some(Subject::Clip(first as u32)),
-        ..Diagnostic::without_place(Severity::Note, "clips-replaced", message)
+        ..codes::CLIPS_REPLACED.says(message)
     }
 }

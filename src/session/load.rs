@@ -6,7 +6,7 @@ use super::files::{File, FileSet};
 use super::maps::Maps;
 use super::open_model::OpenModel;
 use super::sky::FoundSky;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
 use crate::import;
 
@@ -39,16 +39,16 @@ impl LoadError {
         .to_owned();
         Self {
             file_name: String::new(),
-            diagnostic: Diagnostic::without_place(Severity::Error, "no-model", message),
+            diagnostic: codes::NO_MODEL.says(message),
             excerpt: None,
         }
     }
 
     /// A file that is sound, but not for what it was wanted for.
-    pub(super) fn refused(file: &File, code: &'static str, message: String) -> Self {
+    pub(super) fn refused(file: &File, code: &Code, message: String) -> Self {
         Self {
             file_name: file.base_name().to_owned(),
-            diagnostic: Diagnostic::without_place(Severity::Error, code, message),
+            diagnostic: code.says(message),
             excerpt: None,
         }
     }

@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::image::{self, Image};
 use crate::model::Material;
 
 use super::files::File;
-use super::textures::{Checklist, MAP_UNUSED, MapSlot, MaterialMaps, find_maps, map_notices, unused_notice};
+use super::textures::{Checklist, MapSlot, MaterialMaps, find_maps, map_notices, unused_notice};
 
 /// Pictures, and what the materials make of them. Only pictures that a material names are decoded; of the others it is known
 /// whether they could be.
@@ -77,7 +77,7 @@ impl Maps {
 
     /// Takes back what was noted about the last drop alone, since another one came.
     pub(super) fn forget_unused(&mut self) {
-        self.notices.retain(|notice| notice.code != MAP_UNUSED);
+        self.notices.retain(|notice| notice.code != codes::MAP_UNUSED.name);
     }
 
     /// Keeps pictures as a drop of their own; one with a path that is there already takes its place. Their indices, and whether
@@ -163,7 +163,7 @@ impl Maps {
         let ambiguous = map_notices(materials, &self.pictures, &self.of_materials);
         self.notices = ambiguous
             .into_iter()
-            .filter(|notice| notice.code == "map-ambiguous")
+            .filter(|notice| notice.code == codes::MAP_AMBIGUOUS.name)
             .collect();
         // Where a picture of the same name that could be read is used in its place, one that could not is of no interest.
         let name = |index: usize| self.pictures[index].base_name().to_lowercase();

@@ -34,7 +34,6 @@ mod view;
 pub use changes::Changes;
 pub use command::{Command, Event};
 pub use files::{File, FileSet};
-pub use going_back::GPU_REFUSED;
 pub use joint_rows::JointRow;
 pub use joints::{JointCommand, Joints, SelectedVertex};
 pub use load::{LoadError, LoadJob, LoadStep, Loaded, Progress, load};

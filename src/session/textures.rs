@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, Severity, Subject};
+use crate::diagnostic::{Code, Diagnostic, Subject, codes};
 use crate::model::Material;
 
 use super::files::File;
@@ -257,24 +257,24 @@ pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]
     let mut notices = Vec::new();
     let path = |index: usize| files.get(index).map_or("", |file| file.path.as_str());
     for (number, (material, maps)) in materials.iter().zip(maps).enumerate() {
-        let mut note = |code, message| {
+        let mut note = |code: &Code, message| {
             notices.push(Diagnostic {
                 subject: Some(Subject::Material(number as u32)),
-                ..Diagnostic::without_place(Severity::Note, code, message)
+                ..code.says(message)
             });
         };
         for slot in MapSlot::ALL {
             let (label, owner) = (slot.label(), &material.name);
             match maps.slot(slot) {
                 MapSource::Missing(name) => note(
-                    "map-missing",
+                    &codes::MAP_MISSING,
                     format!("no file fits the {label} \"{name}\" of material \"{owner}\""),
                 ),
                 MapSource::Found(found) if !found.rivals.is_empty() => {
                     let rivals = found.rivals.iter().map(|&index| path(index).to_owned());
                     let (taken, left) = (path(found.file), spelt(rivals).join(", "));
                     note(
-                        "map-ambiguous",
+                        &codes::MAP_AMBIGUOUS,
                         format!(
                             "the {label} of material \"{owner}\" could be several files: {taken} is taken, not {left}"
                         ),
@@ -286,9 +286,6 @@ pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]
     }
     notices
 }
-
-/// What is noted of pictures that no material uses.
-pub(super) const MAP_UNUSED: &str = "map-unused";
 
 /// Names of files that a note spells out before it counts the rest.
 const NAMES_SPELT: usize = 3;
@@ -331,7 +328,7 @@ pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Optio
         [only] => format!("{only} {of_one}"),
         [others @ .., last] => format!("{} and {last} {of_many}", others.join(", ")),
     };
-    Some(Diagnostic::without_place(Severity::Note, MAP_UNUSED, message))
+    Some(codes::MAP_UNUSED.says(message))
 }
 
 /// Last part of a path, in lower case.

@@ -7,13 +7,14 @@ use super::icons::Icon;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use super::widgets::{TextButton, control_size, icon_button, rule};
 use super::wording::shortened;
+use crate::diagnostic::codes;
 use crate::format::Excerpt;
-use crate::session::{Command, GPU_REFUSED, LoadError, Session};
+use crate::session::{Command, LoadError, Session};
 
 /// The card's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
-    let is_sound = error.diagnostic.code == GPU_REFUSED;
+    let is_sound = error.diagnostic.code == codes::GPU_REFUSED.name;
     let title = match shortened(&error.file_name, 40) {
         name if name.is_empty() && is_sound => "The view could not be drawn".to_owned(),
         name if name.is_empty() => "Nothing to open".to_owned(),

@@ -2,6 +2,7 @@
 
 mod anim;
 mod chains;
+mod codes;
 mod documents;
 mod format;
 mod image;

@@ -5,9 +5,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use bindpose::app::App;
+use bindpose::diagnostic::codes;
 use bindpose::format::{Document, Vertex};
 use bindpose::render::Picture;
-use bindpose::session::{Command, GPU_REFUSED, Session};
+use bindpose::session::{Command, Session};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
@@ -94,7 +95,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
         let error = session.error().expect("shown");
         assert_eq!(
             (error.file_name.as_str(), error.diagnostic.code),
-            ("large.m3d", GPU_REFUSED)
+            ("large.m3d", codes::GPU_REFUSED.name)
         );
         assert_eq!(
             error.diagnostic.message,

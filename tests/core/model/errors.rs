@@ -74,7 +74,7 @@ fn words_code_and_place_of_each_broken_rule() {
             continue;
         }
         let error = error_of(change);
-        assert_eq!((error.code(), error.to_string().as_str()), (code, words));
+        assert_eq!((error.code().name, error.to_string().as_str()), (code, words));
         let finding = error.diagnostic();
         assert_eq!(finding.code, code);
         assert_eq!(finding.position, error.position);

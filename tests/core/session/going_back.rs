@@ -1,7 +1,8 @@
 //! What the GPU refuses is not open: what was open before is open again.
 
+use bindpose::diagnostic::codes;
 use bindpose::image::encode_png;
-use bindpose::session::{Command, Event, File, GPU_REFUSED, MapSlot, Session};
+use bindpose::session::{Command, Event, File, MapSlot, Session};
 
 use super::{models, opened};
 
@@ -27,7 +28,7 @@ fn a_model_that_is_refused_leaves_the_one_before_as_it_was() {
     let error = session.error().expect("shown");
     assert_eq!(
         (error.diagnostic.code, error.file_name.as_str()),
-        (GPU_REFUSED, "second.m3d")
+        (codes::GPU_REFUSED.name, "second.m3d")
     );
     assert_eq!(
         error.diagnostic.message,

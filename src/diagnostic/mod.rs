@@ -1,7 +1,9 @@
 //! What went wrong or was mended, as data: severity, stable code, place and words.
 //!
 //! Every stage speaks of problems with the same [`Diagnostic`], so that the panel, the error card, the command line and
-//! the JSON outputs say the same thing.
+//! the JSON outputs say the same thing. [`codes`] is the table of all codes.
+
+pub mod codes;
 
 use std::fmt;
 
@@ -48,7 +50,7 @@ impl fmt::Display for Severity {
     }
 }
 
-/// What a finding is about, so that a panel can select it.
+/// The part of a file that a diagnostic is about, so that a panel can select it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Subject {
     /// A material, by its index in the file.
@@ -65,16 +67,16 @@ pub enum Subject {
     Clip(u32),
 }
 
-/// One finding about a file.
+/// One thing that is worth telling about a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
-    /// Stable kebab-case name of this kind of finding, for example `weights-not-normalized`.
+    /// Name of its [`Code`], for example `weights-not-normalized`.
     pub code: &'static str,
     /// One sentence for people, without the place.
     pub message: String,
-    /// What was expected at the place, when that can be said in a few words.
+    /// What was expected at `position`, when that can be said in a few words.
     pub expected: Option<String>,
     /// What stood there instead.
     pub found: Option<String>,
@@ -84,22 +86,38 @@ pub struct Diagnostic {
     pub length: u32,
     /// The part of the model it is about; the first one when there are several.
     pub subject: Option<Subject>,
-    /// How many alike things it tells of, rows of the file or parts of the model; 1 for a single one.
+    /// How many occurrences it stands for, rows of the file or parts of the model; 1 for a single one.
     pub count: u32,
-    /// Where the first of them stand, at most [`Diagnostic::MOST_PLACES`]; the first is `position`. Empty without a place.
+    /// Positions of the first occurrences, at most [`Diagnostic::MOST_PLACES`]; the first is `position`. Empty without a
+    /// place.
     pub places: Vec<Position>,
 }
 
 impl Diagnostic {
-    /// How many of many alike things are given their places.
+    /// How many occurrences have their positions listed.
     pub const MOST_PLACES: usize = 4;
+}
 
-    /// A finding that has no place in a file and is about no part of a model.
-    pub(crate) fn without_place(severity: Severity, code: &'static str, message: String) -> Self {
-        Self {
-            severity,
-            code,
-            message,
+/// One kind of diagnostic: a row of the table [`codes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Code {
+    /// Stable kebab-case name, unique in the table.
+    pub name: &'static str,
+    /// How bad it usually is; the place that gives the diagnostic may raise or lower it.
+    pub severity: Severity,
+    /// What is the case, and what was done about it, for one occurrence without its details.
+    pub sentence: &'static str,
+    /// What it means for the model, or what can be done.
+    pub explanation: &'static str,
+}
+
+impl Code {
+    /// A diagnostic of this code with its usual severity, without a place and without a subject.
+    pub(crate) fn says(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            severity: self.severity,
+            code: self.name,
+            message: message.into(),
             expected: None,
             found: None,
             position: None,

@@ -1,0 +1,422 @@
+//! The one table of all codes: name, severity, a sentence and an explanation for each.
+//!
+//! Messages take severity and name from here, and the sentence too where it has no blanks to fill. Tests compare the table
+//! with what the program gives. To add a code: add its row, use its constant, and let a test meet it. Names and meanings
+//! stay as they are for good, since scripts read them.
+
+use super::{Code, Severity};
+
+/// Every code, in the order of the groups.
+pub fn all() -> impl Iterator<Item = &'static Code> {
+    GROUPS.iter().flat_map(|group| group.iter())
+}
+
+/// A constant for each row, and a list for each group.
+macro_rules! table {
+    ($(
+        $(#[doc = $group_doc:literal])*
+        $group:ident {
+            $($constant:ident = $name:literal, $severity:ident, $sentence:literal, $explanation:literal;)*
+        }
+    )*) => {
+        $($(
+            #[doc = concat!("`", $name, "`, ", stringify!($severity), ". ", $sentence)]
+            #[doc = ""]
+            #[doc = $explanation]
+            pub const $constant: Code = Code {
+                name: $name,
+                severity: Severity::$severity,
+                sentence: $sentence,
+                explanation: $explanation,
+            };
+        )*)*
+        $(
+            $(#[doc = $group_doc])*
+            pub const $group: &[Code] = &[$($constant),*];
+        )*
+        const GROUPS: &[&[Code]] = &[$($group),*];
+    };
+}
+
+table! {
+    /// What reading an `.m3d` file gives ([`format::parse`](crate::format::parse)).
+    OF_PARSER {
+        EMPTY_FILE = "empty-file", Error,
+            "The file is empty.",
+            "It holds nothing but blanks. Perhaps it was not written or copied to its end.";
+        OTHER_FORMAT = "other-format", Error,
+            "This is a file of another format.",
+            "The message names the format. Export the model as `.m3d` text.";
+        RELATIVE_FORMAT = "relative-format", Error,
+            "This file is a variant of the format that is laid out differently.",
+            "The books' loaders do not read it either.";
+        NOT_M3D = "not-m3d", Error,
+            "This text does not begin as an .m3d file does.",
+            "An .m3d file begins with a ruler that names its header, or with a count such as `#Materials 5`.";
+        COUNT_MISSING = "count-missing", Error,
+            "The header lacks the count of materials, vertices or triangles.",
+            "Without the count nobody knows where the section ends.";
+        WRONG_SECTION = "wrong-section", Error,
+            "A section stands where another one belongs.",
+            "The sections have one order: header, materials, subsets, vertices, triangles, offsets, hierarchy, clips.";
+        ROW_COUNT = "row-count", Error,
+            "There are fewer or more rows than announced.",
+            "Either the count or the rows are wrong. The books' loaders would read on into the next section.";
+        UNEXPECTED_END = "unexpected-end", Error,
+            "The file ends too early.",
+            "It was not written or copied to its end.";
+        VALUE_MISSING = "value-missing", Error,
+            "A line ends before its last value.",
+            "The message says which value should have come next.";
+        WRONG_LABEL = "wrong-label", Error,
+            "A label is not the one that belongs there.",
+            "The rows of a section have the same labels in the same order.";
+        NOT_A_NUMBER = "not-a-number", Error,
+            "A word stands where a number belongs.",
+            "Often a value before it is missing, or a section is longer than announced.";
+        NOT_IN_RANGE = "not-in-range", Error,
+            "A value is no whole number, or one out of its range.",
+            "An index must name a row that is there; a count must not be negative.";
+        MATERIAL_INCOMPLETE = "material-incomplete", Error,
+            "The material that begins here has too few lines to be one.",
+            "Perhaps the header announces more materials than there are.";
+        MOSTLY_ZEROS = "mostly-zeros", Error,
+            "The file ends in more bytes of value 0 than stand before them.",
+            "It was not written or copied whole.";
+        RULER_MISSING = "ruler-missing", Warning,
+            "A section begins without its ruler line.",
+            "It was read by its place. The books' loaders skip one word there and would be out of step.";
+        RULER_UNKNOWN = "ruler-unknown", Note,
+            "A ruler does not name the section that begins there.",
+            "It was read by its place.";
+        COMMENT = "comment", Note,
+            "A comment line above the header was left out.",
+            "The books' loaders do not know comments.";
+        COUNTS_ALL_ZERO = "counts-all-zero", Warning,
+            "Every count of the header is 0: the file holds nothing.",
+            "There is nothing to show.";
+        COUNT_ASSUMED = "count-assumed", Warning,
+            "The header lacks the count of bones or clips; taken as none.",
+            "A model without bones is shown as it was bound.";
+        SECTION_MISSING = "section-missing", Note,
+            "An empty section is not there, though the others of a skinned model are.",
+            "Nothing is lost: its count is 0.";
+        LABEL_UNKNOWN = "label-unknown", Note,
+            "A line is not known and was left out.",
+            "Perhaps its label is misspelt, or another tool wrote it for itself.";
+        LABEL_REPEATED = "label-repeated", Warning,
+            "A line is given more than once; the last one holds.",
+            "Perhaps two materials were written without a blank line between them.";
+        MATERIAL_LINE_MISSING = "material-line-missing", Warning,
+            "A material lacks a line; its default is used.",
+            "The books' loaders need every line of a material in its order.";
+        ALPHA_CLIP_UNREADABLE = "alpha-clip-unreadable", Warning,
+            "An AlphaClip is neither a number nor true or false; taken as 0.",
+            "The material is drawn without holes.";
+        VALUES_SURPLUS = "values-surplus", Note,
+            "A line holds more than belongs there; the rest was left out.",
+            "The books' loaders read word by word and would be out of step from there on.";
+        ROW_SPLIT = "row-split", Note,
+            "A row goes on in the next line.",
+            "It was read as one row, as the books' loaders do.";
+        NUMBER_MENDED = "number-mended", Warning,
+            "A number is written in a foreign way, such as \"1,5\" or \"1.0f\", and was read by its sense.",
+            "Exporters write so under a language with decimal commas, or for source code.";
+        NUMBER_NOT_FINITE = "number-not-finite", Warning,
+            "A number is not finite and was replaced, by 1 for scales and a quaternion's w, otherwise by 0.",
+            "The exporter divided by zero or used a value that was never set.";
+        TANGENT_SIGN_MISSING = "tangent-sign-missing", Note,
+            "A tangent has three numbers; the fourth, the bitangent's sign, is taken as 1.",
+            "Where the texture is mirrored, bumps look like dents.";
+        SUBSET_LABEL = "subset-label", Note,
+            "A label of the subset table is misspelt; it was read by its place.",
+            "Nothing is lost: the order of the values is always the same.";
+        SUBSET_VERTEX_RANGE = "subset-vertex-range", Note,
+            "A vertex range of the subset table is unreadable; it is not used.",
+            "Only the range of triangles is needed to draw a subset.";
+        BLEND_INDEX_UNUSED = "blend-index-unused", Note,
+            "A blend index names no bone, but has weight 0; bone 0 stands in.",
+            "Nothing moves differently.";
+        BLEND_DATA_UNUSED = "blend-data-unused", Note,
+            "A vertex has blend weights or indices though there are no bones; they were left out.",
+            "Perhaps the file was exported without its skeleton.";
+        BONE_NUMBER = "bone-number", Note,
+            "A bone's label has another number than its place; the place holds.",
+            "The books' loaders do not look at the number either.";
+        BONE_OFFSET_LABEL = "bone-offset-label", Note,
+            "A bone offset has its bone's number before the sixteen numbers.",
+            "It is taken as a part of the label.";
+        BRACE_MISSING = "brace-missing", Warning,
+            "A brace is missing.",
+            "The clip was read as if it stood there.";
+        BRACE_SURPLUS = "brace-surplus", Warning,
+            "A brace too many was left out.",
+            "The books' loaders would be out of step from there on.";
+        TEXT_SURPLUS = "text-surplus", Warning,
+            "There is something behind the last section; it was left out.",
+            "Perhaps the header announces fewer clips than there are.";
+        ZEROS_SURPLUS = "zeros-surplus", Warning,
+            "The file ends in bytes of value 0; they were left out.",
+            "A disk or a transfer padded the file. The text before them is whole.";
+    }
+
+    /// What making a model of a document gives ([`Model::from_document`](crate::model::Model::from_document)).
+    OF_MODEL {
+        PARENT_OUT_OF_RANGE = "parent-out-of-range", Error,
+            "A bone's parent is neither −1 nor a bone.",
+            "A root has −1 as its parent; any other bone names one that is there.";
+        PARENT_CYCLE = "parent-cycle", Error,
+            "Bones are their own ancestors.",
+            "A hierarchy that runs in a circle has no root from which to begin.";
+        BONE_COUNT_MISMATCH = "bone-count-mismatch", Error,
+            "The numbers of bone offsets and of parents differ.",
+            "Every bone has one offset and one parent.";
+        VERTEX_OUT_OF_RANGE = "vertex-out-of-range", Error,
+            "A triangle names a vertex that is not there.",
+            "The first vertex has the number 0.";
+        INFLUENCE_OUT_OF_RANGE = "influence-out-of-range", Error,
+            "A vertex gives weight to a bone that is not there.",
+            "The first bone has the number 0.";
+        DUPLICATE_MATERIAL_NAME = "duplicate-material-name", Note,
+            "Another material has the same name; this one is shown with a number.",
+            "Subsets name materials by their place, so both are drawn as they are.";
+        NO_SUBSETS = "no-subsets", Warning,
+            "The file has no subset; all triangles are drawn with the first material.",
+            "The books' demos draw nothing without a subset.";
+        SUBSET_WITHOUT_MATERIAL = "subset-without-material", Warning,
+            "A subset has no material; drawn in a default grey.",
+            "The file has more subsets than materials; each subset takes the material of its own place.";
+        SUBSET_OUT_OF_RANGE = "subset-out-of-range", Warning,
+            "A subset asks for triangles that are not there; they are left out.",
+            "FaceStart and FaceCount count triangles, not indices.";
+        TRIANGLES_UNDRAWN = "triangles-undrawn", Warning,
+            "A triangle belongs to no subset; not drawn.",
+            "Parts of the model are missing in the picture.";
+        TRIANGLES_SHARED = "triangles-shared", Note,
+            "A triangle belongs to more than one subset.",
+            "It is drawn with the material of the first of them, unless alpha cuts holes into it.";
+        INDICES_LOOK_RELATIVE = "indices-look-relative", Note,
+            "The indices of a subset look counted from its VertexStart; they are taken as they stand.",
+            "If the model looks torn, the exporter should add VertexStart to them.";
+        BONES_REORDERED = "bones-reordered", Note,
+            "A bone stands before its parent; the joints are sorted and keep the file's numbers for display.",
+            "The books' demos multiply down the list and show such a model wrong.";
+        MANY_BONES = "many-bones", Note,
+            "There are more bones than the books' shaders hold.",
+            "The books' demos need a larger array of bones in their constant buffer.";
+        OFFSET_NOT_FINITE = "offset-not-finite", Warning,
+            "A bone offset has a number that is not finite; the identity stands in.",
+            "The vertices of the bone are moved as if it had been bound at the origin.";
+        OFFSET_NOT_AFFINE = "offset-not-affine", Warning,
+            "A bone offset has a fourth column other than 0 0 0 1; that column was left out.",
+            "Perhaps the matrix was written for column vectors: the translation belongs in its fourth row.";
+        OFFSET_SINGULAR = "offset-singular", Warning,
+            "A bone offset has no inverse; the bone's place in the bind pose is unknown.",
+            "The bone is shown at the origin of the bind pose. Clips are not affected.";
+        MANY_VERTICES = "many-vertices", Note,
+            "There are more vertices than the books' 16-bit indices name.",
+            "The books' demos need 32-bit indices to show it.";
+        VERTEX_NOT_FINITE = "vertex-not-finite", Warning,
+            "A vertex has a position or texture coordinate that is not finite; taken as 0.",
+            "The vertex stands at the origin of that coordinate.";
+        HANDEDNESS_UNCLEAR = "handedness-unclear", Note,
+            "Triangles wind both ways; the majority decides.",
+            "Parts of the model may be inside out, or the whole may be mirrored.";
+        NORMALS_MISSING = "normals-missing", Warning,
+            "A vertex has a normal that is zero or not finite; computed from the triangles.",
+            "Edges that should be sharp may look round there.";
+        WEIGHTS_INVALID = "weights-invalid", Warning,
+            "A vertex has a blend weight that is negative or not finite; taken as 0.",
+            "Its other bones take over.";
+        WEIGHTS_NOT_NORMALIZED = "weights-not-normalized", Warning,
+            "The blend weights of a vertex do not sum to 1; normalised.",
+            "The books' shaders give the fourth bone whatever is left to 1, so the vertex may stand elsewhere there.";
+        WEIGHTS_ALL_ZERO = "weights-all-zero", Warning,
+            "A vertex of a skinned model has no blend weight; not moved by any bone.",
+            "It stays where the bind pose has it while the rest moves.";
+        BONE_INDEX_ABOVE_BYTE = "bone-index-above-byte", Note,
+            "An influence names a bone above 255, which the books' loaders cannot hold.",
+            "They keep bone indices in bytes.";
+        TANGENTS_MISSING = "tangents-missing", Warning,
+            "A vertex has a tangent that is zero or not finite; computed from the texture coordinates.",
+            "Only normal maps depend on tangents.";
+        TANGENT_SIGN = "tangent-sign", Warning,
+            "A tangent has a fourth number other than 1 or −1; its sign is kept.",
+            "The number is the sign of the bitangent.";
+        DUPLICATE_CLIP_NAME = "duplicate-clip-name", Note,
+            "Another clip has the same name; this one is shown with a number.",
+            "The books' demos find clips by name and know only one of them.";
+        CLIP_UNNAMED = "clip-unnamed", Note,
+            "This clip has no name; it is shown with its number.",
+            "The books' loaders read a word as its name and would be out of step.";
+        CLIP_BONES_MISSING = "clip-bones-missing", Warning,
+            "A clip has fewer tracks than there are bones; the others are at rest as in the bind pose.",
+            "The books' loaders read one track for each bone.";
+        CLIP_BONES_EXTRA = "clip-bones-extra", Warning,
+            "A clip has more tracks than there are bones; they are left out.",
+            "Perhaps the clip was made for another skeleton.";
+        TRACK_EMPTY = "track-empty", Warning,
+            "A bone has no keys in a clip; at rest as in the bind pose.",
+            "The books' demos need at least one key for each bone.";
+        KEYS_NOT_FINITE = "keys-not-finite", Warning,
+            "A key has a number that is not finite or a time beyond 10⁹ s; left out.",
+            "The motion goes straight from the key before to the key after.";
+        KEYS_NOT_SORTED = "keys-not-sorted", Warning,
+            "A bone has keys that are not in the order of time; sorted.",
+            "The books' demos take them in the order of the file and jump.";
+        KEYS_AT_EQUAL_TIMES = "keys-at-equal-times", Warning,
+            "Keys of a bone have the same time; the first and the last key of a time are kept as a jump.",
+            "The books' demos divide by the time between two keys.";
+        ROTATION_NOT_UNIT = "rotation-not-unit", Warning,
+            "A key has a rotation that is not of unit length; normalised.",
+            "The books' demos make a matrix of it as it stands, which stretches what hangs on the bone.";
+        ROTATION_ZERO = "rotation-zero", Warning,
+            "A key has a rotation of length 0; taken as no rotation.",
+            "Such a quaternion has no direction.";
+    }
+
+    /// What the checks of a model in motion give.
+    OF_MOTION {
+        EXPLODED = "exploded", Warning,
+            "The keys of a clip do not belong to the bone offsets: the mesh flies apart.",
+            "Perhaps the keys are relative to the model, not to the parent, or the clip was made for another skeleton.";
+        POSE_OVERFLOWS = "pose-overflows", Warning,
+            "A clip takes a bone, or a vertex on it, beyond 10³⁷: numbers overflow there.",
+            "Scales multiply along a chain of bones, so a few great ones are enough.";
+    }
+
+    /// What [`Skeleton::new`](crate::model::Skeleton::new) and [`Track::new`](crate::model::Track::new) refuse. No file
+    /// leads to these.
+    OF_CONSTRUCTORS {
+        PARENT_NOT_BEFORE = "parent-not-before", Error,
+            "A joint stands before its parent.",
+            "Sort the joints so that parents come first.";
+        JOINT_COUNT_MISMATCH = "joint-count-mismatch", Error,
+            "There are not as many parents, inverse bind matrices and file bones.",
+            "Every joint has one of each.";
+        FILE_BONE_NOT_UNIQUE = "file-bone-not-unique", Error,
+            "A joint's file bone is out of range or taken.",
+            "The file bones are an order of all joints.";
+        MATRIX_NOT_FINITE = "matrix-not-finite", Error,
+            "An inverse bind matrix holds a number that is not finite.",
+            "Put a finite matrix in its place.";
+        NO_KEYS = "no-keys", Error,
+            "A track needs at least one key.",
+            "A joint without keys is left out of the clip's tracks or rests.";
+        KEY_NOT_AFTER = "key-not-after", Error,
+            "A key is not after the key before it.",
+            "Key times must increase.";
+        KEY_NOT_FINITE = "key-not-finite", Error,
+            "A key holds a number that is not finite, or a rotation without a direction.",
+            "Leave the key out, or give it numbers.";
+    }
+
+    /// What reading a picture gives ([`ImageError`](crate::image::ImageError)). A model shows without its maps.
+    OF_IMAGES {
+        IMAGE_EMPTY = "image-empty", Warning,
+            "The picture's file is empty.",
+            "Perhaps it was not written or copied to its end.";
+        IMAGE_UNRECOGNIZED = "image-unrecognized", Warning,
+            "The file is none of DDS, PNG, JPEG, TGA and BMP.",
+            "Neither its first bytes nor its name say what it is.";
+        DDS_SIGNATURE = "dds-signature", Warning,
+            "A DDS file does not begin like one.",
+            "Perhaps it is another kind of picture under this name.";
+        DDS_HEADER_CUT = "dds-header-cut", Warning,
+            "A DDS file ends within its header.",
+            "It was not written or copied to its end.";
+        DDS_HEADER_FIELD = "dds-header-field", Warning,
+            "A field of a DDS header has a value that it cannot have.",
+            "The file is damaged.";
+        DDS_UNSUPPORTED = "dds-unsupported", Warning,
+            "A DDS file stores its pixels in a way that is not supported.",
+            "BC1 to BC7 and plain 8, 16, 24 and 32 bits are read.";
+        DDS_MASK = "dds-mask", Warning,
+            "A channel mask of a DDS file does not fit its pixels.",
+            "The file is damaged.";
+        IMAGE_DIMENSION = "image-dimension", Warning,
+            "The texture has one dimension, or three.",
+            "Maps are flat pictures, skies are cube maps.";
+        IMAGE_CUBE = "image-cube", Warning,
+            "A cube map lacks faces, or its faces are not square.",
+            "A sky needs six square faces.";
+        IMAGE_NO_SLICES = "image-no-slices", Warning,
+            "The texture says that it has no slices.",
+            "There is no picture in it.";
+        IMAGE_SIZE = "image-size", Warning,
+            "The picture has no size, or is too large.",
+            "A side has at least one pixel, and at most as many as a GPU can hold.";
+        IMAGE_MIP_COUNT = "image-mip-count", Warning,
+            "The texture has more mip levels than its size allows.",
+            "The header is damaged.";
+        IMAGE_CUT = "image-cut", Warning,
+            "The picture's file ends too early.",
+            "It was not written or copied to its end.";
+        IMAGE_IMPLAUSIBLE = "image-implausible", Warning,
+            "The picture claims more pixels than its file can hold.",
+            "The header is damaged.";
+        IMAGE_DATA_LENGTH = "image-data-length", Warning,
+            "The picture's data are not as long as its size asks for.",
+            "The file is damaged.";
+        IMAGE_UNDECODABLE = "image-undecodable", Warning,
+            "The picture could not be decoded.",
+            "The message has the decoder's words.";
+    }
+
+    /// What putting files together gives: models, maps, clips, and the GPU that is to draw them.
+    OF_SESSION {
+        NO_MODEL = "no-model", Error,
+            "No .m3d model was dropped.",
+            "Pictures alone show nothing: drop them together with their model.";
+        MAP_MISSING = "map-missing", Note,
+            "No file fits a map that a material names.",
+            "The material is drawn without it. Maps are found by base name and may be dropped later.";
+        MAP_AMBIGUOUS = "map-ambiguous", Note,
+            "A map could be several files; the first is taken.",
+            "Rename or leave out the files that are not meant.";
+        MAP_UNUSED = "map-unused", Note,
+            "A picture fits no name of the model's maps, or a better one was there; not used.",
+            "Maps are found by base name, without case and extension.";
+        CLIPS_BONES_DIFFER = "clips-bones-differ", Error,
+            "Clips can only be added from a file with the same bones.",
+            "The message says which bone differs first.";
+        CLIPS_NONE = "clips-none", Error,
+            "The file has no clips to add.",
+            "Perhaps it was exported without its animation.";
+        CLIPS_OFFSETS_DIFFER = "clips-offsets-differ", Note,
+            "The bone offsets of a file of clips differ from those of the model.",
+            "Its clips were made for other proportions, and may look displaced.";
+        CLIPS_REPLACED = "clips-replaced", Note,
+            "A file of clips was added before; its clips replace those from then.",
+            "The clips have the state of the file that came last.";
+        GPU_REFUSED = "gpu-refused", Error,
+            "This cannot be drawn here.",
+            "The graphics device has too little memory, or cannot hold something so large. The file may be sound.";
+    }
+
+    /// What the page gives by itself, where the viewer cannot (`web/api.js`).
+    OF_PAGE {
+        VIEWER_STOPPED = "viewer-stopped", Error,
+            "The viewer stopped.",
+            "It cannot go on; load the page again.";
+    }
+
+    /// What the command line gives beside these, about files and folders.
+    OF_COMMAND_LINE {
+        FILE_UNREADABLE = "file-unreadable", Warning,
+            "The file cannot be read.",
+            "The message has the system's reason.";
+        LINK_BROKEN = "link-broken", Warning,
+            "The link cannot be followed; skipped.",
+            "It leads nowhere.";
+        NOT_A_FILE = "not-a-file", Warning,
+            "This is no regular file; skipped.",
+            "A pipe or a device has the name of a map.";
+        FOLDER_UNREADABLE = "folder-unreadable", Warning,
+            "The folder cannot be read; skipped.",
+            "The message has the system's reason.";
+        FOLDER_TOO_LARGE = "folder-too-large", Warning,
+            "The folder holds more files than are looked at; the others are skipped.",
+            "Name a folder nearer to the maps.";
+    }
+}
