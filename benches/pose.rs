@@ -6,7 +6,7 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use bindpose::anim::PoseBuffers;
+use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::format::{Document, Keyframe};
 use bindpose::model::Clip;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -20,9 +20,9 @@ const TOLERANCE: f32 = 2e-4;
 fn posing(criterion: &mut Criterion) {
     let (name, document, model) = input::input();
     let textbook = Textbook::new(&document);
-    let (skeleton, clip) = (&model.skeleton, &model.clips[0]);
+    let (skeleton, clip) = (&model.skeleton, &CompiledClip::new(&model.clips[0]));
     let mut buffers = PoseBuffers::for_skeleton(skeleton);
-    for (order, times_secs) in forward_and_random_times(clip) {
+    for (order, times_secs) in forward_and_random_times(&model.clips[0]) {
         for &time_secs in &times_secs {
             buffers.evaluate(skeleton, clip, time_secs);
             let expected = textbook.palette(time_secs);

@@ -7,7 +7,7 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use bindpose::anim::{Palette, PoseBuffers, SkinnedVertices, skin};
+use bindpose::anim::{CompiledClip, Palette, PoseBuffers, SkinnedVertices, skin};
 use bindpose::model::Mesh;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{Mat4, Vec3};
@@ -19,7 +19,11 @@ fn skinning(criterion: &mut Criterion) {
     let mesh = &model.mesh;
     let clip = &model.clips[0];
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
-    buffers.evaluate(&model.skeleton, clip, clip.start_secs + 0.4 * clip.duration_secs());
+    buffers.evaluate(
+        &model.skeleton,
+        &CompiledClip::new(clip),
+        clip.start_secs + 0.4 * clip.duration_secs(),
+    );
     let palette = &buffers.palette;
     let matrices: Vec<Mat4> = palette.0.iter().map(|&matrix| matrix.into()).collect();
     let (mut ours, mut theirs) = (SkinnedVertices::default(), SkinnedVertices::default());

@@ -17,7 +17,7 @@
 //!
 //! # From a file to a palette
 //! ```
-//! use bindpose::anim::PoseBuffers;
+//! use bindpose::anim::{CompiledClip, PoseBuffers};
 //! use bindpose::format;
 //! use bindpose::model::Model;
 //!
@@ -27,7 +27,7 @@
 //! assert!(notices.is_empty());
 //!
 //! let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
-//! pose.evaluate(&model.skeleton, &model.clips[0], 0.25);
+//! pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.25);
 //! assert_eq!(pose.palette.0.len(), model.skeleton.joint_count());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -36,6 +36,7 @@ pub mod actions;
 pub mod anim;
 #[cfg(feature = "viewer")]
 pub mod app;
+pub mod check;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod cli;
 pub mod diagnostic;

@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 use glam::{DAffine3, DQuat, DVec3, Quat, Vec3};
 
-use super::{merged_key_times_of, sample_joint};
-use crate::model::{Clip, JointIndex, LocalJoint, Skeleton};
+use super::compile::CompiledClip;
+use super::lanes::turn_between;
+use super::sample::sample_joint;
+use crate::model::{JointIndex, LocalJoint, Skeleton};
 
 /// From mark to mark a joint turns by no more: far from the half turn at which the way round is not known.
 const MARK_RADIANS: f64 = PI / 6.0;
@@ -78,29 +80,28 @@ impl Mark {
 
 impl Curve {
     /// The curves of a joint, relative to its parent or to the model. A joint that the skeleton lacks is the identity.
-    pub fn new(skeleton: &Skeleton, clip: &Clip, joint: JointIndex, space: CurveSpace) -> Self {
+    pub fn new(skeleton: &Skeleton, clip: &CompiledClip, joint: JointIndex, space: CurveSpace) -> Self {
         let mut curve = Self {
             joint,
             space,
             marks: Vec::new(),
         };
-        let rotation = curve.pose(skeleton, clip, clip.start_secs).rotation;
-        curve.marks.push(Mark::after(None, clip.start_secs, rotation));
+        let rotation = curve.pose(skeleton, clip, clip.start_secs()).rotation;
+        curve.marks.push(Mark::after(None, clip.start_secs(), rotation));
         let chain = curve.chain(skeleton);
-        let mut times_secs = merged_key_times_of(clip, &chain);
-        times_secs.push(clip.end_secs);
+        let times_secs = clip.key_times_of(&chain);
         let turns_at = |secs: f32| -> Vec<DQuat> {
             let rotation = |&joint| sample_joint(skeleton, clip, joint, secs).rotation.as_dquat();
             chain.iter().map(rotation).collect()
         };
-        let (mut start_secs, mut turns) = (clip.start_secs, turns_at(clip.start_secs));
+        let (mut start_secs, mut turns) = (clip.start_secs(), turns_at(clip.start_secs()));
         for end_secs in times_secs {
             if end_secs <= start_secs {
                 continue;
             }
             let next_turns = turns_at(end_secs);
             // Together the joints of a chain turn by no more than each by itself.
-            let angle: f64 = turns.iter().zip(&next_turns).map(|(a, b)| angle_between(*a, *b)).sum();
+            let angle: f64 = turns.iter().zip(&next_turns).map(|(a, b)| turn_between(*a, *b)).sum();
             let steps = (angle / MARK_RADIANS).ceil().clamp(1.0, MOST_STEPS) as u32;
             for step in 1..=steps {
                 let part = f64::from(step) / f64::from(steps);
@@ -112,7 +113,7 @@ impl Curve {
     }
 
     /// Sets marks up to a time. Near the poles of y small turns are great angles: there marks stand closer.
-    fn mark_to(&mut self, skeleton: &Skeleton, clip: &Clip, time_secs: f32, halvings: u32) {
+    fn mark_to(&mut self, skeleton: &Skeleton, clip: &CompiledClip, time_secs: f32, halvings: u32) {
         let before = self.marks[self.marks.len() - 1];
         let rotation = self.pose(skeleton, clip, time_secs).rotation;
         let mark = Mark::after(Some(&before), time_secs, rotation);
@@ -135,7 +136,7 @@ impl Curve {
         }
     }
 
-    fn pose(&self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) -> LocalJoint {
+    fn pose(&self, skeleton: &Skeleton, clip: &CompiledClip, time_secs: f32) -> LocalJoint {
         match self.space {
             CurveSpace::Local => sample_joint(skeleton, clip, self.joint, time_secs),
             CurveSpace::Model => model_joint(skeleton, clip, self.joint, time_secs),
@@ -143,7 +144,7 @@ impl Curve {
     }
 
     /// The curves at one time, seconds in the clip's own time; `skeleton` and `clip` are those that it was made of.
-    pub fn at(&self, skeleton: &Skeleton, clip: &Clip, time_secs: f32) -> CurvePoint {
+    pub fn at(&self, skeleton: &Skeleton, clip: &CompiledClip, time_secs: f32) -> CurvePoint {
         let LocalJoint {
             rotation,
             translation,
@@ -162,7 +163,13 @@ impl Curve {
 
     /// The curves over a stretch of time, at as many points as `out` holds: evenly spaced, both ends among them; a single point
     /// is at the start. Allocates nothing.
-    pub fn sample(&self, skeleton: &Skeleton, clip: &Clip, [start_secs, end_secs]: [f32; 2], out: &mut [CurvePoint]) {
+    pub fn sample(
+        &self,
+        skeleton: &Skeleton,
+        clip: &CompiledClip,
+        [start_secs, end_secs]: [f32; 2],
+        out: &mut [CurvePoint],
+    ) {
         let steps = out.len().saturating_sub(1).max(1) as f64;
         for (index, point) in out.iter_mut().enumerate() {
             *point = self.at(skeleton, clip, between(start_secs, end_secs, index as f64 / steps));
@@ -175,14 +182,8 @@ fn between(start_secs: f32, end_secs: f32, part: f64) -> f32 {
     (f64::from(start_secs) * (1.0 - part) + f64::from(end_secs) * part) as f32
 }
 
-/// The angle of the turn from one unit rotation to another, 0…π.
-fn angle_between(from: DQuat, to: DQuat) -> f64 {
-    // q and −q are the same rotation.
-    2.0 * from.dot(to).abs().min(1.0).acos()
-}
-
 /// A joint relative to the model: its own pose, then that of each ancestor.
-fn model_joint(skeleton: &Skeleton, clip: &Clip, joint: JointIndex, time_secs: f32) -> LocalJoint {
+fn model_joint(skeleton: &Skeleton, clip: &CompiledClip, joint: JointIndex, time_secs: f32) -> LocalJoint {
     let mut model_from_joint = DAffine3::IDENTITY;
     let mut next = Some(joint);
     while let Some(joint) = next {

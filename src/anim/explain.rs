@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glam::Vec3;
 
-use super::PoseBuffers;
+use super::buffers::PoseBuffers;
 use super::inspect::RowMatrix;
 use super::table::{aligned, number};
 use crate::model::{JointIndex, Model};
@@ -29,7 +29,7 @@ pub struct ExplainedInfluence {
     pub joint: JointIndex,
     /// Its number in the file.
     pub bone: u32,
-    /// Its share, 0…1.
+    /// Its weight, 0…1.
     pub weight: f32,
     /// Bind space -> joint.
     pub offset: RowMatrix,

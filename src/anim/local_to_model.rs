@@ -1,9 +1,10 @@
-//! From joints relative to their parents to joints relative to the model.
+//! From joints relative to their parents to joints relative to the model, and on to what moves a vertex.
 
 use glam::Affine3A;
 
-use super::{LocalPose, ModelPose};
-use crate::model::{JointIndex, JointLanes, Skeleton};
+use super::lanes::JointLanes;
+use super::pose::{LocalPose, ModelPose, Palette};
+use crate::model::{JointIndex, Skeleton};
 
 /// `model_from_joint` of each joint: a forward pass, since parents come first. Joints that `local` lacks are at rest.
 pub fn local_to_model(skeleton: &Skeleton, local: &LocalPose, model: &mut ModelPose) {
@@ -27,4 +28,13 @@ pub fn local_to_model(skeleton: &Skeleton, local: &LocalPose, model: &mut ModelP
 #[inline]
 fn placed(model_from_joint: &[Affine3A], parent: Option<JointIndex>) -> &Affine3A {
     parent.map_or(&Affine3A::IDENTITY, |parent| &model_from_joint[parent.index()])
+}
+
+/// `model_from_bind` of each joint; the books write it offset · toRoot, with row vectors.
+pub fn palette(skeleton: &Skeleton, model: &ModelPose, palette: &mut Palette) {
+    palette.0.clear();
+    let joints = model.0.iter().zip(skeleton.joint_from_bind());
+    palette
+        .0
+        .extend(joints.map(|(&model_from_joint, &joint_from_bind)| model_from_joint * joint_from_bind));
 }

@@ -1,17 +1,19 @@
 //! From a clip and a time to a matrix palette, in buffers that the caller owns.
+//!
+//! A [`Clip`](crate::model::Clip) has its tracks as the file has them. [`CompiledClip`] is the same motion laid out for
+//! sampling; what poses a clip takes it, what reads keys takes the clip.
 
 mod activity;
-mod animated_bounds;
 mod blend;
-mod blend_to_rest;
+mod buffers;
+mod compile;
 mod curve;
 mod explain;
-mod extreme_points;
+mod extent;
 mod inspect;
-mod joint_change;
 mod keys;
+mod lanes;
 mod local_to_model;
-mod palette;
 mod playback;
 mod pose;
 mod sample;
@@ -22,22 +24,23 @@ mod span;
 mod table;
 mod trails;
 
-pub use crate::model::{JointLanes, LocalJoint};
+pub use crate::model::LocalJoint;
 pub use activity::{JointActivity, activity};
-pub use animated_bounds::animated_bounds;
-pub use blend::blend;
-pub use blend_to_rest::blend_to_rest;
+pub use blend::{blend, blend_to_rest};
+pub use buffers::PoseBuffers;
+pub use compile::CompiledClip;
 pub use curve::{Curve, CurvePoint, CurveSpace};
 pub use explain::{ExplainedInfluence, VertexExplanation, explain_vertex};
-pub use extreme_points::extreme_points;
+pub use extent::{animated_bounds, extreme_points};
 pub use inspect::{JointReadout, KeyRow, RowMatrix, TransformParts, key_rows, key_table};
 pub use keys::{Direction, key_times, merged_key_times, merged_key_times_of, next_key, previous_key};
-pub use local_to_model::local_to_model;
-pub use palette::palette;
+pub use lanes::{JointLanes, MatrixLanes};
+pub use local_to_model::{local_to_model, palette};
 pub use playback::{LoopMode, MAX_SPEED, MIN_SPEED, Playback, WrapMode};
-pub use pose::{LocalPose, ModelPose, Palette, PoseBuffers};
+pub use pose::{LocalPose, ModelPose, Palette};
 pub use sample::{sample, sample_joint};
 pub use seam::{JointSeam, Seam, VISIBLE_SHARE, seam};
+pub(crate) use skin::skin_position;
 pub use skin::{SkinnedVertices, skin, skin_positions};
 pub use skin_view::{SkinView, Stretch, dominant_joint, dominant_joints, influence_counts, joint_weights};
 pub use trails::{GhostPlan, Trails, ghost_times, palettes_at};

@@ -1,8 +1,10 @@
 //! What is seen where a loop begins again: the pose in which it ends beside the one in which it begins.
 
-use super::joint_change::JointChange;
-use super::{PoseBuffers, sample_joint};
-use crate::model::{Clip, JointIndex, Skeleton};
+use super::activity::JointChange;
+use super::buffers::PoseBuffers;
+use super::compile::CompiledClip;
+use super::sample::sample_joint;
+use crate::model::{JointIndex, Skeleton};
 
 /// A jump of the surface by less than this share of the model's size is not seen: two pixels where the model fills a
 /// picture a thousand pixels high, which is what a moving edge is blurred by.
@@ -54,7 +56,7 @@ impl Seam {
 
 /// The seam of a loop through a clip of a skeleton, from `first_secs` to `last_secs` of the clip's time; `size` is the
 /// length of the model's diagonal in its own units. A loop without length has none.
-pub fn seam(skeleton: &Skeleton, clip: &Clip, [first_secs, last_secs]: [f32; 2], size: f32) -> Seam {
+pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [f32; 2], size: f32) -> Seam {
     let mut pose = PoseBuffers::default();
     let mut places = |time_secs| {
         pose.evaluate(skeleton, clip, time_secs);

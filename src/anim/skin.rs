@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Mat3A, Vec3, Vec3A, Vec4};
 
-use super::Palette;
+use super::pose::Palette;
 use crate::model::{Influences, Mesh};
 
 /// Moved vertices, in the mesh's order, in model space.
@@ -60,7 +60,13 @@ pub fn skin_positions(mesh: &Mesh, palette: &Palette, positions: &mut Vec<Vec3>)
         return;
     }
     let vertices = mesh.influences.iter().zip(&mesh.positions);
-    positions.extend(vertices.map(|(influences, &position)| blended(palette, influences).transform_point3(position)));
+    positions.extend(vertices.map(|(influences, &position)| skin_position(palette, influences, position)));
+}
+
+/// The position of one vertex, as [`skin`] has it.
+#[inline]
+pub(crate) fn skin_position(palette: &Palette, influences: &Influences, position: Vec3) -> Vec3 {
+    blended(palette, influences).transform_point3(position)
 }
 
 /// m = Σ weight · matrix; the identity for a vertex without weights.

@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 
-use super::{Palette, PoseBuffers};
-use crate::model::{Clip, JointIndex, Skeleton};
+use super::buffers::PoseBuffers;
+use super::pose::Palette;
+use crate::model::{Clip, JointIndex};
 
 /// Points of a trail at most: a clip of more frames is looked at evenly over its span instead.
 const MOST_POINTS: u32 = 2_000;
@@ -26,16 +27,9 @@ impl Trails {
         self.points.chunks_exact(self.point_count.max(1))
     }
 
-    /// Follows joints through a clip. `pose` is a buffer to keep; it is left at the end of the clip. A joint that the skeleton
-    /// has not stays at the origin.
-    pub fn follow(&mut self, skeleton: &Skeleton, clip: &Clip, joints: &[JointIndex], pose: &mut PoseBuffers) {
-        self.follow_posed(clip, joints, pose, |time_secs, pose| {
-            pose.evaluate(skeleton, clip, time_secs);
-        });
-    }
-
-    /// The same for any poses at the times of a clip: `pose_at` puts that of a time into the buffer.
-    pub fn follow_posed(
+    /// Follows joints through a clip: `pose_at` puts the pose at a time of the clip into the buffer `pose`, which is left at
+    /// the clip's end. The trail of a joint that the pose lacks stays at the origin.
+    pub fn follow(
         &mut self,
         clip: &Clip,
         joints: &[JointIndex],

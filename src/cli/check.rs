@@ -8,6 +8,8 @@ use serde::Serialize;
 use super::failure::{Failure, Outcome};
 use super::finding::{Finding, write_finding};
 use super::input;
+use crate::anim::CompiledClip;
+use crate::check;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::format::{self, LineIndex};
 use crate::model::Model;
@@ -104,7 +106,11 @@ fn findings(bytes: &[u8]) -> Vec<Diagnostic> {
         Err(error) => return vec![error.diagnostic()],
     };
     let of_model = match Model::from_document(&parsed.document, &parsed.lines) {
-        Ok((_, notices)) => notices,
+        Ok((model, mut findings)) => {
+            let compiled = CompiledClip::all(&model.clips);
+            findings.extend(check::motion(&model, &compiled, &parsed.lines.clip_lines()));
+            findings
+        }
         Err(error) => vec![error.diagnostic()],
     };
     let mut findings = parsed.notices;

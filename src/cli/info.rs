@@ -11,7 +11,7 @@ use super::input;
 use super::text::{Plain, column_width, counted, grouped};
 use super::textures::{MapState, NamedMap, Textures, Wanted, by_name, named_maps};
 use crate::anim::animated_bounds;
-use crate::diagnostic::Severity;
+use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::{MapSlot, Maps, OpenModel};
@@ -164,7 +164,7 @@ impl<'a> Info<'a> {
                 })
                 .collect(),
             bind_bounds: bounds(open.bind_bounds),
-            animated_bounds: bounds_of_all_clips(model).and_then(bounds),
+            animated_bounds: bounds_of_all_clips(open).and_then(bounds),
             notices: open.notices.iter().map(Notice::from).collect(),
         }
     }
@@ -192,12 +192,13 @@ impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
 }
 
 /// `None` when a clip overflows, since no box holds it then.
-fn bounds_of_all_clips(model: &Model) -> Option<Aabb> {
-    if model.clips.iter().any(|clip| clip.overflow.is_some()) {
+fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
+    let overflows = |notice: &Diagnostic| notice.code == codes::POSE_OVERFLOWS.name;
+    if open.notices.iter().any(overflows) {
         return None;
     }
-    let of_clips = model.clips.iter().map(|clip| animated_bounds(model, clip));
-    Some(of_clips.reduce(Aabb::union).unwrap_or_else(|| model.bind_bounds()))
+    let of_clips = open.compiled.iter().map(|clip| animated_bounds(&open.model, clip));
+    Some(of_clips.reduce(Aabb::union).unwrap_or(open.bind_bounds))
 }
 
 fn bounds(bounds: Aabb) -> Option<Bounds> {

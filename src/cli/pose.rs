@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::failure::Failure;
 use super::input;
 use super::text::Plain;
-use crate::anim::{Palette, PoseBuffers, skin_positions};
+use crate::anim::{CompiledClip, Palette, PoseBuffers, skin_positions};
 use crate::model::{Model, Skeleton};
 
 /// Print the matrix palette of a clip at a time.
@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
     let time_secs = arguments.time.unwrap_or(clip.map_or(0.0, |clip| clip.start_secs));
     let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
     if let Some(clip) = clip {
-        pose.evaluate(&model.skeleton, clip, time_secs);
+        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
     }
     let clip = clip.map(|clip| clip.name.as_str());
     let overflows = |what, number| Failure::Overflows {

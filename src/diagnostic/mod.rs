@@ -4,6 +4,7 @@
 //! the JSON outputs say the same thing. [`codes`] is the table of all codes.
 
 pub mod codes;
+pub(crate) mod collect;
 
 use std::fmt;
 

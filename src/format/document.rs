@@ -167,6 +167,13 @@ pub struct LineMap {
     pub clips: Vec<ClipLines>,
 }
 
+impl LineMap {
+    /// First line of each clip.
+    pub fn clip_lines(&self) -> Vec<u32> {
+        self.clips.iter().map(|lines| lines.clip).collect()
+    }
+}
+
 /// Lines of one clip.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ClipLines {

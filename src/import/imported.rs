@@ -13,4 +13,6 @@ pub struct Imported {
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
+    /// Line of each clip in the file; empty for a format without lines.
+    pub clip_lines: Vec<u32>,
 }

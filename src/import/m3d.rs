@@ -18,5 +18,6 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Diagnostic>> {
         dialect: parsed.document.dialect,
         model,
         diagnostics,
+        clip_lines: parsed.lines.clip_lines(),
     })
 }

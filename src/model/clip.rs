@@ -1,15 +1,12 @@
 //! Named motions and their frames.
 
-use super::{Overflow, Track, Tracks};
+use super::Track;
 
 /// Frames a second of a clip in which no track has two keys.
 const DEFAULT_KEYS_PER_SEC: f32 = 30.0;
 
 /// A time this close to a frame, in frames, is on it: what files and f32 lose of a time is less.
 const ON_FRAME: f64 = 0.01;
-
-/// Times at which all of a clip is looked at, at most.
-const MOST_LOOKED_AT: usize = 1_000;
 
 /// A named motion: one track per joint, in the skeleton's order.
 ///
@@ -21,7 +18,7 @@ pub struct Clip {
     /// Name to show, unique in the model.
     pub name: String,
     /// One per joint.
-    pub tracks: Tracks,
+    pub tracks: Vec<Track>,
     /// Least key time of all tracks.
     pub start_secs: f32,
     /// Greatest key time of all tracks.
@@ -30,8 +27,6 @@ pub struct Clip {
     pub keys_per_sec: f32,
     /// Number of keys the file has for it.
     pub key_count: usize,
-    /// Where its numbers overflow first, if they do.
-    pub overflow: Option<Overflow>,
     /// The track with the most keys, whose keys are the frames; `None` without tracks.
     pub(super) densest: Option<usize>,
 }
@@ -46,28 +41,9 @@ impl Clip {
             end_secs,
             keys_per_sec: keys_per_sec(&tracks),
             key_count: tracks.iter().map(Track::key_count).sum(),
-            overflow: None,
             densest: densest(&tracks),
-            tracks: tracks.into(),
+            tracks,
         }
-    }
-
-    /// Distinct key times of all tracks, in order; at least one. Of a clip with more than 1 000, as many times evenly over its
-    /// span instead.
-    pub(crate) fn looked_at_secs(&self) -> Vec<f32> {
-        let span = self.start_secs..=self.end_secs;
-        let mut times_secs: Vec<f32> = self.tracks.iter().flat_map(Track::times_secs).copied().collect();
-        times_secs.retain(|time_secs| span.contains(time_secs));
-        times_secs.push(self.start_secs);
-        times_secs.sort_unstable_by(f32::total_cmp);
-        times_secs.dedup();
-        if times_secs.len() > MOST_LOOKED_AT {
-            let step_secs = self.duration_secs() / (MOST_LOOKED_AT - 1) as f32;
-            times_secs = (0..MOST_LOOKED_AT)
-                .map(|step| self.start_secs + step as f32 * step_secs)
-                .collect();
-        }
-        times_secs
     }
 
     /// Length in seconds, 0 or more.

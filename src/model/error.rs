@@ -174,7 +174,7 @@ impl ModelErrorKind {
     /// This rule, broken on a line of the file; `None` for a document that was not read from one.
     pub(super) fn on_line(self, line: Option<u32>) -> ModelError {
         ModelError {
-            position: line.map(super::notes::line_start),
+            position: line.map(crate::diagnostic::collect::line_start),
             kind: self,
         }
     }

@@ -5,9 +5,9 @@ use glam::{Vec2, Vec3};
 use super::handedness::handedness_of;
 use super::influences::influences_from_document;
 use super::normals::mended_normals;
-use super::notes::{Notes, Place, Tally, counted};
 use super::tangents::mended_tangents;
 use super::{Handedness, Mesh, ModelError, ModelErrorKind, Skeleton};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex};
 
@@ -19,33 +19,35 @@ pub(super) fn mesh_from_document(
     document: &Document,
     lines: &LineMap,
     skeleton: &Skeleton,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Result<(Mesh, Handedness), ModelError> {
     let vertices = &document.vertices;
     let indices = indices(&document.triangles, vertices.len(), lines)?;
     if vertices.len() > BOOK_VERTEX_LIMIT {
         let count = vertices.len();
         let message = format!("There are {count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}.");
-        notes.add(&codes::MANY_VERTICES, Place::default(), message);
+        diagnostics.add(&codes::MANY_VERTICES, Place::default(), message);
     }
-    let positions = finite_stream(vertices, lines, notes, "position", |vertex| vertex.position);
-    let tex_coords = finite_stream(vertices, lines, notes, "texture coordinate", |vertex| vertex.tex_coords);
+    let positions = finite_stream(vertices, lines, diagnostics, "position", |vertex| vertex.position);
+    let tex_coords = finite_stream(vertices, lines, diagnostics, "texture coordinate", |vertex| {
+        vertex.tex_coords
+    });
     let positions: Vec<Vec3> = positions.into_iter().map(Vec3::from_array).collect();
     let tex_coords: Vec<Vec2> = tex_coords.into_iter().map(Vec2::from_array).collect();
     let stored_normals: Vec<Vec3> = vertices.iter().map(|vertex| Vec3::from_array(vertex.normal)).collect();
 
-    let handedness = handedness_of(&positions, &stored_normals, &indices, notes);
-    let normals = mended_normals(stored_normals, &positions, &indices, handedness, lines, notes);
+    let handedness = handedness_of(&positions, &stored_normals, &indices, diagnostics);
+    let normals = mended_normals(stored_normals, &positions, &indices, handedness, lines, diagnostics);
     let mut mesh = Mesh {
         positions,
         normals,
         tangents: Vec::new(),
         tex_coords,
-        influences: influences_from_document(document, lines, skeleton, notes)?,
+        influences: influences_from_document(document, lines, skeleton, diagnostics)?,
         indices,
         submeshes: Vec::new(),
     };
-    mesh.tangents = mended_tangents(vertices.iter().map(|vertex| vertex.tangent), &mesh, lines, notes);
+    mesh.tangents = mended_tangents(vertices.iter().map(|vertex| vertex.tangent), &mesh, lines, diagnostics);
     Ok((mesh, handedness))
 }
 
@@ -68,7 +70,7 @@ fn indices(triangles: &[[u32; 3]], vertex_count: usize, lines: &LineMap) -> Resu
 fn finite_stream<const N: usize>(
     vertices: &[Vertex],
     lines: &LineMap,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
     field: &str,
     of: impl Fn(&Vertex) -> [f32; N],
 ) -> Vec<[f32; N]> {
@@ -85,7 +87,7 @@ fn finite_stream<const N: usize>(
         })
         .collect();
     if mended.count > 0 {
-        notes.add(
+        diagnostics.add(
             &codes::VERTEX_NOT_FINITE,
             Place::of_rows(&mended, Subject::Vertex, &lines.vertices),
             format!(

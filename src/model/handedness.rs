@@ -4,15 +4,20 @@ use glam::{DVec3, Vec3};
 
 use super::Handedness;
 use super::normals::is_direction;
-use super::notes::{Notes, Place};
 use crate::diagnostic::codes;
+use crate::diagnostic::collect::{Diagnostics, Place};
 
 /// Below this share of agreeing triangles the answer is a guess. Real files agree on more than 99 %.
 const CLEAR_SHARE: f64 = 0.8;
 
 /// Compares the side that each triangle's winding faces with the side of its normals: both agree in a left-handed file
 /// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books.
-pub(super) fn handedness_of(positions: &[Vec3], normals: &[Vec3], indices: &[u32], notes: &mut Notes) -> Handedness {
+pub(super) fn handedness_of(
+    positions: &[Vec3],
+    normals: &[Vec3],
+    indices: &[u32],
+    diagnostics: &mut Diagnostics,
+) -> Handedness {
     let (mut agree, mut disagree) = (0u32, 0u32);
     for corners in indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
@@ -32,7 +37,7 @@ pub(super) fn handedness_of(positions: &[Vec3], normals: &[Vec3], indices: &[u32
     };
     let tested = agree + disagree;
     if f64::from(majority) < CLEAR_SHARE * f64::from(tested) {
-        notes.add(
+        diagnostics.add(
             &codes::HANDEDNESS_UNCLEAR,
             Place::default(),
             format!("{agree} of {tested} triangles wind as in a left-handed file, the rest as in a right-handed one."),

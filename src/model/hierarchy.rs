@@ -5,8 +5,8 @@ use std::collections::BinaryHeap;
 
 use glam::{Affine3A, Mat4};
 
-use super::notes::{Notes, Place, Tally, counted};
 use super::{JointIndex, ModelError, ModelErrorKind, Skeleton};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{Document, LineMap};
 
@@ -18,7 +18,7 @@ const BOOK_BONE_LIMIT: usize = 96;
 pub(super) fn skeleton_from_document(
     document: &Document,
     lines: &LineMap,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Result<Skeleton, ModelError> {
     let bone_count = document.bone_parents.len();
     if document.bone_offsets.len() != bone_count {
@@ -30,9 +30,9 @@ pub(super) fn skeleton_from_document(
     }
     let bone_parents = parents_in_range(&document.bone_parents, lines)?;
     let file_bones = parents_first(&bone_parents, lines)?;
-    note_order(&file_bones, &bone_parents, lines, notes);
+    note_order(&file_bones, &bone_parents, lines, diagnostics);
     if bone_count > BOOK_BONE_LIMIT {
-        notes.add(
+        diagnostics.add(
             &codes::MANY_BONES,
             Place::default(),
             format!("There are {bone_count} bones; the books' shaders hold {BOOK_BONE_LIMIT}."),
@@ -47,7 +47,7 @@ pub(super) fn skeleton_from_document(
         .iter()
         .map(|&bone| bone_parents[bone as usize].map(|parent| joint_of_bone[parent as usize]))
         .collect();
-    let offsets = offsets(&document.bone_offsets, lines, notes);
+    let offsets = offsets(&document.bone_offsets, lines, diagnostics);
     let joint_from_bind = file_bones.iter().map(|&bone| offsets[bone as usize]).collect();
     Skeleton::new(parents, joint_from_bind, file_bones)
 }
@@ -120,7 +120,7 @@ fn circle_of(parents: &[Option<u32>], placed: &[u32]) -> Vec<u32> {
     circle
 }
 
-fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, notes: &mut Notes) {
+fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, diagnostics: &mut Diagnostics) {
     if file_bones.is_sorted() {
         return;
     }
@@ -131,7 +131,7 @@ fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, note
         }
     }
     let stand = counted(late.count, "bone stands", "bones stand");
-    notes.add(
+    diagnostics.add(
         &codes::BONES_REORDERED,
         Place::of_rows(&late, Subject::Bone, &lines.bone_parents),
         format!("{stand} before the parent; the joints are sorted and keep the file's numbers for display."),
@@ -139,7 +139,7 @@ fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, note
 }
 
 /// Inverse bind matrices in the file's numbering, each finite and affine.
-fn offsets(rows: &[[f32; 16]], lines: &LineMap, notes: &mut Notes) -> Vec<Affine3A> {
+fn offsets(rows: &[[f32; 16]], lines: &LineMap, diagnostics: &mut Diagnostics) -> Vec<Affine3A> {
     let (mut not_finite, mut not_affine, mut singular) = (Tally::default(), Tally::default(), Tally::default());
     let matrices = (0u32..)
         .zip(rows)
@@ -164,7 +164,7 @@ fn offsets(rows: &[[f32; 16]], lines: &LineMap, notes: &mut Notes) -> Vec<Affine
         if tally.count > 0 {
             let offsets = counted(tally.count, "bone offset has", "bone offsets have");
             let place = Place::of_rows(&tally, Subject::Bone, &lines.bone_offsets);
-            notes.add(code, place, format!("{offsets} {rule}"));
+            diagnostics.add(code, place, format!("{offsets} {rule}"));
         }
     };
     warn(

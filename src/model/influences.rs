@@ -1,7 +1,7 @@
 //! From the file's blend weights and bone numbers to influences.
 
-use super::notes::{Notes, Place, Tally, counted};
 use super::{Influences, ModelError, ModelErrorKind, Skeleton};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex};
 
@@ -25,7 +25,7 @@ pub(super) fn influences_from_document(
     document: &Document,
     lines: &LineMap,
     skeleton: &Skeleton,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Result<Vec<Influences>, ModelError> {
     if skeleton.joint_count() == 0 {
         return Ok(Vec::new());
@@ -39,7 +39,7 @@ pub(super) fn influences_from_document(
                 .map_err(|kind| kind.on_line(lines.vertices.get(index as usize).copied()))
         })
         .collect::<Result<_, _>>()?;
-    mended.note(lines, notes);
+    mended.note(lines, diagnostics);
     Ok(influences)
 }
 
@@ -90,11 +90,11 @@ fn joined(
 }
 
 impl Mended {
-    fn note(&self, lines: &LineMap, notes: &mut Notes) {
+    fn note(&self, lines: &LineMap, diagnostics: &mut Diagnostics) {
         let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertices);
         let vertices = |tally: &Tally| counted(tally.count, "vertex has", "vertices have");
         if self.invalid.count > 0 {
-            notes.add(
+            diagnostics.add(
                 &codes::WEIGHTS_INVALID,
                 place(&self.invalid),
                 format!(
@@ -104,7 +104,7 @@ impl Mended {
             );
         }
         if self.off_sum.count > 0 {
-            notes.add(
+            diagnostics.add(
                 &codes::WEIGHTS_NOT_NORMALIZED,
                 place(&self.off_sum),
                 format!(
@@ -114,14 +114,14 @@ impl Mended {
             );
         }
         if self.unweighted.count > 0 {
-            notes.add(
+            diagnostics.add(
                 &codes::WEIGHTS_ALL_ZERO,
                 place(&self.unweighted),
                 format!("{} no blend weight; not moved by any bone.", vertices(&self.unweighted)),
             );
         }
         if self.high_bone.count > 0 {
-            notes.add(
+            diagnostics.add(
                 &codes::BONE_INDEX_ABOVE_BYTE,
                 place(&self.high_bone),
                 format!(

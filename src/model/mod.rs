@@ -9,12 +9,10 @@
 mod bounds;
 mod clip;
 mod error;
-mod exploded;
 mod geometry;
 mod handedness;
 mod hierarchy;
 mod influences;
-mod joint_lanes;
 mod joint_names;
 mod local_joint;
 mod material;
@@ -23,37 +21,30 @@ mod mirror;
 mod motion;
 mod names;
 mod normals;
-mod notes;
-mod overflow;
 mod skeleton;
 mod space;
 mod subsets;
 mod surface;
 mod tangents;
 mod track;
-mod track_group;
-mod tracks;
 mod tree;
 
 pub use bounds::Aabb;
 pub use clip::Clip;
 pub use error::{ModelError, ModelErrorKind};
-pub use joint_lanes::{JointLanes, MatrixLanes};
 pub use joint_names::{JointNames, SavedNames, hierarchy_fingerprint};
 pub use local_joint::LocalJoint;
 pub use material::{Material, Reflectance};
 pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
 pub(crate) use names::unique as unique_names;
-pub use overflow::Overflow;
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Handedness, UpAxis, world_from_model};
 pub use track::Track;
-pub(crate) use track_group::{KeyLanes, TrackGroup};
-pub use tracks::Tracks;
 pub use tree::{JointTree, VertexCounts};
 
 use crate::diagnostic::Diagnostic;
+use crate::diagnostic::collect::Diagnostics;
 use crate::format::{Dialect, Document, LineMap, Parsed};
 
 /// A model that can be animated and drawn: after it exists no later stage can fail.
@@ -79,15 +70,13 @@ impl Model {
     /// # Errors
     /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
     pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Self, Vec<Diagnostic>), ModelError> {
-        let mut notes = notes::Notes::default();
-        let mut materials = surface::materials_from_document(document, lines, &mut notes);
-        let submeshes = subsets::submeshes_from_document(document, lines, &mut materials, &mut notes);
-        let skeleton = hierarchy::skeleton_from_document(document, lines, &mut notes)?;
-        let (mut mesh, handedness) = geometry::mesh_from_document(document, lines, &skeleton, &mut notes)?;
+        let mut diagnostics = Diagnostics::default();
+        let mut materials = surface::materials_from_document(document, lines, &mut diagnostics);
+        let submeshes = subsets::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
+        let skeleton = hierarchy::skeleton_from_document(document, lines, &mut diagnostics)?;
+        let (mut mesh, handedness) = geometry::mesh_from_document(document, lines, &skeleton, &mut diagnostics)?;
         mesh.submeshes = submeshes;
-        let mut clips = motion::clips_from_document(document, lines, &skeleton, &mut notes)?;
-        exploded::note_exploded(&mesh, &skeleton, &clips, lines, &mut notes);
-        overflow::note_overflows(&mesh, &skeleton, &mut clips, lines, &mut notes);
+        let clips = motion::clips_from_document(document, lines, &skeleton, &mut diagnostics)?;
         let up_axis = match document.dialect {
             Dialect::Imm => UpAxis::Z,
             Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
@@ -100,7 +89,7 @@ impl Model {
             handedness,
             up_axis,
         };
-        Ok((model, notes.into_diagnostics()))
+        Ok((model, diagnostics.into_vec()))
     }
 
     /// The model of a parsed file. The findings of both stages, the parser's first.

@@ -4,9 +4,9 @@ use glam::{Quat, Vec3};
 
 use super::clip::{densest, keys_per_sec, span};
 use super::names::unique;
-use super::notes::{Notes, Place, Tally, counted};
 use super::track::unit;
 use super::{Clip, LocalJoint, ModelError, Skeleton, Track};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{BoneAnimation, ClipLines, Document, LineMap};
 
@@ -21,14 +21,14 @@ pub(super) fn clips_from_document(
     document: &Document,
     lines: &LineMap,
     skeleton: &Skeleton,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Result<Vec<Clip>, ModelError> {
-    let clip_lines: Vec<u32> = lines.clips.iter().map(|lines| lines.clip).collect();
+    let clip_lines = lines.clip_lines();
     let names = unique(
         document.clips.iter().map(|clip| clip.name.as_str()),
         "clip",
         |index, name| {
-            notes.add(
+            diagnostics.add(
                 &codes::DUPLICATE_CLIP_NAME,
                 Place::of(Subject::Clip(index), &clip_lines),
                 format!("Another clip has the same name; this one is shown as \"{name}\"."),
@@ -36,7 +36,7 @@ pub(super) fn clips_from_document(
         },
     );
     for (index, _) in (0u32..).zip(&document.clips).filter(|(_, clip)| clip.name.is_empty()) {
-        notes.add(
+        diagnostics.add(
             &codes::CLIP_UNNAMED,
             Place::of(Subject::Clip(index), &clip_lines),
             codes::CLIP_UNNAMED.sentence.into(),
@@ -51,7 +51,7 @@ pub(super) fn clips_from_document(
                 lines: lines.clips.get(index as usize).unwrap_or(&no_lines),
                 skeleton,
             };
-            reader.read(name, &clip.bones, notes)
+            reader.read(name, &clip.bones, diagnostics)
         })
         .collect()
 }
@@ -74,7 +74,7 @@ struct ClipReader<'a> {
 }
 
 impl ClipReader<'_> {
-    fn read(&self, name: String, bones: &[BoneAnimation], notes: &mut Notes) -> Result<Clip, ModelError> {
+    fn read(&self, name: String, bones: &[BoneAnimation], diagnostics: &mut Diagnostics) -> Result<Clip, ModelError> {
         let mut mended = Mended::default();
         let mut tracks = Vec::with_capacity(self.skeleton.joint_count());
         for (&bone, &rest) in self.skeleton.file_bones().iter().zip(self.skeleton.rest()) {
@@ -92,7 +92,7 @@ impl ClipReader<'_> {
                 tracks.push(Track::new(keys)?);
             }
         }
-        self.note(&mended, bones.len(), notes);
+        self.note(&mended, bones.len(), diagnostics);
 
         // A bone without keys rests at every time: it takes no part in the span.
         let keyed = || tracks.iter().filter(|track| track.has_keys());
@@ -104,19 +104,18 @@ impl ClipReader<'_> {
             end_secs,
             keys_per_sec,
             key_count: bones.iter().map(|bone| bone.keyframes.len()).sum(),
-            overflow: None,
             densest: densest(&tracks),
-            tracks: tracks.into(),
+            tracks,
         })
     }
 
-    fn note(&self, mended: &Mended, bone_count: usize, notes: &mut Notes) {
+    fn note(&self, mended: &Mended, bone_count: usize, diagnostics: &mut Diagnostics) {
         let joint_count = self.skeleton.joint_count();
         let clip_line = Some(self.lines.clip).filter(|&line| line > 0);
         let at_clip = Place::on(Subject::Clip(self.clip), clip_line);
         if bone_count < joint_count {
             let missing = counted(joint_count - bone_count, "bone has", "bones have");
-            notes.add(
+            diagnostics.add(
                 &codes::CLIP_BONES_MISSING,
                 at_clip,
                 format!("{missing} no track in this clip; at rest as in the bind pose."),
@@ -124,7 +123,7 @@ impl ClipReader<'_> {
         }
         if bone_count > joint_count {
             let more = counted(bone_count - joint_count, "track", "tracks");
-            notes.add(
+            diagnostics.add(
                 &codes::CLIP_BONES_EXTRA,
                 at_clip,
                 format!("The clip has {more} more than the skeleton has bones; left out."),
@@ -133,7 +132,7 @@ impl ClipReader<'_> {
         let mut warn = |code: &Code, tally: Tally, one: &str, many: &str, rule: &str| {
             if tally.count > 0 {
                 let place = Place::of_rows_in(Subject::Clip(self.clip), &tally, &self.lines.bones, clip_line);
-                notes.add(code, place, format!("{} {rule}", counted(tally.count, one, many)));
+                diagnostics.add(code, place, format!("{} {rule}", counted(tally.count, one, many)));
             }
         };
         let bones = ("bone has", "bones have");

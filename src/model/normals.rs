@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::Handedness;
 use super::handedness::facing;
-use super::notes::{Notes, Place, Tally, counted};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
 
@@ -24,7 +24,7 @@ pub(super) fn mended_normals(
     indices: &[u32],
     handedness: Handedness,
     lines: &LineMap,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<Vec3> {
     let mut missing = Tally::default();
     for (index, normal) in (0u32..).zip(&normals) {
@@ -33,7 +33,7 @@ pub(super) fn mended_normals(
         }
     }
     let computed = if missing.count > 0 {
-        notes.add(
+        diagnostics.add(
             &codes::NORMALS_MISSING,
             Place::of_rows(&missing, Subject::Vertex, &lines.vertices),
             format!(

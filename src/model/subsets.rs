@@ -1,8 +1,8 @@
 //! From the file's subset table to triangle ranges that lie inside the mesh.
 
-use super::notes::{Notes, Place, counted};
 use super::surface::default_material;
 use super::{Material, Submesh};
+use crate::diagnostic::collect::{Diagnostics, Place, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Subset};
 
@@ -11,7 +11,7 @@ pub(super) fn submeshes_from_document(
     document: &Document,
     lines: &LineMap,
     materials: &mut Vec<Material>,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<Submesh> {
     let triangle_count = document.triangles.len() as u32;
     let file_materials = materials.len() as u32;
@@ -22,7 +22,7 @@ pub(super) fn submeshes_from_document(
         if materials.is_empty() {
             materials.push(default_material(materials));
         }
-        notes.add(
+        diagnostics.add(
             &codes::NO_SUBSETS,
             Place::default(),
             format!("The file has no subset; all {triangle_count} triangles are drawn with the first material."),
@@ -38,7 +38,7 @@ pub(super) fn submeshes_from_document(
     let submeshes: Vec<Submesh> = (0u32..)
         .zip(&document.subsets)
         .map(|(index, subset)| {
-            let (triangle_start, triangle_count) = clamped(index, subset, triangle_count, lines, notes);
+            let (triangle_start, triangle_count) = clamped(index, subset, triangle_count, lines, diagnostics);
             if index >= file_materials {
                 without_material.get_or_insert(index);
             }
@@ -52,7 +52,7 @@ pub(super) fn submeshes_from_document(
     if let Some(first) = without_material {
         materials.push(default_material(materials));
         let count = document.subsets.len() - first as usize;
-        notes.add(
+        diagnostics.add(
             &codes::SUBSET_WITHOUT_MATERIAL,
             Place::of(Subject::Subset(first), &lines.subsets),
             format!(
@@ -61,18 +61,24 @@ pub(super) fn submeshes_from_document(
             ),
         );
     }
-    note_coverage(&submeshes, triangle_count, notes);
-    note_relative_indices(document, lines, notes);
+    note_coverage(&submeshes, triangle_count, diagnostics);
+    note_relative_indices(document, lines, diagnostics);
     submeshes
 }
 
 /// The part of a subset's range that exists.
-fn clamped(index: u32, subset: &Subset, triangle_count: u32, lines: &LineMap, notes: &mut Notes) -> (u32, u32) {
+fn clamped(
+    index: u32,
+    subset: &Subset,
+    triangle_count: u32,
+    lines: &LineMap,
+    diagnostics: &mut Diagnostics,
+) -> (u32, u32) {
     let start = subset.face_start.min(triangle_count);
     let count = subset.face_count.min(triangle_count - start);
     if (start, count) != (subset.face_start, subset.face_count) {
         let (first, wanted) = (subset.face_start, subset.face_count);
-        notes.add(
+        diagnostics.add(
             &codes::SUBSET_OUT_OF_RANGE,
             Place::of(Subject::Subset(index), &lines.subsets),
             format!(
@@ -85,7 +91,7 @@ fn clamped(index: u32, subset: &Subset, triangle_count: u32, lines: &LineMap, no
 }
 
 /// Triangles in no range are not drawn; triangles in several are drawn again.
-fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) {
+fn note_coverage(submeshes: &[Submesh], triangle_count: u32, diagnostics: &mut Diagnostics) {
     let mut ranges: Vec<(u32, u32)> = submeshes
         .iter()
         .filter(|submesh| submesh.triangle_count > 0)
@@ -101,7 +107,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
     undrawn += triangle_count - drawn_to;
     if undrawn > 0 {
         let belong = counted(undrawn as usize, "triangle belongs", "triangles belong");
-        notes.add(
+        diagnostics.add(
             &codes::TRIANGLES_UNDRAWN,
             Place::default(),
             format!("{belong} to no subset; not drawn."),
@@ -113,7 +119,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
             "triangle belongs",
             "triangles belong",
         );
-        notes.add(
+        diagnostics.add(
             &codes::TRIANGLES_SHARED,
             Place::default(),
             format!("{belong} to more than one subset."),
@@ -123,7 +129,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, notes: &mut Notes) 
 
 /// Indices are absolute in every known file. A later subset whose indices all lie below its `VertexStart`, but would fill
 /// its vertex range when counted from there, was most likely written for a loader that adds `VertexStart`.
-fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes) {
+fn note_relative_indices(document: &Document, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let highest = HighestIndices::new(&document.triangles);
     for (index, subset) in (0u32..).zip(&document.subsets) {
         let Some(highest) = highest.of(subset) else {
@@ -133,7 +139,7 @@ fn note_relative_indices(document: &Document, lines: &LineMap, notes: &mut Notes
             && highest == subset.vertex_count - 1
             && u64::from(subset.vertex_start) + u64::from(subset.vertex_count) <= document.vertices.len() as u64;
         if fits && highest < subset.vertex_start {
-            notes.add(
+            diagnostics.add(
                 &codes::INDICES_LOOK_RELATIVE,
                 Place::of(Subject::Subset(index), &lines.subsets),
                 format!(

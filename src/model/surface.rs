@@ -1,8 +1,8 @@
 //! From the file's materials to ours.
 
 use super::names::unique;
-use super::notes::{Notes, Place};
 use super::{Material, Reflectance};
+use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{self, Document, LineMap};
 
@@ -24,12 +24,16 @@ pub(super) fn default_material(others: &[Material]) -> Material {
 }
 
 /// One material for each of the file's.
-pub(super) fn materials_from_document(document: &Document, lines: &LineMap, notes: &mut Notes) -> Vec<Material> {
+pub(super) fn materials_from_document(
+    document: &Document,
+    lines: &LineMap,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Material> {
     let names = unique(
         document.materials.iter().map(|material| material.name.as_str()),
         "material",
         |index, name| {
-            notes.add(
+            diagnostics.add(
                 &codes::DUPLICATE_MATERIAL_NAME,
                 Place::of(Subject::Material(index), &lines.materials),
                 format!("Another material has the same name; this one is shown as \"{name}\"."),

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec3, Vec4};
 
 use super::Mesh;
 use super::normals::is_direction;
-use super::notes::{Notes, Place, Tally, counted};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::format::LineMap;
 
@@ -14,7 +14,7 @@ pub(super) fn mended_tangents(
     stored: impl Iterator<Item = [f32; 4]>,
     mesh: &Mesh,
     lines: &LineMap,
-    notes: &mut Notes,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<Vec4> {
     let mut tangents: Vec<Vec4> = stored.map(Vec4::from_array).collect();
     let (mut missing, mut signs) = (Tally::default(), Tally::default());
@@ -42,7 +42,7 @@ pub(super) fn mended_tangents(
     let mut warn = |code: &Code, tally: Tally, rule: &str| {
         if tally.count > 0 {
             let place = Place::of_rows(&tally, Subject::Vertex, &lines.vertices);
-            notes.add(
+            diagnostics.add(
                 code,
                 place,
                 format!("{} {rule}", counted(tally.count, "vertex has", "vertices have")),

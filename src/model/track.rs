@@ -1,6 +1,6 @@
 //! The keys of one joint.
 
-use glam::{DQuat, Quat, Vec3};
+use glam::{Quat, Vec3};
 
 use super::{LocalJoint, ModelError, ModelErrorKind};
 
@@ -128,12 +128,6 @@ impl Track {
             scale: self.scales[index],
         }
     }
-}
-
-/// The angle between two unit quaternions, in radians: half of what turns one rotation into the other.
-pub(super) fn angle_between(from: DQuat, to: DQuat) -> f64 {
-    // Twice the half angle by its tangent: exact for small angles, where the cosine tells nothing.
-    2.0 * (to - from).length().atan2((to + from).length())
 }
 
 /// The rotation at unit length; `None` when it has no direction.

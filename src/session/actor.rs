@@ -118,7 +118,7 @@ impl Actor {
         }
         self.posed = Some(revision);
         let skeleton = &open.model.skeleton;
-        match self.clip.and_then(|clip| open.model.clips.get(clip)) {
+        match self.clip.and_then(|clip| open.compiled.get(clip)) {
             Some(clip) => {
                 self.mixer.pose(open, clip, self.playback.time_secs(), &mut self.pose);
                 self.pose.bring_toward_bind(skeleton, self.bind_share);

@@ -52,6 +52,7 @@ impl OpenModel {
         let facts: Vec<_> = clips.iter().map(|_| ClipFacts::joined_from(theirs)).collect();
         self.clip_facts.splice(first..first, facts);
         self.model.clips.splice(first..first, clips);
+        self.compiled.splice(first..first, other.compiled);
         let is_same = |joined: &JoinedFile| joined.file.base_name() == theirs;
         let place = self.joined.iter().position(is_same).filter(|_| replaced.is_some());
         if replaced.is_some() {
@@ -95,6 +96,8 @@ impl OpenModel {
         let count = gone.iter().filter(|&&gone| gone).count();
         let mut keeps = gone.iter().map(|gone| !gone);
         self.model.clips.retain(|_| keeps.next().unwrap_or(true));
+        let mut keeps = gone.iter().map(|gone| !gone);
+        self.compiled.retain(|_| keeps.next().unwrap_or(true));
         self.clip_facts.retain(|facts| !is_gone(facts));
         let place_of = |clip: u32| gone.iter().take(clip as usize).filter(|&&gone| !gone).count() as u32;
         self.notices.retain_mut(|notice| {

@@ -1,8 +1,7 @@
 //! More than one clip in a pose: a crossfade from clip to clip, and two clips that a slider blends.
 
 use super::open_model::OpenModel;
-use crate::anim::{LocalPose, Playback, PoseBuffers, blend, sample};
-use crate::model::Clip;
+use crate::anim::{CompiledClip, LocalPose, Playback, PoseBuffers, blend, sample};
 
 /// How long a crossfade takes unless another length is chosen, in seconds: seen as a way from pose to pose, not waited for.
 pub const DEFAULT_CROSSFADE_SECS: f32 = 0.3;
@@ -167,8 +166,8 @@ impl Mixer {
     }
 
     /// The pose of all that is mixed, in `buffers`.
-    pub(super) fn pose(&mut self, open: &OpenModel, shown: &Clip, time_secs: f32, buffers: &mut PoseBuffers) {
-        let clips = &open.model.clips;
+    pub(super) fn pose(&mut self, open: &OpenModel, shown: &CompiledClip, time_secs: f32, buffers: &mut PoseBuffers) {
+        let clips = &open.compiled;
         let Self { scratch, pose, .. } = self;
         let mut next_share = None;
         for fade in &self.fades {
@@ -187,8 +186,14 @@ impl Mixer {
 
 impl Mixer {
     /// The pose of the clip on show with what is blended into it, in `buffers`: of another time than now, at which nothing fades.
-    pub(super) fn pose_unfaded(&mut self, open: &OpenModel, shown: &Clip, time_secs: f32, buffers: &mut PoseBuffers) {
-        self.scratch.pose_layer(&open.model.clips, shown, self.blend, time_secs);
+    pub(super) fn pose_unfaded(
+        &mut self,
+        open: &OpenModel,
+        shown: &CompiledClip,
+        time_secs: f32,
+        buffers: &mut PoseBuffers,
+    ) {
+        self.scratch.pose_layer(&open.compiled, shown, self.blend, time_secs);
         std::mem::swap(&mut self.scratch.layer, &mut buffers.local);
         buffers.place(&open.model.skeleton);
     }
@@ -196,7 +201,7 @@ impl Mixer {
 
 impl Scratch {
     /// A clip and what is blended into it, in `layer`.
-    fn pose_layer(&mut self, clips: &[Clip], clip: &Clip, with: Option<Blend>, time_secs: f32) {
+    fn pose_layer(&mut self, clips: &[CompiledClip], clip: &CompiledClip, with: Option<Blend>, time_secs: f32) {
         sample(clip, time_secs, &mut self.layer);
         if let Some(Blend { clip: index, share }) = with
             && let Some(other) = clips.get(index)
@@ -219,13 +224,13 @@ impl Scratch {
 }
 
 /// The time of `other` at the share of its length that `time_secs` is of `clip`'s; its start when `clip` has no length.
-fn time_in_step(clip: &Clip, time_secs: f32, other: &Clip) -> f32 {
-    let start_secs = f64::from(clip.start_secs);
-    let length_secs = f64::from(clip.end_secs) - start_secs;
+fn time_in_step(clip: &CompiledClip, time_secs: f32, other: &CompiledClip) -> f32 {
+    let start_secs = f64::from(clip.start_secs());
+    let length_secs = f64::from(clip.end_secs()) - start_secs;
     if length_secs <= 0.0 {
-        return other.start_secs;
+        return other.start_secs();
     }
     let phase = (f64::from(time_secs) - start_secs) / length_secs;
-    let other_start_secs = f64::from(other.start_secs);
-    (other_start_secs + phase * (f64::from(other.end_secs) - other_start_secs)) as f32
+    let other_start_secs = f64::from(other.start_secs());
+    (other_start_secs + phase * (f64::from(other.end_secs()) - other_start_secs)) as f32
 }

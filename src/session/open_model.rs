@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 use glam::Vec3;
 
 use super::files::File;
-use crate::anim::{self, JointActivity, Seam};
+use crate::anim::{self, CompiledClip, JointActivity, Seam};
+use crate::check;
 use crate::diagnostic::Diagnostic;
 use crate::format::{self, Dialect, Excerpt};
 use crate::import::Imported;
@@ -26,6 +27,8 @@ pub struct OpenModel {
     pub notices: Vec<Diagnostic>,
     /// Box of the bind pose, in the file's space.
     pub bind_bounds: Aabb,
+    /// The model's clips, compiled for sampling, in their order.
+    pub compiled: Vec<CompiledClip>,
     bind_points: Vec<Vec3>,
     /// One for each clip of the model.
     pub(super) clip_facts: Vec<ClipFacts>,
@@ -103,7 +106,7 @@ impl ClipFacts {
     }
 
     /// Box and extreme points of all that the clip reaches.
-    pub(super) fn extent(&self, model: &Model, clip: &Clip) -> (Aabb, &[Vec3]) {
+    pub(super) fn extent(&self, model: &Model, clip: &CompiledClip) -> (Aabb, &[Vec3]) {
         let extent = self.extent.get_or_init(|| Extent {
             bounds: anim::animated_bounds(model, clip),
             points: anim::extreme_points(model, Some(clip)),
@@ -118,12 +121,17 @@ impl OpenModel {
         let Imported {
             dialect,
             model,
-            diagnostics,
+            mut diagnostics,
+            clip_lines,
         } = imported;
+        let compiled = CompiledClip::all(&model.clips);
+        diagnostics.extend(check::motion(&model, &compiled, &clip_lines));
+        diagnostics.sort_by_key(|diagnostic| diagnostic.position);
         Self {
             file: file.clone(),
             dialect,
             notices: diagnostics,
+            compiled,
             bind_bounds: model.bind_bounds(),
             bind_points: anim::extreme_points(&model, None),
             clip_facts: vec![ClipFacts::of_file(file.base_name()); model.clips.len()],
@@ -135,7 +143,7 @@ impl OpenModel {
     /// The space that a clip needs; the bind pose's without a clip.
     pub fn extent(&self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
         let index = clip.unwrap_or(usize::MAX);
-        match (self.model.clips.get(index), self.clip_facts.get(index)) {
+        match (self.compiled.get(index), self.clip_facts.get(index)) {
             (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
             _ => (self.bind_bounds, &self.bind_points),
         }
@@ -183,17 +191,22 @@ impl OpenModel {
             .unwrap_or(1.0)
     }
 
+    /// A clip, as authored and as compiled.
+    pub(super) fn clip(&self, index: usize) -> Option<(&Clip, &CompiledClip)> {
+        self.model.clips.get(index).zip(self.compiled.get(index))
+    }
+
     /// How the last pose of a clip differs from the first; `None` without such a clip.
     pub fn seam(&self, clip: usize) -> Option<&Seam> {
-        let (clip, facts) = (self.model.clips.get(clip)?, self.clip_facts.get(clip)?);
+        let (clip, facts) = (self.compiled.get(clip)?, self.clip_facts.get(clip)?);
         Some(
             facts
                 .seam
-                .get_or_init(|| self.seam_between(clip, [clip.start_secs, clip.end_secs])),
+                .get_or_init(|| self.seam_between(clip, [clip.start_secs(), clip.end_secs()])),
         )
     }
 
-    pub(super) fn seam_between(&self, clip: &Clip, span_secs: [f32; 2]) -> Seam {
+    pub(super) fn seam_between(&self, clip: &CompiledClip, span_secs: [f32; 2]) -> Seam {
         anim::seam(&self.model.skeleton, clip, span_secs, self.size())
     }
 

@@ -146,14 +146,14 @@ impl OverlayCache {
         self.palettes.clear();
         let Some(open) = open else { return };
         let skeleton = &open.model.skeleton;
-        let clip = actor.clip.and_then(|clip| open.model.clips.get(clip));
-        if let (Some(plan), Some(clip)) = (view.ghosts, clip) {
+        let clip = actor.clip.and_then(|clip| open.clip(clip));
+        if let (Some(plan), Some((clip, compiled))) = (view.ghosts, clip) {
             let now_secs = actor.playback.time_secs();
             self.times_secs.clear();
             ghost_times(clip, now_secs, plan, &mut self.times_secs);
             let (times_secs, mixer) = (&self.times_secs, &mut actor.mixer);
             palettes_at(times_secs, &mut self.scratch, &mut self.palettes, |time_secs, pose| {
-                mixer.pose_unfaded(open, clip, time_secs, pose);
+                mixer.pose_unfaded(open, compiled, time_secs, pose);
             });
             let past = times_secs.iter().filter(|&&time_secs| time_secs < now_secs).count();
             let colors = (0..times_secs.len()).map(|ghost| ghost_color(ghost, past, times_secs.len()));
@@ -179,12 +179,10 @@ impl OverlayCache {
         }
         self.trails_for = Some(wanted);
         let mixer = &mut actor.mixer;
-        match actor.clip.and_then(|clip| open.model.clips.get(clip)) {
-            Some(clip) => self
-                .trails
-                .follow_posed(clip, joints, &mut self.scratch, |time_secs, pose| {
-                    mixer.pose_unfaded(open, clip, time_secs, pose);
-                }),
+        match actor.clip.and_then(|clip| open.clip(clip)) {
+            Some((clip, compiled)) => self.trails.follow(clip, joints, &mut self.scratch, |time_secs, pose| {
+                mixer.pose_unfaded(open, compiled, time_secs, pose);
+            }),
             None => self.trails = Trails::default(),
         }
     }

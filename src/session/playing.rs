@@ -136,7 +136,7 @@ impl Session {
         Some(if span_secs == [clip.start_secs, clip.end_secs] {
             Cow::Borrowed(open.seam(self.actor.clip?)?)
         } else {
-            Cow::Owned(open.seam_between(clip, span_secs))
+            Cow::Owned(open.seam_between(open.compiled.get(self.actor.clip?)?, span_secs))
         })
     }
 

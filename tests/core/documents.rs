@@ -1,5 +1,8 @@
 //! Small documents written by hand, and the real ones where they are.
 
+use bindpose::anim::CompiledClip;
+use bindpose::check;
+use bindpose::diagnostic::Diagnostic;
 use bindpose::format::{
     AnimationClip, BoneAnimation, Document, Keyframe, LineMap, Material, Parsed, Reflectance, Subset, Vertex, parse,
 };
@@ -33,15 +36,32 @@ pub(crate) fn shared_bytes(path: &str) -> Option<Vec<u8>> {
     shared(path).map(|path| std::fs::read(path).expect("the file can be read"))
 }
 
+/// The model of a document, and all that is found about it.
+pub(crate) fn read(document: &Document, lines: &LineMap) -> (Model, Vec<Diagnostic>) {
+    let (model, mut findings) = Model::from_document(document, lines).expect("the document is sound");
+    findings.extend(check::motion(
+        &model,
+        &CompiledClip::all(&model.clips),
+        &lines.clip_lines(),
+    ));
+    (model, findings)
+}
+
+/// The same of a parsed file, with what its parser found before the rest.
+pub(crate) fn read_parsed(parsed: &Parsed) -> (Model, Vec<Diagnostic>) {
+    let (model, of_model) = read(&parsed.document, &parsed.lines);
+    (model, parsed.notices.iter().cloned().chain(of_model).collect())
+}
+
 /// The model and the codes of its findings.
 pub(crate) fn model_of(document: &Document) -> (Model, Vec<&'static str>) {
-    let (model, findings) = Model::from_document(document, &LineMap::default()).expect("the document is sound");
+    let (model, findings) = read(document, &LineMap::default());
     (model, findings.iter().map(|finding| finding.code).collect())
 }
 
 /// The words of the one finding with a code.
 pub(crate) fn message_of(document: &Document, code: &str) -> String {
-    let (_, findings) = Model::from_document(document, &LineMap::default()).expect("the document is sound");
+    let (_, findings) = read(document, &LineMap::default());
     let mut matching = findings.into_iter().filter(|finding| finding.code == code);
     let finding = matching.next().unwrap_or_else(|| panic!("no finding {code}"));
     assert!(matching.next().is_none(), "more than one finding {code}");

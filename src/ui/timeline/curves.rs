@@ -1,6 +1,6 @@
 //! The motion of the selected joint over time, as numbers: which part of it is shown, and its samples.
 
-use crate::anim::{Curve, CurvePoint, CurveSpace};
+use crate::anim::{CompiledClip, Curve, CurvePoint, CurveSpace};
 use crate::model::JointIndex;
 use crate::session::{OpenModel, Session};
 
@@ -49,13 +49,20 @@ pub(super) struct SampledOf {
     pub(super) count: usize,
 }
 
+/// The clip that plays, as curves sample it.
+fn compiled_clip<'a>(session: &Session, open: &'a OpenModel) -> Option<&'a CompiledClip> {
+    open.compiled.get(session.clip_index()?)
+}
+
 impl Curves {
     /// Samples what is seen, when that changed.
     pub(super) fn sample(&mut self, session: &Session, open: &OpenModel, of: SampledOf) {
         if self.of == Some(of) {
             return;
         }
-        let Some(clip) = session.clip() else { return };
+        let Some(clip) = compiled_clip(session, open) else {
+            return;
+        };
         let (skeleton, CurveOf { joint, space, .. }) = (&open.model.skeleton, of.curve);
         let kept = self
             .curve
@@ -70,7 +77,7 @@ impl Curves {
 
     /// The point at a time: its values are those of that time, whatever is seen.
     pub(super) fn point_at(&self, session: &Session, open: &OpenModel, time_secs: f32) -> CurvePoint {
-        match (&self.curve, session.clip()) {
+        match (&self.curve, compiled_clip(session, open)) {
             (Some(curve), Some(clip)) => curve.at(&open.model.skeleton, clip, time_secs),
             _ => CurvePoint::default(),
         }

@@ -1,6 +1,6 @@
 //! From the animated pose to the bind pose.
 
-use bindpose::anim::{PoseBuffers, blend_to_rest, sample};
+use bindpose::anim::{CompiledClip, PoseBuffers, blend_to_rest, sample};
 use bindpose::model::Model;
 use glam::Affine3A;
 
@@ -22,23 +22,27 @@ fn greatest_difference(a: &[Affine3A], b: &[Affine3A]) -> f32 {
 /// Both ends are exact, and close to an end the pose is close to it.
 fn check_ends(model: &Model, tolerance: f32) {
     let (skeleton, clip) = (&model.skeleton, &model.clips[0]);
-    let time_secs = (clip.start_secs + clip.end_secs) * 0.5;
+    let (time_secs, clip) = ((clip.start_secs + clip.end_secs) * 0.5, &CompiledClip::new(clip));
     let (mut animated, mut bind, mut pose) = (PoseBuffers::default(), PoseBuffers::default(), PoseBuffers::default());
     animated.evaluate(skeleton, clip, time_secs);
     bind.set_bind_pose(skeleton);
     for share in [0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
-        pose.evaluate_toward_bind(skeleton, clip, time_secs, share);
+        pose.evaluate(skeleton, clip, time_secs);
+        pose.bring_toward_bind(skeleton, share);
         assert!(pose.palette.0 == animated.palette.0, "{share}");
     }
     for share in [1.0, 2.0, f32::INFINITY] {
-        pose.evaluate_toward_bind(skeleton, clip, time_secs, share);
+        pose.evaluate(skeleton, clip, time_secs);
+        pose.bring_toward_bind(skeleton, share);
         assert!(pose.palette.0 == bind.palette.0, "{share}");
         assert!(pose.local == bind.local, "{share}");
     }
-    pose.evaluate_toward_bind(skeleton, clip, time_secs, 1.0 - 1e-6);
+    pose.evaluate(skeleton, clip, time_secs);
+    pose.bring_toward_bind(skeleton, 1.0 - 1e-6);
     let off = greatest_difference(&pose.palette.0, &bind.palette.0);
     assert!(off < tolerance, "{off} from the bind pose");
-    pose.evaluate_toward_bind(skeleton, clip, time_secs, 1e-6);
+    pose.evaluate(skeleton, clip, time_secs);
+    pose.bring_toward_bind(skeleton, 1e-6);
     let off = greatest_difference(&pose.palette.0, &animated.palette.0);
     assert!(off < tolerance, "{off} from the animated pose");
 }
@@ -55,7 +59,8 @@ fn both_ends_are_the_poses_themselves() {
 fn half_way_each_turn_is_half_a_turn() {
     let (model, _) = model_of(&arm());
     let mut pose = PoseBuffers::default();
-    pose.evaluate_toward_bind(&model.skeleton, &model.clips[0], 1.0, 0.5);
+    pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 1.0);
+    pose.bring_toward_bind(&model.skeleton, 0.5);
     for joint in pose.local.joints() {
         let (axis, angle) = joint.rotation.to_axis_angle();
         assert!(
@@ -75,7 +80,7 @@ fn a_joint_without_skin_rests_where_its_offset_says_and_its_children_come_home()
     }
     let (model, _) = model_of(&document);
     let mut pose = PoseBuffers::default();
-    sample(&model.clips[0], 0.7, &mut pose.local);
+    sample(&CompiledClip::new(&model.clips[0]), 0.7, &mut pose.local);
     blend_to_rest(&model.skeleton, 1.0, &mut pose.local);
     bindpose::anim::local_to_model(&model.skeleton, &pose.local, &mut pose.model);
     let heights: Vec<_> = pose.model.0.iter().map(|joint| joint.translation.y).collect();

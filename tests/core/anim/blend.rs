@@ -1,6 +1,6 @@
 //! Blends of two poses against f64, joint by joint.
 
-use bindpose::anim::{LocalJoint, LocalPose, blend, sample};
+use bindpose::anim::{CompiledClip, LocalJoint, LocalPose, blend, sample};
 use glam::{DQuat, Quat, Vec3};
 use proptest::prelude::*;
 
@@ -55,8 +55,8 @@ fn the_poses_of_two_clips_blend_as_in_the_oracle() {
     for bones in JOINT_COUNTS {
         let model = rigs::model(bones);
         let (mut from, mut to) = (LocalPose::default(), LocalPose::default());
-        sample(&model.clips[0], 0.6, &mut from);
-        sample(&model.clips[2], 3.4, &mut to);
+        sample(&CompiledClip::new(&model.clips[0]), 0.6, &mut from);
+        sample(&CompiledClip::new(&model.clips[2]), 3.4, &mut to);
         for share in [0.0_f32, 0.1, 0.5, 0.9, 1.0] {
             let out = blended(&from, &to, share);
             assert_eq!(out.len(), bones as usize);

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use bindpose::anim::{PoseBuffers, animated_bounds, skin_positions};
+use bindpose::anim::{CompiledClip, PoseBuffers, animated_bounds, skin_positions};
 use bindpose::model::{Aabb, Clip, Model};
 use glam::Vec3;
 
@@ -12,7 +12,10 @@ use crate::textbook;
 #[test]
 fn a_static_model_and_a_resting_clip_keep_the_bind_bounds() {
     let (model, _) = model_of(&quad());
-    assert_eq!(animated_bounds(&model, &Clip::default()), model.bind_bounds());
+    assert_eq!(
+        animated_bounds(&model, &CompiledClip::new(&Clip::default())),
+        model.bind_bounds()
+    );
 
     let mut document = arm();
     document.clips[0]
@@ -20,7 +23,7 @@ fn a_static_model_and_a_resting_clip_keep_the_bind_bounds() {
         .iter_mut()
         .for_each(|bone| bone.keyframes.clear());
     let (model, _) = model_of(&document);
-    let bounds = animated_bounds(&model, &model.clips[0]);
+    let bounds = animated_bounds(&model, &CompiledClip::new(&model.clips[0]));
     assert!(bounds.min.abs_diff_eq(model.bind_bounds().min, 1e-6), "{bounds:?}");
     assert!(bounds.max.abs_diff_eq(model.bind_bounds().max, 1e-6), "{bounds:?}");
 }
@@ -32,13 +35,13 @@ fn the_box_is_that_of_the_vertices_at_the_keys() {
     let mut positions = Vec::new();
     let mut expected = Aabb::EMPTY;
     for time_secs in [0.0, 1.0] {
-        buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
+        buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
         skin_positions(&model.mesh, &buffers.palette, &mut positions);
         expected = positions
             .iter()
             .fold(expected, |bounds, &position| bounds.include(position));
     }
-    assert_eq!(animated_bounds(&model, &model.clips[0]), expected);
+    assert_eq!(animated_bounds(&model, &CompiledClip::new(&model.clips[0])), expected);
 }
 
 #[test]
@@ -62,8 +65,8 @@ fn too_much_work_gives_a_box_that_is_rather_too_large() {
             .collect();
     }
     let (large, _) = model_of(&document);
-    let rough = animated_bounds(&large, &large.clips[0]);
-    let exact = animated_bounds(&small, &large.clips[0]);
+    let rough = animated_bounds(&large, &CompiledClip::new(&large.clips[0]));
+    let exact = animated_bounds(&small, &CompiledClip::new(&large.clips[0]));
     assert!(
         rough.min.cmple(exact.min + 1e-5).all() && rough.max.cmpge(exact.max - 1e-5).all(),
         "{rough:?} {exact:?}"
@@ -88,11 +91,15 @@ fn many_key_times_are_looked_at_evenly() {
             .collect();
     }
     let (model, _) = model_of(&document);
-    let bounds = animated_bounds(&model, &model.clips[0]);
+    let bounds = animated_bounds(&model, &CompiledClip::new(&model.clips[0]));
     let mut buffers = PoseBuffers::default();
     let mut positions = Vec::new();
     for step in 0_u16..=500 {
-        buffers.evaluate(&model.skeleton, &model.clips[0], f32::from(step) / 500.0);
+        buffers.evaluate(
+            &model.skeleton,
+            &CompiledClip::new(&model.clips[0]),
+            f32::from(step) / 500.0,
+        );
         skin_positions(&model.mesh, &buffers.palette, &mut positions);
         let reach = Aabb::from_points(positions.iter().copied());
         assert!(bounds.min.cmple(reach.min + 1e-2).all() && bounds.max.cmpge(reach.max - 1e-2).all());
@@ -107,7 +114,7 @@ fn the_soldier_needs_the_box_of_the_textbook() {
     };
     let (model, _) = Model::from_parsed(&parsed).expect("sound");
     let begun = Instant::now();
-    let bounds = animated_bounds(&model, &model.clips[0]);
+    let bounds = animated_bounds(&model, &CompiledClip::new(&model.clips[0]));
     eprintln!("animated bounds of the soldier in {:?}", begun.elapsed());
 
     let document = &parsed.document;

@@ -1,6 +1,6 @@
 //! Curves of one joint.
 
-use bindpose::anim::{Curve, CurvePoint, CurveSpace, LocalPose, PoseBuffers, sample};
+use bindpose::anim::{CompiledClip, Curve, CurvePoint, CurveSpace, LocalPose, PoseBuffers, sample};
 use bindpose::model::{JointIndex, Model};
 use glam::{EulerRot, Quat, Vec3};
 
@@ -17,8 +17,8 @@ fn points(
 ) -> Vec<CurvePoint> {
     let mut out = vec![CurvePoint::default(); count];
     let clip = &model.clips[clip];
-    let curve = Curve::new(&model.skeleton, clip, JointIndex(joint), space);
-    curve.sample(&model.skeleton, clip, span_secs, &mut out);
+    let curve = Curve::new(&model.skeleton, &CompiledClip::new(clip), JointIndex(joint), space);
+    curve.sample(&model.skeleton, &CompiledClip::new(clip), span_secs, &mut out);
     out
 }
 
@@ -37,7 +37,7 @@ fn points_are_evenly_spaced_and_are_what_is_sampled() {
         let mut pose = LocalPose::default();
         for (index, point) in points.iter().enumerate() {
             assert!((point.time_secs - (0.1 + 0.2 * index as f32)).abs() < 1e-6);
-            sample(&model.clips[0], point.time_secs, &mut pose);
+            sample(&CompiledClip::new(&model.clips[0]), point.time_secs, &mut pose);
             let sampled = pose.joints().nth(joint as usize).expect("a joint");
             assert_eq!((point.translation, point.scale), (sampled.translation, sampled.scale));
             assert!(point.rotation == sampled.rotation || point.rotation == -sampled.rotation);
@@ -72,7 +72,7 @@ fn in_model_space_a_joint_is_where_its_chain_takes_it() {
             let points = points(model, 0, joint, CurveSpace::Model, [clip.start_secs, clip.end_secs], 9);
             let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
             for point in points {
-                pose.evaluate(&model.skeleton, clip, point.time_secs);
+                pose.evaluate(&model.skeleton, &CompiledClip::new(clip), point.time_secs);
                 let there = pose.model.0[joint as usize];
                 assert!(Vec3::from(there.translation).distance(point.translation) < tolerance);
                 let (x, ours) = (there.matrix3.x_axis, point.rotation * Vec3::X * point.scale.x);
@@ -176,13 +176,16 @@ fn looking_at_another_stretch_changes_no_value() {
     let (model, _) = model_of(&document);
     let clip = &model.clips[0];
     for (joint, space) in [(0, CurveSpace::Local), (2, CurveSpace::Local), (2, CurveSpace::Model)] {
-        let curve = Curve::new(&model.skeleton, clip, JointIndex(joint), space);
+        let curve = Curve::new(&model.skeleton, &CompiledClip::new(clip), JointIndex(joint), space);
         let whole = points(&model, 0, joint, space, [0.0, 10.0], 641);
         for (start_secs, end_secs, count) in [(0.0, 5.0, 321), (3.75, 6.25, 161), (6.25, 10.0, 61), (8.75, 8.75, 1)] {
             for point in points(&model, 0, joint, space, [start_secs, end_secs], count) {
                 let place = (point.time_secs * 64.0) as usize;
                 assert_eq!(point, whole[place], "{joint} {space:?} from {start_secs}");
-                assert_eq!(point, curve.at(&model.skeleton, clip, point.time_secs));
+                assert_eq!(
+                    point,
+                    curve.at(&model.skeleton, &CompiledClip::new(clip), point.time_secs)
+                );
             }
         }
         // And it is one line: no step is a jump. The arm's tip turns by 2.25 in half a second at most.

@@ -1,6 +1,6 @@
 //! A vertex explained comes where skinning brings it.
 
-use bindpose::anim::{PoseBuffers, RowMatrix, explain_vertex, skin_positions};
+use bindpose::anim::{CompiledClip, PoseBuffers, RowMatrix, explain_vertex, skin_positions};
 use bindpose::format::Document;
 use bindpose::model::Model;
 
@@ -13,7 +13,7 @@ use crate::textbook;
 fn check(document: &Document, model: &Model, step: usize, tolerance: f64) {
     let (mut pose, mut positions) = (PoseBuffers::default(), Vec::new());
     for time_secs in [0.0_f32, 0.37, 1.0] {
-        pose.evaluate(&model.skeleton, &model.clips[0], time_secs);
+        pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
         skin_positions(&model.mesh, &pose.palette, &mut positions);
         let expected = textbook::palette(document, 0, f64::from(time_secs));
         for vertex in (0..model.mesh.vertex_count()).step_by(step) {
@@ -88,7 +88,7 @@ fn the_soldiers_vertices_come_where_skinning_brings_them() {
 fn the_text_is_the_formula_in_columns() {
     let (model, _) = model_of(&arm());
     let mut pose = PoseBuffers::default();
-    pose.evaluate(&model.skeleton, &model.clips[0], 1.0);
+    pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 1.0);
     let explained = explain_vertex(&model, &pose, 3).expect("there");
     let text = explained.to_text(|joint| (joint.0 == 1).then_some("elbow"));
     let expected = "\
@@ -124,7 +124,7 @@ fn a_vertex_that_nothing_moves_stays_and_one_that_is_not_there_is_none() {
         let (model, _) = model_of(&document);
         let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
         if let Some(clip) = model.clips.first() {
-            pose.evaluate(&model.skeleton, clip, 0.5);
+            pose.evaluate(&model.skeleton, &CompiledClip::new(clip), 0.5);
         }
         let explained = explain_vertex(&model, &pose, vertex).expect("there");
         assert!(explained.influences.is_empty());

@@ -4,10 +4,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use bindpose::format::{Parsed, parse};
-use bindpose::model::Model;
 
 use super::palette::{SMALL_TOLERANCE, greatest_error, times_of};
-use crate::documents::figure;
+use crate::documents::{figure, read_parsed};
 
 /// What f32 loses through the dozen joints from the pelvis to a finger, with rotations written to a few digits.
 const FIGURE_TOLERANCE: f64 = 1e-5;
@@ -30,7 +29,7 @@ fn is_about_keys(code: &str) -> bool {
 
 /// Greatest error over all clips of a file; `None` when its keys were mended.
 fn error_of(parsed: &Parsed, steps: u16) -> Option<f64> {
-    let (model, findings) = Model::from_parsed(parsed).expect("sound");
+    let (model, findings) = read_parsed(parsed);
     if findings.iter().any(|finding| is_about_keys(finding.code)) {
         return None;
     }

@@ -1,6 +1,6 @@
 //! Read-outs of a joint: put together again, its parts are the matrix.
 
-use bindpose::anim::{JointReadout, PoseBuffers, RowMatrix, TransformParts, key_rows, key_table};
+use bindpose::anim::{CompiledClip, JointReadout, PoseBuffers, RowMatrix, TransformParts, key_rows, key_table};
 use bindpose::model::{JointIndex, JointTree, LocalJoint, Model};
 use glam::{Affine3A, DMat3, DQuat, DVec3, Mat3, Quat, Vec3};
 use proptest::prelude::*;
@@ -138,7 +138,7 @@ fn a_joint_reads_as_the_file_has_it() {
     let (model, _) = model_of(&document);
     let tree = JointTree::new(&model.skeleton);
     let mut pose = PoseBuffers::default();
-    pose.evaluate(&model.skeleton, &model.clips[0], 1.0);
+    pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 1.0);
     let readout = JointReadout::of(&model.skeleton, &tree, &pose, JointIndex(1)).expect("three joints");
     assert_eq!(
         (readout.bone, readout.parent_bone, readout.child_bones.as_slice()),
@@ -248,7 +248,7 @@ fn the_soldiers_joints_are_rigid_and_put_together_again() {
     let (model, _) = Model::from_parsed(&parsed).expect("sound");
     let tree = JointTree::new(&model.skeleton);
     let mut pose = PoseBuffers::default();
-    pose.evaluate(&model.skeleton, &model.clips[0], 0.517);
+    pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.517);
     for joint in (0..model.skeleton.joint_count() as u32).map(JointIndex) {
         let readout = JointReadout::of(&model.skeleton, &tree, &pose, joint).expect("there");
         check_parts(&pose.model.0[joint.index()], 1e-4);

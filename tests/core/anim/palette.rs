@@ -1,6 +1,6 @@
 //! Palettes against the textbook: offset · toRoot in f64, for small documents and the real ones.
 
-use bindpose::anim::PoseBuffers;
+use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::format::{Document, Keyframe};
 use bindpose::model::Model;
 use glam::{Affine3A, Mat4};
@@ -24,7 +24,7 @@ pub(super) fn greatest_error(
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     let mut greatest = 0.0;
     for time_secs in times_secs {
-        buffers.evaluate(&model.skeleton, &model.clips[clip], time_secs);
+        buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[clip]), time_secs);
         let expected = textbook::palette(document, clip, f64::from(time_secs));
         for (matrix, &bone) in buffers.palette.0.iter().zip(model.skeleton.file_bones()) {
             greatest = f64::max(greatest, difference(matrix, &expected[bone as usize]));
@@ -109,8 +109,8 @@ fn any_order_of_bones_poses_the_same() {
         let (model, _) = model_of(&document);
         let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
         for time_secs in [-0.5, 0.0, 0.3, 0.75, 1.0, 2.0] {
-            buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
-            expected.evaluate(&sorted.skeleton, &sorted.clips[0], time_secs);
+            buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
+            expected.evaluate(&sorted.skeleton, &CompiledClip::new(&sorted.clips[0]), time_secs);
             // The joints stand in one order again, so the palettes are equal to the bit.
             assert_eq!(buffers.palette.0, expected.palette.0, "{order:?} at {time_secs} s");
         }
@@ -190,7 +190,7 @@ fn the_bind_pose_gives_identity_matrices() {
         }
         let (model, _) = model_of(&document);
         let mut buffers = PoseBuffers::default();
-        buffers.evaluate(&model.skeleton, &model.clips[0], 0.4);
+        buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.4);
         for matrix in &buffers.palette.0 {
             assert!(matrix.abs_diff_eq(Affine3A::IDENTITY, tolerance), "{matrix:?}");
         }
@@ -212,7 +212,7 @@ fn the_soldier_s_root_begins_where_it_was_skinned() {
     };
     let (model, _) = Model::from_parsed(&parsed).expect("sound");
     let mut buffers = PoseBuffers::default();
-    buffers.evaluate(&model.skeleton, &model.clips[0], 0.0);
+    buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.0);
     assert!(
         buffers.palette.0[0].abs_diff_eq(Affine3A::IDENTITY, 5e-5),
         "{:?}",
@@ -233,7 +233,11 @@ fn buffers_are_filled_anew_and_not_grown() {
     };
     let before = places(&buffers);
     for frame in 0_u8..100 {
-        buffers.evaluate(&model.skeleton, &model.clips[0], f32::from(frame) * 0.02);
+        buffers.evaluate(
+            &model.skeleton,
+            &CompiledClip::new(&model.clips[0]),
+            f32::from(frame) * 0.02,
+        );
     }
     assert_eq!(places(&buffers), before);
     assert_eq!(buffers.palette.0.len(), 3);
@@ -251,7 +255,7 @@ fn buffers_are_filled_anew_and_not_grown() {
         .iter_mut()
         .for_each(|vertex| vertex.blend_indices = [0; 4]);
     let (small, _) = model_of(&small);
-    buffers.evaluate(&small.skeleton, &small.clips[0], 0.5);
+    buffers.evaluate(&small.skeleton, &CompiledClip::new(&small.clips[0]), 0.5);
     assert_eq!(
         (
             buffers.local.joint_count(),
@@ -284,7 +288,7 @@ fn tiny_and_wide_arcs_turn_at_even_speed() {
         let mut buffers = PoseBuffers::default();
         for step in 0_u8..=100 {
             let part = f32::from(step) / 100.0;
-            buffers.evaluate(&model.skeleton, &model.clips[0], part);
+            buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), part);
             let expected = Affine3A::from_rotation_z(angle * part);
             assert!(buffers.model.0[0].abs_diff_eq(expected, 1e-6), "{angle} at {part}");
         }

@@ -1,6 +1,6 @@
 //! Joints side by side, and poses of fewer joints than the skeleton has.
 
-use bindpose::anim::{JointLanes, LocalJoint, LocalPose, ModelPose, local_to_model};
+use bindpose::anim::{CompiledClip, JointLanes, LocalJoint, LocalPose, ModelPose, local_to_model};
 use bindpose::model::{Clip, Track};
 use glam::{Affine3A, Quat, Vec3};
 
@@ -88,9 +88,13 @@ fn tracks_of_a_group_do_not_change_each_other() {
     let (mut all, mut alone) = (LocalPose::default(), LocalPose::default());
     for step in 0_u8..=250 {
         let time_secs = f32::from(step) * 0.01 - 0.2;
-        bindpose::anim::sample(&together, time_secs, &mut all);
+        bindpose::anim::sample(&CompiledClip::new(&together), time_secs, &mut all);
         for (joint, track) in all.joints().zip(&tracks) {
-            bindpose::anim::sample(&Clip::new("alone", vec![track.clone()]), time_secs, &mut alone);
+            bindpose::anim::sample(
+                &CompiledClip::new(&Clip::new("alone", vec![track.clone()])),
+                time_secs,
+                &mut alone,
+            );
             let expected = alone.groups[0].joint(0).parent_from_joint();
             assert!(
                 joint.parent_from_joint().abs_diff_eq(expected, 2e-6),

@@ -1,6 +1,6 @@
 //! Random skeletons and clips against the textbook.
 
-use bindpose::anim::{PoseBuffers, SkinnedVertices, animated_bounds, skin};
+use bindpose::anim::{CompiledClip, PoseBuffers, SkinnedVertices, animated_bounds, skin};
 use bindpose::format::{AnimationClip, Document, Keyframe, LineMap, Vertex};
 use bindpose::model::{Model, Track};
 use glam::{Affine3A, Mat4};
@@ -106,7 +106,7 @@ proptest! {
         let (model, _) = model_of(&document);
         let mut buffers = PoseBuffers::default();
         for time_secs in times_secs {
-            buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
+            buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
             let expected = textbook::palette(&document, 0, f64::from(time_secs));
             for (matrix, &bone) in buffers.palette.0.iter().zip(model.skeleton.file_bones()) {
                 let ours = Mat4::from(*matrix).to_cols_array();
@@ -140,11 +140,11 @@ proptest! {
     fn the_box_of_a_clip_holds_every_vertex_at_every_key(document in documents()) {
         let (model, _) = model_of(&document);
         let clip = &model.clips[0];
-        let bounds = animated_bounds(&model, clip);
+        let bounds = animated_bounds(&model, &CompiledClip::new(clip));
         let mut buffers = PoseBuffers::default();
         let mut out = SkinnedVertices::default();
         for time_secs in clip.tracks.iter().flat_map(Track::times_secs) {
-            buffers.evaluate(&model.skeleton, clip, *time_secs);
+            buffers.evaluate(&model.skeleton, &CompiledClip::new(clip), *time_secs);
             skin(&model.mesh, &buffers.palette, &mut out);
             for position in &out.positions {
                 prop_assert!(position.cmpge(bounds.min).all() && position.cmple(bounds.max).all());
@@ -179,7 +179,7 @@ proptest! {
         }
         let (model, _) = Model::from_document(&document, &LineMap::default()).expect("all references hold");
         let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
-        buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
+        buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
         prop_assert!(buffers.palette.0.iter().all(Affine3A::is_finite));
         let mut out = SkinnedVertices::default();
         skin(&model.mesh, &buffers.palette, &mut out);
@@ -189,7 +189,7 @@ proptest! {
             prop_assert!((tangent.truncate().length() - 1.0).abs() < 1e-3);
             prop_assert_eq!(tangent.w.abs(), 1.0);
         }
-        let bounds = animated_bounds(&model, &model.clips[0]);
+        let bounds = animated_bounds(&model, &CompiledClip::new(&model.clips[0]));
         prop_assert!(bounds.min.is_finite() && bounds.max.is_finite());
     }
 }

@@ -1,6 +1,6 @@
 //! Single tracks: ends, blends, and the search for keys.
 
-use bindpose::anim::{LocalJoint, LocalPose, sample};
+use bindpose::anim::{CompiledClip, LocalJoint, LocalPose, sample};
 use bindpose::model::{Clip, Track};
 use glam::{Quat, Vec3};
 
@@ -19,7 +19,7 @@ fn clip_of(tracks: &[&[(f32, f32)]]) -> Clip {
 
 fn x_at(clip: &Clip, time_secs: f32) -> f32 {
     let mut local = LocalPose::default();
-    sample(clip, time_secs, &mut local);
+    sample(&CompiledClip::new(clip), time_secs, &mut local);
     local.groups[0].joint(0).translation.x
 }
 
@@ -79,7 +79,7 @@ fn tracks_with_other_times_do_not_mislead_each_other() {
     let mut local = LocalPose::default();
     for step in (0_u8..=80).rev().chain(0..=80) {
         let time_secs = f32::from(step) * 0.05;
-        sample(&clip, time_secs, &mut local);
+        sample(&CompiledClip::new(&clip), time_secs, &mut local);
         for (joint, track) in local.joints().zip(tracks) {
             // Every track says x = time where it has keys.
             let expected = time_secs.clamp(track[0].0, track[track.len() - 1].0);
@@ -109,7 +109,7 @@ fn times_in_any_order_give_the_same_to_the_bit() {
     let mut times_secs: Vec<f32> = (0_u16..500).map(|step| f32::from(step) * 0.0041).collect();
     let pose = |time_secs: f32| {
         let mut local = LocalPose::default();
-        sample(&clip, time_secs, &mut local);
+        sample(&CompiledClip::new(&clip), time_secs, &mut local);
         local
     };
     let forward: Vec<_> = times_secs
@@ -119,7 +119,7 @@ fn times_in_any_order_give_the_same_to_the_bit() {
     times_secs.reverse();
     let mut local = LocalPose::default();
     for (time_secs, expected) in forward.iter().rev() {
-        sample(&clip, *time_secs, &mut local);
+        sample(&CompiledClip::new(&clip), *time_secs, &mut local);
         assert_eq!(&local, expected);
         assert!(local.joints().all(|joint| (joint.rotation.length() - 1.0).abs() < 1e-6));
     }

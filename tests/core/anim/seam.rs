@@ -1,6 +1,6 @@
 //! Where a loop begins again.
 
-use bindpose::anim::{PoseBuffers, Seam, VISIBLE_SHARE, seam};
+use bindpose::anim::{CompiledClip, PoseBuffers, Seam, VISIBLE_SHARE, seam};
 use bindpose::model::{JointIndex, Model};
 
 use crate::documents::{REAL_FILES, arm, figure, key, model_of, offset, real_file, track, turned};
@@ -27,7 +27,12 @@ fn seam_of(model: &Model, size: f32) -> Seam {
 
 fn whole_seam(model: &Model, clip: usize, size: f32) -> Seam {
     let clip = &model.clips[clip];
-    seam(&model.skeleton, clip, [clip.start_secs, clip.end_secs], size)
+    seam(
+        &model.skeleton,
+        &CompiledClip::new(clip),
+        [clip.start_secs, clip.end_secs],
+        size,
+    )
 }
 
 #[test]
@@ -170,7 +175,7 @@ fn seams_of_real_files_are_those_of_their_poses() {
             let seam = whole_seam(&model, index, bounds.min.distance(bounds.max));
             let places = |time_secs| {
                 let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
-                pose.evaluate(&model.skeleton, clip, time_secs);
+                pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
                 pose.model.0
             };
             for ((joint, first), last) in seam
@@ -191,10 +196,10 @@ fn a_range_has_the_seam_between_its_own_ends() {
     let model = rigs::model(12);
     let clip = &model.clips[2];
     let span_secs = [3.3, 4.1];
-    let seam = seam(&model.skeleton, clip, span_secs, 5.0);
+    let seam = seam(&model.skeleton, &CompiledClip::new(clip), span_secs, 5.0);
     let [first, last] = span_secs.map(|time_secs| {
         let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
-        pose.evaluate(&model.skeleton, clip, time_secs);
+        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
         pose
     });
     for (joint, found) in seam.joints.iter().enumerate() {
@@ -209,7 +214,7 @@ fn a_range_has_the_seam_between_its_own_ends() {
         );
     }
     assert!(seam.visible && seam.joints[0].travel > 0.5);
-    let nothing = bindpose::anim::seam(&model.skeleton, clip, [3.3, 3.3], 5.0);
+    let nothing = bindpose::anim::seam(&model.skeleton, &CompiledClip::new(clip), [3.3, 3.3], 5.0);
     assert!(!nothing.visible && nothing.worst.is_none());
 }
 

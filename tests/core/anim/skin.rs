@@ -1,6 +1,6 @@
 //! CPU skinning against a plain loop in f64.
 
-use bindpose::anim::{Palette, PoseBuffers, SkinnedVertices, skin, skin_positions};
+use bindpose::anim::{CompiledClip, Palette, PoseBuffers, SkinnedVertices, skin, skin_positions};
 use bindpose::model::Model;
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3, Quat, Vec3};
 
@@ -50,7 +50,11 @@ fn the_arm_bends_as_in_the_plain_loop() {
     let (model, _) = model_of(&arm());
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     for step in 0_u8..=20 {
-        buffers.evaluate(&model.skeleton, &model.clips[0], f32::from(step) / 20.0);
+        buffers.evaluate(
+            &model.skeleton,
+            &CompiledClip::new(&model.clips[0]),
+            f32::from(step) / 20.0,
+        );
         let (position, direction) = greatest_errors(&model, &buffers.palette);
         assert!(position < 1e-5 && direction < 1e-5, "{position} {direction}");
     }
@@ -85,7 +89,7 @@ fn the_soldier_runs_as_in_the_textbook() {
     let (model, _) = Model::from_parsed(&parsed).expect("sound");
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     for time_secs in [-1.0_f32, 0.0, 0.2083, 0.517, 1.2083, 1.24, 1.25, 7.0] {
-        buffers.evaluate(&model.skeleton, &model.clips[0], time_secs);
+        buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
         let (position, direction) = greatest_errors(&model, &buffers.palette);
         assert!(
             position < 5e-5 && direction < 1e-4,

@@ -1,6 +1,8 @@
 //! One number a vertex, against plain loops.
 
-use bindpose::anim::{PoseBuffers, Stretch, dominant_joints, influence_counts, joint_weights, skin_positions};
+use bindpose::anim::{
+    CompiledClip, PoseBuffers, Stretch, dominant_joints, influence_counts, joint_weights, skin_positions,
+};
 use bindpose::model::{JointIndex, Model};
 use glam::Vec3;
 
@@ -104,7 +106,7 @@ fn stretch_is_the_mean_over_the_edges() {
     for model in [model_of(&arm()).0, mirrored_model(60)] {
         let stretch = Stretch::new(&model.mesh);
         let (mut pose, mut positions, mut ratios) = (PoseBuffers::default(), Vec::new(), Vec::new());
-        pose.evaluate(&model.skeleton, &model.clips[0], 0.8);
+        pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.8);
         skin_positions(&model.mesh, &pose.palette, &mut positions);
         stretch.ratios(&positions, &mut ratios);
         let expected = plain_ratios(&model, &positions);
@@ -162,7 +164,7 @@ fn the_soldier_has_four_joints_a_vertex_at_most_and_stretches_where_it_bends() {
     check_weights(&model);
     let stretch = Stretch::new(&model.mesh);
     let (mut pose, mut positions, mut ratios) = (PoseBuffers::default(), Vec::new(), Vec::new());
-    pose.evaluate(&model.skeleton, &model.clips[0], 0.517);
+    pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.517);
     skin_positions(&model.mesh, &pose.palette, &mut positions);
     stretch.ratios(&positions, &mut ratios);
     assert!(ratios.iter().all(|ratio| ratio.is_finite() && *ratio > 0.0));

@@ -1,6 +1,6 @@
 //! Trails against posing at each frame; times of ghosts.
 
-use bindpose::anim::{GhostPlan, PoseBuffers, Trails, ghost_times, palettes_at};
+use bindpose::anim::{CompiledClip, GhostPlan, PoseBuffers, Trails, ghost_times, palettes_at};
 use bindpose::model::{Clip, JointIndex, LocalJoint, Track};
 
 use crate::chains::mirrored_model;
@@ -12,12 +12,15 @@ fn a_trail_has_the_joints_place_at_every_frame() {
         let clip = &model.clips[0];
         let joints = [JointIndex(2), JointIndex(0)];
         let (mut trails, mut pose) = (Trails::default(), PoseBuffers::default());
-        trails.follow(&model.skeleton, clip, &joints, &mut pose);
+        let compiled = CompiledClip::new(clip);
+        trails.follow(clip, &joints, &mut pose, |time_secs, pose| {
+            pose.evaluate(&model.skeleton, &compiled, time_secs);
+        });
         assert_eq!(trails.point_count(), clip.frame_count() as usize);
         assert_eq!(trails.polylines().len(), joints.len());
         for (points, joint) in trails.polylines().zip(joints) {
             for (frame, &point) in (0..).zip(points) {
-                pose.evaluate(&model.skeleton, clip, clip.time_of_frame(frame));
+                pose.evaluate(&model.skeleton, &compiled, clip.time_of_frame(frame));
                 assert_eq!(point, pose.model.0[joint.index()].translation.into(), "frame {frame}");
             }
         }
@@ -43,18 +46,15 @@ fn a_clip_of_a_million_frames_has_a_trail_of_two_thousand_points() {
         vec![Track::new(dense).expect("in order"), still.clone(), still],
     )];
     let (mut trails, mut pose) = (Trails::default(), PoseBuffers::default());
-    trails.follow(
-        &model.skeleton,
-        &model.clips[0],
-        &[JointIndex(0), JointIndex(9)],
-        &mut pose,
-    );
+    let (clip, compiled) = (&model.clips[0], CompiledClip::new(&model.clips[0]));
+    let mut pose_at = |time_secs: f32, pose: &mut PoseBuffers| pose.evaluate(&model.skeleton, &compiled, time_secs);
+    trails.follow(clip, &[JointIndex(0), JointIndex(9)], &mut pose, &mut pose_at);
     assert_eq!(trails.point_count(), 2_000);
     let lines: Vec<_> = trails.polylines().collect();
     assert!(lines[0].is_sorted_by(|a, b| a.x < b.x), "it goes one way");
     assert!((lines[0][1_999].x - 9_999.99).abs() < 0.01);
     assert!(lines[1].iter().all(|&point| point == glam::Vec3::ZERO), "no such joint");
-    trails.follow(&model.skeleton, &model.clips[0], &[], &mut pose);
+    trails.follow(clip, &[], &mut pose, pose_at);
     assert_eq!(trails.polylines().count(), 0);
 }
 
@@ -85,11 +85,11 @@ fn each_ghost_has_the_palette_of_its_time() {
     let (clip, times) = (&model.clips[0], [0.1, 0.9]);
     let (mut pose, mut palettes) = (PoseBuffers::default(), vec![bindpose::anim::Palette::default(); 5]);
     palettes_at(&times, &mut pose, &mut palettes, |time_secs, pose| {
-        pose.evaluate(&model.skeleton, clip, time_secs);
+        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
     });
     assert_eq!(palettes.len(), 2);
     for (palette, time_secs) in palettes.iter().zip(times) {
-        pose.evaluate(&model.skeleton, clip, time_secs);
+        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
         assert_eq!(palette.0, pose.palette.0);
     }
 }

@@ -6,7 +6,7 @@ use bindpose::diagnostic::{Diagnostic, Severity, codes};
 use bindpose::format::{Document, LineMap, Subset};
 use bindpose::model::Model;
 
-use crate::documents::{arm, is_sentence, key, material, offset, reordered, subset, track};
+use crate::documents::{arm, is_sentence, key, material, offset, read, reordered, subset, track};
 
 /// What turns a sound arm into one that a single code, or a few, are about: every way that the model has.
 const CHANGES: &[fn(&mut Document)] = &[
@@ -67,7 +67,7 @@ const CHANGES: &[fn(&mut Document)] = &[
 
 fn findings_of(document: &Document) -> Vec<Diagnostic> {
     match Model::from_document(document, &LineMap::default()) {
-        Ok((_, findings)) => findings,
+        Ok(_) => read(document, &LineMap::default()).1,
         Err(error) => vec![error.diagnostic()],
     }
 }

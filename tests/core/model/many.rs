@@ -4,11 +4,11 @@ use bindpose::diagnostic::{Diagnostic, Position, Subject};
 use bindpose::format::{AnimationClip, ClipLines, Document, LineMap, Subset};
 use bindpose::model::Model;
 
-use crate::documents::{arm, key, material, quad, subset, track};
+use crate::documents::{arm, key, material, quad, read, subset, track};
 
 /// The findings of a code.
 fn findings(document: &Document, lines: &LineMap, code: &str) -> Vec<Diagnostic> {
-    let (_, findings) = Model::from_document(document, lines).expect("the document is sound");
+    let (_, findings) = read(document, lines);
     findings.into_iter().filter(|finding| finding.code == code).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Bones placed, drawn, picked and named.
 
-use bindpose::anim::PoseBuffers;
+use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::model::{Handedness, JointIndex, Model, UpAxis, world_from_model};
 use bindpose::scene::{
     Aabb, BoneColors, BoneStyle, Bones, Camera, MarkedJoints, OverlayGeometry, OverlayVertex, Projection, Screen,
@@ -14,7 +14,7 @@ use crate::documents::{arm, model_of, real_file};
 /// Bones of a model at half of its first clip, in a world that mirrors.
 fn placed(model: &Model) -> Bones {
     let mut pose = PoseBuffers::default();
-    pose.evaluate(&model.skeleton, &model.clips[0], 0.5);
+    pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.5);
     let mut bones = Bones::default();
     bones.place(
         &model.skeleton,

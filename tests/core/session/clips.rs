@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use bindpose::anim::{LoopMode, WrapMode, seam};
+use bindpose::anim::{CompiledClip, LoopMode, WrapMode, seam};
 use bindpose::format::Document;
 use bindpose::model::JointIndex;
 use bindpose::session::Command;
@@ -80,7 +80,12 @@ fn the_seam_is_that_of_what_loops() {
             &rigs::rig(3, vec![rigs::even("even", 3, -1.0, 9, 4.0)]),
         ));
         let open = session.open_model().expect("open");
-        seam(&open.model.skeleton, &open.model.clips[0], span_secs, open.size())
+        seam(
+            &open.model.skeleton,
+            &CompiledClip::new(&open.model.clips[0]),
+            span_secs,
+            open.size(),
+        )
     };
     assert!(matches!(session.loop_seam(), Some(Cow::Borrowed(_))), "found once");
     assert_eq!(session.loop_seam().as_deref(), Some(&between([-1.0, 1.0])));

@@ -1,6 +1,6 @@
 //! The camera, the space of the world, and when the picture is another one.
 
-use bindpose::anim::{self, LoopMode, PoseBuffers};
+use bindpose::anim::{self, CompiledClip, LoopMode, PoseBuffers};
 use bindpose::model::{Handedness, UpAxis, world_from_model};
 use bindpose::scene::{Camera, Insets, Overlay, Projection, Theme, ViewPreset};
 use bindpose::session::{Command, File, LookCommand, Session};
@@ -28,7 +28,7 @@ fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
     let mut reached = Vec::new();
     for frame in 0..session.clip().map_or(1, bindpose::model::Clip::frame_count) {
         if let Some(clip) = session.clip() {
-            buffers.evaluate(skeleton, clip, clip.time_of_frame(frame));
+            buffers.evaluate(skeleton, &CompiledClip::new(clip), clip.time_of_frame(frame));
         }
         anim::skin_positions(mesh, &buffers.palette, &mut positions);
         let in_picture = |&point: &Vec3| clip_from_world.project_point3(world_from_model.transform_point3(point));

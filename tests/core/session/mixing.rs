@@ -1,6 +1,6 @@
 //! Crossfades from clip to clip, and two clips blended.
 
-use bindpose::anim::{GhostPlan, LocalPose, LoopMode, Playback, PoseBuffers, blend, sample};
+use bindpose::anim::{CompiledClip, GhostPlan, LocalPose, LoopMode, Playback, PoseBuffers, blend, sample};
 use bindpose::model::JointIndex;
 use bindpose::session::{Blend, Command, JointCommand, MAX_CROSSFADE_SECS, Session};
 use glam::Affine3A;
@@ -21,7 +21,7 @@ fn playing(bones: u32) -> Session {
 fn pose(session: &Session, clip: usize, time_secs: f32) -> LocalPose {
     let mut pose = LocalPose::default();
     sample(
-        &session.open_model().expect("open").model.clips[clip],
+        &CompiledClip::new(&session.open_model().expect("open").model.clips[clip]),
         time_secs,
         &mut pose,
     );

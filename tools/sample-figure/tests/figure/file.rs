@@ -1,9 +1,10 @@
 //! The document as a whole, and the committed file.
 
 use bindpose::format::{self, Document, LineMap, Reflectance};
-use bindpose::model::{Handedness, Model, UpAxis};
+use bindpose::model::{Handedness, UpAxis};
 
 use super::FIGURE;
+use crate::documents::read;
 
 #[test]
 fn materials_are_physically_plausible() {
@@ -81,7 +82,7 @@ fn assert_close(ours: &[f32], theirs: &[f32]) {
 
 #[test]
 fn it_makes_a_left_handed_model_without_a_word() {
-    let (model, notices) = Model::from_document(&FIGURE, &LineMap::default()).expect("the figure is sound");
+    let (model, notices) = read(&FIGURE, &LineMap::default());
     assert!(notices.is_empty(), "{notices:?}");
     assert_eq!(model.handedness, Handedness::Left);
     assert_eq!(model.up_axis, UpAxis::Y);

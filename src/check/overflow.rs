@@ -1,50 +1,44 @@
 //! Finds clips that take a bone, or a vertex on it, further than `f32` can hold.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{Affine3A, DAffine3, DMat3, DVec3};
 
-use super::notes::{Notes, Place};
-use super::track_group::joint_at;
-use super::{Clip, Mesh, Skeleton, Track};
+use crate::anim::{CompiledClip, PoseBuffers};
+use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Subject, codes};
-use crate::format::LineMap;
+use crate::model::{Clip, Model, Skeleton, Track};
 
 /// Beyond it a pose is taken to overflow. It leaves room for the sums that make a pose, each of which must fit into `f32`.
 const MOST: f64 = 1e37;
 
-/// Where the numbers of a clip overflow.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Overflow {
-    /// Time in the clip.
-    pub time_secs: f32,
-    /// The file's number of the bone.
-    pub bone: u32,
-}
-
-/// Sets [`Clip::overflow`] of all clips, and notes those that have one.
-///
-/// It is looked for at the times at which the box of a clip is made: each key time, up to a number of them.
-pub(super) fn note_overflows(mesh: &Mesh, skeleton: &Skeleton, clips: &mut [Clip], lines: &LineMap, notes: &mut Notes) {
-    let reaches = reaches(mesh, skeleton.joint_count());
-    for (index, clip) in (0u32..).zip(clips) {
-        if stays_below(skeleton, clip, &reaches) {
-            continue;
-        }
-        clip.overflow = first_overflow(skeleton, clip, &reaches);
-        if let Some(Overflow { time_secs, bone }) = clip.overflow {
-            let line = lines.clips.get(index as usize).map(|lines| lines.clip);
+/// Notes the clips whose numbers overflow.
+pub(super) fn note_overflows(
+    model: &Model,
+    compiled: &[CompiledClip],
+    clip_lines: &[u32],
+    diagnostics: &mut Diagnostics,
+) {
+    let reaches = reaches(model);
+    for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {
+        if !stays_below(&model.skeleton, clip, &reaches)
+            && let Some((time_secs, bone)) = first_overflow(&model.skeleton, compiled, &reaches)
+        {
             let message = format!(
                 "At {time_secs} s of \"{}\" bone {bone}, or a vertex on it, is taken beyond 10³⁷: numbers overflow there.",
                 clip.name
             );
-            notes.add(&codes::POSE_OVERFLOWS, Place::on(Subject::Clip(index), line), message);
+            diagnostics.add(
+                &codes::POSE_OVERFLOWS,
+                Place::of(Subject::Clip(index), clip_lines),
+                message,
+            );
         }
     }
 }
 
 /// For each joint the greatest x, y and z, without sign, of the vertices it moves in bind space.
-fn reaches(mesh: &Mesh, joint_count: usize) -> Vec<DVec3> {
-    let mut reaches = vec![DVec3::ZERO; joint_count];
-    for (influences, position) in mesh.influences.iter().zip(&mesh.positions) {
+fn reaches(model: &Model) -> Vec<DVec3> {
+    let mut reaches = vec![DVec3::ZERO; model.skeleton.joint_count()];
+    for (influences, position) in model.mesh.influences.iter().zip(&model.mesh.positions) {
         let weighted = influences.joints.iter().zip(&influences.weights);
         for (&joint, _) in weighted.filter(|(_, weight)| **weight > 0.0) {
             let reach = &mut reaches[joint as usize];
@@ -54,8 +48,8 @@ fn reaches(mesh: &Mesh, joint_count: usize) -> Vec<DVec3> {
     reaches
 }
 
-/// Whether bounds of all keys alone show that nothing overflows at any time: a chain of joints scales by no more than the
-/// product of their greatest scales. So it is for every sound file, which then costs one look at each key.
+/// Whether the bounds of the keys alone show that nothing overflows at any time: a chain of joints scales by no more than
+/// the product of their greatest scales. They show it for every sound file, which then costs one look at each key.
 fn stays_below(skeleton: &Skeleton, clip: &Clip, reaches: &[DVec3]) -> bool {
     let mut bounds: Vec<Bound> = Vec::with_capacity(skeleton.joint_count());
     let joints = clip.tracks.iter().zip(skeleton.parents());
@@ -123,36 +117,24 @@ impl Bound {
     }
 }
 
-/// The first time, and at it the first joint, at which something is beyond the limit.
-fn first_overflow(skeleton: &Skeleton, clip: &Clip, reaches: &[DVec3]) -> Option<Overflow> {
-    let mut model_from_joint = vec![DAffine3::IDENTITY; skeleton.joint_count()];
-    let mut keys = vec![0; clip.tracks.len()];
-    clip.looked_at_secs().into_iter().find_map(|time_secs| {
-        for (joint, (track, parent)) in clip.tracks.iter().zip(skeleton.parents()).enumerate() {
-            let key = &mut keys[joint];
-            while track.times_secs().get(*key + 1).is_some_and(|&next| next <= time_secs) {
-                *key += 1;
-            }
-            let local = joint_at(track, *key, time_secs);
-            let parent_from_joint = DAffine3::from_scale_rotation_translation(
-                local.scale.as_dvec3(),
-                local.rotation.as_dquat(),
-                local.translation.as_dvec3(),
-            );
-            let model_from_parent = parent.map_or(DAffine3::IDENTITY, |parent| model_from_joint[parent.index()]);
-            model_from_joint[joint] = model_from_parent * parent_from_joint;
-            let model_from_bind = model_from_joint[joint] * skeleton.joint_from_bind()[joint].as_daffine3();
-            if !(fits(&model_from_joint[joint], DVec3::ZERO) && fits(&model_from_bind, reaches[joint])) {
-                let bone = skeleton.file_bones()[joint];
-                return Some(Overflow { time_secs, bone });
-            }
-        }
-        None
+/// The first time, and at it the file's number of the first bone, at which something is beyond the limit. The clip is posed
+/// at the times at which its box is made: each key time, up to a number of them.
+fn first_overflow(skeleton: &Skeleton, compiled: &CompiledClip, reaches: &[DVec3]) -> Option<(f32, u32)> {
+    let mut pose = PoseBuffers::for_skeleton(skeleton);
+    compiled.probe_times_secs().into_iter().find_map(|time_secs| {
+        pose.evaluate(skeleton, compiled, time_secs);
+        let joints = pose.model.0.iter().zip(&pose.palette.0).zip(reaches);
+        let fit = |((model_from_joint, model_from_bind), reach): ((&Affine3A, &Affine3A), &DVec3)| {
+            fits(model_from_joint, DVec3::ZERO) && fits(model_from_bind, *reach)
+        };
+        let joint = joints.into_iter().position(|joint| !fit(joint))?;
+        Some((time_secs, skeleton.file_bones()[joint]))
     })
 }
 
 /// Whether a matrix, and where it takes all points no further from the axes than `reach`, stay below the limit.
-fn fits(matrix: &DAffine3, reach: DVec3) -> bool {
+fn fits(matrix: &Affine3A, reach: DVec3) -> bool {
+    let matrix = matrix.as_daffine3();
     let DMat3 { x_axis, y_axis, z_axis } = matrix.matrix3;
     let moved = matrix.translation.abs() + x_axis.abs() * reach.x + y_axis.abs() * reach.y + z_axis.abs() * reach.z;
     [x_axis.abs(), y_axis.abs(), z_axis.abs(), moved]

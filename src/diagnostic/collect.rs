@@ -1,25 +1,25 @@
-//! Collects what was mended while a document becomes a model.
+//! Collects the diagnostics of one stage, so that many alike become one.
 
 use std::collections::HashMap;
 
-use crate::diagnostic::{Code, Diagnostic, Position, Subject};
+use super::{Code, Diagnostic, Position, Subject};
 
 /// The start of a line.
-pub(super) fn line_start(line: u32) -> Position {
+pub(crate) fn line_start(line: u32) -> Position {
     Position { line, column: 1 }
 }
 
-/// Findings in the order of the stages. A few of one code are told apart; many become one, so that a file with the same
-/// flaw in each of its clips does not bury everything else.
+/// Diagnostics in the order in which they are added. A few of one code are kept apart; many become one, so that a file
+/// with the same flaw in each of its clips does not bury everything else.
 #[derive(Default)]
-pub(super) struct Notes {
-    findings: Vec<Diagnostic>,
+pub(crate) struct Diagnostics {
+    list: Vec<Diagnostic>,
     /// How often each code was met.
     met: HashMap<&'static str, u32>,
 }
 
-impl Notes {
-    /// Findings of one code up to this many are told apart.
+impl Diagnostics {
+    /// Up to this many diagnostics of one code are kept apart.
     const MOST_APART: u32 = 4;
 
     /// Adds a diagnostic.
@@ -30,7 +30,7 @@ impl Notes {
             return;
         }
         let places: Vec<Position> = place.lines.into_iter().flatten().map(line_start).collect();
-        self.findings.push(Diagnostic {
+        self.list.push(Diagnostic {
             position: places.first().copied(),
             subject: place.subject,
             count: place.count,
@@ -39,24 +39,24 @@ impl Notes {
         });
     }
 
-    /// All findings. Of a code that was met too often the first one stands for all.
-    pub(super) fn into_diagnostics(self) -> Vec<Diagnostic> {
-        let mut all: Vec<Diagnostic> = Vec::with_capacity(self.findings.len());
-        for finding in self.findings {
-            let met = self.met.get(finding.code).copied().unwrap_or_default();
+    /// All diagnostics. Of a code that was met too often the first one stands for all.
+    pub(crate) fn into_vec(self) -> Vec<Diagnostic> {
+        let mut all: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
+        for diagnostic in self.list {
+            let met = self.met.get(diagnostic.code).copied().unwrap_or_default();
             if met <= Self::MOST_APART {
-                all.push(finding);
-            } else if let Some(first) = all.iter_mut().find(|first| first.code == finding.code) {
-                first.places.extend(finding.position);
+                all.push(diagnostic);
+            } else if let Some(first) = all.iter_mut().find(|first| first.code == diagnostic.code) {
+                first.places.extend(diagnostic.position);
             } else {
-                all.push(standing_for(met, finding));
+                all.push(standing_for(met, diagnostic));
             }
         }
         all
     }
 }
 
-/// A finding about the first of `count` parts of the model, said of all of them.
+/// The diagnostic of the first of `count` parts of the model, reworded for all of them.
 fn standing_for(count: u32, first: Diagnostic) -> Diagnostic {
     let parts = match first.subject {
         Some(Subject::Material(_)) => "materials",
@@ -72,9 +72,9 @@ fn standing_for(count: u32, first: Diagnostic) -> Diagnostic {
     }
 }
 
-/// Where a finding belongs: lines of the file when there are any, and a part of the model.
+/// Where a diagnostic belongs: lines of the file when there are any, and a part of the model.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(crate) struct Place {
     lines: [Option<u32>; Diagnostic::MOST_PLACES],
     count: u32,
     subject: Option<Subject>,
@@ -92,8 +92,8 @@ impl Default for Place {
 }
 
 impl Place {
-    /// A part of the model, with its line in a list that runs beside the document's.
-    pub(super) fn of(subject: Subject, lines: &[u32]) -> Self {
+    /// A part of the model. `lines` has the line of each part of this kind.
+    pub(crate) fn of(subject: Subject, lines: &[u32]) -> Self {
         let (Subject::Material(index)
         | Subject::Subset(index)
         | Subject::Vertex(index)
@@ -104,15 +104,16 @@ impl Place {
     }
 
     /// A part of the model on a given line.
-    pub(super) fn on(subject: Subject, line: Option<u32>) -> Self {
+    pub(crate) fn on(subject: Subject, line: Option<u32>) -> Self {
         let mut place = Self::default();
         place.lines[0] = line;
         place.subject = Some(subject);
         place
     }
 
-    /// Rows that needed the same mending. `subject` makes the part of the model that a row is.
-    pub(super) fn of_rows(rows: &Tally, subject: impl FnOnce(u32) -> Subject, lines: &[u32]) -> Self {
+    /// Rows that needed the same mending. `subject` turns the number of a row into a part of the model; `lines` has the
+    /// line of each row.
+    pub(crate) fn of_rows(rows: &Tally, subject: impl FnOnce(u32) -> Subject, lines: &[u32]) -> Self {
         Self {
             lines: rows.first_lines(lines),
             count: rows.count_u32(),
@@ -120,25 +121,25 @@ impl Place {
         }
     }
 
-    /// Rows inside of a part of the model; `otherwise` is the line where the file does not say the rows'.
-    pub(super) fn of_rows_in(subject: Subject, rows: &Tally, lines: &[u32], otherwise: Option<u32>) -> Self {
+    /// Rows inside one part of the model; `otherwise` is the line to name when `lines` lacks the first row.
+    pub(crate) fn of_rows_in(subject: Subject, rows: &Tally, lines: &[u32], otherwise: Option<u32>) -> Self {
         let mut place = Self::of_rows(rows, |_| subject, lines);
         place.lines[0] = place.lines[0].or(otherwise);
         place
     }
 }
 
-/// Counts the rows that needed the same mending and remembers the first, so that a thousand rows make one finding.
+/// Counts the rows that needed the same mending and remembers the first, so that a thousand rows make one diagnostic.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Tally {
-    pub(super) count: usize,
+pub(crate) struct Tally {
+    pub(crate) count: usize,
     /// The first different rows.
     rows: [Option<u32>; Diagnostic::MOST_PLACES],
 }
 
 impl Tally {
-    /// Once more, in the same row as before or in another one.
-    pub(super) fn add(&mut self, row: u32) {
+    /// Counts one more, in the same row as before or in another one.
+    pub(crate) fn add(&mut self, row: u32) {
         self.count += 1;
         let free = self.rows.iter().position(Option::is_none);
         let before = free.unwrap_or(self.rows.len()).checked_sub(1);
@@ -164,6 +165,6 @@ impl Tally {
 }
 
 /// `1 vertex`, `2 vertices`.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }

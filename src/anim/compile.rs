@@ -1,0 +1,189 @@
+//! A clip made ready for sampling: four tracks side by side, on one time line.
+
+use glam::{DQuat, Vec3};
+
+use super::lanes::{ArcLanes, JointLanes, angle_between};
+use crate::model::{Clip, JointIndex, LocalJoint, Track};
+
+/// Probe times of a clip at most.
+const MOST_PROBE_TIMES: usize = 1_000;
+
+/// A clip as [`sample`](super::sample()) wants it: its joints in groups of four, with the arcs between their keys.
+///
+/// It says the same as the [`Clip`] that it is made of, which has the tracks as the file has them. A clip is compiled once,
+/// when its model is made ready, and kept beside the model: compiling looks at each key, sampling at two.
+#[derive(Clone, Debug, Default)]
+pub struct CompiledClip {
+    start_secs: f32,
+    end_secs: f32,
+    joint_count: usize,
+    groups: Vec<TrackGroup>,
+}
+
+/// The tracks of four neighbouring joints with their keys at the same times, so that one search and one blend serve all
+/// four. Where a track lacks a time of the others, its value at that time becomes a key: the motion is the same.
+/// A group therefore has no more keys than its tracks together.
+#[derive(Clone, Debug)]
+pub(super) struct TrackGroup {
+    times_secs: Vec<f32>,
+    keys: Vec<KeyLanes>,
+}
+
+/// One key of four tracks, and the way to the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KeyLanes {
+    /// The joints. Neighbouring keys have rotations on the same side.
+    pub(super) joints: JointLanes,
+    /// From this key to the next.
+    pub(super) arc: ArcLanes,
+}
+
+impl CompiledClip {
+    /// Compiles a clip.
+    pub fn new(clip: &Clip) -> Self {
+        Self {
+            start_secs: clip.start_secs,
+            end_secs: clip.end_secs,
+            joint_count: clip.tracks.len(),
+            groups: clip.tracks.chunks(JointLanes::COUNT).map(TrackGroup::new).collect(),
+        }
+    }
+
+    /// Compiles some clips, in their order.
+    pub fn all(clips: &[Clip]) -> Vec<Self> {
+        clips.iter().map(Self::new).collect()
+    }
+
+    /// The clip's start: the least key time.
+    pub fn start_secs(&self) -> f32 {
+        self.start_secs
+    }
+
+    /// The clip's end: the greatest key time.
+    pub fn end_secs(&self) -> f32 {
+        self.end_secs
+    }
+
+    /// Number of its tracks.
+    pub(super) fn joint_count(&self) -> usize {
+        self.joint_count
+    }
+
+    /// Joints 0 to 3, joints 4 to 7 and so on.
+    pub(super) fn groups(&self) -> &[TrackGroup] {
+        &self.groups
+    }
+
+    /// The group of a joint and its lane; `None` for a joint that the clip lacks.
+    pub(super) fn lane_of(&self, joint: JointIndex) -> Option<(&TrackGroup, usize)> {
+        let (group, lane) = (joint.index() / JointLanes::COUNT, joint.index() % JointLanes::COUNT);
+        let group = self.groups.get(group)?;
+        (joint.index() < self.joint_count).then_some((group, lane))
+    }
+
+    /// Times after the start at which one of some joints has a key, in order, the end among them. A joint has a key where the
+    /// others of its group have one, too.
+    pub(super) fn key_times_of(&self, joints: &[JointIndex]) -> Vec<f32> {
+        let groups = joints.iter().filter_map(|&joint| Some(self.lane_of(joint)?.0));
+        let times_secs = groups.flat_map(TrackGroup::times_secs).copied().chain([self.end_secs]);
+        let mut times_secs: Vec<f32> = times_secs
+            .filter(|&time_secs| self.start_secs < time_secs && time_secs <= self.end_secs)
+            .collect();
+        times_secs.sort_by(f32::total_cmp);
+        times_secs.dedup();
+        times_secs
+    }
+
+    /// Times inside the clip at which to pose it to learn all that it reaches: the distinct key times, in order; at least
+    /// the start. A clip with more than 1 000 of them has as many times, evenly spread over its length, instead.
+    pub(crate) fn probe_times_secs(&self) -> Vec<f32> {
+        let times_secs = self.groups.iter().flat_map(TrackGroup::times_secs);
+        // The key of a joint at rest may lie outside.
+        let inside = times_secs.filter(|&&time_secs| (self.start_secs..=self.end_secs).contains(&time_secs));
+        let mut times_secs: Vec<f32> = inside.copied().chain([self.start_secs]).collect();
+        times_secs.sort_unstable_by(f32::total_cmp);
+        times_secs.dedup();
+        if times_secs.len() > MOST_PROBE_TIMES {
+            let step_secs = (self.end_secs - self.start_secs) / (MOST_PROBE_TIMES - 1) as f32;
+            times_secs = (0..MOST_PROBE_TIMES)
+                .map(|step| self.start_secs + step as f32 * step_secs)
+                .collect();
+        }
+        times_secs
+    }
+}
+
+impl TrackGroup {
+    /// Up to four tracks; the lanes of missing ones are identities.
+    fn new(tracks: &[Track]) -> Self {
+        let times_secs = common_times(tracks);
+        let still = KeyLanes {
+            joints: JointLanes::IDENTITY,
+            arc: ArcLanes::NONE,
+        };
+        let mut keys = vec![still; times_secs.len()];
+        for (lane, track) in tracks.iter().enumerate() {
+            fill_lane(lane, track, &times_secs, &mut keys);
+        }
+        Self { times_secs, keys }
+    }
+
+    /// Key times in seconds, strictly increasing; at least one.
+    pub(super) fn times_secs(&self) -> &[f32] {
+        &self.times_secs
+    }
+
+    /// One per time.
+    pub(super) fn keys(&self) -> &[KeyLanes] {
+        &self.keys
+    }
+}
+
+/// Every time at which a track has a key.
+fn common_times(tracks: &[Track]) -> Vec<f32> {
+    let mut times_secs: Vec<f32> = tracks.iter().flat_map(Track::times_secs).copied().collect();
+    // A stable sort merges runs that are sorted, as these are.
+    times_secs.sort_by(f32::total_cmp);
+    times_secs.dedup();
+    times_secs
+}
+
+fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLanes]) {
+    let mut from = 0;
+    let mut before: Option<(&mut KeyLanes, DQuat)> = None;
+    for (key, &time_secs) in keys.iter_mut().zip(times_secs) {
+        while track.times_secs().get(from + 1).is_some_and(|&next| next <= time_secs) {
+            from += 1;
+        }
+        let joint = joint_at(track, from, time_secs);
+        key.joints.set_joint(lane, joint);
+        let rotation = joint.rotation.as_dquat();
+        if let Some((key, start)) = before {
+            key.arc.set(lane, angle_between(start, rotation));
+        }
+        before = Some((key, rotation));
+    }
+}
+
+/// A track at a time, in f64, where `from` is the last key at or before that time, or the first.
+fn joint_at(track: &Track, from: usize, time_secs: f32) -> LocalJoint {
+    let start_secs = track.times_secs()[from];
+    let end_secs = match track.times_secs().get(from + 1) {
+        Some(&end_secs) if start_secs < time_secs => end_secs,
+        _ => return track.key(from),
+    };
+    let start_secs = f64::from(start_secs);
+    let part = (f64::from(time_secs) - start_secs) / (f64::from(end_secs) - start_secs);
+    let (from, to) = (track.key(from), track.key(from + 1));
+    let between = |from: Vec3, to: Vec3| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
+    let rotation = from
+        .rotation
+        .as_dquat()
+        .normalize()
+        .slerp(to.rotation.as_dquat().normalize(), part);
+    LocalJoint {
+        rotation: rotation.normalize().as_quat(),
+        translation: between(from.translation, to.translation),
+        scale: between(from.scale, to.scale),
+    }
+}

@@ -1,0 +1,88 @@
+//! Finds clips whose keys do not belong to the offsets: the mesh flies apart.
+
+use glam::Vec3;
+
+use crate::anim::{CompiledClip, Palette, PoseBuffers, skin_position};
+use crate::diagnostic::collect::{Diagnostics, Place};
+use crate::diagnostic::{Subject, codes};
+use crate::model::{Mesh, Model};
+
+/// Triangles looked at for a clip, spread over the mesh: enough for a fraction.
+const LOOKED_AT: usize = 4_000;
+
+/// Triangles looked at for all clips together, so that thousands of clips do not look at the mesh thousands of times.
+const LOOKED_AT_IN_ALL: usize = 100 * LOOKED_AT;
+
+/// Triangles looked at for a clip however many there are.
+const LEAST_LOOKED_AT: usize = 50;
+
+/// An edge is torn when it grew this many times more than the median edge of the pose.
+const TORN: f32 = 4.0;
+
+/// From this fraction of torn edges on, the mesh has flown apart. A run of the books' soldier tears none.
+const TORN_FRACTION: f64 = 0.05;
+
+/// Compares edge lengths at the first key of each track with the bind pose. Keys in model space, or offsets of another
+/// skeleton, tear the edges between parts that follow different joints; a clip that only scales tears none.
+pub(super) fn note_exploded(
+    model: &Model,
+    compiled: &[CompiledClip],
+    clip_lines: &[u32],
+    diagnostics: &mut Diagnostics,
+) {
+    if model.mesh.influences.is_empty() {
+        return;
+    }
+    let looked_at = (LOOKED_AT_IN_ALL / compiled.len().max(1)).clamp(LEAST_LOOKED_AT, LOOKED_AT);
+    let mut pose = PoseBuffers::default();
+    for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {
+        // Before its start every track holds its first key.
+        pose.evaluate(&model.skeleton, compiled, f32::NEG_INFINITY);
+        let torn = torn_fraction(&model.mesh, looked_at, &pose.palette);
+        if torn > TORN_FRACTION {
+            diagnostics.add(
+                &codes::EXPLODED,
+                Place::of(Subject::Clip(index), clip_lines),
+                format!(
+                    "{:.0} % of the edges are torn at the first key of \"{}\": its keys do not belong to the bone offsets \
+                     (perhaps they are relative to the model, not to the parent).",
+                    torn * 100.0,
+                    clip.name
+                ),
+            );
+        }
+    }
+}
+
+/// Fraction of the edges that grew far more, from the bind pose to this one, than the median edge.
+fn torn_fraction(mesh: &Mesh, looked_at: usize, palette: &Palette) -> f64 {
+    let posed = |vertex: u32| -> Vec3 {
+        skin_position(
+            palette,
+            &mesh.influences[vertex as usize],
+            mesh.positions[vertex as usize],
+        )
+    };
+    let stride = (mesh.triangle_count() / looked_at).max(1);
+    let mut ratios = Vec::with_capacity(looked_at * 3);
+    for corners in mesh.indices.chunks_exact(3).step_by(stride) {
+        for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|corner: usize| corners[corner])) {
+            let weighted = |vertex: u32| mesh.influences[vertex as usize].weights != [0.0; 4];
+            let bind_length = mesh.positions[a as usize].distance(mesh.positions[b as usize]);
+            let ratio = posed(a).distance(posed(b)) / bind_length;
+            if bind_length > 0.0 && ratio.is_finite() && weighted(a) && weighted(b) {
+                ratios.push(ratio);
+            }
+        }
+    }
+    if ratios.is_empty() {
+        return 0.0;
+    }
+    let middle = ratios.len() / 2;
+    let (_, &mut median, _) = ratios.select_nth_unstable_by(middle, f32::total_cmp);
+    let torn = ratios
+        .iter()
+        .filter(|&&ratio| ratio > TORN * median.max(f32::MIN_POSITIVE))
+        .count();
+    torn as f64 / ratios.len() as f64
+}
