@@ -4,8 +4,7 @@ use glam::Affine3A;
 
 use super::blend::blend_to_rest;
 use super::compile::CompiledClip;
-use super::local_to_model::{local_to_model, palette};
-use super::pose::{LocalPose, ModelPose, Palette};
+use super::pose::{LocalPose, ModelPose, Palette, local_to_model, palette};
 use super::sample::sample;
 use crate::model::Skeleton;
 

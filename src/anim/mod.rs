@@ -8,12 +8,10 @@ mod blend;
 mod buffers;
 mod compile;
 mod curve;
-mod explain;
 mod extent;
 mod inspect;
 mod keys;
 mod lanes;
-mod local_to_model;
 mod playback;
 mod pose;
 mod sample;
@@ -21,7 +19,6 @@ mod seam;
 mod skin;
 mod skin_view;
 mod span;
-mod table;
 mod trails;
 
 pub use crate::model::LocalJoint;
@@ -30,14 +27,15 @@ pub use blend::{blend, blend_to_rest};
 pub use buffers::PoseBuffers;
 pub use compile::CompiledClip;
 pub use curve::{Curve, CurvePoint, CurveSpace};
-pub use explain::{ExplainedInfluence, VertexExplanation, explain_vertex};
 pub use extent::{animated_bounds, extreme_points};
-pub use inspect::{JointReadout, KeyRow, RowMatrix, TransformParts, key_rows, key_table};
+pub use inspect::{
+    ExplainedInfluence, JointReadout, KeyRow, RowMatrix, TransformParts, VertexExplanation, explain_vertex, key_rows,
+    key_table,
+};
 pub use keys::{Direction, key_times, merged_key_times, merged_key_times_of, next_key, previous_key};
 pub use lanes::{JointLanes, MatrixLanes};
-pub use local_to_model::{local_to_model, palette};
 pub use playback::{LoopMode, MAX_SPEED, MIN_SPEED, Playback, WrapMode};
-pub use pose::{LocalPose, ModelPose, Palette};
+pub use pose::{LocalPose, ModelPose, Palette, local_to_model, palette};
 pub use sample::{sample, sample_joint};
 pub use seam::{JointSeam, Seam, VISIBLE_SHARE, seam};
 pub(crate) use skin::skin_position;

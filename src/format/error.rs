@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::label::Section;
-use super::relatives::Stranger;
+use super::likeness::Stranger;
 use crate::diagnostic::{Code, Diagnostic, Position, codes};
 
 /// A file that could not be read.

@@ -1,6 +1,151 @@
-//! Whether a file is worth reading as a model at all, when its name does not say so.
+//! What a file is, by its beginning: whether it may be a model, and what it is instead, so that the message can say so.
 
+use std::fmt;
+
+use super::cursor::is_space;
 use super::label::{Section, is_ruler, same, whole};
+
+/// What a file is instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stranger {
+    /// Another format, by name with its article: `a PNG image`.
+    Other(&'static str),
+    /// bzt's "Model 3D", which has the same extension: `binary` or `ASCII`.
+    Model3d(&'static str),
+    /// A variant of this format that the books' loaders do not read either, by what gave it away.
+    Relative(&'static str),
+    /// Text in two bytes a character.
+    Utf16,
+    /// Text in four bytes a character.
+    Utf32,
+    /// Bytes that are no text.
+    Binary,
+}
+
+impl Stranger {
+    /// True for the variants of this very format.
+    pub(super) fn is_relative(self) -> bool {
+        matches!(self, Self::Relative(_))
+    }
+
+    /// What it is, in a few words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Other(name) | Self::Relative(name) => name,
+            Self::Model3d("binary") => "a binary Model 3D file",
+            Self::Model3d(_) => "an ASCII Model 3D file",
+            Self::Utf16 => "UTF-16 text",
+            Self::Utf32 => "UTF-32 text",
+            Self::Binary => "binary data",
+        }
+    }
+}
+
+impl fmt::Display for Stranger {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Other(name) => write!(f, "This is {name}, not an .m3d file."),
+            Self::Model3d(kind) => write!(
+                f,
+                "This is {} \"Model 3D\" file by bzt. It shares the extension .m3d, but is another format.",
+                if *kind == "binary" { "a binary" } else { "an ASCII" }
+            ),
+            Self::Relative(mark) => {
+                write!(
+                    f,
+                    "This file is a relative of the .m3d format with {mark}, which cannot be read."
+                )
+            }
+            Self::Utf16 | Self::Utf32 => write!(f, "This file is {}. Save it as UTF-8 or ASCII.", self.name()),
+            Self::Binary => write!(f, "This file is binary data, not an .m3d file, which is text."),
+        }
+    }
+}
+
+/// First bytes of formats that are dropped by mistake.
+const SIGNATURES: &[(&[u8], Stranger)] = &[
+    (b"3DMO", Stranger::Model3d("binary")),
+    (b"\x89PNG", Stranger::Other("a PNG image")),
+    (b"\xFF\xD8\xFF", Stranger::Other("a JPEG image")),
+    (b"GIF8", Stranger::Other("a GIF image")),
+    (b"DDS ", Stranger::Other("a DDS texture")),
+    (b"\xABKTX", Stranger::Other("a KTX texture")),
+    (b"8BPS", Stranger::Other("a Photoshop image")),
+    (b"glTF", Stranger::Other("a binary glTF model (GLB)")),
+    (b"Kaydara FBX Binary", Stranger::Other("a binary FBX model")),
+    (b"; FBX", Stranger::Other("a text FBX model")),
+    (b"BLENDER", Stranger::Other("a Blender file")),
+    (
+        b"\x28\xB5\x2F\xFD",
+        Stranger::Other("a Zstandard archive or a Blender file"),
+    ),
+    (b"xof 0", Stranger::Other("a DirectX .x model")),
+    (b"ply\n", Stranger::Other("a PLY model")),
+    (b"ply\r\n", Stranger::Other("a PLY model")),
+    (b"solid ", Stranger::Other("an STL model")),
+    (b"INTERQUAKEMODEL", Stranger::Other("an IQM model")),
+    (b"MD5Version", Stranger::Other("an MD5 model")),
+    (b"MS3D000000", Stranger::Other("a MilkShape model")),
+    (b"PK\x03\x04", Stranger::Other("a ZIP archive")),
+    (b"\x1F\x8B", Stranger::Other("a gzip archive")),
+    (b"7z\xBC\xAF", Stranger::Other("a 7-Zip archive")),
+    (b"Rar!", Stranger::Other("a RAR archive")),
+    (b"%PDF", Stranger::Other("a PDF document")),
+    (b"RIFF", Stranger::Other("a RIFF file (sound, video or WebP)")),
+    (b"\0asm", Stranger::Other("a WebAssembly module")),
+    (b"MZ", Stranger::Other("a Windows program")),
+    (b"\x7FELF", Stranger::Other("a program")),
+    (
+        b"version https://git-lfs",
+        Stranger::Other("a Git LFS pointer (the file itself was not downloaded)"),
+    ),
+    // Before the mark of UTF-16, which it begins with.
+    (b"\xFF\xFE\0\0", Stranger::Utf32),
+    (b"\0\0\xFE\xFF", Stranger::Utf32),
+    (b"\xFF\xFE", Stranger::Utf16),
+    (b"\xFE\xFF", Stranger::Utf16),
+];
+
+/// Beginnings of texts, compared behind blanks and without case.
+const TEXT_SIGNATURES: &[(&[u8], Stranger)] = &[
+    (b"3dmodel ", Stranger::Model3d("ASCII")),
+    (b"<!doctype html", Stranger::Other("a web page (HTML)")),
+    (b"<html", Stranger::Other("a web page (HTML)")),
+    (b"<svg", Stranger::Other("an SVG image")),
+    (b"mtllib ", Stranger::Other("a Wavefront OBJ model")),
+    (b"newmtl ", Stranger::Other("a Wavefront material library")),
+];
+
+/// What the file is, when that can be told from its beginning and it is not this format.
+pub(super) fn recognise(bytes: &[u8]) -> Option<Stranger> {
+    /// Enough for every signature and for a guess at binary data.
+    const HEAD: usize = 1024;
+    if let Some((_, stranger)) = SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)) {
+        return Some(*stranger);
+    }
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let start = bytes.iter().position(|&byte| !is_space(byte)).unwrap_or(bytes.len());
+    let text = bytes.get(start..).unwrap_or_default();
+    let head = text.get(..HEAD).unwrap_or(text);
+    let begins = |signature: &[u8]| {
+        head.get(..signature.len())
+            .is_some_and(|beginning| beginning.eq_ignore_ascii_case(signature))
+    };
+    if let Some((_, stranger)) = TEXT_SIGNATURES.iter().find(|(signature, _)| begins(signature)) {
+        return Some(*stranger);
+    }
+    let contains = |word: &[u8]| memchr::memmem::find(head, word).is_some();
+    match head.first() {
+        Some(b'<') if contains(b"<COLLADA") => Some(Stranger::Other("a COLLADA model")),
+        Some(b'<') if contains(b"<html") => Some(Stranger::Other("a web page (HTML)")),
+        Some(b'<') if contains(b"<svg") => Some(Stranger::Other("an SVG image")),
+        Some(b'<') => Some(Stranger::Other("an XML file")),
+        Some(b'{') if contains(b"\"asset\"") || contains(b"\"accessors\"") => Some(Stranger::Other("a glTF model")),
+        Some(b'{') => Some(Stranger::Other("a JSON file")),
+        _ if head.contains(&0) => Some(Stranger::Binary),
+        _ => None,
+    }
+}
 
 /// Bytes in which a model has begun if it ever does: room for a page of blank lines or comment above its header.
 const BEGINNING_LEN: usize = 4096;

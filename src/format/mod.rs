@@ -46,7 +46,6 @@ mod notice;
 mod number;
 mod quick;
 mod reader;
-mod relatives;
 mod sections;
 mod write;
 
@@ -54,8 +53,7 @@ pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
-pub use likeness::begins_like_model;
-pub use relatives::Stranger;
+pub use likeness::{Stranger, begins_like_model};
 pub use write::write;
 
 use self::reader::Reader;
@@ -95,7 +93,7 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
             ParseErrorKind::Stranger(Stranger::Binary)
         }));
     }
-    if let Some(stranger) = relatives::recognise(text) {
+    if let Some(stranger) = likeness::recognise(text) {
         return Err(at_start(ParseErrorKind::Stranger(stranger)));
     }
     let counts = sections::header(&mut reader)?;

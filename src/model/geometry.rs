@@ -2,9 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
-use super::handedness::handedness_of;
 use super::influences::influences_from_document;
-use super::normals::mended_normals;
+use super::normals::{handedness_of, mended_normals};
 use super::tangents::mended_tangents;
 use super::{Handedness, Mesh, ModelError, ModelErrorKind, Skeleton};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};

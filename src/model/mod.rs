@@ -10,7 +10,6 @@ mod bounds;
 mod clip;
 mod error;
 mod geometry;
-mod handedness;
 mod hierarchy;
 mod influences;
 mod joint_names;
@@ -23,8 +22,7 @@ mod names;
 mod normals;
 mod skeleton;
 mod space;
-mod subsets;
-mod surface;
+mod surfaces;
 mod tangents;
 mod track;
 mod tree;
@@ -71,8 +69,8 @@ impl Model {
     /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
     pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Self, Vec<Diagnostic>), ModelError> {
         let mut diagnostics = Diagnostics::default();
-        let mut materials = surface::materials_from_document(document, lines, &mut diagnostics);
-        let submeshes = subsets::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
+        let mut materials = surfaces::materials_from_document(document, lines, &mut diagnostics);
+        let submeshes = surfaces::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
         let skeleton = hierarchy::skeleton_from_document(document, lines, &mut diagnostics)?;
         let (mut mesh, handedness) = geometry::mesh_from_document(document, lines, &skeleton, &mut diagnostics)?;
         mesh.submeshes = submeshes;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::TransformParts;
+use super::parts::TransformParts;
 use crate::model::{Clip, Track};
 
 /// One key.

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, DMat3, DQuat, DVec3, EulerRot, Quat, Vec3};
 
-use crate::anim::table::{aligned, number};
+use super::table::{aligned, number};
 use crate::model::LocalJoint;
 
 /// Axes whose cosine is beyond this are no longer square to each other by rounding alone: long chains of f32 stay below.

@@ -3,9 +3,9 @@
 use crate::format::cursor::{Cursor, Token};
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
 use crate::format::label::{Section, is_ruler, same, same_as_any};
+use crate::format::likeness::Stranger;
 use crate::format::notice::Notice;
 use crate::format::reader::{Beginning, Reader, looks_like_number};
-use crate::format::relatives::Stranger;
 
 /// What the header announces. Nothing is reserved for these numbers before they are held against the bytes left.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 use crate::format::document::Subset;
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
 use crate::format::label::{Section, is_ruler, same, same_as_any};
+use crate::format::likeness::Stranger;
 use crate::format::notice::Notice;
 use crate::format::reader::{Reader, looks_like_number};
-use crate::format::relatives::Stranger;
 
 /// The labels of a row, in order.
 const LABELS: [&str; 5] = ["SubsetID", "VertexStart", "VertexCount", "FaceStart", "FaceCount"];

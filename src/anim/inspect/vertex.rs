@@ -4,9 +4,8 @@ use std::fmt::Write;
 
 use glam::Vec3;
 
-use super::buffers::PoseBuffers;
-use super::inspect::RowMatrix;
-use super::table::{aligned, number};
+use super::table::{RowMatrix, aligned, number};
+use crate::anim::buffers::PoseBuffers;
 use crate::model::{JointIndex, Model};
 
 /// How a vertex comes to its place in a pose.
@@ -18,7 +17,7 @@ pub struct VertexExplanation {
     pub bind_position: Vec3,
     /// The joints that have weight, in the file's order of slots. None: the vertex stays where it is.
     pub influences: Vec<ExplainedInfluence>,
-    /// Where it comes, model space: the sum, and what [`super::skin`] says too.
+    /// Where it comes, model space: the sum, and what [`skin`](crate::anim::skin()) says too.
     pub position: Vec3,
 }
 
