@@ -5,20 +5,20 @@ use glam::Vec3A;
 use super::lanes::turn_between;
 use crate::model::{Clip, JointIndex, LocalJoint, Skeleton, Track};
 
-/// A joint that moves its surface by less than this share of the model's size does not move: files round their numbers to
-/// about six digits.
-const STILL_SHARE: f32 = 1e-5;
+/// A joint that moves its surface by less than this fraction of the model's size counts as still: files round their numbers
+/// to about six digits.
+const STILL_FRACTION: f32 = 1e-5;
 
 /// What one joint does in a clip, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointActivity {
-    /// Length of the way of its surface, as a share of that of the joint that moves most: 0…1, 0 for constant ones.
-    pub share: f32,
+    /// Length of the way of its surface, as a fraction of that of the joint that moves most: 0…1, 0 for constant joints.
+    pub fraction: f32,
     /// Length of the way of the joint itself, in model units.
     pub path: f32,
     /// Sum of the angles that it turns by, degrees.
     pub turned_degrees: f32,
-    /// Sum of its changes of scale, each as a share of the greater scale.
+    /// Sum of its changes of scale, each as a fraction of the greater scale.
     pub scaled: f32,
     /// Whether all its keys say the same, or it has none.
     pub constant: bool,
@@ -42,13 +42,13 @@ pub fn activity(skeleton: &Skeleton, clip: &Clip, size: f32) -> Vec<JointActivit
     let most = ways.iter().copied().fold(0.0, f32::max);
     if most > 0.0 {
         for (joint, way) in joints.iter_mut().zip(ways) {
-            joint.share = way / most;
+            joint.fraction = way / most;
         }
     }
     joints
 }
 
-/// The activity of a joint but for its share, and the length of its surface's way.
+/// The activity of a joint without its fraction, and the length of its surface's way.
 fn of_track(skeleton: &Skeleton, joint: JointIndex, track: &Track, size: f32) -> (JointActivity, f32) {
     let first = track.key(0);
     let mut before = first;
@@ -64,7 +64,7 @@ fn of_track(skeleton: &Skeleton, joint: JointIndex, track: &Track, size: f32) ->
         activity.scaled += change.scale;
         way += change.surface_way(size);
         let off = JointChange::between(skeleton, joint, &first, &key).surface_way(size);
-        activity.constant &= off <= STILL_SHARE * size;
+        activity.constant &= off <= STILL_FRACTION * size;
         before = key;
     }
     if activity.constant {
@@ -74,9 +74,9 @@ fn of_track(skeleton: &Skeleton, joint: JointIndex, track: &Track, size: f32) ->
     }
 }
 
-/// How far the part of a surface that follows one joint reaches from it, as a share of the model's size: a forearm, a head
+/// How far the part of a surface that follows one joint reaches from it, as a fraction of the model's size: a forearm, a head
 /// or a foot is about a tenth of a figure. By it turns and scales become lengths.
-const REACH_SHARE: f32 = 0.1;
+const REACH_FRACTION: f32 = 0.1;
 
 /// The way from one pose of a joint to another, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,7 +85,7 @@ pub(super) struct JointChange {
     pub(super) translation: f32,
     /// Angle of the turn, 0…π.
     pub(super) rotation_radians: f32,
-    /// Greatest change along an axis, as a share of the greater scale.
+    /// Greatest change along an axis, as a fraction of the greater scale.
     pub(super) scale: f32,
 }
 
@@ -117,6 +117,6 @@ impl JointChange {
 
     /// How far the surface that follows the joint moves, in model units, for a model of a size in those units.
     pub(super) fn surface_way(&self, size: f32) -> f32 {
-        self.translation + (self.rotation_radians + self.scale) * REACH_SHARE * size
+        self.translation + (self.rotation_radians + self.scale) * REACH_FRACTION * size
     }
 }

@@ -9,11 +9,11 @@ use super::lanes::turn_between;
 use super::sample::sample_joint;
 use crate::model::{JointIndex, LocalJoint, Skeleton};
 
-/// From mark to mark a joint turns by no more: far from the half turn at which the way round is not known.
+/// A joint turns by at most this from mark to mark: far less than the half turn, at which either way round is as short.
 const MARK_RADIANS: f64 = PI / 6.0;
-/// Marks between two keys at most. A chain of joints that turns farther from key to key is beyond following with the eye.
+/// Marks between two keys at most. No eye follows a chain of joints that turns farther from key to key.
 const MOST_STEPS: f64 = 64.0;
-/// How often marks come twice as close near the poles of y.
+/// How often the distance between marks is halved near the poles of y.
 const MOST_HALVINGS: u32 = 8;
 
 /// Relative to what a curve shows a joint.
@@ -38,14 +38,14 @@ pub struct CurvePoint {
     /// The same as turns about the fixed axes x, then y, then z, in degrees: R = Rz · Ry · Rx. They go on beyond ±180°
     /// where the motion does, so that the curves have no jumps that the motion lacks.
     pub euler_degrees: Vec3,
-    /// Scale along the joint's own axes. In model space, shear has no part and is left out.
+    /// Scale along the joint's own axes. In model space, shear is dropped.
     pub scale: Vec3,
 }
 
 /// The curves of one joint in one clip.
 ///
-/// A rotation has two quaternions and any number of angles. Which of them a curve shows is settled from the start of the clip
-/// to its end, at marks that stand close enough, so that what it says of a time does not depend on what else is looked at.
+/// A rotation has two quaternions and any number of Euler angles. Marks from the clip's start to its end settle which of them
+/// the curve shows, so that its value at a time does not depend on the stretch of time that is drawn.
 #[derive(Clone, Debug)]
 pub struct Curve {
     joint: JointIndex,

@@ -22,7 +22,7 @@ impl JointLanes {
     /// Joints in a group.
     pub const COUNT: usize = 4;
 
-    /// All four on their parents.
+    /// Four joints that coincide with their parents.
     pub const IDENTITY: Self = Self {
         rotation: [Vec4::ZERO, Vec4::ZERO, Vec4::ZERO, Vec4::ONE],
         translation: [Vec4::ZERO; 3],

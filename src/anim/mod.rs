@@ -37,7 +37,7 @@ pub use lanes::{JointLanes, MatrixLanes};
 pub use playback::{LoopMode, MAX_SPEED, MIN_SPEED, Playback, WrapMode};
 pub use pose::{LocalPose, ModelPose, Palette, local_to_model, palette};
 pub use sample::{sample, sample_joint};
-pub use seam::{JointSeam, Seam, VISIBLE_SHARE, seam};
+pub use seam::{JointSeam, Seam, VISIBLE_FRACTION, seam};
 pub(crate) use skin::skin_position;
 pub use skin::{SkinnedVertices, skin, skin_positions};
 pub use skin_view::{SkinView, Stretch, dominant_joint, dominant_joints, influence_counts, joint_weights};

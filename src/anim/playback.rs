@@ -1,4 +1,4 @@
-//! Where in a clip we are, and how time moves on. There is no clock here: the caller says how much time went by.
+//! The time in a clip, and how it moves on. There is no clock here: the caller says how much time went by.
 
 use super::span::Span;
 
@@ -128,7 +128,7 @@ impl Playback {
         loops.then(|| [goes_on_secs, played.end_secs].map(|secs| secs as f32))
     }
 
-    /// Whether it was told to play and has not stopped.
+    /// Whether it plays.
     pub fn is_playing(&self) -> bool {
         self.playing
     }
@@ -154,7 +154,7 @@ impl Playback {
     }
 
     /// Sets the span, its ends in any order; the time moves into it and the range is the whole of it. A span with an end
-    /// that is not finite is left out.
+    /// that is not finite is ignored.
     pub fn set_span(&mut self, start_secs: f32, end_secs: f32) {
         let Some(span) = Span::new(start_secs, end_secs) else {
             return;
@@ -164,8 +164,8 @@ impl Playback {
         self.time_secs = span.clamp(self.time_secs);
     }
 
-    /// Lets the range begin at a time, clamped to the span. A range that would end there or before ends with the span; one
-    /// that would have no length even so, and NaN, is left out.
+    /// Sets the start of the range, clamped to the span. If the range ended there or before, its end becomes that of the span.
+    /// A range without length is ignored, as NaN is.
     pub fn set_range_start(&mut self, start_secs: f32) {
         let start_secs = f64::from(start_secs);
         let end_secs = self.played().end_secs;
@@ -177,7 +177,7 @@ impl Playback {
         self.set_range(start_secs, end_secs);
     }
 
-    /// Lets the range end at a time: as [`Playback::set_range_start`], with the span's start.
+    /// Sets the end of the range, as [`Playback::set_range_start`] sets its start.
     pub fn set_range_end(&mut self, end_secs: f32) {
         let end_secs = f64::from(end_secs);
         let start_secs = self.played().start_secs;
@@ -189,7 +189,7 @@ impl Playback {
         self.set_range(start_secs, end_secs);
     }
 
-    /// Lets the whole span play.
+    /// Removes the range: the whole span plays.
     pub fn clear_range(&mut self) {
         self.range = None;
     }
@@ -211,7 +211,7 @@ impl Playback {
         self.range.unwrap_or(self.span)
     }
 
-    /// Sets the speed, clamped to [`MIN_SPEED`] and [`MAX_SPEED`]. One that is not above 0, or not finite, is left out;
+    /// Sets the speed, clamped to [`MIN_SPEED`] and [`MAX_SPEED`]. A speed that is not above 0, or not finite, is ignored;
     /// [`Playback::set_backward`] turns time.
     pub fn set_speed(&mut self, speed: f32) {
         if speed.is_finite() && speed > 0.0 {
@@ -219,7 +219,7 @@ impl Playback {
         }
     }
 
-    /// Lets time run backward, or forward. The way back of a ping-pong stays one, unless the direction is another.
+    /// Sets whether time runs backward. A ping-pong on its way back stays on it, unless the direction changes.
     pub fn set_backward(&mut self, backward: bool) {
         if self.backward != backward {
             self.backward = backward;
@@ -260,8 +260,8 @@ impl Playback {
         self.returning = false;
     }
 
-    /// Lets `dt_secs` of time go by, and tells whether the time in the clip, or playing itself, changed by it. Paused, or
-    /// for a `dt_secs` that is not above 0, nothing does; over a range of no length only a [`LoopMode::Once`] stops.
+    /// Moves on by `dt_secs`. True when the time in the clip changed or playing stopped. While paused, and for a `dt_secs` that is
+    /// not above 0, nothing changes; over a range without length only [`LoopMode::Once`] stops.
     pub fn advance(&mut self, dt_secs: f32) -> bool {
         if !self.playing || dt_secs.is_nan() || dt_secs <= 0.0 {
             return false;

@@ -6,9 +6,9 @@ use super::compile::CompiledClip;
 use super::sample::sample_joint;
 use crate::model::{JointIndex, Skeleton};
 
-/// A jump of the surface by less than this share of the model's size is not seen: two pixels where the model fills a
+/// A jump of the surface by less than this fraction of the model's size is not seen: two pixels where the model fills a
 /// picture a thousand pixels high, which is what a moving edge is blurred by.
-pub const VISIBLE_SHARE: f32 = 1.0 / 500.0;
+pub const VISIBLE_FRACTION: f32 = 1.0 / 500.0;
 
 /// The jump of one joint from the last pose of a loop to the first, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,11 +17,11 @@ pub struct JointSeam {
     pub translation: f32,
     /// Angle of its turn, degrees, 0…180.
     pub rotation_degrees: f32,
-    /// Greatest change of scale along an axis, as a share of the greater one.
+    /// Greatest change of scale along an axis, as a fraction of the greater one.
     pub scale: f32,
     /// How far the joint itself jumps in the model, all that its ancestors do included, in model units.
     pub travel: f32,
-    /// How many times the jump of its surface is what can just be seen ([`VISIBLE_SHARE`]). The surface is taken to reach a
+    /// How many times the jump of its surface is what can just be seen ([`VISIBLE_FRACTION`]). The surface is taken to reach a
     /// tenth of the model's size from its joint, so that a turn by 1.15° and a scale by 2 % can just be seen too.
     pub visibility: f32,
 }
@@ -35,7 +35,7 @@ pub struct Seam {
     pub worst: Option<JointIndex>,
     /// Whether it is seen: a joint's own jump is, or what the jumps of its ancestors add up to.
     pub visible: bool,
-    /// The least travel that is seen, in model units: [`VISIBLE_SHARE`] of the model's size.
+    /// The least travel that is seen, in model units: [`VISIBLE_FRACTION`] of the model's size.
     pub visible_travel: f32,
 }
 
@@ -63,7 +63,7 @@ pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [
         pose.model.0.iter().map(|joint| joint.translation).collect::<Vec<_>>()
     };
     let (last, first) = (places(last_secs), places(first_secs));
-    let visible_travel = VISIBLE_SHARE * size.max(f32::MIN_POSITIVE);
+    let visible_travel = VISIBLE_FRACTION * size.max(f32::MIN_POSITIVE);
     let joints: Vec<JointSeam> = (0u32..)
         .map(JointIndex)
         .zip(last.into_iter().zip(first))

@@ -15,7 +15,7 @@ pub enum SkinView {
     InfluenceCount,
     /// The joint with the greatest weight.
     DominantJoint,
-    /// How much its surroundings are stretched against the bind pose: 1 is unchanged.
+    /// How much the edges around it are stretched against the bind pose: 1 is unchanged.
     Stretch,
 }
 
@@ -97,7 +97,7 @@ pub struct Stretch {
     same: Vec<u32>,
     edges: Vec<Edge>,
     /// Of each vertex: 1 / the number of its edges; 0 without.
-    share: Vec<f32>,
+    per_edge_count: Vec<f32>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -135,11 +135,15 @@ impl Stretch {
                 counts[high] += 1;
             }
         }
-        let share = counts
+        let per_edge_count = counts
             .into_iter()
             .map(|count| if count == 0 { 0.0 } else { 1.0 / count as f32 })
             .collect();
-        Self { same, edges, share }
+        Self {
+            same,
+            edges,
+            per_edge_count,
+        }
     }
 
     /// For each vertex the mean over its edges of length / length in the bind pose; 1 without edges. `positions` are the
@@ -161,8 +165,8 @@ impl Stretch {
         for (vertex, &same) in self.same.iter().enumerate() {
             ratios[vertex] = match same as usize {
                 same if same != vertex => ratios[same],
-                _ if self.share[vertex] == 0.0 => 1.0,
-                _ => ratios[vertex] * self.share[vertex],
+                _ if self.per_edge_count[vertex] == 0.0 => 1.0,
+                _ => ratios[vertex] * self.per_edge_count[vertex],
             };
         }
     }

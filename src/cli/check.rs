@@ -113,7 +113,7 @@ fn findings(bytes: &[u8]) -> Vec<Diagnostic> {
         }
         Err(error) => vec![error.diagnostic()],
     };
-    let mut findings = parsed.notices;
+    let mut findings = parsed.diagnostics;
     findings.extend(of_model);
     findings.sort_by_key(|finding| finding.position);
     findings

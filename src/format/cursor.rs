@@ -28,7 +28,7 @@ impl Token<'_> {
     }
 }
 
-/// Length of `text` as errors and notices carry it.
+/// Length of `text` as errors and diagnostics carry it.
 pub(super) fn length_of(text: &[u8]) -> u32 {
     u32::try_from(text.len()).unwrap_or(u32::MAX)
 }

@@ -1,7 +1,7 @@
 //! The `.m3d` text format, as the books of Frank Luna and those who export to them write it.
 //!
 //! [`parse`] turns bytes into a [`Document`] in the file's own words, or says where it stopped and why; [`write()`] is its
-//! inverse; [`excerpt()`] shows the place of a finding, [`LineIndex`] those of many.
+//! inverse; [`excerpt()`] shows the lines around a diagnostic, [`LineIndex`] finds those of many.
 //!
 //! # Grammar
 //!
@@ -30,19 +30,19 @@
 //!
 //! # Three kinds of answer
 //!
-//! What a token says is settled here: it is read, or mended with a notice, or it is an error. What the values mean together
+//! What a token says is settled here: it is read, or mended with a diagnostic, or it is an error. What the values mean together
 //! (sums of weights, order of keys, subsets against triangles) is for [`model`](crate::model); only indices are held against
 //! their counts here, since only here the column is known.
 //!
-//! The codes of errors and notices are [`codes::OF_PARSER`](crate::diagnostic::codes::OF_PARSER).
+//! The codes of errors and diagnostics are [`codes::OF_PARSER`](crate::diagnostic::codes::OF_PARSER).
 
 mod cursor;
 mod document;
 mod error;
 mod excerpt;
+mod kind;
 mod label;
 mod likeness;
-mod notice;
 mod number;
 mod quick;
 mod reader;
@@ -58,7 +58,7 @@ pub use write::write;
 
 use self::reader::Reader;
 use crate::diagnostic::{Diagnostic, Position};
-use notice::Notice;
+use kind::DiagnosticKind;
 
 /// A file that was understood.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ pub struct Parsed {
     /// Where it says it.
     pub lines: LineMap,
     /// What was mended or is worth knowing, in the order of the file.
-    pub notices: Vec<Diagnostic>,
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 /// Reads a file. It need not be UTF-8: names are decoded as well as can be.
@@ -129,7 +129,7 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
         (document.clips, lines.clips) = sections::clips(&mut reader, counts.clips, counts.bones)?;
     }
     if let Some(token) = reader.cursor.peek_token() {
-        reader.note(token, Notice::TextSurplus);
+        reader.note(token, DiagnosticKind::TextSurplus);
     }
     if !zeros.is_empty() {
         note_zeros(&mut reader, zeros.len())?;
@@ -138,7 +138,7 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
     Ok(Parsed {
         document,
         lines,
-        notices: reader.notices.into_diagnostics(),
+        diagnostics: reader.kinds.into_diagnostics(),
     })
 }
 
@@ -155,7 +155,7 @@ fn note_zeros(reader: &mut Reader<'_>, zeros: usize) -> Result<(), ParseError> {
             kind: ParseErrorKind::MostlyZeros { zeros },
         });
     }
-    reader.notices.add(Notice::ZerosSurplus(zeros), position, 1);
+    reader.kinds.add(DiagnosticKind::ZerosSurplus(zeros), position, 1);
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! The quick reader: rows exactly as the books' exporter writes them, blanks aside.
 //!
 //! Each function reads one row and moves the cursor behind it, or leaves the cursor alone and gives `None`: then the thorough
-//! [`reader`](super::reader) has a look, and says what is odd. So nothing here makes an error or a notice, and nothing
+//! [`reader`](super::reader) has a look, and says what is odd. So nothing here makes an error or a diagnostic, and nothing
 //! here mends.
 
 use super::cursor::Cursor;

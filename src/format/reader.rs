@@ -1,11 +1,11 @@
-//! The thorough reader: one value, label or ruler at a time, with an error or a notice for all that is odd.
+//! The thorough reader: one value, label or ruler at a time, with an error or a diagnostic for all that is odd.
 //!
 //! The long sections try [`quick`](super::quick) first and come here for the rows that it turns away.
 
 use super::cursor::{Cursor, Token, length_of};
 use super::error::{ParseError, ParseErrorKind, Value, quoted};
+use super::kind::{DiagnosticKind, KindCounts};
 use super::label::{Section, is_bare_ruler, is_ruler, same_as_any};
-use super::notice::{Notice, Notices};
 use super::number::{self, Reading};
 use crate::diagnostic::Position;
 
@@ -13,7 +13,7 @@ use crate::diagnostic::Position;
 #[derive(Clone, Debug)]
 pub(super) struct Reader<'a> {
     pub(super) cursor: Cursor<'a>,
-    pub(super) notices: Notices,
+    pub(super) kinds: KindCounts,
     /// The section that was entered last.
     pub(super) section: Section,
     /// A ruler of dashes was seen.
@@ -35,7 +35,7 @@ impl<'a> Reader<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self {
             cursor: Cursor::new(bytes),
-            notices: Notices::default(),
+            kinds: KindCounts::default(),
             section: Section::Header,
             dashes: false,
         }
@@ -63,9 +63,9 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Counts a notice at a token.
-    pub(super) fn note(&mut self, token: Token<'_>, notice: Notice) {
-        self.notices.add(notice, token.position, token.length());
+    /// Counts an occurrence of a kind at a token.
+    pub(super) fn note(&mut self, token: Token<'_>, kind: DiagnosticKind) {
+        self.kinds.add(kind, token.position, token.length());
     }
 
     /// How many rows to make room for: as many as announced, but no more than the bytes left can hold.
@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
             if named.is_none() {
                 self.note(
                     ruler,
-                    Notice::RulerUnknown {
+                    DiagnosticKind::RulerUnknown {
                         section,
                         found: quoted(ruler.text),
                     },
@@ -136,7 +136,7 @@ impl<'a> Reader<'a> {
     pub(super) fn ruler_missing(&mut self, section: Section) {
         self.section = section;
         if let Some(token) = self.cursor.peek_token() {
-            self.note(token, Notice::RulerMissing(section));
+            self.note(token, DiagnosticKind::RulerMissing(section));
         }
     }
 
@@ -211,17 +211,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A token as a number; one that is not finite becomes `replacement`, with a notice unless that is not finite either.
+    /// A token as a number; one that is not finite becomes `replacement`, with a diagnostic unless that is not finite either.
     pub(super) fn number_of(&mut self, token: Token<'_>, value: Value, replacement: f32) -> Result<f32, ParseError> {
         match number::read(token.text) {
             Some(Reading::Plain(number)) => Ok(number),
             Some(Reading::Mended(number)) => {
-                self.note(token, Notice::NumberMended);
+                self.note(token, DiagnosticKind::NumberMended);
                 Ok(number)
             }
             Some(Reading::NotFinite) => {
                 if replacement.is_finite() {
-                    self.note(token, Notice::NumberNotFinite);
+                    self.note(token, DiagnosticKind::NumberNotFinite);
                 }
                 Ok(replacement)
             }
@@ -258,7 +258,7 @@ impl<'a> Reader<'a> {
                     }
                 } else if !split {
                     split = true;
-                    self.notices.add(Notice::RowSplit, self.cursor.position(), 0);
+                    self.kinds.add(DiagnosticKind::RowSplit, self.cursor.position(), 0);
                 }
             }
             let Some(token) = self.cursor.token() else {
@@ -277,7 +277,7 @@ impl<'a> Reader<'a> {
             .is_some_and(|token| looks_like_number(token.text))
     }
 
-    /// Passes more numbers on this line, with a note.
+    /// Passes more numbers on this line, with a diagnostic.
     pub(super) fn pass_surplus_numbers(&mut self) {
         let mut noted = false;
         loop {
@@ -289,7 +289,7 @@ impl<'a> Reader<'a> {
                 && !noted
             {
                 noted = true;
-                self.note(token, Notice::ValuesSurplus);
+                self.note(token, DiagnosticKind::ValuesSurplus);
             }
         }
     }
@@ -312,7 +312,7 @@ impl<'a> Reader<'a> {
         match std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok()) {
             Some(number) if (smallest..=largest).contains(&number) => {
                 if digits.len() < token.text.len() {
-                    self.note(token, Notice::NumberMended);
+                    self.note(token, DiagnosticKind::NumberMended);
                 }
                 Ok(number)
             }
@@ -372,7 +372,7 @@ impl<'a> Reader<'a> {
 
     /// Passes the rest of this line as unknown.
     pub(super) fn pass_unknown_line(&mut self, label: Token<'_>) {
-        self.note(label, Notice::unknown(self.section, label.text));
+        self.note(label, DiagnosticKind::unknown(self.section, label.text));
         self.cursor.skip_space();
         self.cursor.rest_of_line();
     }

@@ -11,7 +11,7 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Diagnostic>> {
     let parsed = format::parse(bytes).map_err(|error| Box::new(error.diagnostic()))?;
     let (model, of_model) =
         Model::from_document(&parsed.document, &parsed.lines).map_err(|error| Box::new(error.diagnostic()))?;
-    let mut diagnostics = parsed.notices;
+    let mut diagnostics = parsed.diagnostics;
     diagnostics.extend(of_model);
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {

@@ -20,7 +20,7 @@ impl Default for LocalJoint {
 }
 
 impl LocalJoint {
-    /// On its parent.
+    /// The joint coincides with its parent.
     pub const IDENTITY: Self = Self {
         rotation: Quat::IDENTITY,
         translation: Vec3::ZERO,
@@ -33,7 +33,7 @@ impl LocalJoint {
         Affine3A::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
     }
 
-    /// The parts of a matrix. Shear has no part and is left out; a matrix that flattens space keeps only its translation.
+    /// The parts of a matrix. Shear is dropped. A matrix that flattens space keeps only its translation.
     pub(crate) fn from_matrix(parent_from_joint: &DAffine3) -> Self {
         let translation = parent_from_joint.translation.as_vec3();
         if parent_from_joint.matrix3.determinant() == 0.0 || !parent_from_joint.is_finite() {

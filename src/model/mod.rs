@@ -2,7 +2,7 @@
 //!
 //! [`Model::from_document`] translates what a file says: bones become joints with parents first, weights sum to 1, keys
 //! are sorted and finite, missing normals and tangents are computed, ranges lie inside the mesh. What was mended comes
-//! back as findings; what names something that does not exist is a [`ModelError`].
+//! back as diagnostics; what names something that does not exist is a [`ModelError`].
 //!
 //! The codes of both are [`codes::OF_MODEL`](crate::diagnostic::codes::OF_MODEL).
 
@@ -63,7 +63,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// What a document means, and what had to be mended for it. `lines` places the findings; it may be empty.
+    /// What a document means, and what had to be mended for it. `lines` gives the diagnostics their places; it may be empty.
     ///
     /// # Errors
     /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
@@ -90,13 +90,13 @@ impl Model {
         Ok((model, diagnostics.into_vec()))
     }
 
-    /// The model of a parsed file. The findings of both stages, the parser's first.
+    /// The model of a parsed file, and the diagnostics of both stages, the parser's first.
     ///
     /// # Errors
     /// As [`Model::from_document`].
     pub fn from_parsed(parsed: &Parsed) -> Result<(Self, Vec<Diagnostic>), ModelError> {
-        let (model, notices) = Self::from_document(&parsed.document, &parsed.lines)?;
-        let all = parsed.notices.iter().cloned().chain(notices).collect();
+        let (model, diagnostics) = Self::from_document(&parsed.document, &parsed.lines)?;
+        let all = parsed.diagnostics.iter().cloned().chain(diagnostics).collect();
         Ok((model, all))
     }
 

@@ -89,7 +89,7 @@ impl Skeleton {
         &self.model_from_joint
     }
 
-    /// Each joint of the bind pose relative to its parent. Shear, which has no part of its own, is left out.
+    /// Each joint of the bind pose relative to its parent. Shear, which has no part of its own, is dropped.
     pub fn rest(&self) -> &[LocalJoint] {
         &self.rest
     }

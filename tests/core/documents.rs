@@ -50,7 +50,7 @@ pub(crate) fn read(document: &Document, lines: &LineMap) -> (Model, Vec<Diagnost
 /// The same of a parsed file, with what its parser found before the rest.
 pub(crate) fn read_parsed(parsed: &Parsed) -> (Model, Vec<Diagnostic>) {
     let (model, of_model) = read(&parsed.document, &parsed.lines);
-    (model, parsed.notices.iter().cloned().chain(of_model).collect())
+    (model, parsed.diagnostics.iter().cloned().chain(of_model).collect())
 }
 
 /// The model and the codes of its findings.

@@ -2,8 +2,8 @@
 
 use crate::format::cursor::Token;
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any, split_number};
-use crate::format::notice::Notice;
 use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
@@ -64,7 +64,7 @@ fn bone_label<'a>(
         return Err(Reader::wrong_label(label, expected));
     }
     if number.is_some_and(|number| number != bone) {
-        reader.note(label, Notice::BoneNumber);
+        reader.note(label, DiagnosticKind::BoneNumber);
     }
     reader.cursor = behind;
     Ok(label)
@@ -92,7 +92,7 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
             return Err(Reader::error_at(word, kind));
         }
         reader.cursor.token();
-        reader.note(word, Notice::BoneOffsetLabel);
+        reader.note(word, DiagnosticKind::BoneOffsetLabel);
     }
     // Seventeen numbers, the first of which is the bone's: a label of two words.
     if let Some(number) = reader.cursor.peek_token()
@@ -100,7 +100,7 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
         && numbers_follow(reader) == 17
     {
         reader.cursor.token();
-        reader.note(number, Notice::BoneOffsetLabel);
+        reader.note(number, DiagnosticKind::BoneOffsetLabel);
     }
     Ok(reader.numbers(Value::BoneOffset, 16, [0.0; 16])?.0)
 }
@@ -149,13 +149,13 @@ impl Reader<'_> {
         let Some(ruler) = self.peek_ruler() else {
             if rest_present && self.cursor.peek_token().is_none() {
                 let position = self.cursor.end_position();
-                self.notices.add(Notice::SectionMissing(section), position, 0);
+                self.kinds.add(DiagnosticKind::SectionMissing(section), position, 0);
             }
             return Ok(false);
         };
         let named = Section::of_ruler(ruler.text);
         if named.is_some_and(|found| found > section) {
-            self.note(ruler, Notice::SectionMissing(section));
+            self.note(ruler, DiagnosticKind::SectionMissing(section));
             return Ok(false);
         }
         self.begin(section).map(|_| self.section == section)

@@ -2,8 +2,8 @@
 
 use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, Keyframe};
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::kind::DiagnosticKind;
 use crate::format::label::{is_ruler, same, same_as_any, split_number};
-use crate::format::notice::Notice;
 use crate::format::quick;
 use crate::format::reader::Reader;
 
@@ -118,7 +118,7 @@ fn bone_animation(
     let (name, mut number) = split_number(label.text);
     if !same_as_any(name, BONE) {
         if label.text == b"}" && follows_brace(reader, |label| same_as_any(split_number(label).0, BONE)) {
-            reader.note(label, Notice::BraceSurplus);
+            reader.note(label, DiagnosticKind::BraceSurplus);
             reader.cursor.token();
             return bone_animation(reader, clip, bone, bones);
         }
@@ -137,7 +137,7 @@ fn bone_animation(
         number = Some(apart);
     }
     if number.is_some_and(|number| number != bone) {
-        reader.note(label, Notice::BoneNumber);
+        reader.note(label, DiagnosticKind::BoneNumber);
     }
     pass_number_sign(reader);
     reader.label("#Keyframes", &["keyframes", "keys", "k"])?;
@@ -223,7 +223,7 @@ fn brace(reader: &mut Reader<'_>, brace: char) -> Result<(), ParseError> {
     if token.text == [brace as u8] {
         reader.cursor.token();
     } else {
-        reader.notices.add(Notice::BraceMissing(brace), token.position, 0);
+        reader.kinds.add(DiagnosticKind::BraceMissing(brace), token.position, 0);
     }
     Ok(())
 }
@@ -233,7 +233,7 @@ fn pass_surplus_braces(reader: &mut Reader<'_>) {
     while let Some(token) = reader.cursor.peek_token()
         && token.text == b"}"
     {
-        reader.note(token, Notice::BraceSurplus);
+        reader.note(token, DiagnosticKind::BraceSurplus);
         reader.cursor.token();
     }
 }

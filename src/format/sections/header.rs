@@ -2,9 +2,9 @@
 
 use crate::format::cursor::{Cursor, Token};
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::likeness::Stranger;
-use crate::format::notice::Notice;
 use crate::format::reader::{Beginning, Reader, looks_like_number};
 
 /// What the header announces. Nothing is reserved for these numbers before they are held against the bytes left.
@@ -72,13 +72,13 @@ pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Parse
         let (name, _) = COUNTS[index];
         let count = reader.count(Value::Count(name))?;
         if found[index].replace(count).is_some() {
-            reader.note(label, Notice::LabelRepeated(name.into()));
+            reader.note(label, DiagnosticKind::LabelRepeated(name.into()));
         }
         pass_surplus(reader);
     }
     let counts = counts(reader, found)?;
     if let Some(start) = start.filter(|_| counts == Counts::default()) {
-        reader.note(start, Notice::CountsAllZero);
+        reader.note(start, DiagnosticKind::CountsAllZero);
     }
     Ok(counts)
 }
@@ -108,7 +108,7 @@ fn pass_comments<'a>(reader: &mut Reader<'a>) -> Option<Token<'a>> {
         }
         first = first.or(Some(label));
         let comment = reader.cursor.rest_of_line();
-        reader.note(comment, Notice::Comment);
+        reader.note(comment, DiagnosticKind::Comment);
     }
 }
 
@@ -144,7 +144,7 @@ fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, Pa
     let triangles = triangles.ok_or_else(|| missing("Triangles"))?;
     let mut assumed = |count: Option<u32>, name| {
         count.unwrap_or_else(|| {
-            reader.notices.add(Notice::CountAssumed(name), position, 0);
+            reader.kinds.add(DiagnosticKind::CountAssumed(name), position, 0);
             0
         })
     };
@@ -187,6 +187,6 @@ fn pass_surplus(reader: &mut Reader<'_>) {
     reader.cursor.skip_blanks();
     if !reader.cursor.at_line_end() {
         let rest = reader.cursor.rest_of_line();
-        reader.note(rest, Notice::ValuesSurplus);
+        reader.note(rest, DiagnosticKind::ValuesSurplus);
     }
 }

@@ -3,8 +3,8 @@
 use crate::format::cursor::Token;
 use crate::format::document::{Material, Reflectance};
 use crate::format::error::{ParseError, ParseErrorKind, Value};
+use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
-use crate::format::notice::Notice;
 use crate::format::reader::Reader;
 
 /// Lines of a material. The order is that of the books; [`Line::LABELS`] has the same.
@@ -206,7 +206,7 @@ fn next_block<'a>(reader: &mut Reader<'a>, blank_lines_part: bool) -> Result<Opt
             return Ok(Some(block));
         }
         let Some(line) = Line::of_label(label.text) else {
-            reader.note(label, Notice::unknown(Section::Materials, label.text));
+            reader.note(label, DiagnosticKind::unknown(Section::Materials, label.text));
             continue;
         };
         let place = &mut block.lines[line as usize];
@@ -215,7 +215,7 @@ fn next_block<'a>(reader: &mut Reader<'a>, blank_lines_part: bool) -> Result<Opt
                 reader.cursor = before;
                 return Ok(Some(block));
             }
-            reader.note(label, Notice::LabelRepeated(line.label().into()));
+            reader.note(label, DiagnosticKind::LabelRepeated(line.label().into()));
         }
         *place = Some(value);
         block.first = block.first.or(Some(label));
@@ -240,7 +240,7 @@ fn material_of(reader: &mut Reader<'_>, block: &Block<'_>, material: u32) -> Res
     };
     let expected: &[Line] = if fresnel { &Line::OF_FRESNEL } else { &Line::OF_PHONG };
     for &line in expected.iter().filter(|&&line| given(line).is_none()) {
-        reader.note(first, Notice::MaterialLineMissing(line.label()));
+        reader.note(first, DiagnosticKind::MaterialLineMissing(line.label()));
     }
     for &(line, label, _) in &Line::LABELS {
         if let Some(value) = given(line)
@@ -251,7 +251,7 @@ fn material_of(reader: &mut Reader<'_>, block: &Block<'_>, material: u32) -> Res
                 text: b"",
                 position: value.position,
             };
-            reader.note(place, Notice::unknown(Section::Materials, label.as_bytes()));
+            reader.note(place, DiagnosticKind::unknown(Section::Materials, label.as_bytes()));
         }
     }
     let text = |line| given(line).map_or_else(String::new, |value| String::from_utf8_lossy(value.text).into_owned());
@@ -313,7 +313,7 @@ fn numbers<const N: usize>(
         *number = reader.number_of(word, what, *number)?;
     }
     if let Some(word) = words.next() {
-        reader.note(word, Notice::ValuesSurplus);
+        reader.note(word, DiagnosticKind::ValuesSurplus);
     }
     Ok(numbers)
 }
@@ -322,11 +322,11 @@ fn alpha_clip(reader: &mut Reader<'_>, value: Option<Token<'_>>) -> bool {
     let Some(value) = value else { return false };
     let mut words = words(value);
     let Some(word) = words.next() else {
-        reader.note(value, Notice::AlphaClipUnreadable);
+        reader.note(value, DiagnosticKind::AlphaClipUnreadable);
         return false;
     };
     if let Some(surplus) = words.next() {
-        reader.note(surplus, Notice::ValuesSurplus);
+        reader.note(surplus, DiagnosticKind::ValuesSurplus);
     }
     let is = |names: [&str; 2]| {
         names
@@ -342,7 +342,7 @@ fn alpha_clip(reader: &mut Reader<'_>, value: Option<Token<'_>>) -> bool {
     match fast_float2::parse::<f32, _>(word.text) {
         Ok(number) if !number.is_nan() => number != 0.0,
         _ => {
-            reader.note(word, Notice::AlphaClipUnreadable);
+            reader.note(word, DiagnosticKind::AlphaClipUnreadable);
             false
         }
     }

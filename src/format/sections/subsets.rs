@@ -2,9 +2,9 @@
 
 use crate::format::document::Subset;
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::likeness::Stranger;
-use crate::format::notice::Notice;
 use crate::format::reader::{Reader, looks_like_number};
 
 /// The labels of a row, in order.
@@ -58,7 +58,7 @@ fn subset(reader: &mut Reader<'_>) -> Result<Subset, ParseError> {
             if other || is_ruler(found.text) || looks_like_number(found.text) {
                 return Err(Reader::wrong_label(found, label));
             }
-            reader.note(found, Notice::SubsetLabel(quoted(found.text)));
+            reader.note(found, DiagnosticKind::SubsetLabel(quoted(found.text)));
         }
         reader.cursor = behind;
         let what = Value::Subset(label);
@@ -67,7 +67,7 @@ fn subset(reader: &mut Reader<'_>) -> Result<Subset, ParseError> {
             Ok(number) => u32::try_from(number).unwrap_or(u32::MAX),
             // Nothing reads the vertex range.
             Err(_) if (1..=2).contains(&place) => {
-                reader.note(token, Notice::SubsetVertexRange);
+                reader.note(token, DiagnosticKind::SubsetVertexRange);
                 0
             }
             Err(error) => return Err(error),

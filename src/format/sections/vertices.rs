@@ -2,8 +2,8 @@
 
 use crate::format::document::Vertex;
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
-use crate::format::notice::Notice;
 use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
@@ -80,7 +80,7 @@ fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(
     let place = reader.cursor.position();
     let (tangent, given) = reader.numbers(Value::Vertex("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
     if given < 4 {
-        reader.notices.add(Notice::TangentSignMissing, place, 0);
+        reader.kinds.add(DiagnosticKind::TangentSignMissing, place, 0);
     }
     vertex.tangent = tangent;
     field(reader, 2, row, count)?;
@@ -138,7 +138,7 @@ fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, 
             .and_then(|text| text.parse::<i64>().ok())
             .is_some_and(|index| index < 0 || index > largest);
     if unused {
-        reader.note(token, Notice::BlendIndexUnused);
+        reader.note(token, DiagnosticKind::BlendIndexUnused);
         return Ok(0);
     }
     match reader.whole_of(token, Value::BlendIndex, 0, largest) {
@@ -163,7 +163,7 @@ fn pass_blend_data(reader: &mut Reader<'_>, rows_before: u32, bones: u32) {
     }
     while is_field(reader, 4) || is_field(reader, 5) {
         if let Some((label, _)) = reader.peek_label() {
-            reader.note(label, Notice::BlendDataUnused);
+            reader.note(label, DiagnosticKind::BlendDataUnused);
         }
         reader.cursor.skip_space();
         reader.cursor.rest_of_line();

@@ -54,7 +54,7 @@ impl Sheet<'_> {
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
         let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
-        let share = folded.map_or(activity.share, |branch| branch.most_share.max(activity.share));
+        let share = folded.map_or(activity.fraction, |branch| branch.most_share.max(activity.fraction));
         let tint = MOST_TINT * share;
         if tint > 0.0 {
             let tint = tokens.warning.gamma_multiply(tint);

@@ -121,7 +121,7 @@ fn below(session: &Session, joint: JointIndex) -> &[JointIndex] {
 fn sort_by_motion(activity: &[JointActivity], sorted: &mut Vec<JointIndex>) {
     sorted.clear();
     sorted.extend((0..activity.len() as u32).map(JointIndex));
-    sorted.sort_by(|a, b| activity[b.index()].share.total_cmp(&activity[a.index()].share));
+    sorted.sort_by(|a, b| activity[b.index()].fraction.total_cmp(&activity[a.index()].fraction));
 }
 
 /// What is folded away below one joint.
@@ -144,7 +144,7 @@ impl FoldedBranch {
             // A key alone says no less than one that others differ from.
             constant: activity().all(|joint| joint.constant)
                 && below.iter().any(|&joint| key_times(clip, joint).len() > 1),
-            most_share: activity().map(|joint| joint.share).fold(0.0, f32::max),
+            most_share: activity().map(|joint| joint.fraction).fold(0.0, f32::max),
         }
     }
 }
@@ -198,8 +198,8 @@ mod tests {
 
     #[test]
     fn by_motion_the_liveliest_is_first() {
-        let activity = [0.0, 0.25, 1.0, 0.25, 0.0].map(|share| JointActivity {
-            share,
+        let activity = [0.0, 0.25, 1.0, 0.25, 0.0].map(|fraction| JointActivity {
+            fraction,
             ..JointActivity::default()
         });
         let mut sorted = vec![JointIndex(9)];
@@ -225,10 +225,10 @@ mod tests {
         Clip::new("clip", tracks.collect())
     }
 
-    fn moving(share: f32) -> JointActivity {
+    fn moving(fraction: f32) -> JointActivity {
         JointActivity {
-            share,
-            constant: share == 0.0,
+            fraction,
+            constant: fraction == 0.0,
             ..JointActivity::default()
         }
     }

@@ -23,11 +23,11 @@ fn ways_are_summed_and_compared_with_the_longest() {
     let [shifted, turned, still] = &joints[..] else {
         panic!("three joints")
     };
-    assert!((shifted.path - 2.0).abs() < 1e-6 && shifted.turned_degrees == 0.0 && shifted.share == 1.0);
+    assert!((shifted.path - 2.0).abs() < 1e-6 && shifted.turned_degrees == 0.0 && shifted.fraction == 1.0);
     assert!((turned.turned_degrees - 2.0_f32.to_degrees()).abs() < 1e-3 && turned.path == 0.0);
     // Two radians at a tenth of the size, beside a way of two units.
-    assert!((turned.share - 2.0 * 0.1 * 2.0 / 2.0).abs() < 1e-5, "{turned:?}");
-    assert!(still.constant && still.share == 0.0 && !turned.constant && !shifted.constant);
+    assert!((turned.fraction - 2.0 * 0.1 * 2.0 / 2.0).abs() < 1e-5, "{turned:?}");
+    assert!(still.constant && still.fraction == 0.0 && !turned.constant && !shifted.constant);
 }
 
 #[test]
@@ -53,24 +53,24 @@ fn what_files_round_is_no_motion_and_what_comes_back_is() {
         [true, false, true]
     );
     assert_eq!(
-        joints.iter().map(|joint| joint.share).collect::<Vec<_>>(),
+        joints.iter().map(|joint| joint.fraction).collect::<Vec<_>>(),
         [0.0, 1.0, 0.0]
     );
     assert!((joints[1].scaled - 2.0 * 0.2 / 1.2).abs() < 1e-6, "{:?}", joints[1]);
 }
 
 #[test]
-fn a_clip_in_which_nothing_moves_has_no_share() {
+fn a_clip_in_which_nothing_moves_has_fractions_of_zero() {
     for bones in JOINT_COUNTS {
         let model = rigs::model(bones);
         let still = activity(&model.skeleton, &model.clips[1], 5.0);
         assert_eq!(still.len(), bones as usize);
-        assert!(still.iter().all(|joint| joint.constant && joint.share == 0.0));
+        assert!(still.iter().all(|joint| joint.constant && joint.fraction == 0.0));
     }
 }
 
 #[test]
-fn shares_are_shares_in_every_clip() {
+fn fractions_are_fractions_in_every_clip() {
     let mut models: Vec<Model> = JOINT_COUNTS.map(rigs::model).into();
     models.extend(REAL_FILES.iter().filter_map(|name| {
         let parsed = real_file(name)?;
@@ -80,11 +80,11 @@ fn shares_are_shares_in_every_clip() {
         for clip in &model.clips {
             let joints = activity(&model.skeleton, clip, 5.0);
             assert_eq!(joints.len(), model.skeleton.joint_count());
-            let most = joints.iter().map(|joint| joint.share).fold(0.0, f32::max);
+            let most = joints.iter().map(|joint| joint.fraction).fold(0.0, f32::max);
             let moves = joints.iter().any(|joint| !joint.constant);
             assert_eq!(most, if moves { 1.0 } else { 0.0 }, "{}", clip.name);
             for (joint, track) in joints.iter().zip(&clip.tracks) {
-                assert!((0.0..=1.0).contains(&joint.share) && joint.constant == (joint.share == 0.0));
+                assert!((0.0..=1.0).contains(&joint.fraction) && joint.constant == (joint.fraction == 0.0));
                 assert!(joint.constant || track.key_count() > 1);
             }
         }

@@ -1,6 +1,6 @@
 //! Where a loop begins again.
 
-use bindpose::anim::{CompiledClip, PoseBuffers, Seam, VISIBLE_SHARE, seam};
+use bindpose::anim::{CompiledClip, PoseBuffers, Seam, VISIBLE_FRACTION, seam};
 use bindpose::model::{JointIndex, Model};
 
 use crate::documents::{REAL_FILES, arm, figure, key, model_of, offset, real_file, track, turned};
@@ -62,16 +62,16 @@ fn the_jump_is_told_of_the_joint_that_has_the_keys_for_it() {
         (0.0, 0.0),
         "but by no keys of its own"
     );
-    assert!((there.visibility - 0.5 / (2.0 * VISIBLE_SHARE)).abs() < 1e-3);
+    assert!((there.visibility - 0.5 / (2.0 * VISIBLE_FRACTION)).abs() < 1e-3);
 }
 
 #[test]
 fn what_is_two_pixels_of_a_thousand_is_seen() {
     // By a way of its own: 1/500 of the size. By a turn: 1.15°, at a tenth of the size from the joint.
-    let limit_radians = VISIBLE_SHARE / 0.1;
+    let limit_radians = VISIBLE_FRACTION / 0.1;
     for (shift, angle_radians, visible) in [
-        (2.0 * VISIBLE_SHARE * 0.95, 0.0, false),
-        (2.0 * VISIBLE_SHARE * 1.05, 0.0, true),
+        (2.0 * VISIBLE_FRACTION * 0.95, 0.0, false),
+        (2.0 * VISIBLE_FRACTION * 1.05, 0.0, true),
         (0.0, limit_radians * 0.95, false),
         (0.0, limit_radians * 1.05, true),
     ] {
@@ -231,5 +231,5 @@ fn the_farthest_travelled_joint_is_first_and_of_equal_ones_the_one_that_turns_mo
     );
     let model = arm_that_ends([[0.0; 3]; 3], [0.0; 3]);
     assert_eq!(seam_of(&model, 2.0).by_travel(), joints([0, 1, 2]));
-    assert_eq!(seam_of(&model, 2.0).visible_travel, 2.0 * VISIBLE_SHARE);
+    assert_eq!(seam_of(&model, 2.0).visible_travel, 2.0 * VISIBLE_FRACTION);
 }

@@ -90,7 +90,7 @@ fn a_garbled_line_is_never_silent() {
         let before = parse(&fixture.bytes).expect("good fixtures can be read");
         for (number, lines) in each_line(&fixture.bytes) {
             let line = lines[number].trim_ascii();
-            let noted = before.notices.iter().filter_map(|notice| notice.position);
+            let noted = before.diagnostics.iter().filter_map(|notice| notice.position);
             let noted = noted.map(|place| place.line as usize - 1).any(|line| line == number);
             if line.is_empty() || noted || is_optional(line) {
                 continue;
@@ -221,7 +221,7 @@ fn answered(bytes: &[u8]) {
                 again.is_ok(),
                 "what was read cannot be written and read again: {again:?}"
             );
-            parsed.notices.iter().filter_map(|notice| notice.position).collect()
+            parsed.diagnostics.iter().filter_map(|notice| notice.position).collect()
         }
         Err(error) => {
             assert!(error.to_string().len() < 300, "long message: {error}");
@@ -241,7 +241,7 @@ fn assert_noticed(name: &str, line: usize, before: &Parsed, result: &Result<Pars
     if let Ok(after) = result {
         let told = |parsed: &Parsed| {
             parsed
-                .notices
+                .diagnostics
                 .iter()
                 .map(|notice| notice.message.clone())
                 .collect::<Vec<_>>()

@@ -31,7 +31,7 @@ fn the_table_of_codes_is_that_of_the_fixtures() {
     let mut emitted = BTreeSet::new();
     for fixture in fixtures("bad").iter().chain(&fixtures("good")) {
         match parse(&fixture.bytes) {
-            Ok(parsed) => emitted.extend(parsed.notices.iter().map(|notice| (notice.code, notice.severity))),
+            Ok(parsed) => emitted.extend(parsed.diagnostics.iter().map(|notice| (notice.code, notice.severity))),
             Err(error) => {
                 emitted.insert((error.diagnostic().code, error.diagnostic().severity));
             }
@@ -45,7 +45,7 @@ fn the_table_of_codes_is_that_of_the_fixtures() {
 fn every_message_is_a_sentence() {
     for fixture in fixtures("bad").iter().chain(&fixtures("good")) {
         let findings = match parse(&fixture.bytes) {
-            Ok(parsed) => parsed.notices,
+            Ok(parsed) => parsed.diagnostics,
             Err(error) => vec![error.diagnostic()],
         };
         for finding in findings {
@@ -73,7 +73,7 @@ fn summary(parsed: &Parsed) -> String {
         document.bone_offsets.len(),
         document.clips.len(),
     );
-    for notice in &parsed.notices {
+    for notice in &parsed.diagnostics {
         writeln!(text, "{}", one_line(notice)).expect("a string can be written to");
     }
     text

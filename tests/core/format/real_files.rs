@@ -11,7 +11,7 @@ fn the_soldier_is_read_whole() {
     };
     let parsed = parse(&bytes).expect("it is sound");
     let document = &parsed.document;
-    assert_eq!(parsed.notices, []);
+    assert_eq!(parsed.diagnostics, []);
     assert_eq!(document.dialect, Dialect::D3d12);
     let counts = [
         document.materials.len(),
@@ -72,7 +72,7 @@ fn the_other_files_are_read_whole() {
         let Some(bytes) = real_file(path) else { continue };
         let parsed = parse(&bytes).expect("it is sound");
         let document = parsed.document;
-        assert_eq!(parsed.notices, [], "{path}");
+        assert_eq!(parsed.diagnostics, [], "{path}");
         assert_eq!(document.dialect, dialect, "{path}");
         assert_eq!(
             [

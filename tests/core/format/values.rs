@@ -17,7 +17,7 @@ fn document(name: &str) -> Document {
 )]
 fn a_skinned_file_of_the_second_book() {
     let parsed = parse(&good("d3d12_skinned")).expect("it is sound");
-    assert_eq!(parsed.notices, []);
+    assert_eq!(parsed.diagnostics, []);
     let document = parsed.document;
     let material = &document.materials[0];
     assert_eq!(

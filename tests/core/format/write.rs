@@ -15,7 +15,7 @@ proptest! {
         let text = write(&document);
         for (layout, text) in layouts(&text) {
             let parsed = parse(text.as_bytes()).map_err(|error| TestCaseError::fail(format!("{layout}: {error}\n{text}")))?;
-            let notices: Vec<String> = parsed.notices.iter().map(one_line).collect();
+            let notices: Vec<String> = parsed.diagnostics.iter().map(one_line).collect();
             prop_assert!(notices.is_empty(), "{layout}: {notices:?}\n{text}");
             prop_assert!(parsed.document == document, "{layout}:\n{text}\n{:?}\n{document:?}", parsed.document);
         }

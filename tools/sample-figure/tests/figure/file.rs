@@ -43,7 +43,7 @@ fn the_committed_file_is_reproduced() {
     }
     // Elsewhere a sine may differ in its last bit and flip a last decimal, but never the topology.
     let parsed = format::parse(committed.as_bytes()).expect("the project's own file is well formed");
-    assert!(parsed.notices.is_empty(), "{:?}", parsed.notices);
+    assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
     let (ours, theirs) = (&*FIGURE, &parsed.document);
     assert_eq!((&ours.materials, &ours.subsets), (&theirs.materials, &theirs.subsets));
     assert!(ours.triangles == theirs.triangles);

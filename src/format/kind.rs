@@ -1,12 +1,12 @@
-//! What was mended or is worth knowing, counted while reading and told once for each kind.
+//! What was mended or is worth knowing, counted while reading and reported once for each kind.
 
 use super::error::quoted;
 use super::label::Section;
 use crate::diagnostic::{Code, Diagnostic, Position, codes};
 
-/// A kind of finding that does not stop the reader.
+/// A kind of diagnostic that does not stop the reader.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Notice {
+pub(super) enum DiagnosticKind {
     /// A section begins without its ruler.
     RulerMissing(Section),
     /// A ruler names something else where a section begins.
@@ -19,7 +19,7 @@ pub(super) enum Notice {
     CountAssumed(&'static str),
     /// A section that announces no rows is not there, though the other ones of a skinned model are.
     SectionMissing(Section),
-    /// A labelled line that is none of ours; it was left out.
+    /// A labelled line that the format does not have; left out.
     LabelUnknown { section: Section, label: String },
     /// A line that came twice; the last one holds.
     LabelRepeated(String),
@@ -59,7 +59,7 @@ pub(super) enum Notice {
     ZerosSurplus(usize),
 }
 
-impl Notice {
+impl DiagnosticKind {
     fn code(&self) -> &'static Code {
         match self {
             Self::RulerMissing(_) => &codes::RULER_MISSING,
@@ -176,13 +176,13 @@ impl Notice {
     }
 }
 
-/// One kind, as often as it was met.
+/// One kind, and how often it was met.
 #[derive(Clone, Debug)]
 struct Tally {
-    notice: Notice,
+    kind: DiagnosticKind,
     length: u32,
     count: u32,
-    /// The first of them; at least one.
+    /// The first occurrences; at least one.
     places: Vec<Position>,
 }
 
@@ -195,27 +195,27 @@ impl Tally {
     }
 }
 
-/// All that was met so far.
+/// All kinds that were met so far.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Notices {
+pub(super) struct KindCounts {
     tallies: Vec<Tally>,
 }
 
-impl Notices {
-    /// Findings told apart by their words; a file with more different unknown labels is not helped by a longer list.
+impl KindCounts {
+    /// Kinds that are told apart by words of the file, at most; a longer list of unknown labels helps nobody.
     const MOST: usize = 32;
 
-    /// Counts a finding; the first of its kind gives the place.
-    pub(super) fn add(&mut self, notice: Notice, position: Position, length: u32) {
-        let mut notice = notice;
+    /// Counts an occurrence of a kind. The first ones give the places.
+    pub(super) fn add(&mut self, kind: DiagnosticKind, position: Position, length: u32) {
+        let mut kind = kind;
         loop {
-            if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.notice == notice) {
+            if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.kind == kind) {
                 tally.add(position);
                 return;
             }
-            if self.tallies.len() < Self::MOST || !notice.shorten() {
+            if self.tallies.len() < Self::MOST || !kind.shorten() {
                 self.tallies.push(Tally {
-                    notice,
+                    kind,
                     length,
                     count: 1,
                     places: vec![position],
@@ -231,21 +231,21 @@ impl Notices {
         self.tallies
             .into_iter()
             .map(|tally| {
-                let code = tally.notice.code();
+                let code = tally.kind.code();
                 Diagnostic {
-                    found: tally.notice.found(),
+                    found: tally.kind.found(),
                     position: tally.places.first().copied(),
                     length: tally.length,
                     count: tally.count,
                     places: tally.places,
-                    ..code.says(tally.notice.message(tally.count))
+                    ..code.says(tally.kind.message(tally.count))
                 }
             })
             .collect()
     }
 }
 
-impl Notice {
+impl DiagnosticKind {
     /// An unknown label, shortened.
     pub(super) fn unknown(section: Section, label: &[u8]) -> Self {
         Self::LabelUnknown {
@@ -254,7 +254,7 @@ impl Notice {
         }
     }
 
-    /// Gives up the words that come from the file. False when there are none left to give up.
+    /// Replaces the words that come from the file by `…`. False when there are none left to replace.
     fn shorten(&mut self) -> bool {
         match self {
             Self::RulerUnknown { found: text, .. }
