@@ -1,28 +1,21 @@
-//! The materials of a model in GPU memory: a bind group each, with its maps or what stands for them.
-
-use std::sync::Arc;
+//! The materials of a model in GPU memory: for each the values that shaders read, and a bind group with its maps or what stands
+//! for them.
 
 use super::layouts::Layouts;
-use super::map_textures::MapTextures;
-use super::material::{MapFacts, material_uniform};
+use super::maps::{MapTextures, MaterialImages};
 use super::upload::{UploadError, Uploader};
-use crate::image::{Image, MapKind};
-use crate::model::Material;
-use crate::shaders;
+use crate::image::{Channels, MapKind};
+use crate::model::{Material, Reflectance};
+use crate::{scene, shaders};
 
-/// Samples along the longer side of a pixel's footprint, where the device can: floors stay sharp far away.
+/// Samples along the longer side of a pixel's footprint, where the device supports it: floors stay sharp far away.
 const ANISOTROPY: u16 = 8;
 
-/// The pictures of one material's maps, as far as they are there. The same `Arc` is the same picture.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct MaterialImages<'a> {
-    /// Colours, sRGB; alpha cuts where the material says so.
-    pub diffuse: Option<&'a Arc<Image>>,
-    /// Directions, linear.
-    pub normal: Option<&'a Arc<Image>>,
-}
+/// The DirectX 11 book's specular colours multiply a lobe that peaks at 1. A twentieth of them is the Fresnel reflectance of the
+/// dielectrics that they stand for.
+const PHONG_TO_FRESNEL: f32 = 0.05;
 
-/// Materials in the order of the model's, each ready to be bound as group 3.
+/// The materials in the model's order, each with a bind group for group 3.
 pub(super) struct GpuMaterials {
     materials: Vec<Material>,
     uniforms: wgpu::Buffer,
@@ -39,7 +32,7 @@ struct BoundMaterial {
 }
 
 impl GpuMaterials {
-    /// Without maps as yet.
+    /// Uploads them without maps.
     pub(super) fn upload(
         uploader: &Uploader<'_>,
         layouts: &Layouts,
@@ -67,7 +60,7 @@ impl GpuMaterials {
         Ok(gpu_materials)
     }
 
-    /// See [`Renderer::set_maps`](super::Renderer::set_maps). The textures have taken the maps up.
+    /// See [`Renderer::set_maps`](super::Renderer::set_maps). `textures` was updated with the same maps.
     pub(super) fn set_maps(
         &mut self,
         device: &wgpu::Device,
@@ -91,7 +84,7 @@ impl GpuMaterials {
         self.write(queue);
     }
 
-    /// Takes other values for the materials, in their order; their maps stay.
+    /// Replaces the values of the materials, in their order; their maps stay.
     pub(super) fn set_values(&mut self, queue: &wgpu::Queue, materials: &[Material]) {
         for (material, values) in self.materials.iter_mut().zip(materials) {
             material.clone_from(values);
@@ -154,8 +147,8 @@ impl GpuMaterials {
     }
 }
 
-/// Repeats, trilinear. Devices without anisotropic filtering take the number as 1. Software devices do it texel by texel, at
-/// many times the cost of all else in a frame, so there it is off.
+/// Repeats, trilinear. Devices without anisotropic filtering treat the number as 1. It is off on software devices, where it would
+/// cost many times as much as the rest of the frame.
 fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
     let is_software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
     device.create_sampler(&wgpu::SamplerDescriptor {
@@ -168,4 +161,106 @@ fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
         anisotropy_clamp: if is_software { 1 } else { ANISOTROPY },
         ..Default::default()
     })
+}
+
+/// What a material's uniform depends on in its maps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct MapFacts {
+    has_diffuse: bool,
+    /// Of the diffuse map.
+    has_alpha: bool,
+    /// Of the normal map: 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
+    normal_channels: u32,
+}
+
+impl MapFacts {
+    pub(super) fn of(images: MaterialImages<'_>) -> Self {
+        Self {
+            has_diffuse: images.diffuse.is_some(),
+            has_alpha: images.diffuse.is_some_and(|image| image.has_alpha()),
+            normal_channels: match images.normal {
+                Some(image) if image.channels() == Channels::RedGreen => 2,
+                Some(image) if image.has_alpha() => 4,
+                Some(_) => 3,
+                None => 0,
+            },
+        }
+    }
+}
+
+/// The uniform of the material with this index, which depends on the maps that are there.
+pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts) -> shaders::Material {
+    let unit = |color: [f32; 3]| color.map(|channel| channel.clamp(0.0, 1.0));
+    let stand_in = scene::stand_in_color(index, material).filter(|_| !maps.has_diffuse);
+    let common = shaders::Material {
+        albedo: stand_in.unwrap_or(unit(material.diffuse)),
+        alpha_clip: if material.alpha_clip && maps.has_alpha {
+            Material::ALPHA_CLIP
+        } else {
+            0.0
+        },
+        book_albedo: stand_in.map_or(unit(material.diffuse), |color| color.map(srgb_from_linear)),
+        normal_channels: maps.normal_channels,
+        identity_srgb: identity_color(index),
+        ..Default::default()
+    };
+    match material.reflectance {
+        Reflectance::Fresnel { fresnel0, roughness } => shaders::Material {
+            fresnel0: unit(fresnel0),
+            roughness: roughness.clamp(0.0, 1.0),
+            ..common
+        },
+        Reflectance::Phong {
+            ambient,
+            specular,
+            spec_power,
+            reflectivity,
+        } => shaders::Material {
+            fresnel0: std::array::from_fn(|channel| {
+                let of_lobe = specular[channel].clamp(0.0, 1.0) * PHONG_TO_FRESNEL;
+                // What mirrors the sky in the book mirrors the environment here.
+                of_lobe + (1.0 - of_lobe) * reflectivity[channel].clamp(0.0, 1.0)
+            }),
+            roughness: roughness_from_power(spec_power).clamp(0.0, 1.0),
+            is_phong: 1,
+            // The DirectX 11 book reads no gloss.
+            normal_channels: maps.normal_channels.min(3),
+            ambient: unit(ambient),
+            specular: unit(specular),
+            spec_power: spec_power.max(0.0),
+            reflectivity: unit(reflectivity),
+            ..common
+        },
+    }
+}
+
+fn srgb_from_linear(linear: f32) -> f32 {
+    f32::from(scene::srgb8_from_linear(linear)) / 255.0
+}
+
+/// Colours far apart on the wheel: each hue is a golden angle further than the one before.
+fn identity_color(index: usize) -> [f32; 4] {
+    let turn = (index as f32 * 0.618_034 + 0.58).fract() * 6.0;
+    let channel = |shift: f32| {
+        let wheel = ((turn + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;
+        0.30 + 0.58 * wheel.clamp(0.0, 1.0)
+    };
+    [channel(0.0), channel(4.0), channel(2.0), 1.0]
+}
+
+/// Roughness whose GGX lobe is as wide as a Blinn-Phong one: alpha² = 2 / (power + 2), alpha = roughness².
+fn roughness_from_power(power: f32) -> f32 {
+    (2.0 / (power.max(0.0) + 2.0)).powf(0.25)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_higher_power_is_smoother() {
+        assert_eq!(roughness_from_power(0.0), 1.0);
+        assert!(roughness_from_power(8.0) > roughness_from_power(64.0));
+        assert!(roughness_from_power(1e6) > 0.0);
+    }
 }

@@ -21,9 +21,7 @@ mod ghosts;
 mod gpu_model;
 mod layouts;
 mod look;
-mod map;
-mod map_textures;
-mod material;
+mod maps;
 mod materials;
 mod occlusion;
 mod overlay;
@@ -41,7 +39,7 @@ mod world_shapes;
 
 pub use bones::BoneTexture;
 pub use composite::Compositor;
-pub use materials::MaterialImages;
+pub use maps::MaterialImages;
 pub use picture::{Picture, PictureError};
 pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
@@ -55,8 +53,7 @@ use crate::scene::{Background, Light, RenderFrame, ViewMode};
 use environment::Environments;
 use ghosts::Ghosts;
 use gpu_model::{GpuModel, Posed};
-use map::one_texel;
-use map_textures::MapTextures;
+use maps::{MapTextures, one_texel};
 use overlay::Overlays;
 use pipelines::{Cut, Draw, ModelDraw, Pipelines, Shading};
 use stage::{Common, Stage};
@@ -140,7 +137,7 @@ impl Renderer {
             ..
         } = &self.common;
         let Some(model) = &mut self.model else { return 0 };
-        let uploaded = self.maps.take_up(device, queue, maps);
+        let uploaded = self.maps.update(device, queue, maps);
         model.set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
         uploaded
     }

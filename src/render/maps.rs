@@ -1,10 +1,83 @@
-//! A picture as a texture that shaders sample.
+//! Maps in GPU memory: each image once, as a texture that shaders sample, for as long as a material has it.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::{Arc, Weak};
 
 use crate::image::{Image, ImageFormat, MapKind};
 
-/// A texture of one texel, which stands where there is nothing else to bind.
+/// The images of one material's maps, as far as they are there. The same `Arc` is the same image.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MaterialImages<'a> {
+    /// Colours, sRGB; alpha cuts where the material says so.
+    pub diffuse: Option<&'a Arc<Image>>,
+    /// Directions, linear.
+    pub normal: Option<&'a Arc<Image>>,
+}
+
+/// An image by its address, and how it is read.
+type Key = (usize, MapKind);
+
+/// The uploaded images.
+pub(super) struct MapTextures {
+    /// One white texel: changes no colour, and no normal, as none is read from it.
+    white: wgpu::TextureView,
+    held: HashMap<Key, Held>,
+}
+
+struct Held {
+    /// Keeps the address: while this lives, no other image has it.
+    _image: Weak<Image>,
+    view: wgpu::TextureView,
+}
+
+impl MapTextures {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        Self {
+            white: one_texel(device, queue, "no map", [255; 4]),
+            held: HashMap::new(),
+        }
+    }
+
+    /// Frees the images that are in none of these maps, then uploads the missing ones. Returns how many it uploaded.
+    pub(super) fn update(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, maps: &[MaterialImages<'_>]) -> usize {
+        let of_slots = maps
+            .iter()
+            .flat_map(|maps| [(maps.diffuse, MapKind::Diffuse), (maps.normal, MapKind::Normal)]);
+        let wanted: HashMap<Key, &Arc<Image>> = of_slots
+            .filter_map(|(image, kind)| image.map(|image| (key(image, kind), image)))
+            .collect();
+        self.held.retain(|key, _| wanted.contains_key(key));
+        let mut uploaded = 0;
+        for (key, image) in wanted {
+            self.held.entry(key).or_insert_with(|| {
+                uploaded += 1;
+                Held {
+                    _image: Arc::downgrade(image),
+                    view: upload(device, queue, image, key.1),
+                }
+            });
+        }
+        uploaded
+    }
+
+    /// What a material binds for an image of the last [`MapTextures::update`]; one white texel without an image.
+    pub(super) fn view(&self, image: Option<&Arc<Image>>, kind: MapKind) -> &wgpu::TextureView {
+        let held = image.and_then(|image| self.held.get(&key(image, kind)));
+        held.map_or(&self.white, |held| &held.view)
+    }
+
+    /// Frees all images.
+    pub(super) fn clear(&mut self) {
+        self.held.clear();
+    }
+}
+
+fn key(image: &Arc<Image>, kind: MapKind) -> Key {
+    (Arc::as_ptr(image).addr(), kind)
+}
+
+/// A texture of one texel, bound where there is nothing else to bind.
 pub(super) fn one_texel(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, texel: [u8; 4]) -> wgpu::TextureView {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
@@ -25,9 +98,9 @@ pub(super) fn one_texel(device: &wgpu::Device, queue: &wgpu::Queue, label: &str,
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// A map in GPU memory, all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
-/// Levels are made where the picture has none; those larger than the device can hold are left out.
-pub(super) fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
+/// Uploads a map with all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
+/// An image without levels gets them. Levels too large for the device are left out.
+fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
     let limit = device.limits().max_texture_dimension_2d;
     let image = fitting(image, kind, limit);
     let first = first_fitting_level(&image, limit);
@@ -64,7 +137,7 @@ pub(super) fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, 
             image.to_rgba8(0, level).map(Cow::Owned)
         };
         let (block_side, _) = format.block_dimensions();
-        // The smallest levels still are one block.
+        // The smallest levels are still one block.
         let size = size(level).physical_size(format);
         queue.write_texture(
             wgpu::TexelCopyTextureInfo {
@@ -87,9 +160,9 @@ pub(super) fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, 
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// The texture format that holds these blocks as they are. The others are decoded: one or two values as colours, since no
-/// format decodes those from sRGB, and signed values, so that shaders know one range. Blocks may hold an alpha that the file
-/// says does not count; no material cuts by the alpha of a picture that has none, so they go up all the same.
+/// The texture format that holds these blocks as they are; none where the image must be decoded. Colours of one or two channels
+/// are decoded since no such format is sRGB, signed values so that shaders see one range. Blocks may hold an alpha that the file
+/// says to ignore. They are uploaded all the same: no material cuts by the alpha of an image that says it has none.
 fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::TextureFormat> {
     use wgpu::TextureFormat as Gpu;
     match (format, kind) {
@@ -106,7 +179,7 @@ fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::Texture
     }
 }
 
-/// The picture with levels, of which at least one has no side above `limit`.
+/// The image with levels, of which at least one has no side above `limit`.
 fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
     let last = image.level_count() - 1;
     let (width, height) = image.level_size(last);
@@ -116,7 +189,7 @@ fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
     if last == 0 {
         return image.mipped(kind).map_or(Cow::Borrowed(image), Cow::Owned);
     }
-    // A file that brings a few levels, all of them too large: the smallest of them is where its others start.
+    // The file has levels, but all are too large: the missing ones are made from the smallest.
     let smallest = image.reduced(last, kind, limit);
     smallest.map_or(Cow::Borrowed(image), |smallest| Cow::Owned(smallest.with_mips(kind)))
 }
@@ -135,11 +208,11 @@ mod tests {
 
     fn grey(width: u32, height: u32) -> Image {
         let texels = vec![128; (width * height * 4) as usize];
-        Image::from_rgba8(width, height, texels, "").expect("a small picture")
+        Image::from_rgba8(width, height, texels, "").expect("a small image")
     }
 
     #[test]
-    fn a_picture_larger_than_the_device_starts_at_a_smaller_level() {
+    fn an_image_larger_than_the_device_starts_at_a_smaller_level() {
         let image = grey(64, 8);
         for (limit, first) in [(64, 0), (63, 1), (32, 1), (16, 2), (1, 6)] {
             let fitting = fitting(&image, MapKind::Diffuse, limit);
@@ -148,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_with_all_its_levels_is_not_copied() {
+    fn an_image_with_all_its_levels_is_not_copied() {
         for image in [grey(64, 8).with_mips(MapKind::Normal), grey(1, 1)] {
             assert!(matches!(fitting(&image, MapKind::Normal, 64), Cow::Borrowed(_)));
         }
