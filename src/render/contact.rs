@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 
-use super::gpu_model::{GpuModel, Posed};
+use super::model::{GpuModel, Posed};
 use super::pipelines::{Draw, ModelDraw, Pipelines, SHARE_FORMAT};
 use super::target::{begin_color_pass, flat_texture};
 use crate::scene::Aabb;

@@ -1,7 +1,7 @@
 //! The model in other poses, as veils.
 
 use super::bones::BoneTexture;
-use super::gpu_model::{GpuModel, Posed};
+use super::model::{GpuModel, Posed};
 use super::overlay::Style;
 use super::pipelines::{ModelDraw, Pipelines};
 use crate::scene::RenderFrame;

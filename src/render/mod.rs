@@ -10,19 +10,18 @@
 //! into have eight bits a channel.
 
 mod bones;
+mod buffers;
 mod composite;
 mod contact;
 pub mod device;
-mod drawn;
-mod edges;
 mod environment;
 mod frame_uniform;
 mod ghosts;
-mod gpu_model;
 mod layouts;
 mod look;
 mod maps;
 mod materials;
+mod model;
 mod occlusion;
 mod overlay;
 mod picture;
@@ -33,18 +32,18 @@ mod shadow;
 mod stage;
 mod surroundings;
 mod target;
-mod upload;
+mod triangles;
 mod watch;
 mod world_shapes;
 
 pub use bones::BoneTexture;
+pub use buffers::UploadError;
 pub use composite::Compositor;
 pub use maps::MaterialImages;
 pub use picture::{Picture, PictureError};
 pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
-pub use upload::UploadError;
 pub use watch::{GpuAnswer, GpuError, watched};
 
 use crate::image::Image;
@@ -52,8 +51,8 @@ use crate::model::{Material, Model};
 use crate::scene::{Background, Light, RenderFrame, ViewMode};
 use environment::Environments;
 use ghosts::Ghosts;
-use gpu_model::{GpuModel, Posed};
 use maps::{MapTextures, one_texel};
+use model::{GpuModel, Posed};
 use overlay::Overlays;
 use pipelines::{Cut, Draw, ModelDraw, Pipelines, Shading};
 use stage::{Common, Stage};
@@ -138,14 +137,16 @@ impl Renderer {
         } = &self.common;
         let Some(model) = &mut self.model else { return 0 };
         let uploaded = self.maps.update(device, queue, maps);
-        model.set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
+        model
+            .materials
+            .set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
         uploaded
     }
 
     /// Gives the model's materials other values, in their order; their maps stay. Does nothing without a model.
     pub fn set_materials(&mut self, materials: &[Material]) {
         if let Some(model) = &mut self.model {
-            model.set_materials(&self.common.queue, materials);
+            model.materials.set_values(&self.common.queue, materials);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::gpu_model::{GpuModel, Posed};
+use super::model::{GpuModel, Posed};
 use super::pipelines::{Cut, Draw, GEOMETRY_FORMAT, ModelDraw, Pipelines, SHARE_FORMAT};
 use super::target::{DEPTH_FORMAT, begin_color_pass, flat_texture};
 use crate::scene::Light;

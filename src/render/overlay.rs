@@ -1,8 +1,8 @@
 //! Lines over the model, and the part of it that stands out.
 
-use super::gpu_model::{GpuModel, Posed};
 use super::layouts::Layouts;
 use super::look::look;
+use super::model::{GpuModel, Posed};
 use super::pipelines::ModelDraw;
 use crate::scene::{Overlay, RenderFrame};
 use crate::shaders::{Line, Veil};

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::contact::ContactMap;
 use super::environment::Environments;
 use super::frame_uniform::{Part, frame_uniform};
-use super::gpu_model::{GpuModel, Posed};
+use super::model::{GpuModel, Posed};
 use super::occlusion::Occlusion;
 use super::pipelines::Pipelines;
 use super::shadow::ShadowMap;

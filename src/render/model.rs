@@ -1,17 +1,15 @@
-//! A model in GPU memory.
+//! A model in GPU memory, and how its parts are drawn.
 
 use std::cell::OnceCell;
-use std::ops::Range;
 
 use super::bones::BoneTexture;
-use super::drawn::Drawn;
-use super::edges::Edges;
+use super::buffers::{UploadError, Uploader};
 use super::layouts::Layouts;
-use super::maps::{MapTextures, MaterialImages};
+use super::maps::MapTextures;
 use super::materials::GpuMaterials;
 use super::pipelines::{Cut, Draw, ModelDraw, Pipelines};
-use super::upload::{UploadError, Uploader};
-use crate::model::{Material, Mesh, Model};
+use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, winding};
+use crate::model::{Mesh, Model};
 use crate::scene::VertexColors;
 use crate::shaders;
 
@@ -19,37 +17,28 @@ use crate::shaders;
 #[derive(Clone, Copy)]
 pub(super) struct Posed<'a> {
     pub(super) pipelines: &'a Pipelines,
-    /// Bound as group 1; read only when `skinned`.
+    /// Bound as group 1, read only when `skinned`.
     pub(super) bones: &'a BoneTexture,
-    /// By the bones, or as bind space has it.
+    /// Whether the bones pose it; else it is drawn in bind space.
     pub(super) skinned: bool,
-    /// Submeshes that are left out.
+    /// Submeshes that are not drawn.
     pub(super) hidden: &'a [bool],
-}
-
-/// A submesh: a range of indices with one material.
-struct DrawRange {
-    submesh: usize,
-    indices: Range<u32>,
-    /// From the first to the last vertex that it uses.
-    vertices: Range<u32>,
-    material: u32,
 }
 
 pub(super) struct GpuModel {
     geometry: wgpu::Buffer,
     influences: Option<wgpu::Buffer>,
     indices: wgpu::Buffer,
-    materials: GpuMaterials,
+    pub(super) materials: GpuMaterials,
     ranges: Vec<DrawRange>,
-    /// The indices again, for edges.
+    /// The indices, kept for the edges.
     triangles: Vec<u32>,
     edges: OnceCell<Edges>,
     vertex_count: usize,
     colors: Option<(u64, wgpu::Buffer)>,
-    /// Not there for a static model.
+    /// None for a static model.
     pub(super) bones: Option<BoneTexture>,
-    /// +1 when triangles are clockwise from the side their normals point to (left-handed view), else −1.
+    /// See [`winding`].
     pub(super) winding: f32,
 }
 
@@ -105,24 +94,7 @@ impl GpuModel {
         })
     }
 
-    /// Gives the materials their maps; those before are forgotten.
-    pub(super) fn set_maps(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        layouts: &Layouts,
-        textures: &MapTextures,
-        maps: &[MaterialImages<'_>],
-    ) {
-        self.materials.set_maps(device, queue, layouts, textures, maps);
-    }
-
-    /// Takes other values for the materials; their maps stay.
-    pub(super) fn set_materials(&mut self, queue: &wgpu::Queue, materials: &[Material]) {
-        self.materials.set_values(queue, materials);
-    }
-
-    /// Takes up colours of the vertices, if they are others than those it has.
+    /// Uploads colours of the vertices, if their revision is another one.
     pub(super) fn set_colors(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, colors: &VertexColors<'_>) {
         if self
             .colors
@@ -144,8 +116,8 @@ impl GpuModel {
         self.colors = Some((colors.revision, buffer));
     }
 
-    /// Every submesh in view with its material; `draw` says what to draw where alpha cuts in a way. Group 0 is set, and group 2
-    /// where it is read.
+    /// Draws every visible submesh with its material. `cut` is how those with alpha are cut; `draw` says what to draw for a cut.
+    /// The caller sets group 0, and group 2 where it is read.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -163,7 +135,7 @@ impl GpuModel {
                 self.bind(pass, posed, draw(cut));
             }
             for range in ranges {
-                // Through the holes of a cut triangle another cut one may be seen.
+                // Another cut triangle may be seen through the holes of a cut one.
                 let parts = if is_cut {
                     drawn.missing(&range.indices)
                 } else {
@@ -179,7 +151,7 @@ impl GpuModel {
         }
     }
 
-    /// All triangles in view without their materials, in as few draws as can be. Group 0 is set.
+    /// Draws all visible triangles without their materials, in as few draws as possible. The caller sets group 0.
     pub(super) fn draw_shape(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
         self.bind(pass, posed, draw);
         let mut shape = Drawn::default();
@@ -191,7 +163,7 @@ impl GpuModel {
         }
     }
 
-    /// Depth from the first light. Group 0 is set.
+    /// Draws what casts a shadow. The caller sets group 0.
     pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
         if self.ranges.iter().any(|range| self.materials.is_cut(range.material)) {
             self.draw(pass, posed, Cut::Hard, ModelDraw::Caster);
@@ -200,7 +172,7 @@ impl GpuModel {
         }
     }
 
-    /// One submesh alone. Groups 0 and 3 are set.
+    /// Draws one submesh alone. The caller sets groups 0 and 3.
     pub(super) fn draw_submesh(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -215,7 +187,7 @@ impl GpuModel {
         }
     }
 
-    /// The edges of all triangles in view, each once. Groups 0 and 3 are set.
+    /// Draws the edges of all visible triangles. The caller sets groups 0 and 3.
     pub(super) fn draw_edges(&self, device: &wgpu::Device, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
         let edges = self.edges.get_or_init(|| {
             let ranges = self.ranges.iter().map(|range| range.indices.clone());
@@ -230,7 +202,7 @@ impl GpuModel {
         }
     }
 
-    /// A line at each vertex in view. Groups 0 and 3 are set.
+    /// Draws a line at each visible vertex. The caller sets groups 0 and 3.
     pub(super) fn draw_vertex_lines(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
         self.bind(pass, posed, draw);
         for range in self.in_view(posed.hidden) {
@@ -275,66 +247,5 @@ fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
         normal: mesh.normals.get(vertex).copied().unwrap_or_default().to_array(),
         tangent: mesh.tangents.get(vertex).copied().unwrap_or_default().to_array(),
         tex_coord: mesh.tex_coords.get(vertex).copied().unwrap_or_default().to_array(),
-    }
-}
-
-/// What has no material is not drawn.
-fn draw_ranges(mesh: &Mesh, material_count: usize) -> Vec<DrawRange> {
-    let submeshes = mesh.submeshes.iter().enumerate();
-    submeshes
-        .filter(|(_, submesh)| submesh.triangle_count > 0 && (submesh.material as usize) < material_count)
-        .map(|(index, submesh)| {
-            let indices = submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3;
-            let used = &mesh.indices[indices.start as usize..indices.end as usize];
-            let (first, last) = (used.iter().min(), used.iter().max());
-            DrawRange {
-                submesh: index,
-                indices,
-                vertices: first.copied().unwrap_or(0)..last.map_or(0, |last| last + 1),
-                material: submesh.material,
-            }
-        })
-        .collect()
-}
-
-/// Asks the normals which way the triangles are wound, so that a file wound the other way is lit from the right side. Each
-/// triangle votes with its area.
-fn winding(mesh: &Mesh) -> f32 {
-    let vote: f64 = mesh
-        .indices
-        .chunks_exact(3)
-        .map(|triangle| {
-            let at = |corner: usize| triangle[corner] as usize;
-            let position = |corner| mesh.positions[at(corner)];
-            let normal = |corner| mesh.normals.get(at(corner)).copied().unwrap_or_default();
-            let area = (position(1) - position(0)).cross(position(2) - position(0));
-            f64::from(area.dot(normal(0) + normal(1) + normal(2)))
-        })
-        .filter(|vote| vote.is_finite())
-        .sum();
-    if vote < 0.0 { -1.0 } else { 1.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::*;
-
-    // Seen from -z in a left-handed space (x right, y up, z away), 0 1 2 goes clockwise.
-    fn triangle(normal: Vec3) -> Mesh {
-        Mesh {
-            positions: vec![Vec3::ZERO, Vec3::Y, Vec3::X],
-            normals: vec![normal; 3],
-            indices: vec![0, 1, 2],
-            ..Mesh::default()
-        }
-    }
-
-    #[test]
-    fn normals_tell_which_way_triangles_are_wound() {
-        assert_eq!(winding(&triangle(Vec3::NEG_Z)), 1.0);
-        assert_eq!(winding(&triangle(Vec3::Z)), -1.0);
-        assert_eq!(winding(&Mesh::default()), 1.0);
     }
 }

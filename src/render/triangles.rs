@@ -1,0 +1,212 @@
+//! The triangles of a mesh as they are drawn: in ranges of one material, each once a pass, as edges, and which way they are wound.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use wgpu::util::DeviceExt as _;
+
+use crate::model::Mesh;
+
+/// A submesh: a range of indices with one material.
+pub(super) struct DrawRange {
+    pub(super) submesh: usize,
+    pub(super) indices: Range<u32>,
+    /// From the first to the last vertex that it uses.
+    pub(super) vertices: Range<u32>,
+    pub(super) material: u32,
+}
+
+/// The submeshes that are drawn: those with triangles and a material.
+pub(super) fn draw_ranges(mesh: &Mesh, material_count: usize) -> Vec<DrawRange> {
+    let submeshes = mesh.submeshes.iter().enumerate();
+    submeshes
+        .filter(|(_, submesh)| submesh.triangle_count > 0 && (submesh.material as usize) < material_count)
+        .map(|(index, submesh)| {
+            let indices = submesh.triangle_start * 3..(submesh.triangle_start + submesh.triangle_count) * 3;
+            let used = &mesh.indices[indices.start as usize..indices.end as usize];
+            let (first, last) = (used.iter().min(), used.iter().max());
+            DrawRange {
+                submesh: index,
+                indices,
+                vertices: first.copied().unwrap_or(0)..last.map_or(0, |last| last + 1),
+                material: submesh.material,
+            }
+        })
+        .collect()
+}
+
+/// +1 when most triangles are clockwise seen from the side that their normals point to (left-handed), else −1. Each triangle
+/// votes with its area. So a file that is wound the other way is lit from the right side.
+pub(super) fn winding(mesh: &Mesh) -> f32 {
+    let vote: f64 = mesh
+        .indices
+        .chunks_exact(3)
+        .map(|triangle| {
+            let at = |corner: usize| triangle[corner] as usize;
+            let position = |corner| mesh.positions[at(corner)];
+            let normal = |corner| mesh.normals.get(at(corner)).copied().unwrap_or_default();
+            let area = (position(1) - position(0)).cross(position(2) - position(0));
+            f64::from(area.dot(normal(0) + normal(1) + normal(2)))
+        })
+        .filter(|vote| vote.is_finite())
+        .sum();
+    if vote < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// The ranges of indices that a pass has drawn, so that no triangle is drawn twice. A triangle of several submeshes shows the
+/// first of them, since all lie at the same depth.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Drawn {
+    /// Start -> end of ranges that neither touch nor overlap.
+    ends: BTreeMap<u32, u32>,
+}
+
+impl Drawn {
+    /// The parts of a range that were not drawn, in order.
+    pub(super) fn missing(&self, range: &Range<u32>) -> Vec<Range<u32>> {
+        if range.is_empty() {
+            return Vec::new();
+        }
+        let before = self.ends.range(..=range.start).next_back();
+        let mut from = before.map_or(range.start, |(_, &end)| end.max(range.start));
+        let mut parts = Vec::new();
+        for (&start, &end) in self.ends.range(range.start + 1..=range.end) {
+            parts.push(from..start);
+            from = end;
+        }
+        parts.push(from..range.end);
+        parts.retain(|part| !part.is_empty());
+        parts
+    }
+
+    /// Adds a range. Returns the parts of it that were not drawn before, in order.
+    pub(super) fn add(&mut self, range: &Range<u32>) -> Vec<Range<u32>> {
+        let parts = self.missing(range);
+        if range.is_empty() {
+            return parts;
+        }
+        let mut whole = range.clone();
+        let before = self.ends.range(..=range.start).next_back();
+        if let Some((&start, &end)) = before.filter(|(_, end)| **end >= range.start) {
+            whole = start..end.max(range.end);
+        }
+        while let Some((&start, &end)) = self.ends.range(whole.start + 1..=range.end).next() {
+            self.ends.remove(&start);
+            whole.end = whole.end.max(end);
+        }
+        self.ends.insert(whole.start, whole.end);
+        parts
+    }
+
+    /// All drawn indices, in as few ranges as possible.
+    pub(super) fn ranges(&self) -> impl Iterator<Item = Range<u32>> {
+        self.ends.iter().map(|(&start, &end)| start..end)
+    }
+}
+
+/// Edges as lines, since WebGL2 cannot draw triangles as wires. A submesh has each of its edges once.
+pub(super) struct Edges {
+    /// Pairs of vertex indices.
+    pub(super) buffer: wgpu::Buffer,
+    /// The range of each submesh in `buffer`, in the order in which they were passed.
+    pub(super) ranges: Vec<Range<u32>>,
+}
+
+impl Edges {
+    pub(super) fn new(device: &wgpu::Device, triangles: &[u32], submeshes: impl Iterator<Item = Range<u32>>) -> Self {
+        let mut indices: Vec<u32> = Vec::new();
+        let ranges = submeshes
+            .map(|submesh| {
+                let start = indices.len() as u32;
+                indices.extend(edges(&triangles[submesh.start as usize..submesh.end as usize]));
+                start..indices.len() as u32
+            })
+            .collect();
+        // An empty buffer cannot be bound.
+        if indices.is_empty() {
+            indices.extend([0, 0]);
+        }
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("edges"),
+            contents: bytemuck::cast_slice(&indices),
+            usage: wgpu::BufferUsages::INDEX,
+        });
+        Self { buffer, ranges }
+    }
+}
+
+/// The edges of some triangles, each once, whichever way its triangles go round.
+fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
+    let mut edges: Vec<[u32; 2]> = triangles
+        .chunks_exact(3)
+        .flat_map(|corner| [[corner[0], corner[1]], [corner[1], corner[2]], [corner[2], corner[0]]])
+        .map(|[a, b]| [a.min(b), a.max(b)])
+        .collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges.into_iter().flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    #[test]
+    fn two_triangles_of_a_square_have_five_edges() {
+        let found: Vec<u32> = edges(&[0, 1, 2, 2, 1, 3]).collect();
+        assert_eq!(found, [0, 1, 0, 2, 1, 2, 1, 3, 2, 3]);
+    }
+
+    #[test]
+    fn each_index_is_drawn_once_in_as_few_ranges_as_can_be() {
+        // A fixed sequence of ranges within 64 indices, empty ones too.
+        let mut seed = 1_u32;
+        let mut next = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            seed >> 26
+        };
+        for _ in 0..50 {
+            let (mut drawn, mut is_drawn) = (Drawn::default(), [false; 128]);
+            for _ in 0..12 {
+                let start = next();
+                let range = start..start + next() % 16;
+                let missing = drawn.missing(&range);
+                let parts = drawn.add(&range);
+                assert_eq!(missing, parts);
+                let fresh: Vec<u32> = range.clone().filter(|&index| !is_drawn[index as usize]).collect();
+                assert_eq!(parts.iter().cloned().flatten().collect::<Vec<_>>(), fresh, "{range:?}");
+                is_drawn[range.start as usize..range.end as usize].fill(true);
+                let all: Vec<u32> = (0..128).filter(|&index| is_drawn[index as usize]).collect();
+                assert_eq!(drawn.ranges().flatten().collect::<Vec<_>>(), all);
+                let gaps = all.windows(2).filter(|pair| pair[1] - pair[0] > 1).count();
+                assert_eq!(drawn.ranges().count(), if all.is_empty() { 0 } else { gaps + 1 });
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_range_thousands_of_times_is_drawn_once() {
+        let mut drawn = Drawn::default();
+        let parts = (0..20_000).flat_map(|_| drawn.add(&(3..9)));
+        assert_eq!(parts.collect::<Vec<_>>(), std::slice::from_ref(&(3..9)));
+    }
+
+    // Seen from -z in a left-handed space (x right, y up, z away), 0 1 2 goes clockwise.
+    fn triangle(normal: Vec3) -> Mesh {
+        Mesh {
+            positions: vec![Vec3::ZERO, Vec3::Y, Vec3::X],
+            normals: vec![normal; 3],
+            indices: vec![0, 1, 2],
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn normals_tell_which_way_triangles_are_wound() {
+        assert_eq!(winding(&triangle(Vec3::NEG_Z)), 1.0);
+        assert_eq!(winding(&triangle(Vec3::Z)), -1.0);
+        assert_eq!(winding(&Mesh::default()), 1.0);
+    }
+}
