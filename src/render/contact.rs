@@ -3,8 +3,9 @@
 use glam::Vec2;
 
 use super::model::{GpuModel, Posed};
-use super::pipelines::{Draw, ModelDraw, Pipelines, SHARE_FORMAT};
-use super::target::{begin_color_pass, flat_texture};
+use super::pipelines::Pipelines;
+use super::recipe::{Draw, ModelDraw};
+use super::target::{FRACTION_FORMAT, begin_color_pass, flat_texture};
 use crate::scene::Aabb;
 
 /// Texels along each edge: it is blurred anyway.
@@ -41,7 +42,7 @@ pub(super) struct ContactMap {
 impl ContactMap {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines) -> Self {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        let share = |label| flat_texture(device, label, [SIZE; 2], SHARE_FORMAT, usage);
+        let share = |label| flat_texture(device, label, [SIZE; 2], FRACTION_FORMAT, usage);
         let group = |view| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("contact"),

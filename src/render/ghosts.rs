@@ -3,7 +3,8 @@
 use super::bones::BoneTexture;
 use super::model::{GpuModel, Posed};
 use super::overlay::Style;
-use super::pipelines::{ModelDraw, Pipelines};
+use super::pipelines::Pipelines;
+use super::recipe::ModelDraw;
 use crate::scene::RenderFrame;
 use crate::shaders::Veil;
 

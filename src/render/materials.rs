@@ -2,8 +2,8 @@
 //! for them.
 
 use super::buffers::{UploadError, Uploader};
-use super::layouts::Layouts;
 use super::maps::{MapTextures, MaterialImages};
+use super::pipelines::Layouts;
 use crate::image::{Channels, MapKind};
 use crate::model::{Material, Reflectance};
 use crate::{scene, shaders};

@@ -4,10 +4,10 @@ use std::cell::OnceCell;
 
 use super::bones::BoneTexture;
 use super::buffers::{UploadError, Uploader};
-use super::layouts::Layouts;
 use super::maps::MapTextures;
 use super::materials::GpuMaterials;
-use super::pipelines::{Cut, Draw, ModelDraw, Pipelines};
+use super::pipelines::{Layouts, Pipelines};
+use super::recipe::{Cut, Draw, ModelDraw};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, winding};
 use crate::model::{Mesh, Model};
 use crate::scene::VertexColors;

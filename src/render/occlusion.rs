@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use super::model::{GpuModel, Posed};
-use super::pipelines::{Cut, Draw, GEOMETRY_FORMAT, ModelDraw, Pipelines, SHARE_FORMAT};
-use super::target::{DEPTH_FORMAT, begin_color_pass, flat_texture};
+use super::pipelines::Pipelines;
+use super::recipe::{Cut, Draw, ModelDraw};
+use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, begin_color_pass, flat_texture};
 use crate::scene::Light;
 
 /// No normal, as far as can be.
@@ -37,8 +38,8 @@ impl Occlusion {
         let texture = |label, format| flat_texture(device, label, half, format, usage);
         let geometry = texture("geometry", GEOMETRY_FORMAT);
         let (openness, between) = (
-            texture("openness", SHARE_FORMAT),
-            texture("openness, between", SHARE_FORMAT),
+            texture("openness", FRACTION_FORMAT),
+            texture("openness, between", FRACTION_FORMAT),
         );
         let group = |rough| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -1,9 +1,9 @@
 //! Lines over the model, and the part of it that stands out.
 
-use super::layouts::Layouts;
 use super::look::look;
 use super::model::{GpuModel, Posed};
-use super::pipelines::ModelDraw;
+use super::pipelines::Layouts;
+use super::recipe::ModelDraw;
 use crate::scene::{Overlay, RenderFrame};
 use crate::shaders::{Line, Veil};
 

@@ -1,7 +1,7 @@
 //! What the model's shaders know of the world around it, as bind group 2.
 
 use super::environment::Environments;
-use super::layouts::Layouts;
+use super::pipelines::Layouts;
 use crate::scene::Light;
 
 /// The textures that differ between lights and frames: shadow map, openness, contact map, mirrored cube, sky.

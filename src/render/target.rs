@@ -22,6 +22,10 @@ impl SampleCount {
 /// Linear light goes in, the hardware encodes as sRGB. Alpha is premultiplied.
 pub(super) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Normals and depth in view; see `geometry.wgsl`.
+pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// One number from 0 to 1 a pixel.
+pub(super) const FRACTION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
 /// A texture with one level and one sample a texel, as its view.
 pub(super) fn flat_texture(

@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::pipelines::{Draw, Pipelines, WorldShape};
+use super::pipelines::Pipelines;
+use super::recipe::{Draw, WorldShape};
 use crate::scene::{Overlay, OverlayGeometry, OverlayVertex, RenderFrame};
 
 const BOUNDS_SRGB: [u8; 4] = [255, 181, 84, 230];

@@ -1,9 +1,69 @@
-//! What each thing that is drawn is made from: program, entry points, blending, depth.
+//! What is drawn, and what each thing is drawn with: program, entry points, blending, depth.
 
-use super::super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount};
-use super::{Cut, Draw, GEOMETRY_FORMAT, ModelDraw, SHARE_FORMAT, Shading, WorldShape};
+use super::target::{COLOR_FORMAT, DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, SampleCount};
 use crate::scene::Light;
 use crate::shaders::{self, Program};
+
+/// What colours the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Shading {
+    Lit(Light),
+    Inspect,
+}
+
+/// How the alpha of a diffuse map cuts holes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Cut {
+    /// Not at all.
+    Whole,
+    /// Whole pixels.
+    Hard,
+    /// With smooth edges, over an opaque background: alpha chooses the samples of a pixel and is not stored. With one sample a
+    /// pixel it is [`Cut::Hard`].
+    Smooth,
+}
+
+/// What is drawn of the model's triangles or vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum ModelDraw {
+    Mesh(Shading, Cut),
+    /// In the colours of its vertices.
+    SkinView(Cut),
+    Caster(Cut),
+    Geometry(Cut),
+    Contact,
+    Edges,
+    Normals,
+    Tangents,
+    Highlight,
+}
+
+/// Everything that has a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Draw {
+    Model {
+        draw: ModelDraw,
+        skinned: bool,
+    },
+    Backdrop,
+    /// Hidden by the model or, with `through`, seen through it.
+    World {
+        shape: WorldShape,
+        through: bool,
+    },
+    Occlusion(Light),
+    OcclusionBlurRows,
+    OcclusionBlurColumns,
+    ContactBlurRows,
+    ContactBlurColumns,
+}
+
+/// What stands in the world beside the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum WorldShape {
+    Lines,
+    Triangles,
+}
 
 /// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal.
 const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
@@ -22,14 +82,14 @@ const MAX_BLEND: wgpu::BlendState = {
     wgpu::BlendState { color: max, alpha: max }
 };
 
-/// All that a pipeline is made from.
+/// All that a pipeline is made from but for its bind groups.
 pub(super) struct Recipe {
     pub(super) program: Program,
     pub(super) vertex: String,
-    /// None where depth is all there is to draw.
+    /// None where only depth is drawn.
     pub(super) fragment: Option<&'static str>,
     pub(super) topology: wgpu::PrimitiveTopology,
-    /// Of the vertex buffers, if the model's are read.
+    /// Of the vertex buffers.
     pub(super) step_mode: wgpu::VertexStepMode,
     pub(super) color: Option<wgpu::ColorTargetState>,
     pub(super) alpha_to_coverage: bool,
@@ -38,7 +98,7 @@ pub(super) struct Recipe {
 }
 
 impl Recipe {
-    /// What draws this, with so many samples a pixel in the picture.
+    /// The recipe of this, for pictures with so many samples a pixel.
     pub(super) fn of(draw: Draw, samples: SampleCount) -> Self {
         let fullscreen = |program, fragment| Recipe {
             program,
@@ -46,7 +106,7 @@ impl Recipe {
             fragment: Some(fragment),
             topology: wgpu::PrimitiveTopology::TriangleList,
             step_mode: wgpu::VertexStepMode::Vertex,
-            color: Some(SHARE_FORMAT.into()),
+            color: Some(FRACTION_FORMAT.into()),
             alpha_to_coverage: false,
             depth: None,
             samples: 1,
@@ -66,7 +126,7 @@ impl Recipe {
                 };
                 Recipe {
                     vertex: "world_vertex".into(),
-                    // Before everything else there is a depth of its own, in which shapes hide each other.
+                    // Shapes that are seen through the model have a depth range of their own and hide each other in it.
                     depth: Some(depth(through, wgpu::CompareFunction::LessEqual)),
                     ..Self::over_model(samples, shaders::LINES, topology)
                 }
@@ -153,7 +213,7 @@ impl Recipe {
             ModelDraw::Contact => {
                 let color = wgpu::ColorTargetState {
                     blend: Some(MAX_BLEND),
-                    ..SHARE_FORMAT.into()
+                    ..FRACTION_FORMAT.into()
                 };
                 Recipe {
                     depth: None,
@@ -181,7 +241,7 @@ impl Recipe {
         }
     }
 
-    /// Blended over the finished model, hidden by what is nearer.
+    /// Blended over the finished model, and hidden by what is nearer.
     fn over_model(samples: SampleCount, program: Program, topology: wgpu::PrimitiveTopology) -> Self {
         Recipe {
             program,

@@ -1,80 +1,103 @@
-//! Pipelines, each built when it is first drawn with: a page that shows the studio light never waits for the others.
-
-mod recipe;
+//! Bind group layouts, and pipelines, each built when it is first drawn with: a page that shows the studio light never waits for
+//! the others.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use self::recipe::Recipe;
-use super::layouts::Layouts;
+use super::bones::BoneTexture;
+use super::recipe::{Cut, Draw, ModelDraw, Recipe};
 use super::target::SampleCount;
-use crate::scene::{Light, OverlayVertex};
-use crate::shaders::{GeometryVertex, InfluenceVertex, Program};
+use crate::scene::OverlayVertex;
+use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
 
-/// Normals and depth in view; see `geometry.wgsl`.
-pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// One share, 0…1.
-pub(super) const SHARE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
-
-/// What colours the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Shading {
-    Lit(Light),
-    Inspect,
+/// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 surroundings,
+/// 3 material or line.
+pub(super) struct Layouts {
+    pub(super) frame: wgpu::BindGroupLayout,
+    pub(super) bones: wgpu::BindGroupLayout,
+    pub(super) surroundings: wgpu::BindGroupLayout,
+    pub(super) material: wgpu::BindGroupLayout,
+    /// A colour and a length.
+    pub(super) line: wgpu::BindGroupLayout,
+    /// Normals and depth, and what is to be smoothed.
+    pub(super) around: wgpu::BindGroupLayout,
+    /// One texture, read texel by texel.
+    pub(super) texels: wgpu::BindGroupLayout,
+    /// Stands for a group that a program does not read.
+    pub(super) nothing: wgpu::BindGroupLayout,
 }
 
-/// How the alpha of a diffuse map cuts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Cut {
-    /// Not at all.
-    Whole,
-    /// Whole pixels.
-    Hard,
-    /// With smooth edges, for pictures that are opaque already: alpha chooses samples and is not stored. As
-    /// [`Cut::Hard`] with one sample a pixel.
-    Smooth,
+impl Layouts {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let layout = |label, entries: &[(wgpu::ShaderStages, wgpu::BindingType)]| {
+            let entries: Vec<_> = (0..)
+                .zip(entries)
+                .map(|(binding, &(visibility, ty))| wgpu::BindGroupLayoutEntry {
+                    binding,
+                    visibility,
+                    ty,
+                    count: None,
+                })
+                .collect();
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            })
+        };
+        let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
+        let filtered = wgpu::TextureSampleType::Float { filterable: true };
+        let flat = |sample_type| (fragment, texture(sample_type, wgpu::TextureViewDimension::D2));
+        let cube = (fragment, texture(filtered, wgpu::TextureViewDimension::Cube));
+        let sampler = |ty| (fragment, wgpu::BindingType::Sampler(ty));
+        let filtering = sampler(wgpu::SamplerBindingType::Filtering);
+        Self {
+            frame: layout("frame", &[(vertex | fragment, uniform::<shaders::Frame>())]),
+            bones: BoneTexture::layout(device),
+            surroundings: layout(
+                "surroundings",
+                &[
+                    flat(wgpu::TextureSampleType::Depth),
+                    sampler(wgpu::SamplerBindingType::Comparison),
+                    flat(filtered),
+                    flat(filtered),
+                    (fragment, uniform::<shaders::Environment>()),
+                    cube,
+                    flat(filtered),
+                    filtering,
+                    cube,
+                ],
+            ),
+            material: layout(
+                "material",
+                &[
+                    (fragment, uniform::<shaders::Material>()),
+                    flat(filtered),
+                    flat(filtered),
+                    filtering,
+                ],
+            ),
+            line: layout("line", &[(vertex | fragment, uniform::<shaders::Line>())]),
+            around: layout("around", &[flat(filtered), flat(filtered)]),
+            texels: layout("texels", &[flat(filtered)]),
+            nothing: layout("nothing", &[]),
+        }
+    }
 }
 
-/// What is drawn of the model's triangles or vertices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum ModelDraw {
-    Mesh(Shading, Cut),
-    /// In colours of its vertices.
-    SkinView(Cut),
-    Caster(Cut),
-    Geometry(Cut),
-    Contact,
-    Edges,
-    Normals,
-    Tangents,
-    Highlight,
+fn uniform<T>() -> wgpu::BindingType {
+    wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: std::num::NonZeroU64::new(size_of::<T>() as u64),
+    }
 }
 
-/// What is drawn without the model's buffers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Draw {
-    Model {
-        draw: ModelDraw,
-        skinned: bool,
-    },
-    Backdrop,
-    /// Hidden by the model, or before everything else.
-    World {
-        shape: WorldShape,
-        through: bool,
-    },
-    Occlusion(Light),
-    OcclusionBlurRows,
-    OcclusionBlurColumns,
-    ContactBlurRows,
-    ContactBlurColumns,
-}
-
-/// What stands in the world beside the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum WorldShape {
-    Lines,
-    Triangles,
+fn texture(sample_type: wgpu::TextureSampleType, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension,
+        multisampled: false,
+    }
 }
 
 pub(super) struct Pipelines {
@@ -102,7 +125,7 @@ impl Pipelines {
         }
     }
 
-    /// Builds it at the first call.
+    /// The pipeline that draws this, built at the first call.
     pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
         let known = self.built.borrow().get(&draw).cloned();
         known.unwrap_or_else(|| {
