@@ -1,8 +1,15 @@
-//! Which GPU, and what is asked of it: never more than WebGL2 gives, so that no platform is special.
+//! Which GPU, what is asked of it, whether it can be trusted, and what it answers. Never more is asked than WebGL2 gives, so that
+//! no platform is special.
 
-use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount};
+use std::future::Future;
+use std::pin::Pin;
+use std::task::{Context, Poll, Waker};
 
-/// A way to a GPU without a window.
+use super::read_back::{ReadBackError, read_back};
+use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount, Target};
+use crate::shaders;
+
+/// How to reach a GPU without a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Backend {
     /// Vulkan.
@@ -23,31 +30,31 @@ impl std::fmt::Display for Backend {
 /// An open GPU.
 #[derive(Clone, Debug)]
 pub struct Gpu {
-    /// Name, driver, backend.
+    /// Its name, driver and backend.
     pub info: wgpu::AdapterInfo,
-    /// Makes things.
+    /// Makes buffers, textures and pipelines.
     pub device: wgpu::Device,
-    /// Takes work.
+    /// Takes commands.
     pub queue: wgpu::Queue,
-    /// What targets and renderer should use.
+    /// How many samples targets and renderer should use.
     pub samples: SampleCount,
 }
 
-/// Why there is no GPU.
+/// Why no GPU was opened.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum DeviceError {
-    /// None found.
+    /// No adapter was found.
     #[error("no {backend} adapter was found ({reason}); on Debian, `apt-get install {packages}` brings a software one", packages = packages(*backend))]
     NoAdapter {
-        /// Looked for through this.
+        /// The backend that was tried.
         backend: Backend,
         /// In wgpu's words.
         reason: String,
     },
-    /// It would not open.
+    /// The adapter would not open.
     #[error("the {backend} adapter \"{adapter}\" would not open: {reason}")]
     NoDevice {
-        /// Found through this.
+        /// The backend that was tried.
         backend: Backend,
         /// Its name.
         adapter: String,
@@ -131,4 +138,143 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
         device,
         queue,
     })
+}
+
+/// Side of the probe's picture.
+const PROBE_SIDE: u32 = 16;
+/// The triangle's colour, sRGB: what [`shaders::PROBE`] writes, encoded.
+const PROBE_COLOR: [u8; 4] = [188, 137, 99, 255];
+
+/// Why a device cannot be trusted.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ProbeError {
+    /// The picture could not be read.
+    #[error(transparent)]
+    ReadBack(#[from] ReadBackError),
+    /// A pixel has the wrong colour.
+    #[error("a known triangle came out as {found:?} instead of {expected:?} at ({x}, {y})")]
+    WrongPicture {
+        /// Pixels from the left.
+        x: u32,
+        /// Pixels from the top.
+        y: u32,
+        /// What was read.
+        found: [u8; 4],
+        /// What was drawn.
+        expected: [u8; 4],
+    },
+}
+
+/// Draws a triangle over the lower left half of a small picture, and checks a pixel inside and one outside: some browsers have a
+/// WebGPU that starts and draws wrong. `pause` as in [`read_back`].
+///
+/// # Errors
+/// When a pixel is wrong, or the picture cannot be read.
+pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl AsyncFn()) -> Result<(), ProbeError> {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(shaders::PROBE.name),
+        source: wgpu::ShaderSource::Wgsl(shaders::PROBE.source().into()),
+    });
+    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("probe"),
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState {
+            count: SampleCount::Four.count(),
+            ..Default::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(COLOR_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
+    let target = Target::with_samples(device, PROBE_SIDE, PROBE_SIDE, SampleCount::Four);
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("probe") });
+    {
+        let mut pass = target.begin_pass(&mut encoder);
+        pass.set_pipeline(&pipeline);
+        pass.draw(0..3, 0..1);
+    }
+    queue.submit([encoder.finish()]);
+    let pixels = read_back(device, queue, &target, pause).await?;
+    expect_pixel(&pixels, 3, PROBE_SIDE - 4, PROBE_COLOR)?;
+    expect_pixel(&pixels, PROBE_SIDE - 4, 3, [0; 4])
+}
+
+fn expect_pixel(pixels: &[u8], x: u32, y: u32, expected: [u8; 4]) -> Result<(), ProbeError> {
+    let at = ((y * PROBE_SIDE + x) * 4) as usize;
+    let found: [u8; 4] = std::array::from_fn(|channel| pixels.get(at + channel).copied().unwrap_or_default());
+    let near = found
+        .iter()
+        .zip(expected)
+        .all(|(found, expected)| found.abs_diff(expected) <= 2);
+    if near {
+        Ok(())
+    } else {
+        Err(ProbeError::WrongPicture { x, y, found, expected })
+    }
+}
+
+/// Why a device could not do what it was asked for.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GpuError {
+    /// The GPU's own memory, not the program's.
+    #[error("the GPU has too little free memory for it")]
+    OutOfMemory,
+    /// In the device's words.
+    #[error("the GPU refused it: {0}")]
+    Refused(String),
+}
+
+/// Resolves when the device has done the work, or could not. Natively it is ready at once.
+pub type GpuAnswer = Pin<Box<dyn Future<Output = Result<(), GpuError>>>>;
+
+/// Runs some work with a device and catches the errors of all of it. They reach nobody else.
+pub fn watched<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> (T, GpuAnswer) {
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let done = work();
+    let others = [Box::pin(internal.pop()) as Answer, Box::pin(validation.pop())];
+    let memory = memory.pop();
+    let answer = async move {
+        // Asked first: what could not be allocated is also invalid.
+        if memory.await.is_some() {
+            return Err(GpuError::OutOfMemory);
+        }
+        for other in others {
+            if let Some(error) = other.await {
+                return Err(GpuError::Refused(error.to_string()));
+            }
+        }
+        Ok(())
+    };
+    (done, Box::pin(answer))
+}
+
+type Answer = Pin<Box<dyn Future<Output = Option<wgpu::Error>>>>;
+
+/// The answer of a native device, which is always ready.
+pub(super) fn answer_at_once(mut answer: GpuAnswer) -> Result<(), GpuError> {
+    match answer.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(answer) => answer,
+        Poll::Pending => Ok(()),
+    }
 }

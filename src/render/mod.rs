@@ -25,7 +25,6 @@ mod occlusion;
 mod overlay;
 mod picture;
 mod pipelines;
-mod probe;
 mod read_back;
 mod recipe;
 mod shadow;
@@ -33,18 +32,16 @@ mod stage;
 mod surroundings;
 mod target;
 mod triangles;
-mod watch;
 mod world_shapes;
 
 pub use bones::BoneTexture;
 pub use buffers::UploadError;
 pub use composite::Compositor;
+pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
 pub use maps::MaterialImages;
 pub use picture::{Picture, PictureError};
-pub use probe::{ProbeError, probe};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
-pub use watch::{GpuAnswer, GpuError, watched};
 
 use crate::image::Image;
 use crate::model::{Material, Model};
@@ -207,6 +204,16 @@ impl Renderer {
         }
         self.draw_picture(frame, target, &parts, model, &mut encoder);
         self.common.queue.submit([encoder.finish()]);
+    }
+
+    /// Draws a frame into a target of its own. The picture's pixels come with what the device answered: it may have too little
+    /// memory for the size.
+    ///
+    /// # Errors
+    /// When the device draws no picture of this size.
+    pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
+        let (device, queue) = (self.common.device.clone(), self.common.queue.clone());
+        Picture::start(&device, &queue, self.samples, size, |target| self.render(frame, target))
     }
 
     fn draw_picture(

@@ -1,10 +1,8 @@
-//! A picture by itself, of any size that the device can draw: an error, or all of it.
+//! A picture by itself, of any size that the device can draw: complete, or an error.
 
-use super::Renderer;
+use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
 use super::target::{SampleCount, Target};
-use super::watch::{GpuAnswer, GpuError, answer_at_once, watched};
-use crate::scene::RenderFrame;
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +14,7 @@ pub enum PictureError {
         width: u32,
         /// Pixels.
         height: u32,
-        /// What it draws, in words.
+        /// The largest that it draws, in words.
         largest: String,
     },
     /// The device would draw it if it had the memory.
@@ -29,45 +27,46 @@ pub enum PictureError {
         width: u32,
         /// Pixels.
         height: u32,
-        /// What it needs.
+        /// What it would need.
         megabytes: u64,
     },
     /// Something else went wrong.
     #[error("the picture could not be drawn: {0}")]
     Gpu(GpuError),
-    /// It was drawn.
+    /// It was drawn, and could not be read.
     #[error(transparent)]
     ReadBack(#[from] ReadBackError),
 }
 
-/// A picture that the device draws.
+/// A picture that the device is drawing.
 pub struct Picture {
     size: [u32; 2],
     samples: SampleCount,
     answer: GpuAnswer,
-    /// A pixel of the same target, filled with white before anything was drawn. GL tells nobody when it has no memory for a
-    /// target: what is drawn into it then vanishes, and so does the white.
+    /// A pixel of the same target, which was filled with white before anything was drawn. GL does not report when it has no
+    /// memory for a target: what is drawn into it vanishes, and so does the white.
     proof: Pending,
     pixels: Pending,
 }
 
-impl Renderer {
-    /// Draws a frame into a target of its own. The device is asked for all that it takes, and what it answers comes with the
-    /// pixels.
-    ///
-    /// # Errors
-    /// When the device draws no picture of this size.
-    pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
-        let (device, queue, samples) = (self.common.device.clone(), self.common.queue.clone(), self.samples);
+impl Picture {
+    /// Has `draw` draw into a target of this size, watches the device meanwhile, and begins to read the pixels.
+    pub(super) fn start(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        samples: SampleCount,
+        size: [u32; 2],
+        draw: impl FnOnce(&mut Target),
+    ) -> Result<Self, PictureError> {
         fits(&device.limits(), size)?;
-        let ((proof, pixels), answer) = watched(&device, || {
-            let mut target = Target::with_samples(&device, size[0], size[1], samples);
-            target.fill(&device, &queue, wgpu::Color::WHITE);
-            let proof = Pending::start(&device, &queue, &target, [1, 1]);
-            self.render(frame, &mut target);
-            (proof, Pending::start(&device, &queue, &target, target.size()))
+        let ((proof, pixels), answer) = watched(device, || {
+            let mut target = Target::with_samples(device, size[0], size[1], samples);
+            target.fill(device, queue, wgpu::Color::WHITE);
+            let proof = Pending::start(device, queue, &target, [1, 1]);
+            draw(&mut target);
+            (proof, Pending::start(device, queue, &target, target.size()))
         });
-        Ok(Picture {
+        Ok(Self {
             size,
             samples,
             answer,
@@ -75,9 +74,7 @@ impl Renderer {
             pixels,
         })
     }
-}
 
-impl Picture {
     /// RGBA, 8 bits a channel, sRGB, straight alpha, rows from the top without padding. `pause` as in
     /// [`read_back`](super::read_back).
     ///

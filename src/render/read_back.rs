@@ -1,4 +1,4 @@
-//! The picture as bytes.
+//! A target's picture as bytes.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
 use std::time::Duration;
@@ -18,8 +18,8 @@ pub enum ReadBackError {
 
 /// Reads a target's picture: RGBA, 8 bits a channel, sRGB, straight alpha, rows from the top without padding.
 ///
-/// `pause` is awaited until the GPU is done, and is where platforms differ: a page must give its event loop a turn (WebGL reports
-/// nothing within one), a native caller can just use [`read_back_blocking`].
+/// `pause` is awaited until the GPU is done. A page must give its event loop a turn there, since WebGL reports nothing within one;
+/// a native caller can use [`read_back_blocking`].
 pub async fn read_back(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -31,8 +31,8 @@ pub async fn read_back(
 
 /// As [`read_back`], for where a thread may wait: not on the web.
 ///
-/// Threads may read from one device at once. A wait on one of them may then take up what another waits for, and tell it a moment
-/// after that one's own wait has ended: the answer itself is waited for, not the device alone.
+/// Several threads may read from one device. One thread's wait on the device may then collect another thread's answer and hand it
+/// over a moment later. So this waits for the answer itself, not for the device alone.
 pub fn read_back_blocking(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -41,14 +41,14 @@ pub fn read_back_blocking(
     Pending::start(device, queue, target, target.size()).wait_blocking()
 }
 
-/// How long another thread's answer is waited for before the device is asked again.
+/// How long to wait for the answer before the device is asked again.
 const ANSWER_WAIT: Duration = Duration::from_millis(10);
 
 const NO_ANSWER: &str = "it gave no answer";
 
 type Outcome = Result<(), wgpu::BufferAsyncError>;
 
-/// A copy under way.
+/// A copy from the GPU that is under way.
 pub(super) struct Pending {
     device: wgpu::Device,
     buffer: wgpu::Buffer,
@@ -58,7 +58,7 @@ pub(super) struct Pending {
 }
 
 impl Pending {
-    /// Copies the columns and rows of this size at the target's top left.
+    /// Starts to copy a rectangle of this size from the target's top left corner.
     pub(super) fn start(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -95,7 +95,7 @@ impl Pending {
         queue.submit([encoder.finish()]);
         let (answer, outcome) = channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // Nobody listens any more if the caller gave up.
+            // Fails when the caller gave up waiting.
             let _ = answer.send(result);
         });
         Self {
@@ -151,9 +151,9 @@ fn gpu_error(error: impl std::fmt::Display) -> ReadBackError {
 /// Divides a pixel's colour by its alpha, in linear light as it was multiplied.
 fn make_alpha_straight(pixel: &mut [u8]) {
     if let [red, green, blue, alpha @ 1..=254] = pixel {
-        let share = f32::from(*alpha) / 255.0;
+        let opacity = f32::from(*alpha) / 255.0;
         for channel in [red, green, blue] {
-            *channel = srgb8_from_linear(linear_from_srgb8(*channel) / share);
+            *channel = srgb8_from_linear(linear_from_srgb8(*channel) / opacity);
         }
     }
 }
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn alpha_is_taken_out_of_the_colour_in_linear_light() {
+    fn alpha_is_divided_out_of_the_colour_in_linear_light() {
         let half_covered = srgb8_from_linear(0.5 * linear_from_srgb8(200));
         for (premultiplied, straight) in [
             ([half_covered, 0, 0, 128], [200, 0, 0, 128]),
