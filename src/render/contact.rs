@@ -5,7 +5,7 @@ use glam::Vec2;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Draw, ModelDraw};
-use super::target::{FRACTION_FORMAT, begin_color_pass, flat_texture};
+use super::target::{FRACTION_FORMAT, PassTargets, begin_pass, flat_texture};
 use crate::scene::Aabb;
 
 /// Texels along each edge: it is blurred anyway.
@@ -73,8 +73,12 @@ impl ContactMap {
         model: &GpuModel,
         posed: Posed<'_>,
     ) {
+        let over_black = |view| PassTargets {
+            color: Some((view, wgpu::Color::BLACK)),
+            ..PassTargets::default()
+        };
         {
-            let mut pass = begin_color_pass(encoder, "contact", &self.map, wgpu::Color::BLACK, None);
+            let mut pass = begin_pass(encoder, "contact", over_black(&self.map));
             pass.set_bind_group(0, frame_group, &[]);
             model.draw_shape(&mut pass, posed, ModelDraw::Contact);
         }
@@ -82,7 +86,7 @@ impl ContactMap {
         let columns = (Draw::ContactBlurColumns, &self.between_group, &self.map);
         // Two narrow blurs are as wide as one that reads many more texels.
         for (draw, source, target) in [rows, columns, rows, columns] {
-            let mut pass = begin_color_pass(encoder, "contact blur", target, wgpu::Color::BLACK, None);
+            let mut pass = begin_pass(encoder, "contact blur", over_black(target));
             pass.set_pipeline(&posed.pipelines.get(draw));
             pass.set_bind_group(0, source, &[]);
             pass.draw(0..3, 0..1);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
-use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, begin_color_pass, flat_texture};
+use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture};
 use crate::scene::Light;
 
 /// No normal, as far as can be.
@@ -94,7 +94,12 @@ impl Occlusion {
         nothing: &wgpu::BindGroup,
     ) {
         {
-            let mut pass = begin_color_pass(encoder, "geometry", &self.geometry, NOTHING_SEEN, Some(&self.depth));
+            let targets = PassTargets {
+                color: Some((&self.geometry, NOTHING_SEEN)),
+                depth: Some(&self.depth),
+                ..PassTargets::default()
+            };
+            let mut pass = begin_pass(encoder, "geometry", targets);
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(2, nothing, &[]);
             model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
@@ -129,11 +134,15 @@ impl Occlusion {
         } else {
             &self.openness_group
         };
-        let mut pass = begin_color_pass(encoder, "occlusion", target, wgpu::Color::WHITE, None);
         let [width, height] = half(self.size);
         let start = (columns.start / 2).saturating_sub(BLUR_MARGIN);
         let end = (columns.end.div_ceil(2) + BLUR_MARGIN).min(width);
-        pass.set_scissor_rect(start, 0, end - start, height);
+        let targets = PassTargets {
+            color: Some((target, wgpu::Color::WHITE)),
+            scissor: Some([start, 0, end - start, height]),
+            ..PassTargets::default()
+        };
+        let mut pass = begin_pass(encoder, "occlusion", targets);
         pass.set_bind_group(1, source, &[]);
         pass
     }

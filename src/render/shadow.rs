@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Vec3, Vec4};
 
-use super::target::{DEPTH_FORMAT, flat_texture};
+use super::target::{DEPTH_FORMAT, PassTargets, begin_pass, flat_texture};
 use crate::scene::Aabb;
 
 /// Texels along each edge.
@@ -28,21 +28,12 @@ impl ShadowMap {
     }
 
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadow map"),
-            color_attachments: &[],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.view,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        })
+        let targets = PassTargets {
+            depth: Some(&self.view),
+            depth_is_kept: true,
+            ..PassTargets::default()
+        };
+        begin_pass(encoder, "shadow map", targets)
     }
 }
 

@@ -1,11 +1,11 @@
-//! Where a frame is drawn: multisampled colour and depth, and the resolved picture.
+//! What is drawn into: textures, the passes that fill them, and the target of a whole frame.
 
-/// Samples a pixel.
+/// Samples of each pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SampleCount {
-    /// Without antialiasing, where a device cannot do better.
+    /// No antialiasing, for devices that cannot do better.
     One,
-    /// As WebGPU and WebGL2 promise.
+    /// What WebGPU and WebGL2 promise.
     #[default]
     Four,
 }
@@ -27,7 +27,7 @@ pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgb
 /// One number from 0 to 1 a pixel.
 pub(super) const FRACTION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
 
-/// A texture with one level and one sample a texel, as its view.
+/// The view of a texture with one level and one sample a texel.
 pub(super) fn flat_texture(
     device: &wgpu::Device,
     label: &str,
@@ -52,56 +52,83 @@ pub(super) fn flat_texture(
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// A pass that fills a texture with a colour and draws over it.
-pub(super) fn begin_color_pass<'a>(
+/// What a render pass draws into. All of it is cleared first.
+#[derive(Clone, Copy, Default)]
+pub(super) struct PassTargets<'a> {
+    /// Colours, and what they are cleared to.
+    pub(super) color: Option<(&'a wgpu::TextureView, wgpu::Color)>,
+    /// The samples of `color` are resolved into this and then dropped: tilers never write them to memory.
+    pub(super) resolved: Option<&'a wgpu::TextureView>,
+    /// Depth, cleared to the farthest.
+    pub(super) depth: Option<&'a wgpu::TextureView>,
+    /// Whether a later pass reads the depth.
+    pub(super) depth_is_kept: bool,
+    /// Left, top, width and height of the pixels that are drawn; without it, all.
+    pub(super) scissor: Option<[u32; 4]>,
+}
+
+/// Opens a render pass: every pass of the renderer begins here.
+pub(super) fn begin_pass<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     label: &str,
-    view: &wgpu::TextureView,
-    clear: wgpu::Color,
-    depth: Option<&wgpu::TextureView>,
+    targets: PassTargets<'_>,
 ) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(clear),
-                store: wgpu::StoreOp::Store,
-            },
-        })],
-        depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
-            view,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(1.0),
-                store: wgpu::StoreOp::Discard,
-            }),
-            stencil_ops: None,
+    let store = |is_kept| {
+        if is_kept {
+            wgpu::StoreOp::Store
+        } else {
+            wgpu::StoreOp::Discard
+        }
+    };
+    let color = targets.color.map(|(view, clear)| wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: targets.resolved,
+        ops: wgpu::Operations {
+            load: wgpu::LoadOp::Clear(clear),
+            store: store(targets.resolved.is_none()),
+        },
+    });
+    let depth = targets.depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations {
+            load: wgpu::LoadOp::Clear(1.0),
+            store: store(targets.depth_is_kept),
         }),
+        stencil_ops: None,
+    });
+    let colors = [color];
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: if targets.color.is_some() { &colors } else { &[] },
+        depth_stencil_attachment: depth,
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,
-    })
+    });
+    if let Some([left, top, width, height]) = targets.scissor {
+        pass.set_scissor_rect(left, top, width, height);
+    }
+    pass
 }
 
-/// An offscreen picture of a given size.
+/// An offscreen picture of a given size: multisampled colour and depth, and the resolved picture.
 pub struct Target {
     samples: SampleCount,
     resolved: wgpu::Texture,
     resolved_view: wgpu::TextureView,
-    /// Not there with one sample: then the picture is drawn straight.
+    /// None with one sample: then `resolved` is drawn into.
     multisampled_view: Option<wgpu::TextureView>,
     depth_view: wgpu::TextureView,
 }
 
 impl Target {
-    /// With four samples a pixel. Sizes are in pixels, brought into 1…the device's limit.
+    /// With four samples a pixel. Sizes are in pixels, clamped to 1…the device's limit.
     pub fn new(device: &wgpu::Device, width: u32, height: u32) -> Self {
         Self::with_samples(device, width, height, SampleCount::default())
     }
 
-    /// As many samples as the [`Renderer`](super::Renderer) that draws into it.
+    /// With as many samples as the [`Renderer`](super::Renderer) that draws into it.
     pub fn with_samples(device: &wgpu::Device, width: u32, height: u32, samples: SampleCount) -> Self {
         let limit = device.limits().max_texture_dimension_2d;
         let (width, height) = (width.clamp(1, limit), height.clamp(1, limit));
@@ -146,7 +173,7 @@ impl Target {
         [self.resolved.width(), self.resolved.height()]
     }
 
-    /// Takes another size. Nothing happens when it has that size; else the picture is lost.
+    /// Changes the size and loses the picture. Does nothing when it has that size.
     pub fn resize(&mut self, device: &wgpu::Device, width: u32, height: u32) {
         let limit = device.limits().max_texture_dimension_2d;
         if self.size() != [width.clamp(1, limit), height.clamp(1, limit)] {
@@ -154,7 +181,7 @@ impl Target {
         }
     }
 
-    /// The picture: one sample a pixel, sRGB, premultiplied alpha. Another texture after a resize.
+    /// The picture: one sample a pixel, sRGB, premultiplied alpha. A resize replaces the texture.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.resolved
     }
@@ -164,14 +191,14 @@ impl Target {
         &self.resolved_view
     }
 
-    /// Fills the picture with a colour, by way of all that a frame is drawn into.
+    /// Fills the picture with a colour, through the same pass that a frame is drawn with.
     pub(super) fn fill(&self, device: &wgpu::Device, queue: &wgpu::Queue, color: wgpu::Color) {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fill") });
         drop(self.begin_cleared_pass(&mut encoder, color));
         queue.submit([encoder.finish()]);
     }
 
-    /// Cleared to nothing, alpha 0.
+    /// A pass over a transparent picture.
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
         self.begin_cleared_pass(encoder, wgpu::Color::TRANSPARENT)
     }
@@ -181,33 +208,16 @@ impl Target {
         encoder: &'a mut wgpu::CommandEncoder,
         color: wgpu::Color,
     ) -> wgpu::RenderPass<'a> {
-        let (view, resolve_target, store) = match &self.multisampled_view {
-            // Only the resolved picture is wanted: tilers then never write the samples to memory.
-            Some(samples) => (samples, Some(&self.resolved_view), wgpu::StoreOp::Discard),
-            None => (&self.resolved_view, None, wgpu::StoreOp::Store),
+        let (view, resolved) = match &self.multisampled_view {
+            Some(samples) => (samples, Some(&self.resolved_view)),
+            None => (&self.resolved_view, None),
         };
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("picture"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(color),
-                    store,
-                },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth_view,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        })
+        let targets = PassTargets {
+            color: Some((view, color)),
+            resolved,
+            depth: Some(&self.depth_view),
+            ..PassTargets::default()
+        };
+        begin_pass(encoder, "picture", targets)
     }
 }
