@@ -1,5 +1,5 @@
-//! What surrounds the model, in GPU memory: the studio or a sky that was dropped, blurred for every roughness, and the cube that
-//! is seen and mirrored.
+//! The environment in GPU memory: the studio or a dropped sky, blurred for every roughness, and the cube that is seen and
+//! mirrored.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -9,26 +9,27 @@ use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
-/// Skies are seen behind the model and in it, never closer than this many texels a side allow.
+/// Texels of a sky's side. More would hardly show: a sky is far behind the model, or mirrored in it.
 const MAX_SKY_SIDE: u32 = 1024;
 
 static STUDIO: LazyLock<Prefiltered> = LazyLock::new(|| Prefiltered::of(&Environment::studio()));
 
-/// A surrounding that lights.
-struct Lighting {
+/// Maps of an environment that lights the model.
+struct EnvironmentMaps {
+    /// Blurred for every roughness, a level each.
     specular: wgpu::TextureView,
     level_count: u32,
     sh: [[f32; 4]; 9],
 }
 
-/// Everything of all around.
+/// The environments of both lights.
 pub(super) struct Environments {
     /// For each light, in the order of [`Light::ALL`].
     uniforms: [wgpu::Buffer; Light::ALL.len()],
     table: wgpu::TextureView,
-    studio: Lighting,
+    studio: EnvironmentMaps,
     daylight: wgpu::TextureView,
-    dropped: Option<(Lighting, wgpu::TextureView)>,
+    dropped: Option<(EnvironmentMaps, wgpu::TextureView)>,
 }
 
 impl Environments {
@@ -44,7 +45,7 @@ impl Environments {
                 })
             }),
             table: table(device, queue),
-            studio: Lighting::upload(device, queue, &STUDIO),
+            studio: EnvironmentMaps::upload(device, queue, &STUDIO),
             daylight: Cube {
                 side: daylight.side() as u32,
                 format: wgpu::TextureFormat::Rgba8UnormSrgb,
@@ -55,8 +56,8 @@ impl Environments {
         }
     }
 
-    /// Takes a cube map as the sky, or goes back to the studio and its daylight. False, and nothing changes, when the picture
-    /// is no cube.
+    /// Sets a cube map as the sky; without one, the studio and its daylight come back. False, and nothing changes, when the image
+    /// is no cube map.
     pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, image: Option<&Image>) -> bool {
         let Some(image) = image else {
             self.dropped = None;
@@ -65,29 +66,29 @@ impl Environments {
         let (Some(environment), Some(cube)) = (Environment::from_image(image), Cube::of(device, image)) else {
             return false;
         };
-        let lighting = Lighting::upload(device, queue, &Prefiltered::of(&environment));
-        self.dropped = Some((lighting, cube.upload(device, queue, "sky")));
+        let maps = EnvironmentMaps::upload(device, queue, &Prefiltered::of(&environment));
+        self.dropped = Some((maps, cube.upload(device, queue, "sky")));
         true
     }
 
-    /// Says how the surroundings of a frame are turned. The studio keeps its place beside the viewer, as if the model stood on a
-    /// turntable; a sky stands in the world, and so does the daylight of the book's light.
+    /// Writes how the environment of a frame is turned. The studio keeps its place beside the viewer, as if the model stood on a
+    /// turntable. A sky stands in the world, and so does the daylight of the book light.
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
-        let lighting = self.lighting();
+        let maps = self.maps();
         for light in Light::ALL {
             let studio_yaw = match (&self.dropped, light) {
                 (None, Light::Studio) => frame.camera.yaw_radians,
                 _ => 0.0,
             };
-            // About y by this much, the world's x comes to the environment's.
+            // The turn about y that brings the world's x to the environment's.
             let turn = frame.options.environment_turn_radians + studio_yaw;
             let uniform = shaders::Environment {
-                sh: lighting.sh,
+                sh: maps.sh,
                 turn_cos: turn.cos(),
                 turn_sin: -turn.sin(),
                 intensity: 1.0,
                 specular_level_count: if frame.options.passes.has(Pass::Environment) {
-                    lighting.level_count as f32
+                    maps.level_count as f32
                 } else {
                     0.0
                 },
@@ -104,12 +105,12 @@ impl Environments {
         &self.table
     }
 
-    /// Blurred for every roughness.
+    /// The cube that is blurred for every roughness.
     pub(super) fn specular(&self) -> &wgpu::TextureView {
-        &self.lighting().specular
+        &self.maps().specular
     }
 
-    /// What is seen behind the model, and what the book's light mirrors.
+    /// The cube that is seen behind the model, and that the book light mirrors.
     pub(super) fn sky(&self, light: Light) -> &wgpu::TextureView {
         match (&self.dropped, light) {
             (Some((_, sky)), _) => sky,
@@ -118,12 +119,12 @@ impl Environments {
         }
     }
 
-    fn lighting(&self) -> &Lighting {
-        self.dropped.as_ref().map_or(&self.studio, |(lighting, _)| lighting)
+    fn maps(&self) -> &EnvironmentMaps {
+        self.dropped.as_ref().map_or(&self.studio, |(maps, _)| maps)
     }
 }
 
-impl Lighting {
+impl EnvironmentMaps {
     fn upload(device: &wgpu::Device, queue: &wgpu::Queue, prefiltered: &Prefiltered) -> Self {
         let levels = (0..prefiltered.level_count()).filter_map(|level| prefiltered.level_rgba16f(level));
         let cube = Cube {
@@ -139,7 +140,7 @@ impl Lighting {
     }
 }
 
-/// Six faces with levels, as they are uploaded.
+/// Six faces with levels, ready to upload.
 struct Cube {
     side: u32,
     format: wgpu::TextureFormat,
@@ -148,7 +149,7 @@ struct Cube {
 }
 
 impl Cube {
-    /// The picture's largest level that fits, decoded; where all are too large, the smallest, averaged down.
+    /// The image's largest level that fits, decoded. When all are too large, the smallest is averaged down.
     fn of(device: &wgpu::Device, image: &Image) -> Option<Self> {
         if image.kind() != ImageKind::Cube {
             return None;

@@ -3,7 +3,7 @@
 
 use super::buffers::{UploadError, Uploader};
 use super::maps::{MapTextures, MaterialImages};
-use super::pipelines::Layouts;
+use super::pipelines::{Layouts, bind_group};
 use crate::image::{Channels, MapKind};
 use crate::model::{Material, Reflectance};
 use crate::{scene, shaders};
@@ -135,15 +135,7 @@ impl GpuMaterials {
             wgpu::BindingResource::TextureView(normal),
             wgpu::BindingResource::Sampler(&self.sampler),
         ];
-        let entries = (0..).zip(resources);
-        let entries: Vec<_> = entries
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-            .collect();
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("material"),
-            layout: &layouts.material,
-            entries: &entries,
-        })
+        bind_group(device, "material", &layouts.material, resources)
     }
 }
 

@@ -12,26 +12,23 @@
 mod bones;
 mod buffers;
 mod composite;
-mod contact;
 pub mod device;
 mod environment;
-mod frame_uniform;
 mod ghosts;
-mod look;
+mod light_fit;
+mod light_maps;
+mod light_passes;
 mod maps;
 mod materials;
 mod model;
-mod occlusion;
 mod overlay;
 mod picture;
 mod pipelines;
 mod read_back;
 mod recipe;
-mod shadow;
-mod stage;
-mod surroundings;
 mod target;
 mod triangles;
+mod uniforms;
 mod world_shapes;
 
 pub use bones::BoneTexture;
@@ -48,13 +45,12 @@ use crate::model::{Material, Model};
 use crate::scene::{Background, Light, RenderFrame, ViewMode};
 use environment::Environments;
 use ghosts::Ghosts;
+use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
 use overlay::Overlays;
-use pipelines::Pipelines;
+use pipelines::{Pipelines, bind_group};
 use recipe::{Cut, Draw, ModelDraw, Shading};
-use stage::{Common, Stage};
-use surroundings::Samplers;
 use world_shapes::WorldShapes;
 
 /// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
@@ -62,7 +58,7 @@ pub struct Renderer {
     common: Common,
     samples: SampleCount,
     /// The lights that were shown so far.
-    stages: Vec<Stage>,
+    lights: Vec<LightPasses>,
     overlays: Overlays,
     world_shapes: WorldShapes,
     ghosts: Ghosts,
@@ -84,14 +80,10 @@ impl Renderer {
     /// For targets with this many samples; see [`device::sample_count`].
     pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
         let pipelines = Pipelines::new(device, samples);
-        let nothing = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("nothing"),
-            layout: &pipelines.layouts.nothing,
-            entries: &[],
-        });
+        let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
         Self {
             samples,
-            stages: Vec::new(),
+            lights: Vec::new(),
             overlays: Overlays::new(device, &pipelines.layouts),
             world_shapes: WorldShapes::new(device),
             ghosts: Ghosts::default(),
@@ -104,8 +96,8 @@ impl Renderer {
                 samplers: Samplers::new(device),
                 environments: Environments::new(device, queue),
                 nothing,
-                white: one_texel(device, queue, "open", [255; 4]),
-                black: one_texel(device, queue, "far", [0; 4]),
+                white: one_texel(device, queue, "white", [255; 4]),
+                black: one_texel(device, queue, "black", [0; 4]),
             },
             model: None,
         }
@@ -186,8 +178,8 @@ impl Renderer {
         self.ghosts.write(device, queue, pipelines, frame);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
-            if self.stages.iter().all(|stage| stage.light() != *light) {
-                self.stages.push(Stage::new(&self.common, *light));
+            if self.lights.iter().all(|passes| passes.light() != *light) {
+                self.lights.push(LightPasses::new(&self.common, *light));
             }
         }
 
@@ -196,10 +188,10 @@ impl Renderer {
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let model = posed_model(self.model.as_ref(), &self.no_bones, &self.common.pipelines, frame);
-        for stage in &mut self.stages {
-            if let Some((_, columns)) = parts.iter().find(|(light, _)| *light == stage.light()) {
+        for passes in &mut self.lights {
+            if let Some((_, columns)) = parts.iter().find(|(light, _)| *light == passes.light()) {
                 let place = (target.size(), columns);
-                stage.draw_around(&self.common, &mut encoder, frame, place, model);
+                passes.draw(&self.common, &mut encoder, frame, place, model);
             }
         }
         self.draw_picture(frame, target, &parts, model, &mut encoder);
@@ -234,13 +226,13 @@ impl Renderer {
         } = &self.common;
         let mut pass = target.begin_pass(encoder);
         let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
-            let stage = self.stages.iter().find(|stage| stage.light() == *light);
-            let Some((stage, surroundings)) = stage.and_then(|stage| Some((stage, stage.surroundings()?))) else {
+            let passes = self.lights.iter().find(|passes| passes.light() == *light);
+            let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
                 return false;
             };
             pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
-            pass.set_bind_group(0, stage.frame_group(), &[]);
-            pass.set_bind_group(2, surroundings, &[]);
+            pass.set_bind_group(0, passes.frame_group(), &[]);
+            pass.set_bind_group(2, lighting, &[]);
             true
         };
         // First all that is behind, from the right: Mesa's software rasteriser fills a column too many at the left of a scissor

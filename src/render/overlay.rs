@@ -1,9 +1,9 @@
 //! Lines over the model, and the part of it that stands out.
 
-use super::look::look;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Layouts;
 use super::recipe::ModelDraw;
+use super::uniforms::theme_colors;
 use crate::scene::{Overlay, RenderFrame};
 use crate::shaders::{Line, Veil};
 
@@ -67,14 +67,14 @@ impl Overlays {
 
     /// Uploads what the frame's overlays need.
     pub(super) fn write(&mut self, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
-        let look = look(frame.options.theme);
+        let colors = theme_colors(frame.options.theme);
         let encoded = |[red, green, blue]: [u8; 3], alpha: f32| {
             let [red, green, blue] = [red, green, blue].map(|channel| f32::from(channel) / 255.0);
             [red, green, blue, alpha]
         };
         let length = frame.options.overlays.line_length * frame.world_bounds.radius();
         for (style, color_srgb) in [
-            (&self.wire, encoded(look.wire, look.wire_opacity)),
+            (&self.wire, encoded(colors.wire, colors.wire_opacity)),
             (&self.normals, NORMAL_SRGB),
             (&self.tangents, TANGENT_SRGB),
         ] {
@@ -86,7 +86,7 @@ impl Overlays {
             style.write(queue, &line);
         }
         let veil = Veil {
-            color_srgb: encoded(look.accent, VEIL_ALPHA),
+            color_srgb: encoded(colors.accent, VEIL_ALPHA),
             ..Default::default()
         };
         self.veil.write(queue, &veil);

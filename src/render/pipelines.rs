@@ -10,17 +10,17 @@ use super::target::SampleCount;
 use crate::scene::OverlayVertex;
 use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
 
-/// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 surroundings,
+/// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
 pub(super) struct Layouts {
     pub(super) frame: wgpu::BindGroupLayout,
     pub(super) bones: wgpu::BindGroupLayout,
-    pub(super) surroundings: wgpu::BindGroupLayout,
+    pub(super) lighting: wgpu::BindGroupLayout,
     pub(super) material: wgpu::BindGroupLayout,
     /// A colour and a length.
     pub(super) line: wgpu::BindGroupLayout,
-    /// Normals and depth, and what is to be smoothed.
-    pub(super) around: wgpu::BindGroupLayout,
+    /// Normals and depth in view, and the occlusion to be blurred.
+    pub(super) occlusion: wgpu::BindGroupLayout,
     /// One texture, read texel by texel.
     pub(super) texels: wgpu::BindGroupLayout,
     /// Stands for a group that a program does not read.
@@ -53,8 +53,8 @@ impl Layouts {
         Self {
             frame: layout("frame", &[(vertex | fragment, uniform::<shaders::Frame>())]),
             bones: BoneTexture::layout(device),
-            surroundings: layout(
-                "surroundings",
+            lighting: layout(
+                "lighting",
                 &[
                     flat(wgpu::TextureSampleType::Depth),
                     sampler(wgpu::SamplerBindingType::Comparison),
@@ -77,11 +77,29 @@ impl Layouts {
                 ],
             ),
             line: layout("line", &[(vertex | fragment, uniform::<shaders::Line>())]),
-            around: layout("around", &[flat(filtered), flat(filtered)]),
+            occlusion: layout("occlusion", &[flat(filtered), flat(filtered)]),
             texels: layout("texels", &[flat(filtered)]),
             nothing: layout("nothing", &[]),
         }
     }
+}
+
+/// A bind group whose resources have the bindings 0, 1, 2…
+pub(super) fn bind_group<'a>(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
 }
 
 fn uniform<T>() -> wgpu::BindingType {
@@ -214,16 +232,16 @@ impl Pipelines {
         let Layouts {
             frame,
             bones,
-            surroundings,
+            lighting,
             material,
             line,
-            around,
+            occlusion,
             texels,
             nothing,
         } = &self.layouts;
         match draw {
             Draw::Model { draw, .. } => match draw {
-                ModelDraw::Mesh(..) => vec![frame, bones, surroundings, material],
+                ModelDraw::Mesh(..) => vec![frame, bones, lighting, material],
                 ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact => vec![frame, bones],
                 ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::SkinView(_) => {
                     vec![frame, bones, nothing, material]
@@ -232,9 +250,9 @@ impl Pipelines {
                     vec![frame, bones, nothing, line]
                 }
             },
-            Draw::Backdrop => vec![frame, nothing, surroundings],
+            Draw::Backdrop => vec![frame, nothing, lighting],
             Draw::World { .. } => vec![frame, nothing, nothing, line],
-            Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, around],
+            Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, occlusion],
             Draw::ContactBlurRows | Draw::ContactBlurColumns => vec![texels],
         }
     }

@@ -1,60 +1,69 @@
-//! The key light's depth map over the whole scene box: it does not swim while the model moves.
+//! Where the lights stand, and what their shadow and contact maps cover. Both maps depend on the scene's box alone, not on the
+//! pose, so they do not swim while the model moves.
 
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 
-use super::target::{DEPTH_FORMAT, PassTargets, begin_pass, flat_texture};
-use crate::scene::Aabb;
+use crate::scene::{Aabb, Camera};
 
-/// Texels along each edge.
-const SIZE: u32 = 2048;
-/// Texels around the box that stay empty, so that a blurred edge never leaves the map.
-const MARGIN_TEXELS: f32 = 8.0;
-
-/// The depth map.
-pub(super) struct ShadowMap {
-    view: wgpu::TextureView,
+/// Where the studio's lights stand. They keep their place beside the viewer, as if the model stood on a turntable: every side
+/// that is looked at is lit well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StudioLights {
+    /// Unit vector towards the key: high over the viewer's right shoulder.
+    pub(super) to_key: Vec3,
+    /// Unit vector towards the rim: behind the model, from the left.
+    pub(super) to_rim: Vec3,
 }
 
-impl ShadowMap {
-    pub(super) fn new(device: &wgpu::Device) -> Self {
-        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+impl StudioLights {
+    /// Turns with the whole studio about y.
+    pub(super) fn beside(camera: &Camera, turn_radians: f32) -> Self {
+        let turn = Quat::from_rotation_y(turn_radians);
+        let right = camera.right();
+        let ahead = right.cross(Vec3::Y);
+        let towards = |x: f32, y: f32, z: f32| turn * (right * x + Vec3::Y * y + ahead * z).normalize();
         Self {
-            view: flat_texture(device, "shadow map", [SIZE; 2], DEPTH_FORMAT, usage),
+            to_key: towards(0.64, 0.74, -0.34),
+            to_rim: towards(-0.72, 0.36, 0.58),
         }
     }
-
-    pub(super) fn view(&self) -> &wgpu::TextureView {
-        &self.view
-    }
-
-    pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        let targets = PassTargets {
-            depth: Some(&self.view),
-            depth_is_kept: true,
-            ..PassTargets::default()
-        };
-        begin_pass(encoder, "shadow map", targets)
-    }
 }
+
+/// Directions in which the three lights of the books' demo shine, before they turn.
+const BOOK_DIRECTIONS: [Vec3; 3] = [
+    Vec3::new(0.57735, -0.57735, 0.57735),
+    Vec3::new(-0.57735, -0.57735, 0.57735),
+    Vec3::new(0.0, -0.707, -0.707),
+];
+
+/// Unit vectors towards the three lights of the books' demo, turned about y.
+pub(super) fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
+    let turn = Quat::from_rotation_y(turn_radians);
+    BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
+}
+
+/// Texels along each edge of the shadow map.
+pub(super) const SHADOW_MAP_SIZE: u32 = 2048;
+/// Texels around the scene's box that stay empty, so that a blurred edge never leaves the map.
+const MARGIN_TEXELS: f32 = 8.0;
 
 /// The demo's map covers a sphere of radius √(10² + 15²) units with 2048 texels: world size of a texel, units of the demo.
 const BOOK_TEXEL: f32 = 2.0 * 18.027_756 / 2048.0;
 /// The demo takes 3 × 3 comparison samples a texel apart, each a ramp one texel wide. Together they make an edge a ramp 3 texels
 /// wide, of which the part from 10 to 90 % is 2.4 texels: 1.17 % of the height of the figure there, which is 3.6 units.
 const BOOK_EDGE: f32 = 2.4 * BOOK_TEXEL;
-/// From 10 to 90 % of the edge that taps spread evenly over a disc make, in radii of the disc: of the disc's area, a tenth lies
-/// beyond 0.687 radii on either side.
+/// Width of a shadow's edge from 10 to 90 % when it is blurred evenly over a disc, in radii of the disc: a tenth of the disc's
+/// area lies beyond 0.687 radii on either side.
 const DISC_EDGE: f32 = 1.374;
-/// Texels in the radius of the book light's disc: as far apart as its 16 taps can be without leaving steps in the edge.
+/// Texels in the radius of the book light's disc. With a larger one its 16 taps would leave steps in the edge.
 const BOOK_RADIUS_TEXELS: f32 = 3.5;
 
 /// Texels in the radius of the studio light's disc on the model: a soft box is never quite sharp.
 const STUDIO_RADIUS_TEXELS: f32 = 2.5;
-/// And on the ground, where the shadow lies farther from what casts it.
+/// The same on the ground, where the shadow lies farther from what casts it.
 const STUDIO_GROUND_RADIUS_TEXELS: f32 = 6.0;
 
-/// How the map covers a scene, and how it is blurred. It depends on the scene's box and the light alone, so texels stay where they
-/// are while the model moves in its box.
+/// How the shadow map covers a scene, and how it is blurred.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ShadowFit {
     /// World -> the map's clip space.
@@ -68,8 +77,8 @@ pub(super) struct ShadowFit {
 }
 
 impl ShadowFit {
-    /// The studio's: the least square that holds the box as seen from the light, so that edges are as sharp as the map allows.
-    /// `to_key` is a unit vector.
+    /// For the studio light: the smallest square that holds the box as seen from the light, so that edges are as sharp as the map
+    /// allows. `to_key` is a unit vector.
     pub(super) fn studio(world_bounds: &Aabb, to_key: Vec3) -> Self {
         Self {
             radius_texels: STUDIO_RADIUS_TEXELS,
@@ -78,8 +87,8 @@ impl ShadowFit {
         }
     }
 
-    /// The book's: its edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. `book_unit` is one unit of the demo in
-    /// world units. The box may lie in the middle of a larger square, as the figure does in the demo.
+    /// For the book light: edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. So the map may be larger than the box,
+    /// as it is in the demo. `book_unit` is one unit of the demo in world units.
     pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, book_unit: f32) -> Self {
         let radius = BOOK_EDGE / DISC_EDGE * book_unit;
         let fit = Self::with_least_texel(world_bounds, to_key, radius / BOOK_RADIUS_TEXELS);
@@ -91,20 +100,20 @@ impl ShadowFit {
         }
     }
 
-    /// A square that holds the box as seen from the light, with texels of this size or, if it needs them, larger ones. No blur.
+    /// A square that holds the box as seen from the light. Its texels are at least this large. No blur.
     fn with_least_texel(world_bounds: &Aabb, to_key: Vec3, least_texel: f32) -> Self {
         let [right, up, forward] = light_axes(to_key);
         let center = world_bounds.center();
-        // From the light's axes through the middle of the box, so that numbers stay small wherever the box lies.
+        // The origin is the middle of the box, so that numbers stay small wherever the box lies.
         let light_from_world = Mat4::from_cols(right.extend(0.0), up.extend(0.0), forward.extend(0.0), Vec4::W)
             .transpose()
             * Mat4::from_translation(-center);
         let half_size = world_bounds.size() * 0.5;
         let reach = |axis: Vec3| axis.abs().dot(half_size);
-        // An empty or flat box still wants a map of some size.
+        // An empty or flat box still needs a map of some size.
         let least = f32::MIN_POSITIVE.max(half_size.max_element() * 1e-3).max(1e-20);
-        let tight = reach(right).max(reach(up)).max(least) * (1.0 + 2.0 * MARGIN_TEXELS / SIZE as f32);
-        let half_width = tight.max(least_texel * SIZE as f32 * 0.5);
+        let tight = reach(right).max(reach(up)).max(least) * (1.0 + 2.0 * MARGIN_TEXELS / SHADOW_MAP_SIZE as f32);
+        let half_width = tight.max(least_texel * SHADOW_MAP_SIZE as f32 * 0.5);
         let half_depth = reach(forward).max(least) * 1.01;
         let clip_from_light = glam::camera::lh::proj::directx::orthographic(
             -half_width,
@@ -116,14 +125,14 @@ impl ShadowFit {
         );
         Self {
             shadow_clip_from_world: clip_from_light * light_from_world,
-            texel: 2.0 * half_width / SIZE as f32,
+            texel: 2.0 * half_width / SHADOW_MAP_SIZE as f32,
             radius_texels: 0.0,
             ground_radius_texels: 0.0,
         }
     }
 }
 
-/// Right, up and forward of the light's view. They turn evenly with the light, but for lights within 1° of the vertical.
+/// Right, up and forward of the light's view. They turn evenly with the light, except within 1° of the vertical.
 fn light_axes(to_key: Vec3) -> [Vec3; 3] {
     let forward = -to_key;
     let above = if forward.y.abs() < 0.9998 { Vec3::Y } else { Vec3::Z };
@@ -131,9 +140,67 @@ fn light_axes(to_key: Vec3) -> [Vec3; 3] {
     [right, forward.cross(right), forward]
 }
 
+/// Half the width of the contact map in half widths of the scene: the blur needs room.
+const CONTACT_MARGIN: f32 = 1.4;
+
+/// The square of the ground that the contact map covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ContactFit {
+    /// World x and z of its middle.
+    pub(super) center: Vec2,
+    pub(super) half_width: f32,
+}
+
+impl ContactFit {
+    pub(super) fn new(world_bounds: &Aabb) -> Self {
+        let (center, size) = (world_bounds.center(), world_bounds.size());
+        Self {
+            center: Vec2::new(center.x, center.z),
+            half_width: (size.x.max(size.z).max(size.y * 0.1) * 0.5 * CONTACT_MARGIN).max(1e-20),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Projection;
+
+    /// As the demo's `XMMatrixRotationY` does it: z goes towards x.
+    #[test]
+    fn the_books_lights_turn_about_y() {
+        let (quarter, s) = (std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_1_SQRT_2);
+        let expected = [
+            [(-0.57735, 0.57735, -0.57735), (0.57735, 0.57735, -0.57735), (0.0, s, s)],
+            [(-0.57735, 0.57735, 0.57735), (-0.57735, 0.57735, -0.57735), (s, s, 0.0)],
+            [(0.57735, 0.57735, 0.57735), (-0.57735, 0.57735, 0.57735), (0.0, s, -s)],
+        ];
+        for (turns, expected) in (0..).zip(expected) {
+            let found = to_book_lights(quarter * turns as f32);
+            for (found, (x, y, z)) in found.into_iter().zip(expected) {
+                assert!(
+                    found.abs_diff_eq(Vec3::new(x, y, z), 1e-4),
+                    "{found} after {turns} quarters"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_key_is_above_to_the_right_and_before_the_model_from_every_side() {
+        for yaw_radians in [0.0, 1.0, 2.5, -3.0] {
+            let camera = Camera {
+                target: Vec3::ZERO,
+                distance: 1.0,
+                yaw_radians,
+                pitch_radians: 0.3,
+                projection: Projection::Orthographic,
+            };
+            let StudioLights { to_key, to_rim } = StudioLights::beside(&camera, 0.0);
+            assert!(to_key.y > 0.5 && to_key.dot(camera.right()) > 0.4 && to_key.dot(camera.forward()) < -0.3);
+            assert!(to_rim.dot(camera.right()) < -0.4 && to_rim.dot(camera.forward()) > 0.3);
+        }
+    }
 
     #[test]
     fn every_corner_of_the_box_lies_inside_the_map() {

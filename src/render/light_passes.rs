@@ -1,0 +1,185 @@
+//! All that belongs to one light: the uniforms of a frame under it, its shadow, ambient occlusion and contact maps, and the bind
+//! group through which shaders read them with the environment.
+
+use std::ops::Range;
+
+use super::environment::Environments;
+use super::light_maps::{AmbientOcclusion, ContactMap, ShadowMap};
+use super::model::{GpuModel, Posed};
+use super::pipelines::{Pipelines, bind_group};
+use super::uniforms::{Part, frame_uniform};
+use crate::scene::{Light, Pass, RenderFrame};
+use crate::shaders;
+
+/// What both lights use.
+pub(super) struct Common {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    pub(super) pipelines: Pipelines,
+    pub(super) samplers: Samplers,
+    pub(super) environments: Environments,
+    /// Bound where a program's layout has an empty group.
+    pub(super) nothing: wgpu::BindGroup,
+    /// Bound as the ambient occlusion where none is drawn: the environment reaches every pixel.
+    pub(super) white: wgpu::TextureView,
+    /// Bound as the contact map where none is drawn: nothing is near the ground.
+    pub(super) black: wgpu::TextureView,
+}
+
+/// Samplers of the lighting group.
+pub(super) struct Samplers {
+    shadow: wgpu::Sampler,
+    environment: wgpu::Sampler,
+}
+
+impl Samplers {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let linear = wgpu::SamplerDescriptor {
+            label: Some("environment"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        };
+        Self {
+            environment: device.create_sampler(&linear),
+            shadow: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("shadow map"),
+                mipmap_filter: wgpu::MipmapFilterMode::Nearest,
+                compare: Some(wgpu::CompareFunction::LessEqual),
+                ..linear
+            }),
+        }
+    }
+}
+
+/// The textures that differ between lights and frames: shadow map, ambient occlusion, contact map, specular cube, sky.
+type LightingViews<T> = [T; 5];
+
+/// One light's part of the renderer.
+pub(super) struct LightPasses {
+    light: Light,
+    frame_buffer: wgpu::Buffer,
+    frame_group: wgpu::BindGroup,
+    shadow: ShadowMap,
+    occlusion: Option<AmbientOcclusion>,
+    contact: Option<ContactMap>,
+    /// The bind group, and the textures that it is made of.
+    lighting: Option<(LightingViews<wgpu::TextureView>, wgpu::BindGroup)>,
+}
+
+impl LightPasses {
+    pub(super) fn new(common: &Common, light: Light) -> Self {
+        let device = &common.device;
+        let frame_buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("frame"),
+            size: size_of::<shaders::Frame>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let resources = [frame_buffer.as_entire_binding()];
+        Self {
+            light,
+            frame_group: bind_group(device, "frame", &common.pipelines.layouts.frame, resources),
+            frame_buffer,
+            shadow: ShadowMap::new(device),
+            occlusion: None,
+            contact: None,
+            lighting: None,
+        }
+    }
+
+    pub(super) fn light(&self) -> Light {
+        self.light
+    }
+
+    /// Group 0.
+    pub(super) fn frame_group(&self) -> &wgpu::BindGroup {
+        &self.frame_group
+    }
+
+    /// Group 2; none before the first [`LightPasses::draw`].
+    pub(super) fn lighting_group(&self) -> Option<&wgpu::BindGroup> {
+        self.lighting.as_ref().map(|(_, group)| group)
+    }
+
+    /// Writes the uniforms, and draws the maps that the picture will read. `size` is the picture's, `columns` are those of this
+    /// light.
+    pub(super) fn draw(
+        &mut self,
+        common: &Common,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &RenderFrame<'_>,
+        (size, columns): ([u32; 2], &Range<u32>),
+        model: Option<(&GpuModel, Posed<'_>)>,
+    ) {
+        let Common {
+            device,
+            queue,
+            pipelines,
+            environments,
+            nothing,
+            ..
+        } = common;
+        let part = Part {
+            light: self.light,
+            size,
+            winding: model.map_or(1.0, |(model, _)| model.winding),
+        };
+        let uniform = frame_uniform(frame, part);
+        queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&uniform));
+
+        let draws = |pass| frame.options.draws_under(pass, self.light);
+        if draws(Pass::Shadow) {
+            self.shadow.draw(encoder, &self.frame_group, model, nothing);
+        }
+        let mut occlusion = &common.white;
+        let mut contact = &common.black;
+        if let Some(model) = model {
+            if draws(Pass::AmbientOcclusion) {
+                let kept = self.occlusion.take().filter(|occlusion| occlusion.size() == size);
+                let fresh = || AmbientOcclusion::new(device, pipelines, size);
+                let map = self.occlusion.insert(kept.unwrap_or_else(fresh));
+                map.draw(encoder, &self.frame_group, model, (self.light, columns), nothing);
+                occlusion = map.view();
+            }
+            if draws(Pass::ContactShadow) {
+                let map = self.contact.get_or_insert_with(|| ContactMap::new(device, pipelines));
+                map.draw(encoder, &self.frame_group, model);
+                contact = map.view();
+            }
+        }
+        let (specular, sky) = (environments.specular(), environments.sky(self.light));
+        let views = [self.shadow.view(), occlusion, contact, specular, sky];
+        let are_bound = |(bound, _): &(LightingViews<_>, _)| bound.iter().zip(views).all(|(bound, view)| bound == view);
+        if !self.lighting.as_ref().is_some_and(are_bound) {
+            self.lighting = Some((views.map(Clone::clone), lighting_group(common, self.light, views)));
+        }
+    }
+}
+
+fn lighting_group(
+    common: &Common,
+    light: Light,
+    [shadow, occlusion, contact, specular, sky]: LightingViews<&wgpu::TextureView>,
+) -> wgpu::BindGroup {
+    use wgpu::BindingResource::{Sampler, TextureView};
+    let (samplers, environments) = (&common.samplers, &common.environments);
+    let resources = [
+        TextureView(shadow),
+        Sampler(&samplers.shadow),
+        TextureView(occlusion),
+        TextureView(contact),
+        environments.uniforms(light).as_entire_binding(),
+        TextureView(specular),
+        TextureView(environments.table()),
+        Sampler(&samplers.environment),
+        TextureView(sky),
+    ];
+    bind_group(
+        &common.device,
+        "lighting",
+        &common.pipelines.layouts.lighting,
+        resources,
+    )
+}
