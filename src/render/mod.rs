@@ -14,14 +14,13 @@ mod buffers;
 mod composite;
 pub mod device;
 mod environment;
-mod ghosts;
 mod light_fit;
 mod light_maps;
 mod light_passes;
 mod maps;
 mod materials;
 mod model;
-mod overlay;
+mod overlays;
 mod picture;
 mod pipelines;
 mod read_back;
@@ -29,7 +28,6 @@ mod recipe;
 mod target;
 mod triangles;
 mod uniforms;
-mod world_shapes;
 
 pub use bones::BoneTexture;
 pub use buffers::UploadError;
@@ -44,14 +42,12 @@ use crate::image::Image;
 use crate::model::{Material, Model};
 use crate::scene::{Background, Light, RenderFrame, ViewMode};
 use environment::Environments;
-use ghosts::Ghosts;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
-use overlay::Overlays;
+use overlays::Overlays;
 use pipelines::{Pipelines, bind_group};
 use recipe::{Cut, Draw, ModelDraw, Shading};
-use world_shapes::WorldShapes;
 
 /// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
 pub struct Renderer {
@@ -60,8 +56,6 @@ pub struct Renderer {
     /// The lights that were shown so far.
     lights: Vec<LightPasses>,
     overlays: Overlays,
-    world_shapes: WorldShapes,
-    ghosts: Ghosts,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
     maps: MapTextures,
@@ -85,8 +79,6 @@ impl Renderer {
             samples,
             lights: Vec::new(),
             overlays: Overlays::new(device, &pipelines.layouts),
-            world_shapes: WorldShapes::new(device),
-            ghosts: Ghosts::default(),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
             maps: MapTextures::new(device, queue),
             common: Common {
@@ -173,9 +165,7 @@ impl Renderer {
         if let (Some(model), Some(colors)) = (&mut self.model, &frame.vertex_colors) {
             model.set_colors(device, queue, colors);
         }
-        self.overlays.write(queue, frame);
-        self.world_shapes.write(device, queue, frame);
-        self.ghosts.write(device, queue, pipelines, frame);
+        self.overlays.write(device, queue, &pipelines.layouts, frame);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
@@ -267,11 +257,9 @@ impl Renderer {
                     model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
                 }
                 pass.set_bind_group(2, nothing, &[]);
-                self.ghosts.draw(&mut pass, model, posed);
-                self.overlays.draw_model(device, &mut pass, frame, model, posed);
+                self.overlays.draw_over_model(device, &mut pass, frame, model, posed);
             }
-            self.world_shapes
-                .draw(&mut pass, pipelines, nothing, self.overlays.any_line(), target.size());
+            self.overlays.draw_shapes(&mut pass, pipelines, nothing, target.size());
         }
         // GL resolves the samples by a copy, which the scissor would cut.
         let [width, height] = target.size();

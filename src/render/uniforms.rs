@@ -154,8 +154,8 @@ pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Fra
         },
         to_rim: studio_lights.to_rim.to_array(),
         grid_strength: if options.overlays.has(Overlay::Grid) { 1.0 } else { 0.0 },
-        backdrop_center_srgb: encoded(colors.backdrop_center),
-        backdrop_edge_srgb: encoded(colors.backdrop_edge),
+        backdrop_center_srgb: encoded(colors.backdrop_center, 1.0),
+        backdrop_edge_srgb: encoded(colors.backdrop_edge, 1.0),
         grid_minor: linear(colors.grid_minor, colors.grid_minor_opacity),
         grid_major: linear(colors.grid_major, colors.grid_major_opacity),
         grid_center: [center.x, center.z],
@@ -207,13 +207,14 @@ fn seen_depths(frame: &RenderFrame<'_>) -> (f32, f32) {
     }
 }
 
-/// An encoded opaque colour, 0…1 a channel.
-pub(super) fn encoded([red, green, blue]: [u8; 3]) -> [f32; 4] {
-    [red, green, blue, 255].map(|channel| f32::from(channel) / 255.0)
+/// An encoded colour with opacity, 0…1 a channel.
+pub(super) fn encoded(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
+    let [red, green, blue] = srgb.map(|channel| f32::from(channel) / 255.0);
+    [red, green, blue, opacity]
 }
 
 /// A linear colour with opacity.
-pub(super) fn linear(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
+fn linear(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
     let [red, green, blue] = srgb.map(linear_from_srgb8);
     [red, green, blue, opacity]
 }

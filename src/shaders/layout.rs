@@ -85,10 +85,10 @@ pub struct Line {
     pub unused: [f32; 3],
 }
 
-/// Twin of `Veil` in `highlight.wgsl`. As large as [`Line`], so that both bind alike.
+/// Twin of `Highlight` in `highlight.wgsl`. As large as [`Line`], so that both bind alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct Veil {
+pub struct Highlight {
     /// sRGB, straight alpha.
     pub color_srgb: [f32; 4],
     /// Fills the struct.

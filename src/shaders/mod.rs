@@ -6,7 +6,7 @@
 mod layout;
 mod light_layout;
 
-pub use layout::{Frame, GeometryVertex, InfluenceVertex, Line, Material, Veil};
+pub use layout::{Frame, GeometryVertex, Highlight, InfluenceVertex, Line, Material};
 pub use light_layout::Environment;
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
@@ -252,7 +252,7 @@ pub const LINES: Program = Program {
     files: &[FRAME_WGSL, SKINNING_WGSL, COLOR_WGSL, LINES_WGSL],
 };
 
-/// A part of the model that stands out.
+/// The model or a part of it in one transparent colour.
 pub const HIGHLIGHT: Program = Program {
     name: "highlight",
     files: &[FRAME_WGSL, SKINNING_WGSL, COLOR_WGSL, HIGHLIGHT_WGSL],

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Environment, Frame, GeometryVertex, InfluenceVertex, JOINTS_PER_ROW, Line, Material, PROGRAMS, Program, Veil,
+    Environment, Frame, GeometryVertex, Highlight, InfluenceVertex, JOINTS_PER_ROW, Line, Material, PROGRAMS, Program,
 };
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -201,7 +201,7 @@ fn twins() -> BTreeMap<String, Layout> {
             specular_level_count,
         }),
         twin!(Line { color_srgb, length }),
-        twin!(Veil { color_srgb }),
+        twin!(Highlight { color_srgb }),
     ])
 }
 

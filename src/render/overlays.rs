@@ -1,0 +1,352 @@
+//! What is drawn beside the model: a highlighted submesh, ghosts, lines of the model, and shapes that stand in the world.
+
+use glam::Vec3;
+
+use super::bones::BoneTexture;
+use super::model::{GpuModel, Posed};
+use super::pipelines::{Layouts, Pipelines, bind_group};
+use super::recipe::{Draw, ModelDraw, WorldShape};
+use super::uniforms::{encoded, theme_colors};
+use crate::scene::{Overlay, OverlayGeometry, OverlayVertex, RenderFrame};
+use crate::shaders::{Highlight, Line};
+
+const NORMAL_SRGB: [f32; 4] = [0.36, 0.72, 1.0, 0.95];
+const TANGENT_SRGB: [f32; 4] = [1.0, 0.56, 0.33, 0.95];
+/// Opacity of the highlight at a surface's edge.
+const HIGHLIGHT_ALPHA: f32 = 0.55;
+
+const BOUNDS_SRGB: [u8; 4] = [255, 181, 84, 230];
+/// x, y, z in the colours that every tool has.
+const AXES_SRGB: [[u8; 4]; 3] = [[242, 77, 87, 255], [128, 204, 51, 255], [61, 138, 250, 255]];
+/// Length of the axes, in radii of the scene.
+const AXIS_LENGTH: f32 = 0.5;
+
+/// The nearest fraction of the depth range holds what is seen through the model.
+const THROUGH_DEPTH: f32 = 0.01;
+
+/// All that is drawn beside the model.
+pub(super) struct Overlays {
+    wire: Style,
+    normals: Style,
+    tangents: Style,
+    highlight: Style,
+    ghosts: Ghosts,
+    shapes: WorldShapes,
+}
+
+impl Overlays {
+    pub(super) fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
+        Self {
+            wire: Style::new(device, layouts),
+            normals: Style::new(device, layouts),
+            tangents: Style::new(device, layouts),
+            highlight: Style::new(device, layouts),
+            ghosts: Ghosts::default(),
+            shapes: WorldShapes::new(device),
+        }
+    }
+
+    /// Uploads what the frame shows.
+    pub(super) fn write(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layouts: &Layouts,
+        frame: &RenderFrame<'_>,
+    ) {
+        self.ghosts.write(device, queue, layouts, frame);
+        self.shapes.write(device, queue, frame);
+        let colors = theme_colors(frame.options.theme);
+        let length = frame.options.overlays.line_length * frame.world_bounds.radius();
+        for (style, color_srgb) in [
+            (&self.wire, encoded(colors.wire, colors.wire_opacity)),
+            (&self.normals, NORMAL_SRGB),
+            (&self.tangents, TANGENT_SRGB),
+        ] {
+            let line = Line {
+                color_srgb,
+                length,
+                ..Default::default()
+            };
+            style.write(queue, &line);
+        }
+        let highlight = Highlight {
+            color_srgb: encoded(colors.accent, HIGHLIGHT_ALPHA),
+            ..Default::default()
+        };
+        self.highlight.write(queue, &highlight);
+    }
+
+    /// Draws ghosts, highlight and lines of the model over the finished model. The caller sets group 0, and an empty group 2.
+    pub(super) fn draw_over_model(
+        &self,
+        device: &wgpu::Device,
+        pass: &mut wgpu::RenderPass<'_>,
+        frame: &RenderFrame<'_>,
+        model: &GpuModel,
+        posed: Posed<'_>,
+    ) {
+        self.ghosts.draw(pass, model, posed);
+        let has = |overlay| frame.options.overlays.has(overlay);
+        if let Some(submesh) = frame.highlighted_submesh {
+            pass.set_bind_group(3, &self.highlight.group, &[]);
+            model.draw_submesh(pass, posed, ModelDraw::Highlight, submesh);
+        }
+        if has(Overlay::Wireframe) {
+            pass.set_bind_group(3, &self.wire.group, &[]);
+            model.draw_edges(device, pass, posed);
+        }
+        for (overlay, draw, style) in [
+            (Overlay::Normals, ModelDraw::Normals, &self.normals),
+            (Overlay::Tangents, ModelDraw::Tangents, &self.tangents),
+        ] {
+            if has(overlay) {
+                pass.set_bind_group(3, &style.group, &[]);
+                model.draw_vertex_lines(pass, posed, draw);
+            }
+        }
+    }
+
+    /// Draws the shapes of the world. The caller sets group 0. `size` is the target's, pixels.
+    pub(super) fn draw_shapes(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &Pipelines,
+        nothing: &wgpu::BindGroup,
+        size: [u32; 2],
+    ) {
+        // Their vertices have colours of their own, but the lines' layout has a style all the same.
+        self.shapes.draw(pass, pipelines, nothing, &self.wire.group, size);
+    }
+}
+
+/// A small uniform, bound as group 3.
+struct Style {
+    buffer: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl Style {
+    fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("line"),
+            size: size_of::<Line>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self {
+            group: bind_group(device, "line", &layouts.line, [buffer.as_entire_binding()]),
+            buffer,
+        }
+    }
+
+    /// A [`Line`], or what is as large.
+    fn write(&self, queue: &wgpu::Queue, uniform: &impl bytemuck::NoUninit) {
+        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniform));
+    }
+}
+
+/// The model in another pose.
+struct GpuGhost {
+    bones: BoneTexture,
+    style: Style,
+}
+
+/// The ghosts: as many as one skeleton ever showed at once.
+#[derive(Default)]
+struct Ghosts {
+    ghosts: Vec<GpuGhost>,
+    joint_count: usize,
+    shown: usize,
+}
+
+impl Ghosts {
+    fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, layouts: &Layouts, frame: &RenderFrame<'_>) {
+        let palettes = frame.ghosts.palettes;
+        let joint_count = palettes.first().map_or(0, |palette| palette.0.len());
+        if joint_count != self.joint_count {
+            self.ghosts.clear();
+            self.joint_count = joint_count;
+        }
+        self.ghosts
+            .resize_with(self.ghosts.len().max(palettes.len()), || GpuGhost {
+                bones: BoneTexture::new(device, &layouts.bones, joint_count),
+                style: Style::new(device, layouts),
+            });
+        self.shown = palettes.len();
+        let given = palettes.iter().zip(frame.ghosts.colors_srgb);
+        for (ghost, (palette, color_srgb)) in self.ghosts.iter_mut().zip(given) {
+            ghost.bones.write(queue, palette);
+            let highlight = Highlight {
+                color_srgb: color_srgb.map(|channel| f32::from(channel) / 255.0),
+                ..Default::default()
+            };
+            ghost.style.write(queue, &highlight);
+        }
+    }
+
+    /// The caller sets group 0, and an empty group 2.
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, model: &GpuModel, posed: Posed<'_>) {
+        if !posed.skinned {
+            return;
+        }
+        for ghost in &self.ghosts[..self.shown] {
+            let posed = Posed {
+                bones: &ghost.bones,
+                ..posed
+            };
+            pass.set_bind_group(3, &ghost.style.group, &[]);
+            model.draw_shape(pass, posed, ModelDraw::Highlight);
+        }
+    }
+}
+
+/// World shapes of one kind, in a buffer that grows.
+struct Shapes {
+    buffer: wgpu::Buffer,
+    capacity: usize,
+    /// First come the vertices that the model hides, then those that are seen through it.
+    hidden_count: u32,
+    count: u32,
+}
+
+impl Shapes {
+    fn new(device: &wgpu::Device) -> Self {
+        let capacity = 64;
+        Self {
+            buffer: Self::buffer(device, capacity),
+            capacity,
+            hidden_count: 0,
+            count: 0,
+        }
+    }
+
+    fn buffer(device: &wgpu::Device, capacity: usize) -> wgpu::Buffer {
+        device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("world shapes"),
+            size: (capacity * size_of::<OverlayVertex>()) as u64,
+            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    fn write(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        hidden: &[OverlayVertex],
+        through: &[&[OverlayVertex]],
+    ) {
+        let count = hidden.len() + through.iter().map(|part| part.len()).sum::<usize>();
+        if count > self.capacity {
+            self.capacity = count.next_power_of_two();
+            self.buffer = Self::buffer(device, self.capacity);
+        }
+        let mut at = 0;
+        for part in std::iter::once(&hidden).chain(through) {
+            queue.write_buffer(&self.buffer, at, bytemuck::cast_slice(part));
+            at += size_of_val(*part) as u64;
+        }
+        self.hidden_count = hidden.len() as u32;
+        self.count = count as u32;
+    }
+}
+
+/// Lines and triangles that stand in the world: the scene's box, its axes, and what is seen through the model.
+struct WorldShapes {
+    lines: Shapes,
+    triangles: Shapes,
+}
+
+impl WorldShapes {
+    fn new(device: &wgpu::Device) -> Self {
+        Self {
+            lines: Shapes::new(device),
+            triangles: Shapes::new(device),
+        }
+    }
+
+    fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
+        let nothing = OverlayGeometry::default();
+        let over_model = frame.over_model.unwrap_or(&nothing);
+        let axes = axes(frame);
+        self.lines
+            .write(device, queue, &bounds(frame).lines, &[&over_model.lines, &axes.lines]);
+        self.triangles.write(device, queue, &[], &[&over_model.triangles]);
+    }
+
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        pipelines: &Pipelines,
+        nothing: &wgpu::BindGroup,
+        line_group: &wgpu::BindGroup,
+        size: [u32; 2],
+    ) {
+        if self.lines.count + self.triangles.count == 0 {
+            return;
+        }
+        pass.set_bind_group(1, nothing, &[]);
+        pass.set_bind_group(2, nothing, &[]);
+        pass.set_bind_group(3, line_group, &[]);
+        let [width, height] = size.map(|side| side as f32);
+        for through in [false, true] {
+            if through {
+                pass.set_viewport(0.0, 0.0, width, height, 0.0, THROUGH_DEPTH);
+            }
+            for (shape, shapes) in [
+                (WorldShape::Triangles, &self.triangles),
+                (WorldShape::Lines, &self.lines),
+            ] {
+                let vertices = if through {
+                    shapes.hidden_count..shapes.count
+                } else {
+                    0..shapes.hidden_count
+                };
+                if !vertices.is_empty() {
+                    pass.set_pipeline(&pipelines.get(Draw::World { shape, through }));
+                    pass.set_vertex_buffer(0, shapes.buffer.slice(..));
+                    pass.draw(vertices, 0..1);
+                }
+            }
+        }
+        pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
+    }
+}
+
+/// The twelve edges of the scene's box; empty when they are not shown.
+fn bounds(frame: &RenderFrame<'_>) -> OverlayGeometry {
+    let mut geometry = OverlayGeometry::default();
+    let bounds = &frame.world_bounds;
+    if !frame.options.overlays.has(Overlay::Bounds) || bounds.is_empty() {
+        return geometry;
+    }
+    let corner = |bits: usize| {
+        let pick = |axis: usize| {
+            if bits >> axis & 1 == 0 {
+                bounds.min[axis]
+            } else {
+                bounds.max[axis]
+            }
+        };
+        Vec3::new(pick(0), pick(1), pick(2))
+    };
+    for from in 0..8 {
+        for to in (0..3).map(|axis| from | 1 << axis).filter(|&to| to != from) {
+            geometry.line(corner(from), corner(to), BOUNDS_SRGB);
+        }
+    }
+    geometry
+}
+
+/// The world's axes; empty when they are not shown. They are mostly inside the model, so they are seen through it.
+fn axes(frame: &RenderFrame<'_>) -> OverlayGeometry {
+    let mut geometry = OverlayGeometry::default();
+    if frame.options.overlays.has(Overlay::Axes) {
+        let length = frame.world_bounds.radius().max(f32::MIN_POSITIVE) * AXIS_LENGTH;
+        for (axis, color) in Vec3::AXES.into_iter().zip(AXES_SRGB) {
+            geometry.line(Vec3::ZERO, axis * length, color);
+        }
+    }
+    geometry
+}
