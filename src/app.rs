@@ -21,11 +21,11 @@ const MAX_STEP_SECS: f32 = 0.25;
 pub struct App {
     session: Rc<RefCell<Session>>,
     state: UiState,
-    stage: Stage,
+    painter: SessionPainter,
 }
 
 impl App {
-    /// Takes up a session, which may have a model open already. `coarse_pointer`: fingers are the device's pointer.
+    /// Shows a session, which may have a model open already. `coarse_pointer`: fingers are the device's pointer.
     pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, coarse_pointer: bool) -> Self {
         ui::install(ctx);
         gpu.renderer
@@ -35,7 +35,7 @@ impl App {
         Self {
             session,
             state: UiState::new(coarse_pointer),
-            stage: Stage::new(ctx, gpu),
+            painter: SessionPainter::new(ctx, gpu),
         }
     }
 
@@ -46,7 +46,7 @@ impl App {
         if ui.ctx().current_pass_index() == 0 {
             let dt_secs = ui.input(|input| input.unstable_dt);
             session.begin_pass(dt_secs);
-            session.advance(if self.stage.was_moving {
+            session.advance(if self.painter.was_moving {
                 dt_secs.min(MAX_STEP_SECS)
             } else {
                 0.0
@@ -61,7 +61,7 @@ impl App {
             session.apply(command);
         }
         if session.joints().marked() != marked {
-            // A panel that moved under the pointer may have done that: no input follows by which the others would be told.
+            // A panel that moved under the pointer may have done that, and no input follows that would update the other panels.
             ui.ctx().request_repaint();
         }
 
@@ -76,20 +76,20 @@ impl App {
         }
 
         if ui.ctx().will_discard() {
-            // The frame's last pass draws.
+            // Only the frame's last pass draws.
             return requests;
         }
         let points_to_pixels = ui.pixels_per_point() * session.quality().render_scale().fraction();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
         let drawn = self
-            .stage
+            .painter
             .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
         let goes_on = drawn && session.frame_drawn();
 
-        self.stage.was_moving = session.is_moving();
+        self.painter.was_moving = session.is_moving();
         if goes_on
-            || self.stage.was_moving
-            || session.picture_revision() != self.stage.drawn.map_or(0, |drawn| drawn.picture)
+            || self.painter.was_moving
+            || session.picture_revision() != self.painter.drawn.map_or(0, |drawn| drawn.picture)
         {
             ui.ctx().request_repaint();
         }
@@ -99,7 +99,7 @@ impl App {
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.
     pub fn start_over(&mut self, ctx: &egui::Context) {
         self.state = UiState::new(self.state.coarse_pointer());
-        self.stage.forget();
+        self.painter.forget();
         ctx.memory_mut(|memory| {
             let options = std::mem::take(&mut memory.options);
             *memory = egui::Memory::default();
@@ -110,7 +110,7 @@ impl App {
 
     /// How many pictures of the model were drawn: stands still while nothing changes.
     pub fn frames_rendered(&self) -> u64 {
-        self.stage.frames_rendered
+        self.painter.frames_rendered
     }
 
     /// Whether Esc would shut something, end what is being typed or let go of a selection.
@@ -119,8 +119,7 @@ impl App {
     }
 
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
-    /// the window leaves out for speed are drawn.
-    /// `adjust` may have it looked at in another way than the window shows.
+    /// the window leaves out for speed are drawn. `adjust` may change how it looks.
     ///
     /// # Errors
     /// When the device draws no picture of this size; whether it could draw this one comes with its pixels.
@@ -130,7 +129,7 @@ impl App {
         adjust: impl FnOnce(&mut FrameOptions),
     ) -> Result<Picture, PictureError> {
         let mut session = self.session.borrow_mut();
-        self.stage.draw_snapshot(&mut session, size, adjust)
+        self.painter.draw_snapshot(&mut session, size, adjust)
     }
 }
 
@@ -141,8 +140,8 @@ struct Drawn {
     size: [u32; 2],
 }
 
-/// Renderer and target of the window, and what is on them.
-struct Stage {
+/// Draws the session: the renderer, the window's target, and the revisions of what was uploaded and drawn.
+struct SessionPainter {
     gpu: RenderState,
     renderer: Renderer,
     target: Target,
@@ -153,15 +152,15 @@ struct Stage {
     drawn: Option<Drawn>,
     frames_rendered: u64,
     was_moving: bool,
-    /// What the GPU has yet to say of what was brought to it.
+    /// Uploads that the GPU has not confirmed yet.
     answers: Vec<GpuAnswer>,
-    /// The same of a target of another size, and all that goes with it.
+    /// A resized target that the GPU has not confirmed yet.
     target_answer: Option<GpuAnswer>,
-    /// Has the window drawn again when it says so.
+    /// Asks for another pass of the window when an answer arrives.
     waker: Waker,
 }
 
-/// A pass of the window is due.
+/// Asks for another pass of the window.
 struct Repaint(egui::Context);
 
 impl Wake for Repaint {
@@ -170,7 +169,7 @@ impl Wake for Repaint {
     }
 }
 
-impl Stage {
+impl SessionPainter {
     fn new(ctx: &egui::Context, gpu: &RenderState) -> Self {
         let samples = device::sample_count(&gpu.adapter);
         Self {
@@ -190,14 +189,14 @@ impl Stage {
         }
     }
 
-    /// Draws when the picture would be another one than the last; whether it did.
+    /// Draws if the picture would differ from the last one. Returns whether it drew.
     fn draw(&mut self, session: &mut Session, size: [u32; 2]) -> bool {
-        self.take_up(session);
+        self.update(session);
         let wanted = Drawn {
             picture: session.picture_revision(),
             size,
         };
-        self.hear_of_target(session);
+        self.poll_target(session);
         if self.drawn == Some(wanted) {
             return false;
         }
@@ -210,7 +209,7 @@ impl Stage {
                 self.renderer.render(&session.frame(), &mut self.target);
             });
             self.target_answer = Some(answer);
-            self.hear_of_target(session);
+            self.poll_target(session);
         }
         if let Some(compositor) = self.gpu.renderer.write().callback_resources.get_mut::<Compositor>() {
             compositor.prepare(&self.gpu.device, &self.target);
@@ -220,8 +219,8 @@ impl Stage {
         true
     }
 
-    /// Has the session show what the GPU says of a target of another size, if that is an error.
-    fn hear_of_target(&mut self, session: &mut Session) {
+    /// Shows the GPU's error about a resized target in the session, if there is one.
+    fn poll_target(&mut self, session: &mut Session) {
         let Some(mut answer) = self.target_answer.take() else {
             return;
         };
@@ -238,7 +237,7 @@ impl Stage {
         size: [u32; 2],
         adjust: impl FnOnce(&mut FrameOptions),
     ) -> Result<Picture, PictureError> {
-        self.take_up(session);
+        self.update(session);
         let passes = session.quality().wanted();
         let mut frame = session.frame();
         frame.options.passes = passes;
@@ -246,11 +245,11 @@ impl Stage {
         self.renderer.picture(&frame, size)
     }
 
-    /// Brings to the GPU what is not there yet. When that fails, what was open before is open again, and is brought there.
-    fn take_up(&mut self, session: &mut Session) {
-        // What it took before it may refuse now, and then nothing is open, which it takes.
+    /// Uploads what changed in the session. When that fails, the session goes back to what was open before, and that is uploaded.
+    fn update(&mut self, session: &mut Session) {
+        // The GPU may refuse what it accepted before. Then the session opens nothing, which always works.
         for _ in 0..3 {
-            match self.bring(session) {
+            match self.try_update(session) {
                 Err(reason) => {
                     session.go_back(&reason);
                     self.forget();
@@ -260,10 +259,10 @@ impl Stage {
         }
     }
 
-    /// Brings to the GPU what is not there yet, and hears what became of all that was brought. The reason when that failed.
-    fn bring(&mut self, session: &mut Session) -> Result<(), String> {
+    /// Uploads what changed in the session, and polls the GPU's answers to all uploads. An error is the reason why one failed.
+    fn try_update(&mut self, session: &mut Session) -> Result<(), String> {
         let device = self.gpu.device.clone();
-        if self.lacks_something_of(session) {
+        if self.is_behind(session) {
             let (uploaded, answer) = watched(&device, || self.upload(session));
             self.answers.push(answer);
             uploaded.map_err(|error| error.to_string())?;
@@ -287,14 +286,14 @@ impl Stage {
         Ok(())
     }
 
-    /// Holds nothing of the session any longer.
+    /// Forgets all that was uploaded.
     fn forget(&mut self) {
         self.renderer.clear_model();
         self.answers.clear();
         (self.model, self.maps, self.materials, self.sky, self.drawn) = (None, None, None, None, None);
     }
 
-    fn lacks_something_of(&self, session: &Session) -> bool {
+    fn is_behind(&self, session: &Session) -> bool {
         let of_model = [
             (self.model, session.model_revision()),
             (self.maps, session.maps_revision()),
