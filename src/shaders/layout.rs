@@ -73,6 +73,22 @@ pub struct Material {
     pub identity_srgb: [f32; 4],
 }
 
+/// Twin of `Environment` in `environment.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Environment {
+    /// Irradiance over π as spherical harmonics: [`Irradiance::to_uniform`](crate::light::Irradiance::to_uniform).
+    pub sh: [[f32; 4]; 9],
+    /// World x of the environment's x axis, which is horizontal and of unit length.
+    pub turn_cos: f32,
+    /// World z of the same axis.
+    pub turn_sin: f32,
+    /// Multiplies all its light.
+    pub intensity: f32,
+    /// Levels of the specular cube; 0 where it is not to be read.
+    pub specular_level_count: f32,
+}
+
 /// Twin of `Line` in `lines.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]

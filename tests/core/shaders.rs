@@ -29,7 +29,7 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         ..glsl::Options::default()
     };
     let mut entry_points = Vec::new();
-    for program in &PROGRAMS {
+    for program in PROGRAMS {
         let (module, info) = compile(program);
         for entry_point in &module.entry_points {
             let pipeline = glsl::PipelineOptions {
@@ -208,7 +208,7 @@ fn twins() -> BTreeMap<String, Layout> {
 #[test]
 fn uniform_structs_lie_as_their_twins() {
     let mut found = BTreeMap::new();
-    for program in &PROGRAMS {
+    for program in PROGRAMS {
         let (module, _) = compile(program);
         let uniforms = module.global_variables.iter().map(|(_, variable)| variable);
         for variable in uniforms.filter(|variable| variable.space == naga::AddressSpace::Uniform) {
