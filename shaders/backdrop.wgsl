@@ -10,7 +10,7 @@ fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
     let offset = vec2<f32>(ndc.x * 0.16, ndc.y - BACKDROP_ROW);
     // Rounded at the middle, so that no crease shows there.
     let away = (sqrt(dot(offset, offset) + 0.012) - 0.11) * BACKDROP_FALLOFF;
-    return mix(frame.backdrop_center_srgb.rgb, frame.backdrop_edge_srgb.rgb, clamp(away, 0.0, 1.0));
+    return mix(ground.backdrop_center_srgb.rgb, ground.backdrop_edge_srgb.rgb, clamp(away, 0.0, 1.0));
 }
 
 // Coverage of lines at whole numbers of `coordinate`, `width_pixels` wide; `per_pixel` is how far a pixel steps.
@@ -26,58 +26,58 @@ fn line_coverage(coordinate: vec2<f32>, per_pixel: vec2<f32>, width_pixels: f32)
 // The sky in a direction. Under the studio light it is exposed and toned as the model is; the books show texels as they are.
 fn sky_color(direction: vec3<f32>) -> vec3<f32> {
     let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
-    if frame.is_book == 1u {
+    if light.is_book == 1u {
         return clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0));
     }
-    return tone_mapped(exposed(texel, frame.exposure_stops));
+    return tone_mapped(exposed(texel, camera.exposure_stops));
 }
 
 @fragment
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    var color = linear_from_srgb(select(frame.background_srgb, backdrop_srgb(view.ndc), frame.background == 0u));
-    let eye = frame.eye + view.ndc.x * frame.eye_per_x + view.ndc.y * frame.eye_per_y;
-    let ray = frame.forward + view.ndc.x * frame.forward_per_x + view.ndc.y * frame.forward_per_y;
-    if frame.background == 1u {
+    var color = linear_from_srgb(select(ground.background_srgb, backdrop_srgb(view.ndc), ground.background == 0u));
+    let eye = camera.eye + view.ndc.x * camera.eye_per_x + view.ndc.y * camera.eye_per_y;
+    let ray = camera.forward + view.ndc.x * camera.forward_per_x + view.ndc.y * camera.forward_per_y;
+    if ground.background == 1u {
         color = sky_color(normalize(ray));
     }
     let behind = color;
-    let along = (frame.ground_height - eye.y) / ray.y;
+    let along = (ground.height - eye.y) / ray.y;
     if ray.y != 0.0 && along > 0.0 {
         let point = eye + ray * along;
-        let from_center = point.xz - frame.grid_center;
-        let away = length(from_center) / frame.grid_reach;
+        let from_center = point.xz - ground.grid_center;
+        let away = length(from_center) / ground.grid_reach;
         if away < 1.0 {
-            if ray.y < 0.0 && frame.shadow_strength > 0.0 {
-                let lit = key_visibility(point, frame.ground_shadow_radius_texels);
-                color *= 1.0 - frame.shadow_strength * (1.0 - lit);
+            if ray.y < 0.0 && ground.shadow_strength > 0.0 {
+                let lit = key_visibility(point, ground.shadow_radius_texels);
+                color *= 1.0 - ground.shadow_strength * (1.0 - lit);
             }
-            if ray.y < 0.0 && frame.contact_strength > 0.0 {
-                let in_contact_map = (point.xz - frame.contact_center) / frame.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
+            if ray.y < 0.0 && ground.contact_strength > 0.0 {
+                let in_contact_map = (point.xz - ground.contact_center) / ground.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
                 let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).r;
-                color *= 1.0 - frame.contact_strength * contact;
+                color *= 1.0 - ground.contact_strength * contact;
             }
             // How the point moves from one pixel to the next, exact: screen derivatives would tear at the horizon.
-            let along_x = -(frame.eye_per_x.y + along * frame.forward_per_x.y) / ray.y;
-            let along_y = -(frame.eye_per_y.y + along * frame.forward_per_y.y) / ray.y;
-            let point_x = frame.eye_per_x + along * frame.forward_per_x + along_x * ray;
-            let point_y = frame.eye_per_y + along * frame.forward_per_y + along_y * ray;
-            let ndc_per_pixel = 2.0 / frame.viewport_pixels;
+            let along_x = -(camera.eye_per_x.y + along * camera.forward_per_x.y) / ray.y;
+            let along_y = -(camera.eye_per_y.y + along * camera.forward_per_y.y) / ray.y;
+            let point_x = camera.eye_per_x + along * camera.forward_per_x + along_x * ray;
+            let point_y = camera.eye_per_y + along * camera.forward_per_y + along_y * ray;
+            let ndc_per_pixel = 2.0 / camera.viewport_pixels;
             let step_x = abs(point_x.xz) * ndc_per_pixel.x;
             let step_y = abs(point_y.xz) * ndc_per_pixel.y;
-            let per_pixel = sqrt(step_x * step_x + step_y * step_y) / frame.grid_cell;
+            let per_pixel = sqrt(step_x * step_x + step_y * step_y) / ground.grid_cell;
 
-            let coordinate = point.xz / frame.grid_cell;
-            let minor = line_coverage(coordinate, per_pixel, 1.0) * frame.grid_minor.a;
-            let major = line_coverage(coordinate * 0.1, per_pixel * 0.1, 1.35) * frame.grid_major.a;
+            let coordinate = point.xz / ground.grid_cell;
+            let minor = line_coverage(coordinate, per_pixel, 1.0) * ground.grid_minor.a;
+            let major = line_coverage(coordinate * 0.1, per_pixel * 0.1, 1.35) * ground.grid_major.a;
             let fade = (1.0 - away) * (1.0 - away);
             let grazing = smoothstep(0.0, 0.12, abs(ray.y) / length(ray));
-            let strength = fade * grazing * frame.grid_strength;
-            color = mix(color, frame.grid_minor.rgb, minor * strength);
-            color = mix(color, frame.grid_major.rgb, major * strength);
+            let strength = fade * grazing * ground.grid_strength;
+            color = mix(color, ground.grid_minor.rgb, minor * strength);
+            color = mix(color, ground.grid_major.rgb, major * strength);
         }
     }
     // One colour that was asked for is not dithered but given.
-    if frame.background == 2u && all(color == behind) {
+    if ground.background == 2u && all(color == behind) {
         return vec4<f32>(behind, 1.0);
     }
     return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), view.clip.xy), 1.0);

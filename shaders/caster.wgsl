@@ -1,7 +1,7 @@
 // The model as the key light sees it: depth only.
 
 fn shadow_clip(vertex: Skinned) -> vec4<f32> {
-    return frame.shadow_clip_from_world * frame.world_from_model * vec4<f32>(vertex.position, 1.0);
+    return light.shadow_clip_from_world * camera.world_from_model * vec4<f32>(vertex.position, 1.0);
 }
 
 @vertex

@@ -6,7 +6,7 @@ struct CutVertex {
 }
 
 fn cut_vertex(vertex: Skinned, tex_coord: vec2<f32>) -> CutVertex {
-    return CutVertex(frame.shadow_clip_from_world * frame.world_from_model * vec4<f32>(vertex.position, 1.0), tex_coord);
+    return CutVertex(light.shadow_clip_from_world * camera.world_from_model * vec4<f32>(vertex.position, 1.0), tex_coord);
 }
 
 @vertex

@@ -6,9 +6,9 @@ struct ContactVertex {
 }
 
 fn contact_vertex(vertex: Skinned) -> ContactVertex {
-    let world = frame.world_from_model * vec4<f32>(vertex.position, 1.0);
-    let in_map = (world.xz - frame.contact_center) / frame.contact_half_width;
-    return ContactVertex(vec4<f32>(in_map, 0.5, 1.0), world.y - frame.ground_height);
+    let world = camera.world_from_model * vec4<f32>(vertex.position, 1.0);
+    let in_map = (world.xz - ground.contact_center) / ground.contact_half_width;
+    return ContactVertex(vec4<f32>(in_map, 0.5, 1.0), world.y - ground.height);
 }
 
 @vertex
@@ -30,5 +30,5 @@ const HALF_HEIGHT: f32 = 0.16;
 
 @fragment
 fn fragment(vertex: ContactVertex) -> @location(0) vec4<f32> {
-    return vec4<f32>(exp2(-max(vertex.height, 0.0) / (HALF_HEIGHT * frame.book_unit)));
+    return vec4<f32>(exp2(-max(vertex.height, 0.0) / (HALF_HEIGHT * light.book_unit)));
 }

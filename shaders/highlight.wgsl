@@ -14,9 +14,9 @@ struct HighlightVertex {
 }
 
 fn highlight_vertex(vertex: Skinned) -> HighlightVertex {
-    let rows = transpose(frame.world_from_model);
+    let rows = transpose(camera.world_from_model);
     let world = transform(rows[0], rows[1], rows[2], vertex);
-    return HighlightVertex(frame.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal);
+    return HighlightVertex(camera.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal);
 }
 
 @vertex

@@ -17,16 +17,16 @@ struct LineVertex {
 // Nearer by a share of the distance, so that lines on a surface are not lost in it.
 fn line_vertex(world_position: vec3<f32>, color_srgb: vec4<f32>) -> LineVertex {
     var nearer = world_position;
-    if frame.is_perspective > 0.5 {
-        nearer += (frame.eye - world_position) * 1e-3;
+    if camera.is_perspective > 0.5 {
+        nearer += (camera.eye - world_position) * 1e-3;
     } else {
-        nearer -= frame.forward * (frame.depth_far - frame.depth_near) * 1e-3;
+        nearer -= camera.forward * (camera.depth_far - camera.depth_near) * 1e-3;
     }
-    return LineVertex(frame.clip_from_world * vec4<f32>(nearer, 1.0), color_srgb);
+    return LineVertex(camera.clip_from_world * vec4<f32>(nearer, 1.0), color_srgb);
 }
 
 fn in_world(vertex: Skinned) -> Skinned {
-    let rows = transpose(frame.world_from_model);
+    let rows = transpose(camera.world_from_model);
     return transform(rows[0], rows[1], rows[2], vertex);
 }
 

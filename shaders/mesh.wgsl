@@ -4,7 +4,7 @@
 
 // Light is dithered; a property that is read off the picture stays what it is.
 fn stored(color_srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
-    if frame.view_mode != 0u {
+    if camera.view_mode != 0u {
         return linear_from_srgb(color_srgb);
     }
     return dithered_linear_from_srgb(color_srgb, pixel);

@@ -1,7 +1,7 @@
 // The model under the light of the books' demos.
 
 fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
-    if frame.reflections < 0.5 {
+    if light.reflections < 0.5 {
         return vec3<f32>(0.0);
     }
     let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
@@ -10,9 +10,9 @@ fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
     let texel = srgb_from_linear(point.diffuse_texel.rgb);
-    let to_lights = array<vec3<f32>, 3>(frame.to_key, frame.to_book_light_1.xyz, frame.to_book_light_2.xyz);
+    let to_lights = array<vec3<f32>, 3>(light.to_key, light.to_book_light_1, light.to_book_light_2);
     var key_visible = 1.0;
-    if dot(point.normal, frame.to_key) > 0.0 {
+    if dot(point.normal, light.to_key) > 0.0 {
         key_visible = key_arrival(point);
     }
     let mirrored = reflect(-point.to_eye, point.normal);

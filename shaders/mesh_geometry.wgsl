@@ -8,9 +8,9 @@ struct GeometryPoint {
 }
 
 fn geometry_point(vertex: Skinned, tex_coord: vec2<f32>) -> GeometryPoint {
-    let rows = transpose(frame.world_from_model);
+    let rows = transpose(camera.world_from_model);
     let world = transform(rows[0], rows[1], rows[2], vertex);
-    return GeometryPoint(frame.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal, tex_coord);
+    return GeometryPoint(camera.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal, tex_coord);
 }
 
 @vertex
@@ -34,10 +34,10 @@ fn vertex_skinned(
 }
 
 fn seen(point: GeometryPoint, clockwise: bool) -> vec4<f32> {
-    let side = select(-1.0, 1.0, clockwise) * frame.front_sign;
-    let along = dot(point.world_position - frame.eye, frame.forward);
-    let normal = normalize_or(point.world_normal, -frame.forward) * side;
-    return packed_geometry(normal, (along - frame.depth_near) / (frame.depth_far - frame.depth_near));
+    let side = select(-1.0, 1.0, clockwise) * camera.front_sign;
+    let along = dot(point.world_position - camera.eye, camera.forward);
+    let normal = normalize_or(point.world_normal, -camera.forward) * side;
+    return packed_geometry(normal, (along - camera.depth_near) / (camera.depth_far - camera.depth_near));
 }
 
 @fragment

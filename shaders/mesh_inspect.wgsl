@@ -35,7 +35,7 @@ fn facing_shade(point: SurfacePoint) -> f32 {
 }
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
-    switch frame.view_mode {
+    switch camera.view_mode {
         case BASE_COLOR: {
             return srgb_from_linear(material.albedo * point.diffuse_texel.rgb);
         }
@@ -65,8 +65,8 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             return material.identity_srgb.rgb * facing_shade(point);
         }
         case DEPTH: {
-            let along = dot(point.world_position - frame.eye, frame.forward);
-            return vec3<f32>(1.0 - clamp((along - frame.depth_near) / (frame.depth_far - frame.depth_near), 0.0, 1.0));
+            let along = dot(point.world_position - camera.eye, camera.forward);
+            return vec3<f32>(1.0 - clamp((along - camera.depth_near) / (camera.depth_far - camera.depth_near), 0.0, 1.0));
         }
         case AMBIENT_OCCLUSION: {
             return vec3<f32>(point.occlusion);

@@ -11,8 +11,8 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
     // What faces away from the key lies in its own shadow. Towards there the light fades before the map says so: on coarse
     // triangles with smooth normals the map would draw each triangle's edge, and draw it jagged.
     var key_visible = 0.0;
-    let facing_key = dot(point.smooth_normal, frame.to_key);
-    let own_light = smoothstep(0.0, 0.4, facing_key) * smoothstep(-0.1, 0.0, dot(point.flat_normal, frame.to_key));
+    let facing_key = dot(point.smooth_normal, light.to_key);
+    let own_light = smoothstep(0.0, 0.4, facing_key) * smoothstep(-0.1, 0.0, dot(point.flat_normal, light.to_key));
     if own_light > 0.0 {
         key_visible = own_light * key_arrival(point);
     }
@@ -27,6 +27,6 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         point.to_eye,
         point.occlusion,
     );
-    let lights = StudioLights(frame.to_key, KEY_COLOR, key_visible, frame.to_rim, RIM_COLOR);
-    return srgb_from_linear(tone_mapped(exposed(studio_light(surface, lights), frame.exposure_stops)));
+    let lights = StudioLights(light.to_key, KEY_COLOR, key_visible, light.to_rim, RIM_COLOR);
+    return srgb_from_linear(tone_mapped(exposed(studio_light(surface, lights), camera.exposure_stops)));
 }

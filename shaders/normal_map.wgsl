@@ -20,5 +20,5 @@ fn mapped_normal(texel: vec3<f32>, normal: vec3<f32>, tangent: vec4<f32>) -> vec
     if material.normal_channels == 2u {
         z = sqrt(max(1.0 - dot(mapped.xy, mapped.xy), 0.0));
     }
-    return normalize_or(t * mapped.x + b * (mapped.y * frame.normal_green_sign) + normal * z, normal);
+    return normalize_or(t * mapped.x + b * (mapped.y * light.normal_green_sign) + normal * z, normal);
 }

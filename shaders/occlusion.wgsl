@@ -9,13 +9,13 @@ fn geometry_at(pixel: vec2<i32>) -> vec4<f32> {
 
 // Distance along the view, world units.
 fn distance_of(packed: vec4<f32>) -> f32 {
-    return mix(frame.depth_near, frame.depth_far, depth_of(packed));
+    return mix(camera.depth_near, camera.depth_far, depth_of(packed));
 }
 
 // The point of the world at a place of the view.
 fn world_at(ndc: vec2<f32>, along: f32) -> vec3<f32> {
-    return frame.eye + ndc.x * frame.eye_per_x + ndc.y * frame.eye_per_y
-        + along * (frame.forward + ndc.x * frame.forward_per_x + ndc.y * frame.forward_per_y);
+    return camera.eye + ndc.x * camera.eye_per_x + ndc.y * camera.eye_per_y
+        + along * (camera.forward + ndc.x * camera.forward_per_x + ndc.y * camera.forward_per_y);
 }
 
 fn ndc_of_pixel(pixel: vec2<f32>) -> vec2<f32> {

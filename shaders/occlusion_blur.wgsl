@@ -16,7 +16,7 @@ fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
         let at = pixel + step * i;
         let beside = geometry_at(at);
         let is_same_surface = dot(normal_of(beside), normal) >= 0.8
-            && abs(distance_of(beside) - along) <= 0.2 * frame.book_unit;
+            && abs(distance_of(beside) - along) <= 0.2 * light.book_unit;
         if i != 0 && is_same_surface {
             let weight = exp(-f32(i * i) / (2.0 * BLUR_SIGMA * BLUR_SIGMA));
             sum += weight * textureLoad(rough_map, clamp(at, vec2<i32>(0), last), 0).r;

@@ -21,7 +21,7 @@ fn offset_vector(index: i32) -> vec3<f32> {
 
 // How much a point `nearer` in front of another darkens it.
 fn occlusion_of(nearer: f32) -> f32 {
-    let unit = frame.book_unit;
+    let unit = light.book_unit;
     if nearer <= SURFACE_EPSILON * unit {
         return 0.0;
     }
@@ -47,8 +47,8 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     for (var i = 0; i < OFFSET_COUNT; i++) {
         let offset = reflect(offset_vector(i), mirror);
         let outward = sign(dot(offset, normal));
-        let probe = point + outward * OFFSET_RADIUS * frame.book_unit * offset;
-        let clip = frame.clip_from_world * vec4<f32>(probe, 1.0);
+        let probe = point + outward * OFFSET_RADIUS * light.book_unit * offset;
+        let clip = camera.clip_from_world * vec4<f32>(probe, 1.0);
         let probe_ndc = clip.xy / clip.w;
         let found_along = distance_of(geometry_at(vec2<i32>(floor(pixel_of_ndc(probe_ndc)))));
         let found = world_at(probe_ndc, found_along);

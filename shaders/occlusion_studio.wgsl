@@ -25,7 +25,7 @@ fn horizon_cosine(pixel: vec2<f32>, step: vec2<f32>, start: f32, point: vec3<f32
         let away = world_at(ndc_of_pixel(floor(at) + 0.5), distance_of(packed)) - point;
         let distance = length(away);
         let cosine = dot(away, to_eye) / max(distance, 1e-20);
-        let near = clamp(1.0 - distance * distance / (frame.occlusion_radius * frame.occlusion_radius), 0.0, 1.0);
+        let near = clamp(1.0 - distance * distance / (light.occlusion_radius * light.occlusion_radius), 0.0, 1.0);
         if depth_of(packed) < 1.0 {
             highest = max(highest, mix(lowest, cosine, near));
         }
@@ -42,13 +42,13 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let normal = normal_of(packed);
     let along = distance_of(packed);
     // A little towards the viewer: depth has steps.
-    let point = world_at(view.ndc, along - (frame.depth_far - frame.depth_near) * 3e-5);
+    let point = world_at(view.ndc, along - (camera.depth_far - camera.depth_near) * 3e-5);
     let to_eye = towards_eye(point);
     let size = vec2<f32>(textureDimensions(geometry_map));
-    let world_per_pixel = length(frame.eye_per_y + along * frame.forward_per_y) * 2.0 / size.y;
-    let reach = min(frame.occlusion_radius / world_per_pixel, MAX_REACH_PIXELS);
-    let right = normalize(frame.eye_per_x + frame.forward_per_x);
-    let up = normalize(frame.eye_per_y + frame.forward_per_y);
+    let world_per_pixel = length(camera.eye_per_y + along * camera.forward_per_y) * 2.0 / size.y;
+    let reach = min(light.occlusion_radius / world_per_pixel, MAX_REACH_PIXELS);
+    let right = normalize(camera.eye_per_x + camera.forward_per_x);
+    let up = normalize(camera.eye_per_y + camera.forward_per_y);
     let noise = pixel_noise(view.clip.xy);
     let start = 0.25 + 0.75 * fract(noise * 7.0 + 0.37);
 

@@ -7,10 +7,10 @@ const GOLDEN_SIN: f32 = 0.67549029;
 
 // 1 lit, 0 in shadow; blurred over `radius_texels` of the map. Points outside the map are lit.
 fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
-    if frame.key_shadow == 0u {
+    if light.key_shadow == 0u {
         return 1.0;
     }
-    let clip = frame.shadow_clip_from_world * vec4<f32>(world_position, 1.0);
+    let clip = light.shadow_clip_from_world * vec4<f32>(world_position, 1.0);
     let center = clip.xy * vec2<f32>(0.5, -0.5) + 0.5;
     if any(center < vec2<f32>(0.0)) || any(center > vec2<f32>(1.0)) || clip.z < 0.0 {
         return 1.0;

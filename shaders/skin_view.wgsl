@@ -9,9 +9,9 @@ struct SkinViewVertex {
 }
 
 fn skin_view_vertex(vertex: Skinned, tex_coord: vec2<f32>, color_srgb: vec4<f32>) -> SkinViewVertex {
-    let rows = transpose(frame.world_from_model);
+    let rows = transpose(camera.world_from_model);
     let world = transform(rows[0], rows[1], rows[2], vertex);
-    let clip = frame.clip_from_world * vec4<f32>(world.position, 1.0);
+    let clip = camera.clip_from_world * vec4<f32>(world.position, 1.0);
     return SkinViewVertex(clip, world.position, world.normal, tex_coord, color_srgb.rgb);
 }
 

@@ -21,13 +21,13 @@ struct SurfacePoint {
 fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let diffuse_texel = textureSample(diffuse_map, map_sampler, mesh.tex_coord);
     let normal_texel = textureSample(normal_map, map_sampler, mesh.tex_coord);
-    let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), frame.forward);
-    let side = select(-1.0, 1.0, clockwise) * frame.front_sign;
+    let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), camera.forward);
+    let side = select(-1.0, 1.0, clockwise) * camera.front_sign;
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // From behind, a bump is a dent: the relief has one shape, seen from its other side.
     let normal = mapped_normal(normal_texel.rgb, vertex_normal, mesh.world_tangent) * side;
-    let in_view = mesh.clip.xy / frame.viewport_pixels;
+    let in_view = mesh.clip.xy / camera.viewport_pixels;
     return SurfacePoint(
         mesh.world_position,
         to_eye,
@@ -50,8 +50,8 @@ fn shininess(point: SurfacePoint) -> f32 {
 // How much of the key light arrives at a point, whichever way it is turned.
 fn key_arrival(point: SurfacePoint) -> f32 {
     // Grazing light walks further over the surface inside the blur, so the start moves further off it.
-    let facing_key = max(dot(point.smooth_normal, frame.to_key), 0.0);
-    let radius = frame.shadow_texel * frame.shadow_radius_texels;
+    let facing_key = max(dot(point.smooth_normal, light.to_key), 0.0);
+    let radius = light.shadow_texel * light.shadow_radius_texels;
     let off_surface = point.smooth_normal * radius * (1.2 - 0.8 * facing_key);
-    return key_visibility(point.world_position + off_surface, frame.shadow_radius_texels);
+    return key_visibility(point.world_position + off_surface, light.shadow_radius_texels);
 }

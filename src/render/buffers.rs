@@ -1,15 +1,25 @@
-//! Plain data into buffers, within what a device can hold.
+//! Buffers: uniforms, and plain data of a model, within what a device can hold.
 
-/// Elements converted at a time: uploads need no second copy of the mesh.
+/// A buffer for one uniform `T`, to be written before it is read.
+pub(super) fn uniform_buffer<T>(device: &wgpu::Device, label: &str) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: size_of::<T>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Elements converted at a time, so that an upload needs no second copy of the mesh.
 const CHUNK: usize = 16 * 1024;
 
 /// Why a model cannot be drawn on this device.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UploadError {
-    /// A stream is larger than the device's largest buffer.
+    /// One of its buffers is larger than the device's largest buffer.
     #[error("the model's {stream} need {bytes} bytes; this device holds {limit} in one buffer")]
     TooLarge {
-        /// Which stream.
+        /// What the buffer holds.
         stream: &'static str,
         /// Its size.
         bytes: u64,
@@ -26,6 +36,7 @@ pub enum UploadError {
     },
 }
 
+/// Uploads the data of one model.
 pub(super) struct Uploader<'a> {
     pub(super) device: &'a wgpu::Device,
     pub(super) queue: &'a wgpu::Queue,
@@ -33,7 +44,7 @@ pub(super) struct Uploader<'a> {
 }
 
 impl Uploader<'_> {
-    /// A buffer of `count` elements. An empty one gets a few bytes, since no slice of it may be empty.
+    /// A buffer of `count` elements. Without elements it has a few bytes all the same, since no slice of it may be empty.
     pub(super) fn upload<T: bytemuck::NoUninit>(
         &self,
         stream: &'static str,

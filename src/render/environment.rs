@@ -4,6 +4,7 @@
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
+use super::buffers::uniform_buffer;
 use crate::image::{Image, ImageKind, MapKind};
 use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use crate::scene::{Light, Pass, RenderFrame};
@@ -36,14 +37,7 @@ impl Environments {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let daylight = Environment::daylight();
         Self {
-            uniforms: Light::ALL.map(|_| {
-                device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some("environment"),
-                    size: size_of::<shaders::Environment>() as u64,
-                    usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                    mapped_at_creation: false,
-                })
-            }),
+            uniforms: Light::ALL.map(|_| uniform_buffer::<shaders::Environment>(device, "environment")),
             table: table(device, queue),
             studio: EnvironmentMaps::upload(device, queue, &STUDIO),
             daylight: Cube {

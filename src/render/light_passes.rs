@@ -3,11 +3,12 @@
 
 use std::ops::Range;
 
+use super::buffers::uniform_buffer;
 use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::{Pipelines, bind_group};
-use super::uniforms::{Part, frame_uniform};
+use super::uniforms::{camera_uniform, ground_uniform, light_uniform};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
@@ -59,7 +60,9 @@ type LightingViews<T> = [T; 5];
 /// One light's part of the renderer.
 pub(super) struct LightPasses {
     light: Light,
-    frame_buffer: wgpu::Buffer,
+    camera: wgpu::Buffer,
+    light_uniform: wgpu::Buffer,
+    ground: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     shadow: ShadowMap,
     occlusion: Option<AmbientOcclusion>,
@@ -71,17 +74,16 @@ pub(super) struct LightPasses {
 impl LightPasses {
     pub(super) fn new(common: &Common, light: Light) -> Self {
         let device = &common.device;
-        let frame_buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("frame"),
-            size: size_of::<shaders::Frame>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let resources = [frame_buffer.as_entire_binding()];
+        let camera = uniform_buffer::<shaders::Camera>(device, "camera");
+        let light_uniform = uniform_buffer::<shaders::Light>(device, "light");
+        let ground = uniform_buffer::<shaders::Ground>(device, "ground");
+        let resources = [&camera, &light_uniform, &ground].map(wgpu::Buffer::as_entire_binding);
         Self {
             light,
             frame_group: bind_group(device, "frame", &common.pipelines.layouts.frame, resources),
-            frame_buffer,
+            camera,
+            light_uniform,
+            ground,
             shadow: ShadowMap::new(device),
             occlusion: None,
             contact: None,
@@ -121,13 +123,13 @@ impl LightPasses {
             nothing,
             ..
         } = common;
-        let part = Part {
-            light: self.light,
-            size,
-            winding: model.map_or(1.0, |(model, _)| model.winding),
-        };
-        let uniform = frame_uniform(frame, part);
-        queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&uniform));
+        let winding = model.map_or(1.0, |(model, _)| model.winding);
+        let camera = camera_uniform(frame, size, winding);
+        queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
+        let light = light_uniform(frame, self.light);
+        queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
+        let ground = ground_uniform(frame, self.light);
+        queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));
 
         let draws = |pass| frame.options.draws_under(pass, self.light);
         if draws(Pass::Shadow) {

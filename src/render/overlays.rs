@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::bones::BoneTexture;
+use super::buffers::uniform_buffer;
 use super::model::{GpuModel, Posed};
 use super::pipelines::{Layouts, Pipelines, bind_group};
 use super::recipe::{Draw, ModelDraw, WorldShape};
@@ -128,12 +129,7 @@ struct Style {
 
 impl Style {
     fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("line"),
-            size: size_of::<Line>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let buffer = uniform_buffer::<Line>(device, "line");
         Self {
             group: bind_group(device, "line", &layouts.line, [buffer.as_entire_binding()]),
             buffer,

@@ -13,6 +13,7 @@ use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
 /// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
 pub(super) struct Layouts {
+    /// Camera, light and ground.
     pub(super) frame: wgpu::BindGroupLayout,
     pub(super) bones: wgpu::BindGroupLayout,
     pub(super) lighting: wgpu::BindGroupLayout,
@@ -51,7 +52,14 @@ impl Layouts {
         let sampler = |ty| (fragment, wgpu::BindingType::Sampler(ty));
         let filtering = sampler(wgpu::SamplerBindingType::Filtering);
         Self {
-            frame: layout("frame", &[(vertex | fragment, uniform::<shaders::Frame>())]),
+            frame: layout(
+                "frame",
+                &[
+                    (vertex | fragment, uniform::<shaders::Camera>()),
+                    (vertex | fragment, uniform::<shaders::Light>()),
+                    (vertex | fragment, uniform::<shaders::Ground>()),
+                ],
+            ),
             bones: BoneTexture::layout(device),
             lighting: layout(
                 "lighting",

@@ -76,113 +76,118 @@ const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
-/// What a frame uniform depends on beside the frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
-    /// Light of this part of the picture.
-    pub(super) light: Light,
-    /// Size of the whole picture, pixels.
-    pub(super) size: [u32; 2],
-    /// +1 when the model's triangles are clockwise from their front in a left-handed space, else −1.
-    pub(super) winding: f32,
-}
-
-pub(super) fn frame_uniform(frame: &RenderFrame<'_>, part: Part) -> shaders::Frame {
+/// The view of a picture of this size, pixels. `winding` is +1 when the model's triangles are clockwise from their front in a
+/// left-handed space, else −1.
+pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2], winding: f32) -> shaders::Camera {
     let camera = &frame.camera;
-    let options = &frame.options;
-    let [width, height] = part.size.map(|side| side as f32);
+    let [width, height] = size.map(|side| side as f32);
     let aspect = width / height;
-    let colors = theme_colors(options.theme);
-    let bounds = &frame.world_bounds;
-    let ground = Ground::under(bounds);
-    let contact = ContactFit::new(bounds);
-    let book_lights = to_book_lights(options.book_lights_turn_radians);
-    let studio_lights = StudioLights::beside(camera, options.environment_turn_radians);
-    let book_unit = book_unit(frame);
-    let (to_key, shadow) = match part.light {
-        Light::Studio => {
-            let to_key = studio_lights.to_key;
-            (to_key, ShadowFit::studio(bounds, to_key))
-        }
-        Light::Book => {
-            let to_key = book_lights[0];
-            (to_key, ShadowFit::book(bounds, to_key, book_unit))
-        }
-    };
-    let clip_from_world = camera.clip_from_view(aspect, bounds) * camera.view_from_world();
+    let clip_from_world = camera.clip_from_view(aspect, &frame.world_bounds) * camera.view_from_world();
     let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
-
     let half_height = camera.height_in_view() * 0.5;
     let (per_y, per_x) = (camera.up() * half_height, camera.right() * (half_height * aspect));
     let (is_perspective, eye_scale, forward_scale) = match camera.projection {
         Projection::Perspective { .. } => (1.0, 0.0, 1.0 / camera.distance),
         Projection::Orthographic => (0.0, 1.0, 0.0),
     };
-    let reach = (bounds.radius() * GRID_REACH).max(camera.distance * GRID_REACH_OF_DISTANCE);
-    let center = bounds.center();
     let (depth_near, depth_far) = seen_depths(frame);
-    let passes = options.passes;
+    shaders::Camera {
+        clip_from_world: clip_from_world.to_cols_array_2d(),
+        world_from_model: Mat4::from(frame.world_from_model).to_cols_array_2d(),
+        eye: camera.eye().to_array(),
+        is_perspective,
+        forward: camera.forward().to_array(),
+        depth_near,
+        eye_per_x: (per_x * eye_scale).to_array(),
+        depth_far,
+        eye_per_y: (per_y * eye_scale).to_array(),
+        exposure_stops: frame.options.exposure_stops,
+        forward_per_x: (per_x * forward_scale).to_array(),
+        view_mode: frame.options.view_mode as u32,
+        forward_per_y: (per_y * forward_scale).to_array(),
+        front_sign: if mirrors { -winding } else { winding },
+        viewport_pixels: [width, height],
+        ..Default::default()
+    }
+}
+
+/// The part of a picture that this light lights.
+pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Light {
+    let options = &frame.options;
+    let (to_key, shadow) = key_light(frame, light);
+    let to_rim = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_rim;
+    let [_, to_book_light_1, to_book_light_2] = to_book_lights(options.book_lights_turn_radians);
+    let book_unit = book_unit(frame);
+    shaders::Light {
+        shadow_clip_from_world: shadow.shadow_clip_from_world.to_cols_array_2d(),
+        to_key: to_key.to_array(),
+        shadow_texel: shadow.texel,
+        to_rim: to_rim.to_array(),
+        shadow_radius_texels: shadow.radius_texels,
+        to_book_light_1: to_book_light_1.to_array(),
+        occlusion_radius: STUDIO_OCCLUSION_RADIUS * book_unit,
+        to_book_light_2: to_book_light_2.to_array(),
+        book_unit,
+        key_shadow: u32::from(options.passes.has(Pass::Shadow)),
+        reflections: if options.passes.has(Pass::Environment) {
+            1.0
+        } else {
+            0.0
+        },
+        is_book: u32::from(light == Light::Book),
+        normal_green_sign: if options.normal_green_flipped { -1.0 } else { 1.0 },
+    }
+}
+
+/// The ground where this light lights it, and what is behind the model.
+pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Ground {
+    let options = &frame.options;
+    let colors = theme_colors(options.theme);
+    let bounds = &frame.world_bounds;
+    let ground = Ground::under(bounds);
+    let contact = ContactFit::new(bounds);
+    let (_, shadow) = key_light(frame, light);
+    let center = bounds.center();
     let (background, background_srgb) = match options.background {
         Background::Backdrop | Background::None => (0, [0; 3]),
         Background::Sky => (1, [0; 3]),
         Background::Color(color) => (2, color),
     };
-    let to_light = |direction: Vec3| direction.extend(0.0).to_array();
-    let is_drawn = |pass| if passes.has(pass) { 1.0 } else { 0.0 };
-
-    shaders::Frame {
-        clip_from_world: clip_from_world.to_cols_array_2d(),
-        world_from_model: Mat4::from(frame.world_from_model).to_cols_array_2d(),
-        shadow_clip_from_world: shadow.shadow_clip_from_world.to_cols_array_2d(),
-        eye: camera.eye().to_array(),
-        front_sign: if mirrors { -part.winding } else { part.winding },
-        forward: camera.forward().to_array(),
-        is_perspective,
-        eye_per_x: (per_x * eye_scale).to_array(),
-        ground_height: ground.height,
-        eye_per_y: (per_y * eye_scale).to_array(),
-        grid_cell: ground.cell,
-        forward_per_x: (per_x * forward_scale).to_array(),
-        grid_reach: reach,
-        forward_per_y: (per_y * forward_scale).to_array(),
-        shadow_texel: shadow.texel,
-        to_key: to_key.to_array(),
-        shadow_strength: if options.view_mode == ViewMode::Lit {
-            colors.shadow_strength * is_drawn(Pass::Shadow)
-        } else {
-            0.0
-        },
-        to_rim: studio_lights.to_rim.to_array(),
-        grid_strength: if options.overlays.has(Overlay::Grid) { 1.0 } else { 0.0 },
+    let when = |is_drawn, strength| if is_drawn { strength } else { 0.0 };
+    let has_shadow = options.view_mode == ViewMode::Lit && options.passes.has(Pass::Shadow);
+    let has_contact = options.draws_under(Pass::ContactShadow, light);
+    shaders::Ground {
         backdrop_center_srgb: encoded(colors.backdrop_center, 1.0),
         backdrop_edge_srgb: encoded(colors.backdrop_edge, 1.0),
         grid_minor: linear(colors.grid_minor, colors.grid_minor_opacity),
         grid_major: linear(colors.grid_major, colors.grid_major_opacity),
-        grid_center: [center.x, center.z],
-        viewport_pixels: [width, height],
-        normal_green_sign: if options.normal_green_flipped { -1.0 } else { 1.0 },
-        view_mode: options.view_mode as u32,
-        key_shadow: u32::from(passes.has(Pass::Shadow)),
-        reflections: is_drawn(Pass::Environment),
-        depth_near,
-        depth_far,
-        exposure_stops: options.exposure_stops,
-        is_book: u32::from(part.light == Light::Book),
-        to_book_light_1: to_light(book_lights[1]),
-        to_book_light_2: to_light(book_lights[2]),
         background_srgb: background_srgb.map(|channel| f32::from(channel) / 255.0),
         background,
+        grid_center: [center.x, center.z],
         contact_center: contact.center.to_array(),
         contact_half_width: contact.half_width,
-        contact_strength: if options.draws_under(Pass::ContactShadow, part.light) {
-            colors.contact_strength
-        } else {
-            0.0
-        },
-        occlusion_radius: STUDIO_OCCLUSION_RADIUS * book_unit,
-        book_unit,
-        shadow_radius_texels: shadow.radius_texels,
-        ground_shadow_radius_texels: shadow.ground_radius_texels,
+        contact_strength: when(has_contact, colors.contact_strength),
+        shadow_strength: when(has_shadow, colors.shadow_strength),
+        shadow_radius_texels: shadow.ground_radius_texels,
+        height: ground.height,
+        grid_cell: ground.cell,
+        grid_reach: (bounds.radius() * GRID_REACH).max(frame.camera.distance * GRID_REACH_OF_DISTANCE),
+        grid_strength: when(options.overlays.has(Overlay::Grid), 1.0),
+    }
+}
+
+/// The unit vector towards the light that casts shadows, and what its shadow map covers.
+fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
+    let (options, bounds) = (&frame.options, &frame.world_bounds);
+    match light {
+        Light::Studio => {
+            let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
+            (to_key, ShadowFit::studio(bounds, to_key))
+        }
+        Light::Book => {
+            let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);
+            (to_key, ShadowFit::book(bounds, to_key, book_unit(frame)))
+        }
     }
 }
 

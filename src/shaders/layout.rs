@@ -2,55 +2,70 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Twin of `Frame` in `frame.wgsl`, which says what each member means. Matrices are column by column, as in glam.
+/// Twin of `Camera` in `camera.wgsl`, which says what each member means. Matrices are column by column, as in glam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-#[expect(missing_docs, reason = "documented in frame.wgsl, where each is used")]
-pub struct Frame {
+#[expect(missing_docs, reason = "documented in camera.wgsl, where each is used")]
+pub struct Camera {
     pub clip_from_world: [[f32; 4]; 4],
     pub world_from_model: [[f32; 4]; 4],
-    pub shadow_clip_from_world: [[f32; 4]; 4],
     pub eye: [f32; 3],
-    pub front_sign: f32,
-    pub forward: [f32; 3],
     pub is_perspective: f32,
+    pub forward: [f32; 3],
+    pub depth_near: f32,
     pub eye_per_x: [f32; 3],
-    pub ground_height: f32,
+    pub depth_far: f32,
     pub eye_per_y: [f32; 3],
-    pub grid_cell: f32,
+    pub exposure_stops: f32,
     pub forward_per_x: [f32; 3],
-    pub grid_reach: f32,
+    pub view_mode: u32,
     pub forward_per_y: [f32; 3],
-    pub shadow_texel: f32,
+    pub front_sign: f32,
+    pub viewport_pixels: [f32; 2],
+    pub unused: [f32; 2],
+}
+
+/// Twin of `Light` in `light.wgsl`, which says what each member means. Matrices are column by column, as in glam.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in light.wgsl, where each is used")]
+pub struct Light {
+    pub shadow_clip_from_world: [[f32; 4]; 4],
     pub to_key: [f32; 3],
-    pub shadow_strength: f32,
+    pub shadow_texel: f32,
     pub to_rim: [f32; 3],
-    pub grid_strength: f32,
+    pub shadow_radius_texels: f32,
+    pub to_book_light_1: [f32; 3],
+    pub occlusion_radius: f32,
+    pub to_book_light_2: [f32; 3],
+    pub book_unit: f32,
+    pub key_shadow: u32,
+    pub reflections: f32,
+    pub is_book: u32,
+    pub normal_green_sign: f32,
+}
+
+/// Twin of `Ground` in `ground.wgsl`, which says what each member means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in ground.wgsl, where each is used")]
+pub struct Ground {
     pub backdrop_center_srgb: [f32; 4],
     pub backdrop_edge_srgb: [f32; 4],
     pub grid_minor: [f32; 4],
     pub grid_major: [f32; 4],
-    pub grid_center: [f32; 2],
-    pub viewport_pixels: [f32; 2],
-    pub normal_green_sign: f32,
-    pub view_mode: u32,
-    pub key_shadow: u32,
-    pub reflections: f32,
-    pub depth_near: f32,
-    pub depth_far: f32,
-    pub exposure_stops: f32,
-    pub is_book: u32,
-    pub to_book_light_1: [f32; 4],
-    pub to_book_light_2: [f32; 4],
     pub background_srgb: [f32; 3],
     pub background: u32,
+    pub grid_center: [f32; 2],
     pub contact_center: [f32; 2],
     pub contact_half_width: f32,
     pub contact_strength: f32,
-    pub occlusion_radius: f32,
-    pub book_unit: f32,
+    pub shadow_strength: f32,
     pub shadow_radius_texels: f32,
-    pub ground_shadow_radius_texels: f32,
+    pub height: f32,
+    pub grid_cell: f32,
+    pub grid_reach: f32,
+    pub grid_strength: f32,
 }
 
 /// Twin of `Material` in `material.wgsl`, which says what each member means.

@@ -5,7 +5,7 @@
 
 mod layout;
 
-pub use layout::{Environment, Frame, GeometryVertex, Highlight, InfluenceVertex, Line, Material};
+pub use layout::{Camera, Environment, GeometryVertex, Ground, Highlight, InfluenceVertex, Light, Line, Material};
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
 /// Twin of `JOINTS_PER_ROW` in `skinning.wgsl`.
@@ -76,57 +76,59 @@ macro_rules! programs {
 programs! {
     /// The model under the studio light.
     MESH_STUDIO "mesh-studio" [
-        "frame" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface" "environment"
-        "pbr" "studio" "tone_map" "mesh_studio" "mesh"
+        "camera" "light" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
+        "environment" "pbr" "studio" "tone_map" "mesh_studio" "mesh"
     ]
 
     /// The model under the light of the books' demos.
     MESH_BOOK "mesh-book" [
-        "frame" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface" "environment"
-        "book" "mesh_book" "mesh"
+        "camera" "light" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
+        "environment" "book" "mesh_book" "mesh"
     ]
 
     /// One property of the model's surface, without light.
     MESH_INSPECT "mesh-inspect" [
-        "frame" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "environment" "surface"
-        "mesh_inspect" "mesh"
+        "camera" "light" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "environment"
+        "surface" "mesh_inspect" "mesh"
     ]
 
     /// The model in colours of its vertices.
-    SKIN_VIEW "skin-view" ["frame" "skinning" "color" "material" "skin_view"]
+    SKIN_VIEW "skin-view" ["camera" "skinning" "color" "material" "skin_view"]
 
     /// The model's depth from the key light.
-    CASTER "caster" ["frame" "skinning" "caster"]
+    CASTER "caster" ["camera" "light" "skinning" "caster"]
 
     /// The same for materials that alpha cuts.
-    CASTER_CUT "caster-cut" ["frame" "skinning" "material" "caster_cut"]
+    CASTER_CUT "caster-cut" ["camera" "light" "skinning" "material" "caster_cut"]
 
     /// Normals and depth of what is in view.
-    MESH_GEOMETRY "mesh-geometry" ["frame" "skinning" "material" "geometry" "mesh_geometry"]
+    MESH_GEOMETRY "mesh-geometry" ["camera" "skinning" "material" "geometry" "mesh_geometry"]
 
     /// Ambient occlusion of the DirectX 12 book.
-    OCCLUSION_BOOK "occlusion-book" ["frame" "geometry" "occlusion" "fullscreen" "occlusion_book"]
+    OCCLUSION_BOOK "occlusion-book" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_book"]
 
     /// Ambient occlusion by horizons.
-    OCCLUSION_STUDIO "occlusion-studio" ["frame" "geometry" "occlusion" "fullscreen" "occlusion_studio"]
+    OCCLUSION_STUDIO "occlusion-studio" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_studio"]
 
     /// Blurs ambient occlusion, but not across edges.
-    OCCLUSION_BLUR "occlusion-blur" ["frame" "geometry" "occlusion" "fullscreen" "occlusion_blur"]
+    OCCLUSION_BLUR "occlusion-blur" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_blur"]
 
     /// How near the model is above the ground.
-    CONTACT "contact" ["frame" "skinning" "contact"]
+    CONTACT "contact" ["camera" "light" "ground" "skinning" "contact"]
 
     /// Blurs the contact map.
     CONTACT_BLUR "contact-blur" ["fullscreen" "contact_blur"]
 
     /// Backdrop or sky, grid and the shadows on the ground.
-    BACKDROP "backdrop" ["frame" "color" "lighting" "environment" "shadow" "tone_map" "fullscreen" "backdrop"]
+    BACKDROP "backdrop" [
+        "camera" "light" "ground" "color" "lighting" "environment" "shadow" "tone_map" "fullscreen" "backdrop"
+    ]
 
     /// Edges, normals, tangents, boxes, axes.
-    LINES "lines" ["frame" "skinning" "color" "lines"]
+    LINES "lines" ["camera" "skinning" "color" "lines"]
 
     /// The model or a part of it in one transparent colour.
-    HIGHLIGHT "highlight" ["frame" "skinning" "color" "highlight"]
+    HIGHLIGHT "highlight" ["camera" "skinning" "color" "highlight"]
 
     /// The finished picture onto a surface.
     COMPOSITE "composite" ["color" "fullscreen" "composite"]

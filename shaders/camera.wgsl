@@ -1,0 +1,35 @@
+// Where the viewer stands and how the view is shown. Twin: `shaders::Camera`.
+
+struct Camera {
+    clip_from_world: mat4x4<f32>,
+    world_from_model: mat4x4<f32>,
+    // A pixel at ndc (x, y) sees along forward + x * forward_per_x + y * forward_per_y, from
+    // eye + x * eye_per_x + y * eye_per_y. The first two factors are zero in parallel projection, the last two in perspective.
+    eye: vec3<f32>,
+    is_perspective: f32,
+    forward: vec3<f32>,
+    // Distances of the nearest and farthest point of the scene along the view.
+    depth_near: f32,
+    eye_per_x: vec3<f32>,
+    depth_far: f32,
+    eye_per_y: vec3<f32>,
+    // Exposure of the studio light in stops: each doubles it.
+    exposure_stops: f32,
+    forward_per_x: vec3<f32>,
+    // `scene::ViewMode` by its place in the menu.
+    view_mode: u32,
+    forward_per_y: vec3<f32>,
+    // +1 when clockwise triangles show their front in the world, -1 when counter-clockwise ones do.
+    front_sign: f32,
+    @size(16) viewport_pixels: vec2<f32>,
+}
+
+@group(0) @binding(0) var<uniform> camera: Camera;
+
+// Unit vector from a point of the world towards the viewer.
+fn towards_eye(world_position: vec3<f32>) -> vec3<f32> {
+    if camera.is_perspective > 0.5 {
+        return normalize(camera.eye - world_position);
+    }
+    return -camera.forward;
+}

@@ -1,0 +1,28 @@
+// The lights, the shadow of the first, and how surfaces take them. Twin: `shaders::Light`.
+
+struct Light {
+    shadow_clip_from_world: mat4x4<f32>,
+    // Unit vectors towards the lights: the key casts the shadow; the rim is the studio's, the other two are the book's.
+    to_key: vec3<f32>,
+    // World units that a texel of the shadow map covers.
+    shadow_texel: f32,
+    to_rim: vec3<f32>,
+    // Radius of the disc over which shadows on the model are blurred, texels of the shadow map.
+    shadow_radius_texels: f32,
+    to_book_light_1: vec3<f32>,
+    // How far occluders reach, world units.
+    occlusion_radius: f32,
+    to_book_light_2: vec3<f32>,
+    // One unit of the books' demo in world units: the figure there is 3.6 of them tall.
+    book_unit: f32,
+    // 1 when the shadow map holds the model, 0 when nothing is in shadow.
+    key_shadow: u32,
+    // 1, or 0 when the mirrored environment is left out.
+    reflections: f32,
+    // 1 under the light of the books' demos.
+    is_book: u32,
+    // +1 when the green of normal maps points along the bitangent, -1 when against it.
+    normal_green_sign: f32,
+}
+
+@group(0) @binding(1) var<uniform> light: Light;
