@@ -2,7 +2,6 @@
 
 struct Camera {
     clip_from_world: mat4x4<f32>,
-    world_from_model: mat4x4<f32>,
     // A pixel at ndc (x, y) sees along forward + x * forward_per_x + y * forward_per_y, from
     // eye + x * eye_per_x + y * eye_per_y. The first two factors are zero in parallel projection, the last two in perspective.
     eye: vec3<f32>,
@@ -19,8 +18,6 @@ struct Camera {
     // `scene::ViewMode` by its place in the menu.
     view_mode: u32,
     forward_per_y: vec3<f32>,
-    // +1 when clockwise triangles show their front in the world, -1 when counter-clockwise ones do.
-    front_sign: f32,
     @size(16) viewport_pixels: vec2<f32>,
 }
 

@@ -5,23 +5,29 @@ struct CutVertex {
     @location(0) tex_coord: vec2<f32>,
 }
 
-fn cut_vertex(vertex: Skinned, tex_coord: vec2<f32>) -> CutVertex {
-    return CutVertex(light.shadow_clip_from_world * camera.world_from_model * vec4<f32>(vertex.position, 1.0), tex_coord);
+fn cut_vertex(world: Skinned, tex_coord: vec2<f32>) -> CutVertex {
+    return CutVertex(light.shadow_clip_from_world * vec4<f32>(world.position, 1.0), tex_coord);
 }
 
 @vertex
-fn vertex_static(@location(0) position: vec3<f32>, @location(3) tex_coord: vec2<f32>) -> CutVertex {
-    return cut_vertex(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), tex_coord);
+fn vertex_static(
+    instance: Instance,
+    @location(0) position: vec3<f32>,
+    @location(3) tex_coord: vec2<f32>,
+) -> CutVertex {
+    return cut_vertex(in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0))), tex_coord);
 }
 
 @vertex
 fn vertex_skinned(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(3) tex_coord: vec2<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> CutVertex {
-    return cut_vertex(skin(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights), tex_coord);
+    let vertex = Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0));
+    return cut_vertex(posed_in_world(instance, vertex, joints, weights), tex_coord);
 }
 
 @fragment

@@ -5,24 +5,25 @@ struct ContactVertex {
     @location(0) height: f32,
 }
 
-fn contact_vertex(vertex: Skinned) -> ContactVertex {
-    let world = camera.world_from_model * vec4<f32>(vertex.position, 1.0);
+fn contact_vertex(world: vec3<f32>) -> ContactVertex {
     let in_map = (world.xz - ground.contact_center) / ground.contact_half_width;
     return ContactVertex(vec4<f32>(in_map, 0.5, 1.0), world.y - ground.height);
 }
 
 @vertex
-fn vertex_static(@location(0) position: vec3<f32>) -> ContactVertex {
-    return contact_vertex(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)));
+fn vertex_static(instance: Instance, @location(0) position: vec3<f32>) -> ContactVertex {
+    return contact_vertex(in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0))).position);
 }
 
 @vertex
 fn vertex_skinned(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> ContactVertex {
-    return contact_vertex(skin(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights));
+    let vertex = Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0));
+    return contact_vertex(posed_in_world(instance, vertex, joints, weights).position);
 }
 
 // Half of it is gone at this height, in units of the books' demo.

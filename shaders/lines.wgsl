@@ -25,68 +25,69 @@ fn line_vertex(world_position: vec3<f32>, color_srgb: vec4<f32>) -> LineVertex {
     return LineVertex(camera.clip_from_world * vec4<f32>(nearer, 1.0), color_srgb);
 }
 
-fn in_world(vertex: Skinned) -> Skinned {
-    let rows = transpose(camera.world_from_model);
-    return transform(rows[0], rows[1], rows[2], vertex);
-}
-
 @vertex
-fn edge_static(@location(0) position: vec3<f32>) -> LineVertex {
-    return line_vertex(in_world(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0))).position, line.color_srgb);
+fn edge_static(instance: Instance, @location(0) position: vec3<f32>) -> LineVertex {
+    let world = in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)));
+    return line_vertex(world.position, line.color_srgb);
 }
 
 @vertex
 fn edge_skinned(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> LineVertex {
-    let posed = skin(Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights);
-    return line_vertex(in_world(posed).position, line.color_srgb);
+    let world = posed_in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights);
+    return line_vertex(world.position, line.color_srgb);
 }
 
 // Two ends a line, a line a vertex of the mesh.
 @vertex
 fn normal_static(
+    instance: Instance,
     @builtin(vertex_index) end: u32,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
 ) -> LineVertex {
-    let world = in_world(Skinned(position, normal, vec4<f32>(0.0)));
+    let world = in_world(instance, Skinned(position, normal, vec4<f32>(0.0)));
     return line_vertex(world.position + world.normal * line.length * f32(end), line.color_srgb);
 }
 
 @vertex
 fn normal_skinned(
+    instance: Instance,
     @builtin(vertex_index) end: u32,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> LineVertex {
-    let world = in_world(skin(Skinned(position, normal, vec4<f32>(0.0)), joints, weights));
+    let world = posed_in_world(instance, Skinned(position, normal, vec4<f32>(0.0)), joints, weights);
     return line_vertex(world.position + world.normal * line.length * f32(end), line.color_srgb);
 }
 
 @vertex
 fn tangent_static(
+    instance: Instance,
     @builtin(vertex_index) end: u32,
     @location(0) position: vec3<f32>,
     @location(2) tangent: vec4<f32>,
 ) -> LineVertex {
-    let world = in_world(Skinned(position, vec3<f32>(0.0), tangent));
+    let world = in_world(instance, Skinned(position, vec3<f32>(0.0), tangent));
     return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
 }
 
 @vertex
 fn tangent_skinned(
+    instance: Instance,
     @builtin(vertex_index) end: u32,
     @location(0) position: vec3<f32>,
     @location(2) tangent: vec4<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> LineVertex {
-    let world = in_world(skin(Skinned(position, vec3<f32>(0.0), tangent), joints, weights));
+    let world = posed_in_world(instance, Skinned(position, vec3<f32>(0.0), tangent), joints, weights);
     return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
 }
 

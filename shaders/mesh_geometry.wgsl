@@ -5,36 +5,40 @@ struct GeometryPoint {
     @location(0) world_position: vec3<f32>,
     @location(1) world_normal: vec3<f32>,
     @location(2) tex_coord: vec2<f32>,
+    @location(3) @interpolate(flat) front_sign: f32,
 }
 
-fn geometry_point(vertex: Skinned, tex_coord: vec2<f32>) -> GeometryPoint {
-    let rows = transpose(camera.world_from_model);
-    let world = transform(rows[0], rows[1], rows[2], vertex);
-    return GeometryPoint(camera.clip_from_world * vec4<f32>(world.position, 1.0), world.position, world.normal, tex_coord);
+fn geometry_point(world: Skinned, tex_coord: vec2<f32>, front_sign: f32) -> GeometryPoint {
+    let clip = camera.clip_from_world * vec4<f32>(world.position, 1.0);
+    return GeometryPoint(clip, world.position, world.normal, tex_coord, front_sign);
 }
 
 @vertex
 fn vertex_static(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(3) tex_coord: vec2<f32>,
 ) -> GeometryPoint {
-    return geometry_point(Skinned(position, normal, vec4<f32>(0.0)), tex_coord);
+    let vertex = Skinned(position, normal, vec4<f32>(0.0));
+    return geometry_point(in_world(instance, vertex), tex_coord, instance.front_sign);
 }
 
 @vertex
 fn vertex_skinned(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(3) tex_coord: vec2<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> GeometryPoint {
-    return geometry_point(skin(Skinned(position, normal, vec4<f32>(0.0)), joints, weights), tex_coord);
+    let vertex = Skinned(position, normal, vec4<f32>(0.0));
+    return geometry_point(posed_in_world(instance, vertex, joints, weights), tex_coord, instance.front_sign);
 }
 
 fn seen(point: GeometryPoint, clockwise: bool) -> vec4<f32> {
-    let side = select(-1.0, 1.0, clockwise) * camera.front_sign;
+    let side = select(-1.0, 1.0, clockwise) * point.front_sign;
     let along = dot(point.world_position - camera.eye, camera.forward);
     let normal = normalize_or(point.world_normal, -camera.forward) * side;
     return packed_geometry(normal, (along - camera.depth_near) / (camera.depth_far - camera.depth_near));

@@ -8,25 +8,26 @@ struct SkinViewVertex {
     @location(3) color_srgb: vec3<f32>,
 }
 
-fn skin_view_vertex(vertex: Skinned, tex_coord: vec2<f32>, color_srgb: vec4<f32>) -> SkinViewVertex {
-    let rows = transpose(camera.world_from_model);
-    let world = transform(rows[0], rows[1], rows[2], vertex);
+fn skin_view_vertex(world: Skinned, tex_coord: vec2<f32>, color_srgb: vec4<f32>) -> SkinViewVertex {
     let clip = camera.clip_from_world * vec4<f32>(world.position, 1.0);
     return SkinViewVertex(clip, world.position, world.normal, tex_coord, color_srgb.rgb);
 }
 
 @vertex
 fn vertex_static(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(3) tex_coord: vec2<f32>,
     @location(6) color_srgb: vec4<f32>,
 ) -> SkinViewVertex {
-    return skin_view_vertex(Skinned(position, normal, vec4<f32>(0.0)), tex_coord, color_srgb);
+    let vertex = Skinned(position, normal, vec4<f32>(0.0));
+    return skin_view_vertex(in_world(instance, vertex), tex_coord, color_srgb);
 }
 
 @vertex
 fn vertex_skinned(
+    instance: Instance,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(3) tex_coord: vec2<f32>,
@@ -34,7 +35,8 @@ fn vertex_skinned(
     @location(5) weights: vec4<f32>,
     @location(6) color_srgb: vec4<f32>,
 ) -> SkinViewVertex {
-    return skin_view_vertex(skin(Skinned(position, normal, vec4<f32>(0.0)), joints, weights), tex_coord, color_srgb);
+    let vertex = Skinned(position, normal, vec4<f32>(0.0));
+    return skin_view_vertex(posed_in_world(instance, vertex, joints, weights), tex_coord, color_srgb);
 }
 
 // The colour itself where the surface faces the viewer, so that a legend can be read; darker where it turns away, for its shape.

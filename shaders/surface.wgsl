@@ -22,7 +22,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let diffuse_texel = textureSample(diffuse_map, map_sampler, mesh.tex_coord);
     let normal_texel = textureSample(normal_map, map_sampler, mesh.tex_coord);
     let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), camera.forward);
-    let side = select(-1.0, 1.0, clockwise) * camera.front_sign;
+    let side = select(-1.0, 1.0, clockwise) * mesh.front_sign;
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // From behind, a bump is a dent: the relief has one shape, seen from its other side.

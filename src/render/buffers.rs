@@ -1,4 +1,22 @@
-//! Buffers: uniforms, and plain data of a model, within what a device can hold.
+//! Buffers of uniforms and of a model, within what a device can hold, and the groups that bind them.
+
+/// A bind group whose resources have the bindings 0, 1, 2…
+pub(super) fn bind_group<'a>(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
+}
 
 /// A buffer for one uniform `T`, to be written before it is read.
 pub(super) fn uniform_buffer<T>(device: &wgpu::Device, label: &str) -> wgpu::Buffer {

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use super::buffers::bind_group;
 use super::light_fit::SHADOW_MAP_SIZE;
 use super::model::{GpuModel, Posed};
-use super::pipelines::{Pipelines, bind_group};
+use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
 use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture};
 use crate::scene::Light;

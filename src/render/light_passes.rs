@@ -3,11 +3,11 @@
 
 use std::ops::Range;
 
-use super::buffers::uniform_buffer;
+use super::buffers::{bind_group, uniform_buffer};
 use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, ShadowMap};
 use super::model::{GpuModel, Posed};
-use super::pipelines::{Pipelines, bind_group};
+use super::pipelines::Pipelines;
 use super::uniforms::{camera_uniform, ground_uniform, light_uniform};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
@@ -123,8 +123,7 @@ impl LightPasses {
             nothing,
             ..
         } = common;
-        let winding = model.map_or(1.0, |(model, _)| model.winding);
-        let camera = camera_uniform(frame, size, winding);
+        let camera = camera_uniform(frame, size);
         queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
         let light = light_uniform(frame, self.light);
         queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));

@@ -1,9 +1,9 @@
 //! The materials of a model in GPU memory: for each the values that shaders read, and a bind group with its maps or what stands
 //! for them.
 
-use super::buffers::{UploadError, Uploader};
+use super::buffers::{UploadError, Uploader, bind_group};
 use super::maps::{MapTextures, MaterialImages};
-use super::pipelines::{Layouts, bind_group};
+use super::pipelines::Layouts;
 use crate::image::{Channels, MapKind};
 use crate::model::{Material, Reflectance};
 use crate::{scene, shaders};

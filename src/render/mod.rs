@@ -9,11 +9,11 @@
 //! Only what WebGL2 has is used: no storage buffers, no compute; joint matrices come from a texture, and textures that are drawn
 //! into have eight bits a channel.
 
-mod bones;
 mod buffers;
 mod composite;
 pub mod device;
 mod environment;
+mod instances;
 mod light_fit;
 mod light_maps;
 mod light_passes;
@@ -29,10 +29,10 @@ mod target;
 mod triangles;
 mod uniforms;
 
-pub use bones::BoneTexture;
 pub use buffers::UploadError;
 pub use composite::Compositor;
 pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
+pub use instances::BoneTexture;
 pub use maps::MaterialImages;
 pub use picture::{Picture, PictureError};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
@@ -41,12 +41,14 @@ pub use target::{SampleCount, Target};
 use crate::image::Image;
 use crate::model::{Material, Model};
 use crate::scene::{Background, Light, RenderFrame, ViewMode};
+use buffers::bind_group;
 use environment::Environments;
+use instances::Instances;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
 use overlays::Overlays;
-use pipelines::{Pipelines, bind_group};
+use pipelines::Pipelines;
 use recipe::{Cut, Draw, ModelDraw, Shading};
 
 /// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
@@ -55,6 +57,7 @@ pub struct Renderer {
     samples: SampleCount,
     /// The lights that were shown so far.
     lights: Vec<LightPasses>,
+    instances: Instances,
     overlays: Overlays,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
@@ -78,6 +81,7 @@ impl Renderer {
         Self {
             samples,
             lights: Vec::new(),
+            instances: Instances::new(device),
             overlays: Overlays::new(device, &pipelines.layouts),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
             maps: MapTextures::new(device, queue),
@@ -152,20 +156,19 @@ impl Renderer {
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn as bind space has it.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) {
-        if let Some(bones) = self.model.as_mut().and_then(|model| model.bones.as_mut()) {
-            bones.write(&self.common.queue, frame.palette);
-        }
         self.common.environments.write(&self.common.queue, frame);
-        let Common {
-            device,
-            queue,
-            pipelines,
-            ..
-        } = &self.common;
-        if let (Some(model), Some(colors)) = (&mut self.model, &frame.vertex_colors) {
-            model.set_colors(device, queue, colors);
+        let Common { device, queue, .. } = &self.common;
+        if let Some(model) = &mut self.model {
+            if let Some(bones) = &mut model.bones {
+                bones.write(queue, std::iter::once(frame.palette).chain(frame.ghosts.palettes));
+            }
+            if let Some(colors) = &frame.vertex_colors {
+                model.set_colors(device, queue, colors);
+            }
+            self.instances
+                .write(device, queue, frame, model.bones.as_ref(), model.winding);
         }
-        self.overlays.write(device, queue, &pipelines.layouts, frame);
+        self.overlays.write(device, queue, frame);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
@@ -177,7 +180,18 @@ impl Renderer {
             .common
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        let model = posed_model(self.model.as_ref(), &self.no_bones, &self.common.pipelines, frame);
+        let pipelines = &self.common.pipelines;
+        let model = self.model.as_ref().map(|model| {
+            let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
+            let posed = Posed {
+                pipelines,
+                bones: bones.unwrap_or(&self.no_bones),
+                instances: self.instances.model(),
+                skinned: bones.is_some(),
+                hidden: frame.hidden_submeshes,
+            };
+            (model, posed)
+        });
         for passes in &mut self.lights {
             if let Some((_, columns)) = parts.iter().find(|(light, _)| *light == passes.light()) {
                 let place = (target.size(), columns);
@@ -257,7 +271,8 @@ impl Renderer {
                     model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
                 }
                 pass.set_bind_group(2, nothing, &[]);
-                self.overlays.draw_over_model(device, &mut pass, frame, model, posed);
+                self.overlays
+                    .draw_over_model(device, &mut pass, frame, (model, posed), &self.instances);
             }
             self.overlays.draw_shapes(&mut pass, pipelines, nothing, target.size());
         }
@@ -265,24 +280,6 @@ impl Renderer {
         let [width, height] = target.size();
         pass.set_scissor_rect(0, 0, width, height);
     }
-}
-
-/// The model, and how it is posed: by its bones, or as bind space has it where there are none.
-fn posed_model<'a>(
-    model: Option<&'a GpuModel>,
-    no_bones: &'a BoneTexture,
-    pipelines: &'a Pipelines,
-    frame: &RenderFrame<'a>,
-) -> Option<(&'a GpuModel, Posed<'a>)> {
-    let model = model?;
-    let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
-    let posed = Posed {
-        pipelines,
-        bones: bones.unwrap_or(no_bones),
-        skinned: bones.is_some(),
-        hidden: frame.hidden_submeshes,
-    };
-    Some((model, posed))
 }
 
 /// Which light shows in which columns of the picture.

@@ -2,11 +2,11 @@
 
 use std::cell::OnceCell;
 
-use super::bones::BoneTexture;
 use super::buffers::{UploadError, Uploader};
+use super::instances::{BoneTexture, InstanceRange};
 use super::maps::MapTextures;
 use super::materials::GpuMaterials;
-use super::pipelines::{Layouts, Pipelines};
+use super::pipelines::{COLOR_SLOT, GEOMETRY_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, Pipelines};
 use super::recipe::{Cut, Draw, ModelDraw};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, winding};
 use crate::model::{Mesh, Model};
@@ -19,6 +19,8 @@ pub(super) struct Posed<'a> {
     pub(super) pipelines: &'a Pipelines,
     /// Bound as group 1, read only when `skinned`.
     pub(super) bones: &'a BoneTexture,
+    /// Those that are drawn.
+    pub(super) instances: InstanceRange<'a>,
     /// Whether the bones pose it; else it is drawn in bind space.
     pub(super) skinned: bool,
     /// Submeshes that are not drawn.
@@ -145,7 +147,7 @@ impl GpuModel {
                     self.materials.bind(pass, range.material);
                 }
                 for part in parts {
-                    pass.draw_indexed(part, 0, 0..1);
+                    pass.draw_indexed(part, 0, 0..posed.instances.count);
                 }
             }
         }
@@ -159,7 +161,7 @@ impl GpuModel {
             shape.add(&range.indices);
         }
         for range in shape.ranges() {
-            pass.draw_indexed(range, 0, 0..1);
+            pass.draw_indexed(range, 0, 0..posed.instances.count);
         }
     }
 
@@ -183,7 +185,7 @@ impl GpuModel {
         let mut ranges = self.in_view(posed.hidden);
         if let Some(range) = ranges.find(|range| range.submesh == submesh) {
             self.bind(pass, posed, draw);
-            pass.draw_indexed(range.indices.clone(), 0, 0..1);
+            pass.draw_indexed(range.indices.clone(), 0, 0..posed.instances.count);
         }
     }
 
@@ -197,7 +199,7 @@ impl GpuModel {
         pass.set_index_buffer(edges.buffer.slice(..), wgpu::IndexFormat::Uint32);
         for (range, edges) in self.ranges.iter().zip(&edges.ranges) {
             if !is_hidden(posed.hidden, range.submesh) {
-                pass.draw_indexed(edges.clone(), 0, 0..1);
+                pass.draw_indexed(edges.clone(), 0, 0..posed.instances.count);
             }
         }
     }
@@ -208,11 +210,16 @@ impl GpuModel {
         for range in self.in_view(posed.hidden) {
             // WebGL2 has no first instance: the buffers start there instead.
             let start = |stride: usize| u64::from(range.vertices.start) * stride as u64;
-            pass.set_vertex_buffer(0, self.geometry.slice(start(size_of::<shaders::GeometryVertex>())..));
+            let geometry = self.geometry.slice(start(size_of::<shaders::GeometryVertex>())..);
+            pass.set_vertex_buffer(GEOMETRY_SLOT, geometry);
             if let (true, Some(influences)) = (posed.skinned, &self.influences) {
-                pass.set_vertex_buffer(1, influences.slice(start(size_of::<shaders::InfluenceVertex>())..));
+                let influences = influences.slice(start(size_of::<shaders::InfluenceVertex>())..);
+                pass.set_vertex_buffer(INFLUENCE_SLOT, influences);
             }
-            pass.draw(0..2, 0..range.vertices.len() as u32);
+            for instance in 0..posed.instances.count {
+                pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instance));
+                pass.draw(0..2, 0..range.vertices.len() as u32);
+            }
         }
     }
 
@@ -226,12 +233,13 @@ impl GpuModel {
         let Posed { skinned, .. } = posed;
         pass.set_pipeline(&posed.pipelines.get(Draw::Model { draw, skinned }));
         pass.set_bind_group(1, posed.bones.group(), &[]);
-        pass.set_vertex_buffer(0, self.geometry.slice(..));
+        pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(0));
+        pass.set_vertex_buffer(GEOMETRY_SLOT, self.geometry.slice(..));
         if let (true, Some(influences)) = (skinned, &self.influences) {
-            pass.set_vertex_buffer(1, influences.slice(..));
+            pass.set_vertex_buffer(INFLUENCE_SLOT, influences.slice(..));
         }
         if let (ModelDraw::SkinView(_), Some((_, colors))) = (draw, &self.colors) {
-            pass.set_vertex_buffer(2, colors.slice(..));
+            pass.set_vertex_buffer(COLOR_SLOT, colors.slice(..));
         }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
     }

@@ -2,19 +2,17 @@
 
 use glam::Vec3;
 
-use super::bones::BoneTexture;
-use super::buffers::uniform_buffer;
+use super::buffers::{bind_group, uniform_buffer};
+use super::instances::Instances;
 use super::model::{GpuModel, Posed};
-use super::pipelines::{Layouts, Pipelines, bind_group};
+use super::pipelines::{Layouts, Pipelines};
 use super::recipe::{Draw, ModelDraw, WorldShape};
 use super::uniforms::{encoded, theme_colors};
 use crate::scene::{Overlay, OverlayGeometry, OverlayVertex, RenderFrame};
-use crate::shaders::{Highlight, Line};
+use crate::shaders::Line;
 
 const NORMAL_SRGB: [f32; 4] = [0.36, 0.72, 1.0, 0.95];
 const TANGENT_SRGB: [f32; 4] = [1.0, 0.56, 0.33, 0.95];
-/// Opacity of the highlight at a surface's edge.
-const HIGHLIGHT_ALPHA: f32 = 0.55;
 
 const BOUNDS_SRGB: [u8; 4] = [255, 181, 84, 230];
 /// x, y, z in the colours that every tool has.
@@ -27,35 +25,24 @@ const THROUGH_DEPTH: f32 = 0.01;
 
 /// All that is drawn beside the model.
 pub(super) struct Overlays {
-    wire: Style,
-    normals: Style,
-    tangents: Style,
-    highlight: Style,
-    ghosts: Ghosts,
+    wire: LineStyle,
+    normals: LineStyle,
+    tangents: LineStyle,
     shapes: WorldShapes,
 }
 
 impl Overlays {
     pub(super) fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
         Self {
-            wire: Style::new(device, layouts),
-            normals: Style::new(device, layouts),
-            tangents: Style::new(device, layouts),
-            highlight: Style::new(device, layouts),
-            ghosts: Ghosts::default(),
+            wire: LineStyle::new(device, layouts),
+            normals: LineStyle::new(device, layouts),
+            tangents: LineStyle::new(device, layouts),
             shapes: WorldShapes::new(device),
         }
     }
 
     /// Uploads what the frame shows.
-    pub(super) fn write(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        layouts: &Layouts,
-        frame: &RenderFrame<'_>,
-    ) {
-        self.ghosts.write(device, queue, layouts, frame);
+    pub(super) fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
         self.shapes.write(device, queue, frame);
         let colors = theme_colors(frame.options.theme);
         let length = frame.options.overlays.line_length * frame.world_bounds.radius();
@@ -71,11 +58,6 @@ impl Overlays {
             };
             style.write(queue, &line);
         }
-        let highlight = Highlight {
-            color_srgb: encoded(colors.accent, HIGHLIGHT_ALPHA),
-            ..Default::default()
-        };
-        self.highlight.write(queue, &highlight);
     }
 
     /// Draws ghosts, highlight and lines of the model over the finished model. The caller sets group 0, and an empty group 2.
@@ -84,14 +66,18 @@ impl Overlays {
         device: &wgpu::Device,
         pass: &mut wgpu::RenderPass<'_>,
         frame: &RenderFrame<'_>,
-        model: &GpuModel,
-        posed: Posed<'_>,
+        (model, posed): (&GpuModel, Posed<'_>),
+        instances: &Instances,
     ) {
-        self.ghosts.draw(pass, model, posed);
+        if posed.skinned {
+            for instances in instances.ghosts() {
+                model.draw_shape(pass, Posed { instances, ..posed }, ModelDraw::Highlight);
+            }
+        }
         let has = |overlay| frame.options.overlays.has(overlay);
         if let Some(submesh) = frame.highlighted_submesh {
-            pass.set_bind_group(3, &self.highlight.group, &[]);
-            model.draw_submesh(pass, posed, ModelDraw::Highlight, submesh);
+            let instances = instances.highlight();
+            model.draw_submesh(pass, Posed { instances, ..posed }, ModelDraw::Highlight, submesh);
         }
         if has(Overlay::Wireframe) {
             pass.set_bind_group(3, &self.wire.group, &[]);
@@ -121,13 +107,13 @@ impl Overlays {
     }
 }
 
-/// A small uniform, bound as group 3.
-struct Style {
+/// How lines look, bound as group 3.
+struct LineStyle {
     buffer: wgpu::Buffer,
     group: wgpu::BindGroup,
 }
 
-impl Style {
+impl LineStyle {
     fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
         let buffer = uniform_buffer::<Line>(device, "line");
         Self {
@@ -136,64 +122,8 @@ impl Style {
         }
     }
 
-    /// A [`Line`], or what is as large.
-    fn write(&self, queue: &wgpu::Queue, uniform: &impl bytemuck::NoUninit) {
-        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(uniform));
-    }
-}
-
-/// The model in another pose.
-struct GpuGhost {
-    bones: BoneTexture,
-    style: Style,
-}
-
-/// The ghosts: as many as one skeleton ever showed at once.
-#[derive(Default)]
-struct Ghosts {
-    ghosts: Vec<GpuGhost>,
-    joint_count: usize,
-    shown: usize,
-}
-
-impl Ghosts {
-    fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, layouts: &Layouts, frame: &RenderFrame<'_>) {
-        let palettes = frame.ghosts.palettes;
-        let joint_count = palettes.first().map_or(0, |palette| palette.0.len());
-        if joint_count != self.joint_count {
-            self.ghosts.clear();
-            self.joint_count = joint_count;
-        }
-        self.ghosts
-            .resize_with(self.ghosts.len().max(palettes.len()), || GpuGhost {
-                bones: BoneTexture::new(device, &layouts.bones, joint_count),
-                style: Style::new(device, layouts),
-            });
-        self.shown = palettes.len();
-        let given = palettes.iter().zip(frame.ghosts.colors_srgb);
-        for (ghost, (palette, color_srgb)) in self.ghosts.iter_mut().zip(given) {
-            ghost.bones.write(queue, palette);
-            let highlight = Highlight {
-                color_srgb: color_srgb.map(|channel| f32::from(channel) / 255.0),
-                ..Default::default()
-            };
-            ghost.style.write(queue, &highlight);
-        }
-    }
-
-    /// The caller sets group 0, and an empty group 2.
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, model: &GpuModel, posed: Posed<'_>) {
-        if !posed.skinned {
-            return;
-        }
-        for ghost in &self.ghosts[..self.shown] {
-            let posed = Posed {
-                bones: &ghost.bones,
-                ..posed
-            };
-            pass.set_bind_group(3, &ghost.style.group, &[]);
-            model.draw_shape(pass, posed, ModelDraw::Highlight);
-        }
+    fn write(&self, queue: &wgpu::Queue, line: &Line) {
+        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(line));
     }
 }
 

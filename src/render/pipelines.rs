@@ -4,11 +4,11 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use super::bones::BoneTexture;
+use super::instances::BoneTexture;
 use super::recipe::{Cut, Draw, ModelDraw, Recipe};
 use super::target::SampleCount;
 use crate::scene::OverlayVertex;
-use crate::shaders::{self, GeometryVertex, InfluenceVertex, Program};
+use crate::shaders::{self, GeometryVertex, InfluenceVertex, Instance, Program};
 
 /// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
@@ -92,24 +92,6 @@ impl Layouts {
     }
 }
 
-/// A bind group whose resources have the bindings 0, 1, 2…
-pub(super) fn bind_group<'a>(
-    device: &wgpu::Device,
-    label: &str,
-    layout: &wgpu::BindGroupLayout,
-    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0..)
-        .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-        .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some(label),
-        layout,
-        entries: &entries,
-    })
-}
-
 fn uniform<T>() -> wgpu::BindingType {
     wgpu::BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
@@ -134,9 +116,18 @@ pub(super) struct Pipelines {
     built: RefCell<HashMap<Draw, wgpu::RenderPipeline>>,
 }
 
+/// Slots of the buffers from which the model is drawn.
+pub(super) const INSTANCE_SLOT: u32 = 0;
+pub(super) const GEOMETRY_SLOT: u32 = 1;
+pub(super) const INFLUENCE_SLOT: u32 = 2;
+pub(super) const COLOR_SLOT: u32 = 3;
+
 const GEOMETRY: [wgpu::VertexAttribute; 4] =
     wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
+const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
+    7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Uint32, 12 => Float32
+];
 const WORLD_VERTEX: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
 const VERTEX_COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Unorm8x4];
 
@@ -183,24 +174,29 @@ impl Pipelines {
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
-        let buffer = |stride, attributes| {
+        let buffer = |stride, step_mode, attributes| {
             Some(wgpu::VertexBufferLayout {
                 array_stride: stride as u64,
-                step_mode: recipe.step_mode,
+                step_mode,
                 attributes,
             })
         };
-        let geometry = buffer(size_of::<GeometryVertex>(), &GEOMETRY);
-        let influences = buffer(size_of::<InfluenceVertex>(), &INFLUENCES);
-        let colors = buffer(size_of::<[u8; 4]>(), &VERTEX_COLOR);
+        let (one, step) = (size_of::<Instance>(), recipe.step_mode);
+        let instances = match step {
+            wgpu::VertexStepMode::Vertex => buffer(2 * one, wgpu::VertexStepMode::Instance, &INSTANCE[..]),
+            wgpu::VertexStepMode::Instance => buffer(one, wgpu::VertexStepMode::Vertex, &INSTANCE[..]),
+        };
+        let geometry = buffer(size_of::<GeometryVertex>(), step, &GEOMETRY);
+        let influences = buffer(size_of::<InfluenceVertex>(), step, &INFLUENCES);
+        let colors = buffer(size_of::<[u8; 4]>(), step, &VERTEX_COLOR);
         let buffers = match draw {
             Draw::Model {
                 draw: ModelDraw::SkinView(_),
                 skinned,
-            } => vec![geometry, influences.filter(|_| skinned), colors],
-            Draw::Model { skinned: true, .. } => vec![geometry, influences],
-            Draw::Model { skinned: false, .. } => vec![geometry],
-            Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), &WORLD_VERTEX)],
+            } => vec![instances, geometry, influences.filter(|_| skinned), colors],
+            Draw::Model { skinned: true, .. } => vec![instances, geometry, influences],
+            Draw::Model { skinned: false, .. } => vec![instances, geometry],
+            Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
             _ => Vec::new(),
         };
         let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
@@ -250,13 +246,11 @@ impl Pipelines {
         match draw {
             Draw::Model { draw, .. } => match draw {
                 ModelDraw::Mesh(..) => vec![frame, bones, lighting, material],
-                ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact => vec![frame, bones],
+                ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact | ModelDraw::Highlight => vec![frame, bones],
                 ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::SkinView(_) => {
                     vec![frame, bones, nothing, material]
                 }
-                ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents | ModelDraw::Highlight => {
-                    vec![frame, bones, nothing, line]
-                }
+                ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents => vec![frame, bones, nothing, line],
             },
             Draw::Backdrop => vec![frame, nothing, lighting],
             Draw::World { .. } => vec![frame, nothing, nothing, line],

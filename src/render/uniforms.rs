@@ -1,6 +1,6 @@
 //! A [`RenderFrame`] as the uniforms that shaders read, and the colours of the themes.
 
-use glam::{Mat4, Vec3};
+use glam::Vec3;
 
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
 use crate::scene::{
@@ -76,14 +76,12 @@ const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
-/// The view of a picture of this size, pixels. `winding` is +1 when the model's triangles are clockwise from their front in a
-/// left-handed space, else −1.
-pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2], winding: f32) -> shaders::Camera {
+/// The view of a picture of this size, pixels.
+pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders::Camera {
     let camera = &frame.camera;
     let [width, height] = size.map(|side| side as f32);
     let aspect = width / height;
     let clip_from_world = camera.clip_from_view(aspect, &frame.world_bounds) * camera.view_from_world();
-    let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
     let half_height = camera.height_in_view() * 0.5;
     let (per_y, per_x) = (camera.up() * half_height, camera.right() * (half_height * aspect));
     let (is_perspective, eye_scale, forward_scale) = match camera.projection {
@@ -93,7 +91,6 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2], winding: f
     let (depth_near, depth_far) = seen_depths(frame);
     shaders::Camera {
         clip_from_world: clip_from_world.to_cols_array_2d(),
-        world_from_model: Mat4::from(frame.world_from_model).to_cols_array_2d(),
         eye: camera.eye().to_array(),
         is_perspective,
         forward: camera.forward().to_array(),
@@ -105,7 +102,6 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2], winding: f
         forward_per_x: (per_x * forward_scale).to_array(),
         view_mode: frame.options.view_mode as u32,
         forward_per_y: (per_y * forward_scale).to_array(),
-        front_sign: if mirrors { -winding } else { winding },
         viewport_pixels: [width, height],
         ..Default::default()
     }

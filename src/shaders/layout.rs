@@ -8,7 +8,6 @@ use bytemuck::{Pod, Zeroable};
 #[expect(missing_docs, reason = "documented in camera.wgsl, where each is used")]
 pub struct Camera {
     pub clip_from_world: [[f32; 4]; 4],
-    pub world_from_model: [[f32; 4]; 4],
     pub eye: [f32; 3],
     pub is_perspective: f32,
     pub forward: [f32; 3],
@@ -20,9 +19,9 @@ pub struct Camera {
     pub forward_per_x: [f32; 3],
     pub view_mode: u32,
     pub forward_per_y: [f32; 3],
-    pub front_sign: f32,
+    pub unused: f32,
     pub viewport_pixels: [f32; 2],
-    pub unused: [f32; 2],
+    pub unused_2: [f32; 2],
 }
 
 /// Twin of `Light` in `light.wgsl`, which says what each member means. Matrices are column by column, as in glam.
@@ -116,16 +115,6 @@ pub struct Line {
     pub unused: [f32; 3],
 }
 
-/// Twin of `Highlight` in `highlight.wgsl`. As large as [`Line`], so that both bind alike.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-#[repr(C)]
-pub struct Highlight {
-    /// sRGB, straight alpha.
-    pub color_srgb: [f32; 4],
-    /// Fills the struct.
-    pub unused: [f32; 4],
-}
-
 /// What every vertex has: shader locations 0–3, bind space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
@@ -149,4 +138,18 @@ pub struct InfluenceVertex {
     pub joints: [u32; 4],
     /// Location 5.
     pub weights: [f32; 4],
+}
+
+/// What an instance of the model has: shader locations 7–12. Location 6 is the colour of a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Instance {
+    /// Locations 7–9: rows of a 3×4 matrix, the file's space -> the world.
+    pub rows: [[f32; 4]; 3],
+    /// Location 10, sRGB, straight alpha: the colour of a highlight or a ghost.
+    pub tint_srgb: [f32; 4],
+    /// Location 11: where its joints begin in the bone texture.
+    pub first_joint: u32,
+    /// Location 12: +1 when clockwise triangles show their front in the world, −1 when counter-clockwise ones do.
+    pub front_sign: f32,
 }

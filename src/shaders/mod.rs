@@ -5,7 +5,7 @@
 
 mod layout;
 
-pub use layout::{Camera, Environment, GeometryVertex, Ground, Highlight, InfluenceVertex, Light, Line, Material};
+pub use layout::{Camera, Environment, GeometryVertex, Ground, InfluenceVertex, Instance, Light, Line, Material};
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
 /// Twin of `JOINTS_PER_ROW` in `skinning.wgsl`.
@@ -76,33 +76,33 @@ macro_rules! programs {
 programs! {
     /// The model under the studio light.
     MESH_STUDIO "mesh-studio" [
-        "camera" "light" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
         "environment" "pbr" "studio" "tone_map" "mesh_studio" "mesh"
     ]
 
     /// The model under the light of the books' demos.
     MESH_BOOK "mesh-book" [
-        "camera" "light" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
         "environment" "book" "mesh_book" "mesh"
     ]
 
     /// One property of the model's surface, without light.
     MESH_INSPECT "mesh-inspect" [
-        "camera" "light" "skinning" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "environment"
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "environment"
         "surface" "mesh_inspect" "mesh"
     ]
 
     /// The model in colours of its vertices.
-    SKIN_VIEW "skin-view" ["camera" "skinning" "color" "material" "skin_view"]
+    SKIN_VIEW "skin-view" ["camera" "skinning" "instance" "color" "material" "skin_view"]
 
     /// The model's depth from the key light.
-    CASTER "caster" ["camera" "light" "skinning" "caster"]
+    CASTER "caster" ["light" "skinning" "instance" "caster"]
 
     /// The same for materials that alpha cuts.
-    CASTER_CUT "caster-cut" ["camera" "light" "skinning" "material" "caster_cut"]
+    CASTER_CUT "caster-cut" ["light" "skinning" "instance" "material" "caster_cut"]
 
     /// Normals and depth of what is in view.
-    MESH_GEOMETRY "mesh-geometry" ["camera" "skinning" "material" "geometry" "mesh_geometry"]
+    MESH_GEOMETRY "mesh-geometry" ["camera" "skinning" "instance" "material" "geometry" "mesh_geometry"]
 
     /// Ambient occlusion of the DirectX 12 book.
     OCCLUSION_BOOK "occlusion-book" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_book"]
@@ -114,7 +114,7 @@ programs! {
     OCCLUSION_BLUR "occlusion-blur" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_blur"]
 
     /// How near the model is above the ground.
-    CONTACT "contact" ["camera" "light" "ground" "skinning" "contact"]
+    CONTACT "contact" ["light" "ground" "skinning" "instance" "contact"]
 
     /// Blurs the contact map.
     CONTACT_BLUR "contact-blur" ["fullscreen" "contact_blur"]
@@ -125,10 +125,10 @@ programs! {
     ]
 
     /// Edges, normals, tangents, boxes, axes.
-    LINES "lines" ["camera" "skinning" "color" "lines"]
+    LINES "lines" ["camera" "skinning" "instance" "color" "lines"]
 
     /// The model or a part of it in one transparent colour.
-    HIGHLIGHT "highlight" ["camera" "skinning" "color" "highlight"]
+    HIGHLIGHT "highlight" ["camera" "skinning" "instance" "color" "highlight"]
 
     /// The finished picture onto a surface.
     COMPOSITE "composite" ["color" "fullscreen" "composite"]

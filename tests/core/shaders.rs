@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Camera, Environment, GeometryVertex, Ground, Highlight, InfluenceVertex, JOINTS_PER_ROW, Light, Line, Material,
+    Camera, Environment, GeometryVertex, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line, Material,
     PROGRAMS, Program,
 };
 use naga::back::glsl;
@@ -136,7 +136,6 @@ fn twins() -> BTreeMap<String, Layout> {
     BTreeMap::from([
         twin!(Camera {
             clip_from_world,
-            world_from_model,
             eye,
             is_perspective,
             forward,
@@ -148,7 +147,6 @@ fn twins() -> BTreeMap<String, Layout> {
             forward_per_x,
             view_mode,
             forward_per_y,
-            front_sign,
             viewport_pixels,
         }),
         twin!(Light {
@@ -206,7 +204,6 @@ fn twins() -> BTreeMap<String, Layout> {
             specular_level_count,
         }),
         twin!(Line { color_srgb, length }),
-        twin!(Highlight { color_srgb }),
     ])
 }
 
@@ -255,7 +252,10 @@ fn vertices_are_packed_and_within_the_least_stride() {
     const LEAST_STRIDE: usize = 255;
     assert_eq!(size_of::<GeometryVertex>(), (3 + 3 + 4 + 2) * 4);
     assert_eq!(size_of::<InfluenceVertex>(), (4 + 4) * 4);
+    assert_eq!(size_of::<Instance>(), (3 * 4 + 4 + 1 + 1) * 4);
     assert!(size_of::<GeometryVertex>() <= LEAST_STRIDE);
+    // The stream holds each instance twice.
+    assert!(2 * size_of::<Instance>() <= LEAST_STRIDE);
 }
 
 #[test]

@@ -146,7 +146,7 @@ fn skin_on_gpu(
     let (device, queue) = (&gpu.open.device, &gpu.open.queue);
     let bones_layout = BoneTexture::layout(device);
     let mut bones = BoneTexture::new(device, &bones_layout, palette.0.len());
-    bones.write(queue, palette);
+    bones.write(queue, [palette]);
 
     let source = format!(
         "const WIDTH: f32 = {VERTICES}.0;\n{}{}",
