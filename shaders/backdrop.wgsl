@@ -1,5 +1,5 @@
-// Backdrop, ground grid and the shadow on the ground in one pass over the view, before the model: nothing to fight for depth
-// with, and one dithered rounding at the end instead of a blend in eight bits.
+// Backdrop, ground grid and the shadows on the ground in one draw over the view, before the model. So nothing fights for depth, and
+// one dithered rounding takes the place of several blends in eight bits.
 
 // How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
 const BACKDROP_FALLOFF: f32 = 0.76;
@@ -8,7 +8,7 @@ const BACKDROP_ROW: f32 = 0.06;
 
 fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
     let offset = vec2<f32>(ndc.x * 0.16, ndc.y - BACKDROP_ROW);
-    // Rounded at the middle, so that no crease shows there.
+    // Rounded in the middle, so that no crease shows there.
     let away = (sqrt(dot(offset, offset) + 0.012) - 0.11) * BACKDROP_FALLOFF;
     return mix(ground.backdrop_center_srgb.rgb, ground.backdrop_edge_srgb.rgb, clamp(away, 0.0, 1.0));
 }
@@ -17,7 +17,7 @@ fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
 fn line_coverage(coordinate: vec2<f32>, per_pixel: vec2<f32>, width_pixels: f32) -> f32 {
     let distance_pixels = (0.5 - abs(fract(coordinate) - 0.5)) / per_pixel;
     let sharp = clamp(vec2<f32>(0.5 + 0.5 * width_pixels) - distance_pixels, vec2<f32>(0.0), vec2<f32>(min(width_pixels, 1.0)));
-    // Lines closer than a few pixels would shimmer: they are gone before.
+    // Lines that are only a few pixels apart would shimmer, so they fade out before.
     let crowded = smoothstep(vec2<f32>(0.08), vec2<f32>(0.35), per_pixel);
     let lines = sharp * (vec2<f32>(1.0) - crowded);
     return max(lines.x, lines.y);
@@ -56,7 +56,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
                 let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).r;
                 color *= 1.0 - ground.contact_strength * contact;
             }
-            // How the point moves from one pixel to the next, exact: screen derivatives would tear at the horizon.
+            // How far the point moves from one pixel to the next. Exact, since screen derivatives would tear at the horizon.
             let along_x = -(camera.eye_per_x.y + along * camera.forward_per_x.y) / ray.y;
             let along_y = -(camera.eye_per_y.y + along * camera.forward_per_y.y) / ray.y;
             let point_x = camera.eye_per_x + along * camera.forward_per_x + along_x * ray;
@@ -76,7 +76,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             color = mix(color, ground.grid_major.rgb, major * strength);
         }
     }
-    // One colour that was asked for is not dithered but given.
+    // A plain background is stored exactly, without dither.
     if ground.background == 2u && all(color == behind) {
         return vec4<f32>(behind, 1.0);
     }

@@ -12,14 +12,13 @@ fn linear_from_srgb(srgb: vec3<f32>) -> vec3<f32> {
     return select(high, low, srgb <= vec3<f32>(0.04045));
 }
 
-// Interleaved gradient noise: even over any small neighbourhood, the same every frame.
+// Interleaved gradient noise: spread evenly over any small neighbourhood, the same in every frame.
 fn dither_noise(pixel: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
 }
 
-// Spreads the rounding to eight bits over the neighbourhood, so that dark gradients show no bands. A little less than the whole
-// step: what needs no rounding is not touched.
-// Takes encoded and gives linear: the target encodes again as it stores.
+// Dithers the rounding to eight bits, so that dark gradients show no bands. A little less than a whole step, so that what needs no
+// rounding is not changed. Takes an encoded colour and returns it linear: the target encodes it again.
 fn dithered_linear_from_srgb(srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
     return linear_from_srgb(clamp(srgb + dither_noise(pixel) * (0.96 / 255.0), vec3<f32>(0.0), vec3<f32>(1.0)));
 }

@@ -1,4 +1,4 @@
-// How near the model is above the ground, seen from straight below: 1 on it, fading with height.
+// How near the model is above the ground, seen from straight below: 1 on the ground, fading with height.
 
 struct ContactVertex {
     @builtin(position) clip: vec4<f32>,
@@ -26,7 +26,7 @@ fn vertex_skinned(
     return contact_vertex(posed_in_world(instance, vertex, joints, weights).position);
 }
 
-// Half of it is gone at this height, in units of the books' demo.
+// The height at which half of it is gone, in units of the books' demo.
 const HALF_HEIGHT: f32 = 0.16;
 
 @fragment

@@ -14,7 +14,7 @@ struct LineVertex {
     @location(0) color_srgb: vec4<f32>,
 }
 
-// Nearer by a share of the distance, so that lines on a surface are not lost in it.
+// Moves a point nearer by a small fraction of the distance, so that lines on a surface are not hidden by it.
 fn line_vertex(world_position: vec3<f32>, color_srgb: vec4<f32>) -> LineVertex {
     var nearer = world_position;
     if camera.is_perspective > 0.5 {
@@ -42,7 +42,7 @@ fn edge_skinned(
     return line_vertex(world.position, line.color_srgb);
 }
 
-// Two ends a line, a line a vertex of the mesh.
+// A line at each vertex of the mesh: `end` is 0 at the vertex and 1 at the tip.
 @vertex
 fn normal_static(
     instance: Instance,
@@ -91,7 +91,7 @@ fn tangent_skinned(
     return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
 }
 
-// What stands in the world already.
+// A vertex that is in the world already.
 @vertex
 fn world_vertex(@location(0) position: vec3<f32>, @location(1) color_srgb: vec4<f32>) -> LineVertex {
     return line_vertex(position, color_srgb);

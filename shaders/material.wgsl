@@ -5,7 +5,7 @@ struct Material {
     albedo: vec3<f32>,
     roughness: f32,
     fresnel0: vec3<f32>,
-    // What lies below this alpha is cut away; 0 keeps everything.
+    // Texels below this alpha are cut away; 0 keeps everything.
     alpha_clip: f32,
     // The diffuse colour as the books multiply it with encoded texels.
     book_albedo: vec3<f32>,
@@ -17,12 +17,12 @@ struct Material {
     // Channels of the normal map: 4 (alpha is gloss), 3, 2 (z follows from x and y), or 0 without one.
     normal_channels: u32,
     reflectivity: vec3<f32>,
-    // A colour of its own, to tell it from others. sRGB.
+    // sRGB, a colour to tell the material from others.
     identity_srgb: vec4<f32>,
 }
 
 @group(3) @binding(0) var<uniform> material: Material;
-// Each is one texel that changes nothing where the material has no such map.
+// Without such a map each is one texel that changes nothing.
 @group(3) @binding(1) var diffuse_map: texture_2d<f32>;
 @group(3) @binding(2) var normal_map: texture_2d<f32>;
 @group(3) @binding(3) var map_sampler: sampler;

@@ -2,7 +2,7 @@
 //
 // `surface_color` is the part in which the programs differ: the colour of a point as it is to be seen, sRGB-encoded.
 
-// Light is dithered; a property that is read off the picture stays what it is.
+// Lit colours are dithered. A property is not, since people read its value off the picture.
 fn stored(color_srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
     if camera.view_mode != 0u {
         return linear_from_srgb(color_srgb);
@@ -16,19 +16,19 @@ fn fragment(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @locati
     return vec4<f32>(stored(surface_color(point), mesh.clip.xy), 1.0);
 }
 
-// What alpha cuts, a whole pixel or nothing.
+// For materials that alpha cuts: a whole pixel or nothing.
 @fragment
 fn fragment_cut(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
-    // After the derivatives, which some devices lose with the neighbours that are cut away.
+    // Discarded after the derivatives: some devices lose those when a neighbour is discarded.
     if point.diffuse_texel.a < material.alpha_clip {
         discard;
     }
     return vec4<f32>(color, 1.0);
 }
 
-// The same cut with a smooth edge: alpha is the share of the pixel's samples that the surface covers.
+// The same cut with a smooth edge: alpha is the fraction of the pixel's samples that the surface covers.
 @fragment
 fn fragment_cut_smooth(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);

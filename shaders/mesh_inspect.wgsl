@@ -11,7 +11,7 @@ const DEPTH: u32 = 8u;
 const AMBIENT_OCCLUSION: u32 = 9u;
 const SHADOW: u32 = 10u;
 
-// What a normal map has where nothing bends, in bytes 128, 128, 255.
+// A normal map's texel on a flat surface, in bytes 128, 128, 255.
 const FLAT: vec3<f32> = vec3<f32>(128.0 / 255.0, 128.0 / 255.0, 1.0);
 
 // A direction as a colour: -1..1 on each axis is 0..1 in each channel.
@@ -29,7 +29,7 @@ fn checker(tex_coord: vec2<f32>) -> vec3<f32> {
     return mix(vec3<f32>(0.5), color, select(0.55, 1.0, is_first_tile)) * select(1.0, 0.55, is_dark);
 }
 
-// A little shape for what would be one flat patch: more light on what faces the viewer.
+// Gives a little shape to what would be one flat patch: brighter where it faces the viewer.
 fn facing_shade(point: SurfacePoint) -> f32 {
     return 0.62 + 0.38 * clamp(dot(point.smooth_normal, point.to_eye), 0.0, 1.0);
 }

@@ -4,7 +4,7 @@
 const KEY_COLOR: vec3<f32> = vec3<f32>(1.00, 0.975, 0.93);
 const RIM_COLOR: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
 
-// Smoother than this and a pixel's share of the normal map begins to sparkle.
+// A smoother surface would sparkle where a pixel covers several bumps of the normal map.
 const LEAST_ROUGHNESS: f32 = 0.08;
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {

@@ -1,4 +1,4 @@
-// The model's triangles. Drawn from both sides: a file with holes or turned triangles still shows.
+// The model's triangles. Both sides are drawn, so that a file with holes or turned triangles still shows.
 
 struct MeshVertex {
     // Every program computes the same bits, so that what is drawn over the model meets its depth.

@@ -1,15 +1,15 @@
-// The normal that a map gives a point of the surface.
+// The normal of a surface point, bent by its normal map.
 
-// `texel` as the map has it, `normal` unit, `tangent` in the space of the normal, any length; its w is the side of the
-// bitangent. Where the tangent gives no direction beside the normal, the normal stays.
+// `normal` is of unit length. `tangent` is in the same space and of any length; its w is the side of the bitangent. A tangent along
+// the normal leaves the normal as it is.
 fn mapped_normal(texel: vec3<f32>, normal: vec3<f32>, tangent: vec4<f32>) -> vec3<f32> {
     if material.normal_channels == 0u {
         return normal;
     }
-    // Interpolated, so no longer square to the normal.
+    // Interpolation has made it oblique to the normal.
     let along_u = tangent.xyz - normal * dot(normal, tangent.xyz);
     let length_squared = dot(along_u, along_u);
-    // Also false for what is not a number.
+    // Also false for NaN.
     if !(length_squared > 1e-8) {
         return normal;
     }

@@ -1,4 +1,4 @@
-// Reads what lies around a pixel from normals and depth in view.
+// What the programs of ambient occlusion share: reading the neighbourhood of a pixel from normals and depth in view.
 
 @group(1) @binding(0) var geometry_map: texture_2d<f32>;
 
@@ -12,7 +12,7 @@ fn distance_of(packed: vec4<f32>) -> f32 {
     return mix(camera.depth_near, camera.depth_far, depth_of(packed));
 }
 
-// The point of the world at a place of the view.
+// The point of the world at a position in the view and a distance along it.
 fn world_at(ndc: vec2<f32>, along: f32) -> vec3<f32> {
     return camera.eye + ndc.x * camera.eye_per_x + ndc.y * camera.eye_per_y
         + along * (camera.forward + ndc.x * camera.forward_per_x + ndc.y * camera.forward_per_y);
@@ -27,7 +27,7 @@ fn pixel_of_ndc(ndc: vec2<f32>) -> vec2<f32> {
     return (ndc * vec2<f32>(0.5, -0.5) + 0.5) * vec2<f32>(textureDimensions(geometry_map));
 }
 
-// Even over any small neighbourhood, 0..1.
+// 0..1, spread evenly over any small neighbourhood.
 fn pixel_noise(pixel: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715))));
 }

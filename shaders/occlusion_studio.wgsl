@@ -6,10 +6,10 @@ const SLICES: i32 = 3;
 const STEPS: i32 = 5;
 const DEEPENING: f32 = 1.6;
 const HALF_PI: f32 = 1.5707963;
-// Farther pixels cost more than they show.
+// Farther pixels would cost more than they add.
 const MAX_REACH_PIXELS: f32 = 128.0;
 
-// Share of a slice that is open between the normal and a horizon; angles from the view ray.
+// The fraction of a slice that is open between the normal and a horizon. Angles are from the view ray.
 fn open_arc(horizon: f32, normal_angle: f32) -> f32 {
     return 0.25 * (cos(normal_angle) - cos(2.0 * horizon - normal_angle) + 2.0 * horizon * sin(normal_angle));
 }
@@ -41,7 +41,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     }
     let normal = normal_of(packed);
     let along = distance_of(packed);
-    // A little towards the viewer: depth has steps.
+    // A little towards the viewer, since depth has steps.
     let point = world_at(view.ndc, along - (camera.depth_far - camera.depth_near) * 3e-5);
     let to_eye = towards_eye(point);
     let size = vec2<f32>(textureDimensions(geometry_map));
@@ -73,6 +73,6 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
-    // Occluders farther than the radius are not seen: what is found is deepened for them.
+    // Occluders beyond the radius are not found; deepening makes up for them.
     return vec4<f32>(pow(clamp(open / f32(SLICES), 0.0, 1.0), DEEPENING));
 }

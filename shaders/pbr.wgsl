@@ -33,7 +33,7 @@ fn fresnel_schlick(fresnel0: vec3<f32>, cos_angle: f32) -> vec3<f32> {
     return mix(fresnel0, vec3<f32>(fresnel90(fresnel0)), squared * squared * grazing);
 }
 
-// The share of mirrored light of one direction, per steradian, after one bounce. `n_dot_l` and `n_dot_v` are above 0.
+// The fraction of light from one direction that is mirrored, per steradian, after one bounce. `n_dot_l` and `n_dot_v` are above 0.
 fn specular_lobe(
     normal: vec3<f32>,
     to_eye: vec3<f32>,
@@ -50,7 +50,7 @@ fn specular_lobe(
     return fresnel_schlick(fresnel0, dot(to_eye, halfway)) * lobe;
 }
 
-// What becomes of light that falls on a surface evenly from all around. With an albedo of 1 the shares sum to 1.
+// What becomes of light that falls on a surface evenly from all around. With an albedo of 1 the fractions sum to 1.
 struct Reflectance {
     // Mirrored in one bounce.
     single: vec3<f32>,
@@ -91,7 +91,7 @@ fn specular_occlusion(n_dot_v: f32, occlusion: f32, alpha: f32) -> f32 {
     return clamp(pow(seen, exp2(-16.0 * alpha - 1.0)) - 1.0 + occlusion, 0.0, 1.0);
 }
 
-// Mirrored directions that a bump turns below the surface itself see only the surface: fades them out.
+// Fades out mirrored directions that a bump turns below the surface, since they see only the surface itself.
 fn horizon_fade(mirrored: vec3<f32>, smooth_normal: vec3<f32>) -> f32 {
     let above = clamp(1.0 + 1.3 * dot(mirrored, smooth_normal), 0.0, 1.0);
     return above * above;

@@ -5,7 +5,8 @@ const SHADOW_TAPS: u32 = 16u;
 const GOLDEN_COS: f32 = -0.73736888;
 const GOLDEN_SIN: f32 = 0.67549029;
 
-// 1 lit, 0 in shadow; blurred over `radius_texels` of the map. Points outside the map are lit.
+// The fraction of the key light that reaches a point: 1 lit, 0 in shadow, blurred over `radius_texels` of the map. Points outside the
+// map are lit.
 fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
     if light.key_shadow == 0u {
         return 1.0;
@@ -15,7 +16,7 @@ fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
     if any(center < vec2<f32>(0.0)) || any(center > vec2<f32>(1.0)) || clip.z < 0.0 {
         return 1.0;
     }
-    // Receivers may lie behind the box that the map covers, casters never do.
+    // Receivers may lie beyond the box that the map covers; casters never do.
     let depth = min(clip.z, 0.9999);
     let radius = radius_texels / f32(textureDimensions(shadow_map).x);
     var lit = 0.0;

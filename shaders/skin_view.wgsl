@@ -1,4 +1,4 @@
-// The model in colours that were made for its vertices: what its skin is like.
+// The model in colours of its vertices, made on the CPU from its skin weights.
 
 struct SkinViewVertex {
     @builtin(position) clip: vec4<f32>,
@@ -39,7 +39,7 @@ fn vertex_skinned(
     return skin_view_vertex(posed_in_world(instance, vertex, joints, weights), tex_coord, color_srgb);
 }
 
-// The colour itself where the surface faces the viewer, so that a legend can be read; darker where it turns away, for its shape.
+// The exact colour where the surface faces the viewer, so that it matches the legend; darker where it turns away, to show shape.
 fn seen_color(vertex: SkinViewVertex) -> vec4<f32> {
     let to_eye = towards_eye(vertex.world_position);
     let facing = abs(dot(normalize_or(vertex.world_normal, to_eye), to_eye));

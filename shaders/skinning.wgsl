@@ -16,12 +16,12 @@ fn bone_row(joint: u32, row: u32) -> vec4<f32> {
     return textureLoad(bones, vec2<i32>(texel), 0);
 }
 
-// The rows of the inverse transpose times the determinant: right for normals under any scale, and exists for any matrix.
+// The rows of the inverse transpose times the determinant. It is right for normals under any scale, and exists for any matrix.
 fn cofactor(row_x: vec3<f32>, row_y: vec3<f32>, row_z: vec3<f32>) -> mat3x3<f32> {
     return mat3x3<f32>(cross(row_y, row_z), cross(row_z, row_x), cross(row_x, row_y));
 }
 
-// What cannot be normalised stays as it is.
+// `otherwise` for a vector of length zero.
 fn normalize_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
     let length_squared = dot(v, v);
     if length_squared > 0.0 {
@@ -30,8 +30,8 @@ fn normalize_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
     return otherwise;
 }
 
-// `to` is given by the rows of a 3x4 matrix. Normals keep to their side of the surface when the matrix mirrors; the bitangent,
-// which follows the surface, is then on the other side of normal and tangent.
+// Transforms by the rows of a 3x4 matrix. When the matrix mirrors, normals stay on their side of the surface; the bitangent follows
+// the surface, so it changes to the other side of normal and tangent.
 fn transform(row_x: vec4<f32>, row_y: vec4<f32>, row_z: vec4<f32>, vertex: Skinned) -> Skinned {
     let position = vec4<f32>(vertex.position, 1.0);
     let determinant = dot(row_x.xyz, cross(row_y.xyz, row_z.xyz));
@@ -50,7 +50,7 @@ fn transform(row_x: vec4<f32>, row_y: vec4<f32>, row_z: vec4<f32>, vertex: Skinn
     );
 }
 
-// Moves a vertex by up to four joints. With all weights zero it stays where bind space has it.
+// Moves a vertex by up to four joints. With all weights zero it stays in bind space.
 fn skin(vertex: Skinned, joints: vec4<u32>, weights: vec4<f32>) -> Skinned {
     if all(weights == vec4<f32>(0.0)) {
         return vertex;

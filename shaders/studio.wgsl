@@ -5,7 +5,7 @@ const KEY_SIZE: f32 = 0.08;
 
 struct StudioSurface {
     albedo: vec3<f32>,
-    // Mirrored share, face on.
+    // Mirrored fraction, face on.
     fresnel0: vec3<f32>,
     // 0 smooth, 1 rough.
     roughness: f32,
@@ -62,8 +62,8 @@ fn studio_key(surface: StudioSurface, shares: Reflectance, n_dot_v: f32, lights:
     return lights.key_color * (lights.key_visible * n_dot_l) * (shares.diffuse + PI * shares.boost * lobe);
 }
 
-// Without a lobe, which so low would burn every flat top: an even sheen in all that the surface gives back, most where it
-// turns away from the viewer. It casts no shadows, so what lies in creases is spared by their occlusion.
+// The rim has no lobe: one so low would burn every flat top. It is an even sheen in all that the surface gives back, strongest where
+// it turns away from the viewer. It casts no shadows, so ambient occlusion keeps it out of creases.
 fn studio_rim(surface: StudioSurface, shares: Reflectance, n_dot_v: f32, lights: StudioLights) -> vec3<f32> {
     let edge = 1.0 - n_dot_v;
     let facing = max(dot(surface.normal, lights.to_rim), 0.0) * (0.2 + 0.8 * edge * edge);

@@ -1,4 +1,4 @@
-// What a pixel of the model is, before any light: maps read, the viewer's side found.
+// What a pixel of the model is before any light: its maps, and its normals on the viewer's side.
 
 struct SurfacePoint {
     world_position: vec3<f32>,
@@ -13,11 +13,11 @@ struct SurfacePoint {
     tex_coord: vec2<f32>,
     diffuse_texel: vec4<f32>,
     normal_texel: vec4<f32>,
-    // Share of the surroundings that reaches here.
+    // Ambient occlusion: the fraction of the environment that reaches the point.
     occlusion: f32,
 }
 
-// Samples maps and takes derivatives, so every pixel of a triangle must come here.
+// Samples maps and takes derivatives, so every pixel of a triangle must call it.
 fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let diffuse_texel = textureSample(diffuse_map, map_sampler, mesh.tex_coord);
     let normal_texel = textureSample(normal_map, map_sampler, mesh.tex_coord);
@@ -25,7 +25,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let side = select(-1.0, 1.0, clockwise) * mesh.front_sign;
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
-    // From behind, a bump is a dent: the relief has one shape, seen from its other side.
+    // The relief has one shape: seen from behind, a bump is a dent.
     let normal = mapped_normal(normal_texel.rgb, vertex_normal, mesh.world_tangent) * side;
     let in_view = mesh.clip.xy / camera.viewport_pixels;
     return SurfacePoint(
@@ -47,9 +47,9 @@ fn shininess(point: SurfacePoint) -> f32 {
     return (1.0 - material.roughness) * select(1.0, point.normal_texel.a, material.normal_channels == 4u);
 }
 
-// How much of the key light arrives at a point, whichever way it is turned.
+// The fraction of the key light that arrives at a point, whichever way its surface faces.
 fn key_arrival(point: SurfacePoint) -> f32 {
-    // Grazing light walks further over the surface inside the blur, so the start moves further off it.
+    // Under grazing light the blur reaches further along the surface, so the point is moved further off it.
     let facing_key = max(dot(point.smooth_normal, light.to_key), 0.0);
     let radius = light.shadow_texel * light.shadow_radius_texels;
     let off_surface = point.smooth_normal * radius * (1.2 - 0.8 * facing_key);

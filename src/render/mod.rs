@@ -1,13 +1,12 @@
 //! Draws a [`RenderFrame`] with wgpu, on Vulkan, Metal, DirectX 12, GL, WebGPU and WebGL2 alike.
 //!
-//! A model is uploaded once; a frame writes small uniforms and the bone texture, then records, for each light that the picture
-//! shows, the model's depth from that light, how open each pixel is, and how near the model is above the ground; and then the
-//! picture itself (what is behind, the model, lines) into a multisampled [`Target`]. The resolved
-//! target is what a [`Compositor`] brings onto a surface and what [`read_back`] turns into bytes, so a browser, a snapshot,
-//! the command line and the tests all see the same pixels.
+//! A model is uploaded once. A frame writes small uniforms, the instances and their bones. For each light that the picture shows it
+//! then draws the light's maps: shadow map, ambient occlusion and contact map. At last it draws the picture itself into a
+//! multisampled [`Target`]: what is behind, the model, lines. A [`Compositor`] brings the resolved target onto a surface, and
+//! [`read_back`] turns it into bytes, so a browser, a snapshot, the command line and the tests all see the same pixels.
 //!
-//! Only what WebGL2 has is used: no storage buffers, no compute; joint matrices come from a texture, and textures that are drawn
-//! into have eight bits a channel.
+//! Only what WebGL2 has is used: no storage buffers and no compute. Joint matrices come from a texture, and textures that are drawn
+//! into and then read have eight bits a channel.
 
 mod buffers;
 mod composite;
@@ -51,7 +50,7 @@ use overlays::Overlays;
 use pipelines::Pipelines;
 use recipe::{Cut, Draw, ModelDraw, Shading};
 
-/// Draws one model at a time. What a frame needs for the first time is made then; later frames make nothing.
+/// Draws one model at a time. What a frame needs is made when it is needed first; later frames make nothing.
 pub struct Renderer {
     common: Common,
     samples: SampleCount,
@@ -99,7 +98,7 @@ impl Renderer {
         }
     }
 
-    /// Uploads a model, which replaces the one before. On an error that one stays.
+    /// Uploads a model, which replaces the last one. On an error the last one stays.
     pub fn set_model(&mut self, model: &Model) -> Result<(), UploadError> {
         let Common {
             device,
@@ -112,8 +111,8 @@ impl Renderer {
     }
 
     /// Gives each material of the model its maps, in the order of the model's materials; materials beyond the slice have none.
-    /// What was given before is forgotten. A picture goes up once, however many materials have it, and stays while a call gives
-    /// it again, also when the model is another one by then; how many went up is returned. Does nothing without a model.
+    /// All maps are replaced. An image is uploaded once, however many materials have it, and stays in GPU memory until a call lacks
+    /// it, even when another model came meanwhile. Returns how many images were uploaded. Does nothing without a model.
     pub fn set_maps(&mut self, maps: &[MaterialImages<'_>]) -> usize {
         let Common {
             device,
@@ -129,15 +128,15 @@ impl Renderer {
         uploaded
     }
 
-    /// Gives the model's materials other values, in their order; their maps stay. Does nothing without a model.
+    /// Replaces the values of the model's materials, in their order; their maps stay. Does nothing without a model.
     pub fn set_materials(&mut self, materials: &[Material]) {
         if let Some(model) = &mut self.model {
             model.materials.set_values(&self.common.queue, materials);
         }
     }
 
-    /// Takes a cube map as the surroundings, or goes back to the project's own. False, and nothing changes, when the picture is
-    /// no cube.
+    /// Sets a cube map as the environment; without one, the project's own comes back. False, and nothing changes, when the image is no
+    /// cube map.
     pub fn set_sky(&mut self, image: Option<&Image>) -> bool {
         let Common {
             device,
@@ -148,13 +147,13 @@ impl Renderer {
         environments.set_sky(device, queue, image)
     }
 
-    /// Draws no model from now on and gives its memory back.
+    /// Removes the model and frees its memory.
     pub fn clear_model(&mut self) {
         self.model = None;
         self.maps.clear();
     }
 
-    /// Draws a frame and submits it. A skinned model with an empty palette is drawn as bind space has it.
+    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) {
         self.common.environments.write(&self.common.queue, frame);
         let Common { device, queue, .. } = &self.common;
@@ -239,8 +238,8 @@ impl Renderer {
             pass.set_bind_group(2, lighting, &[]);
             true
         };
-        // First all that is behind, from the right: Mesa's software rasteriser fills a column too many at the left of a scissor
-        // rectangle, and would wipe the model out there.
+        // First all backgrounds, from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle,
+        // and would wipe out the model there.
         if options.background != Background::None {
             for part in parts.iter().rev() {
                 if begin_part(&mut pass, part) {
@@ -259,7 +258,7 @@ impl Renderer {
                     ViewMode::Lit => Shading::Lit(part.0),
                     _ => Shading::Inspect,
                 };
-                // Samples that alpha leaves out keep what lies behind; where nothing does, the picture needs its alpha itself.
+                // Smooth edges need a background, which shows in the samples that alpha leaves out.
                 let cut = match options.background {
                     Background::None => Cut::Hard,
                     _ => Cut::Smooth,
@@ -282,12 +281,12 @@ impl Renderer {
     }
 }
 
-/// Which light shows in which columns of the picture.
+/// Which light shows in which columns of the picture, from the left.
 fn parts(frame: &RenderFrame<'_>, [width, _]: [u32; 2]) -> Vec<Columns> {
-    let Some(share) = frame.options.split else {
+    let Some(fraction) = frame.options.split else {
         return vec![(frame.options.light, 0..width)];
     };
-    let at = ((share.clamp(0.0, 1.0) * width as f32).round() as u32).min(width);
+    let at = ((fraction.clamp(0.0, 1.0) * width as f32).round() as u32).min(width);
     let light = frame.options.light;
     let mut parts = vec![(light.other(), 0..at), (light, at..width)];
     parts.retain(|(_, columns)| !columns.is_empty());
