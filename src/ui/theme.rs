@@ -177,7 +177,6 @@ pub fn mono(size: f32) -> FontId {
 }
 
 fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
-    visuals.override_text_color = Some(tokens.text);
     visuals.weak_text_color = Some(tokens.muted);
     visuals.panel_fill = Color32::TRANSPARENT;
     visuals.window_fill = tokens.panel;
@@ -199,18 +198,19 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     visuals.selection.bg_fill = tokens.accent_ground;
     visuals.selection.stroke = Stroke::new(1.4, tokens.accent);
     let radius = CornerRadius::same(CONTROL_RADIUS);
-    let fills = [
-        (&mut visuals.widgets.noninteractive, Color32::TRANSPARENT),
-        (&mut visuals.widgets.inactive, tokens.field),
-        (&mut visuals.widgets.hovered, tokens.field_hovered),
-        (&mut visuals.widgets.active, tokens.accent_ground),
-        (&mut visuals.widgets.open, tokens.field_hovered),
+    // Icons and words of controls are quiet until the pointer or the keyboard is on them.
+    let looks = [
+        (&mut visuals.widgets.noninteractive, Color32::TRANSPARENT, tokens.text),
+        (&mut visuals.widgets.inactive, tokens.field, tokens.muted),
+        (&mut visuals.widgets.hovered, tokens.field_hovered, tokens.text),
+        (&mut visuals.widgets.active, tokens.field_hovered, tokens.text),
+        (&mut visuals.widgets.open, tokens.field_hovered, tokens.text),
     ];
-    for (widget, fill) in fills {
+    for (widget, fill, text) in looks {
         widget.bg_fill = fill;
         widget.weak_bg_fill = fill;
         widget.bg_stroke = Stroke::NONE;
-        widget.fg_stroke = Stroke::new(1.4, tokens.text);
+        widget.fg_stroke = Stroke::new(1.4, text);
         widget.corner_radius = radius;
         widget.expansion = 0.0;
     }

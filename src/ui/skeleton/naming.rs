@@ -121,6 +121,7 @@ pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands
         .id(field_id())
         .char_limit(64)
         .hint_text("Name")
+        .text_color(Tokens::of(ui).text)
         .margin(vec2(4.0, 2.0))
         .align(egui::Align2::LEFT_CENTER);
     let response = ui.put(place.shrink2(vec2(0.0, 1.0)), field);

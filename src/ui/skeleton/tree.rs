@@ -84,6 +84,7 @@ fn search(ui: &mut Ui, query: &mut String) {
     let field = TextEdit::singleline(query)
         .id_salt("search")
         .hint_text("Number or name")
+        .text_color(Tokens::of(ui).text)
         .char_limit(64)
         .margin(vec2(8.0, 6.0))
         .min_size(vec2(0.0, control_size(ui)))

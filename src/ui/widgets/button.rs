@@ -1,8 +1,8 @@
 //! Buttons: an icon, words, a line of a menu, one of a few, a switch.
 
-use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, FontId, Rangef, Rect, Response, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+    Align2, Atom, AtomExt as _, AtomKind, AtomPaintArgs, Atoms, Button, Color32, FontId, Rangef, Rect, Response,
+    RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
 use super::control::{MOUSE_CONTROL, TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
@@ -11,31 +11,29 @@ use crate::session::{Command, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
-/// Width of an icon in a button with words, with the room after it.
-const ICON_WIDTH: f32 = 21.0;
+/// Side of an icon.
+const ICON_SIZE: f32 = 16.0;
+/// Room between what stands in a button.
+const GAP: f32 = 5.0;
 /// Width of the chevron of a drop-down.
-const CHEVRON_WIDTH: f32 = 18.0;
+const CHEVRON_WIDTH: f32 = 13.0;
+/// Height of a line of a menu where a mouse is the pointer.
+const MENU_LINE: f32 = 26.0;
 
 /// A square button with an icon. `on` marks a switch that is on.
 pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
-    let size = Vec2::splat(control_size(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let tokens = Tokens::of(ui);
-    let fill = match (on, response.hovered() || response.has_focus()) {
-        (true, _) => tokens.accent_ground,
-        (false, true) => tokens.field_hovered,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, CONTROL_RADIUS, fill);
-    focus_ring(ui, rect, &response);
-    let color = if on {
-        tokens.accent
-    } else {
-        tokens.muted_to_text(response.hovered())
-    };
-    icons::paint(ui.painter(), rect, icon, color);
+    let side = control_size(ui);
+    let place = vec2(side - 2.0 * ui.spacing().button_padding.x, ICON_SIZE);
+    let response = ui.add(Button::selectable(on, icon_atom(icon, place)).min_size(Vec2::splat(side)));
+    focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     response.on_hover_text(label)
+}
+
+/// An icon in the middle of a place of this size, in the colour of the words beside it.
+fn icon_atom(icon: Icon, size: Vec2) -> Atom<'static> {
+    AtomKind::paint(move |ui, args| icons::paint(ui.painter(), args.rect, icon, args.fallback_text_color))
+        .atom_size(size)
 }
 
 /// A square button of an action of the session, with its key in the tooltip.
@@ -91,33 +89,32 @@ impl<'a> TextButton<'a> {
     /// Shows it.
     pub(crate) fn show(self, ui: &mut Ui) -> Response {
         let tokens = Tokens::of(ui);
-        let before = 8.0 + if self.icon.is_some() { ICON_WIDTH } else { 0.0 };
-        let after = 8.0 + if self.opens_list { CHEVRON_WIDTH } else { 0.0 };
-        let mut job = LayoutJob::simple_singleline(self.text.to_owned(), FontId::proportional(13.0), tokens.text);
-        job.wrap = TextWrapping::truncate_at_width(self.width.max - before - after);
-        let galley = ui.painter().layout_job(job);
-        let width = self.width.clamp(galley.size().x + before + after);
-        let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
-        let fill = if response.hovered() || response.has_focus() {
-            tokens.field_hovered
-        } else {
-            tokens.field
-        };
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, fill);
-        focus_ring(ui, rect, &response);
+        let icon = self.icon.map_or(0.0, |_| ICON_SIZE + GAP);
+        let chevron = if self.opens_list { GAP + CHEVRON_WIDTH } else { 0.0 };
+        let others = icon + chevron + 2.0 * ui.spacing().button_padding.x;
+        let words = RichText::new(self.text).color(tokens.text);
+        let mut atoms = Atoms::default();
         if let Some(icon) = self.icon {
-            let place = Rect::from_center_size(pos2(rect.min.x + 16.0, rect.center().y), Vec2::splat(16.0));
-            icons::paint(ui.painter(), place, icon, tokens.text);
+            let color = tokens.text;
+            let paint = move |ui: &Ui, args: AtomPaintArgs| icons::paint(ui.painter(), args.rect, icon, color);
+            atoms.push_right(AtomKind::paint(paint).atom_size(Vec2::splat(ICON_SIZE)));
         }
-        let free = (width - before - after - galley.size().x).max(0.0);
-        // Words alone stand in the middle; before a chevron they begin at the left.
-        let start = rect.min.x + before + if self.opens_list { 0.0 } else { free * 0.5 };
-        let text_at = pos2(start, rect.center().y - galley.size().y * 0.5);
-        ui.painter().galley(text_at, galley, tokens.text);
+        // Words alone stand in the middle. Before a chevron they begin at the left.
+        let alone = self.icon.is_none() && !self.opens_list;
+        if alone {
+            atoms.push_right(Atom::grow());
+        }
+        let words = words.atom_max_width(self.width.max - others);
+        atoms.push_right(words.atom_align(Align2::LEFT_CENTER).atom_grow(self.opens_list));
+        if alone {
+            atoms.push_right(Atom::grow());
+        }
         if self.opens_list {
-            let chevron = Rect::from_center_size(pos2(rect.max.x - 14.0, rect.center().y), Vec2::splat(16.0));
-            icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
+            atoms.push_right(icon_atom(Icon::ChevronDown, vec2(CHEVRON_WIDTH, ICON_SIZE)));
         }
+        let button = Button::new(atoms).gap(if alone { 0.0 } else { GAP });
+        let response = ui.add(button.min_size(vec2(self.width.min, control_size(ui))));
+        focus_ring(ui, response.rect, &response);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, self.label));
         response
     }
@@ -141,29 +138,18 @@ pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -
 
 fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: bool) -> Response {
     let tokens = Tokens::of(ui);
-    let color = if on { tokens.accent } else { tokens.text };
-    let galley = ui
-        .painter()
-        .layout_no_wrap(text.to_owned(), FontId::proportional(13.0), color);
-    let width = ui.available_width().max(galley.size().x + 20.0);
-    let height = if is_touch(ui) { TOUCH_CONTROL } else { 26.0 };
-    let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::click());
-    if on {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-    } else if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
-    }
-    focus_ring(ui, rect, &response);
-    let at = pos2(rect.min.x + 10.0, rect.center().y - galley.size().y * 0.5);
-    ui.painter().galley(at, galley, color);
-    let right = rect.right_center() - vec2(10.0, 0.0);
-    ui.painter()
-        .text(right, Align2::RIGHT_CENTER, behind, font_behind, tokens.faint);
+    let words = RichText::new(text).color(if on { tokens.accent } else { tokens.text });
+    let behind = RichText::new(behind).font(font_behind).color(tokens.faint);
+    let height = if is_touch(ui) { TOUCH_CONTROL } else { MENU_LINE };
+    let line = Button::selectable(on, words).small().right_text(behind);
+    let response = ui.add(line.min_size(vec2(ui.available_width(), height)));
+    focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
     response
 }
 
-/// A switch with a place for each choice, over the whole width. What was chosen, when something was.
+/// A place for each choice, over the whole width. What was chosen, when something was. Painted here: a row of egui's buttons on a
+/// common ground would leave a finger less than the whole height.
 pub(crate) fn segmented<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -208,7 +194,8 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
 const TRACK_WIDTH: f32 = 26.0;
 const TRACK_HEIGHT: f32 = 15.0;
 
-/// A row that turns something on or off, with the key that does the same (or none).
+/// A row that turns something on or off, with the key that does the same (or none). Painted here: egui has a check box, but no switch
+/// at the end of a row that can be pressed as a whole.
 pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let height = control_size(ui).max(MOUSE_CONTROL);

@@ -1,5 +1,7 @@
-//! Choosing a colour: a square of saturation and value, a bar of hues, the hexadecimal number.
+//! Choosing a colour: a square of saturation and value, a bar of hues, the hexadecimal number. Painted here: egui's picker has no field
+//! for the hexadecimal number, and mixes in linear light.
 
+use egui::ecolor::{hsv_from_rgb, rgb_from_hsv};
 use egui::{
     Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Pos2, Rangef, Rect, Response, Role, Sense,
     Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
@@ -143,6 +145,7 @@ fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]>
     let field = TextEdit::singleline(&mut text)
         .id(id)
         .font(TextStyle::Monospace)
+        .text_color(Tokens::of(ui).text)
         .char_limit(7)
         .margin(vec2(8.0, 6.0))
         .desired_width(f32::INFINITY);
@@ -195,31 +198,12 @@ type Hsv = [f32; 3];
 
 /// What a colour is made of. Grey has hue 0, black has saturation 0 too.
 fn hsv_from_srgb(srgb: [u8; 3]) -> Hsv {
-    let [red, green, blue] = srgb.map(|channel| f32::from(channel) / 255.0);
-    let (most, least) = (red.max(green).max(blue), red.min(green).min(blue));
-    let spread = most - least;
-    if spread <= 0.0 {
-        return [0.0, 0.0, most];
-    }
-    let sixths = if most == red {
-        (green - blue) / spread
-    } else if most == green {
-        2.0 + (blue - red) / spread
-    } else {
-        4.0 + (red - green) / spread
-    };
-    [(sixths / 6.0).rem_euclid(1.0), spread / most, most]
+    hsv_from_rgb(srgb.map(|channel| f32::from(channel) / 255.0)).into()
 }
 
 /// The colour made of these, rounded.
-fn srgb_from_hsv([hue, saturation, value]: Hsv) -> [u8; 3] {
-    // Each channel is a trapezoid over the hue circle, a third of it apart from the next.
-    let channel = |offset: f32| {
-        let sixths = (offset + hue * 6.0).rem_euclid(6.0);
-        let share = sixths.min(4.0 - sixths).clamp(0.0, 1.0);
-        ((value - value * saturation * share) * 255.0).round() as u8
-    };
-    [channel(5.0), channel(3.0), channel(1.0)]
+fn srgb_from_hsv(hsv: Hsv) -> [u8; 3] {
+    rgb_from_hsv(hsv.into()).map(|channel| (channel * 255.0).round() as u8)
 }
 
 #[cfg(test)]

@@ -20,7 +20,8 @@ const KNOB_RADIUS: f32 = 6.0;
 /// Steps of the arrow keys over the whole range.
 const KEY_STEPS: f32 = 50.0;
 
-/// A row with a label, a track with a knob, and the number in words of the caller.
+/// A row with a label, a track with a knob, and the number in words of the caller. Painted here: egui's fills its track from the
+/// range's start alone, not from a middle, and a double click resets nothing.
 #[derive(Clone, Debug)]
 pub(crate) struct Slider<'a> {
     label: &'a str,
@@ -124,6 +125,7 @@ pub(crate) fn number_field(
     let response = ui
         .scope(|ui| {
             ui.style_mut().drag_value_text_style = TextStyle::Monospace;
+            ui.visuals_mut().widgets.inactive.fg_stroke.color = Tokens::of(ui).text;
             ui.spacing_mut().button_padding = vec2(2.0, 2.0);
             ui.spacing_mut().interact_size = size;
             let field = DragValue::new(&mut changed)
@@ -149,7 +151,8 @@ pub(crate) fn number_field(
 /// Characters that can be typed: more than any number needs.
 const MOST_CHARS: usize = 24;
 
-/// A number in words of the caller.
+/// A number in words of the caller. Painted here: egui's `DragValue` drops what is typed when the value changes meanwhile, as a time
+/// does that plays.
 #[derive(Clone, Debug)]
 pub(crate) struct TypedValue<'a> {
     /// Tells it apart from others.
@@ -244,6 +247,7 @@ impl<'a> TypedValue<'a> {
         let mut output = TextEdit::singleline(&mut typed)
             .id(id.with("field"))
             .font(theme::mono(12.0))
+            .text_color(tokens.text)
             .frame(egui::Frame::NONE)
             .margin(Vec2::ZERO)
             .char_limit(MOST_CHARS)
