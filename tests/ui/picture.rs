@@ -127,6 +127,14 @@ fn wide_and_dark() {
 }
 
 #[test]
+fn the_menu_of_view_modes() {
+    compare(
+        "wide-light-menu",
+        &draw_after(WIDE, Theme::Light, false, vec![], &["View mode"]),
+    );
+}
+
+#[test]
 fn wide_and_light_with_an_error() {
     let text = "***************m3d-File-Header***************\n#Materials 1\n#Vertices 3\n#Triangles many\n#Bones 0\n";
     let bad = File::new("soldier.m3d", text.as_bytes());

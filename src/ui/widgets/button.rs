@@ -17,6 +17,8 @@ const ICON_SIZE: f32 = 16.0;
 const GAP: f32 = 5.0;
 /// Width of the chevron of a drop-down.
 const CHEVRON_WIDTH: f32 = 13.0;
+/// Room at both ends of a line of a menu.
+const MENU_PADDING: f32 = 10.0;
 /// Height of a line of a menu where a mouse is the pointer.
 const MENU_LINE: f32 = 26.0;
 
@@ -142,7 +144,10 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: boo
     let behind = RichText::new(behind).font(font_behind).color(tokens.faint);
     let height = if is_touch(ui) { TOUCH_CONTROL } else { MENU_LINE };
     let line = Button::selectable(on, words).small().right_text(behind);
+    // egui's menus have next to no padding.
+    let padding = std::mem::replace(&mut ui.spacing_mut().button_padding.x, MENU_PADDING);
     let response = ui.add(line.min_size(vec2(ui.available_width(), height)));
+    ui.spacing_mut().button_padding.x = padding;
     focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
     response
@@ -230,10 +235,10 @@ pub(crate) fn action_switch(ui: &mut Ui, session: &Session, action: &Action, com
 
 fn paint_track(ui: &Ui, track: Rect, response: &Response, on: bool) {
     let tokens = Tokens::of(ui);
-    let share = ui.ctx().animate_bool_with_time(response.id, on, 0.1);
+    let fraction = ui.ctx().animate_bool_with_time(response.id, on, 0.1);
     let off_ground = tokens.field_hovered;
-    let ground = if share > 0.0 {
-        off_ground.lerp_to_gamma(tokens.accent, share)
+    let ground = if fraction > 0.0 {
+        off_ground.lerp_to_gamma(tokens.accent, fraction)
     } else {
         off_ground
     };
@@ -243,7 +248,7 @@ fn paint_track(ui: &Ui, track: Rect, response: &Response, on: bool) {
         ui.painter()
             .rect_stroke(track, TRACK_HEIGHT * 0.5, border, StrokeKind::Inside);
     }
-    let knob_x = lerp(track.min.x + 7.5..=track.max.x - 7.5, share);
+    let knob_x = lerp(track.min.x + 7.5..=track.max.x - 7.5, fraction);
     let knob = if on { Color32::WHITE } else { tokens.muted };
     ui.painter().circle_filled(pos2(knob_x, track.center().y), 5.0, knob);
 }
