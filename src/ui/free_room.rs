@@ -12,9 +12,9 @@ use super::widgets::SHEET_HANDLE_HEIGHT;
 use crate::scene::Insets;
 use crate::session::Session;
 
-/// Share of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
-const BESIDE_SHARE: f32 = 0.44;
-const TIMELINE_BESIDE_SHARE: f32 = 0.62;
+/// Fraction of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
+const BESIDE_FRACTION: f32 = 0.44;
+const TIMELINE_BESIDE_FRACTION: f32 = 0.62;
 const MOST_BESIDE: f32 = 560.0;
 /// Margin in the sheet, but for its upper edge.
 pub(super) const SHEET_MARGIN: i8 = 14;
@@ -26,7 +26,7 @@ const LEAST_BESIDE_FINDINGS: f32 = 200.0;
 const LEAST_WITH_CARD: f32 = 220.0;
 const LEAST_WITH_STRIP: f32 = 180.0;
 
-/// Shares of the window that are covered.
+/// Fractions of the window that are covered.
 pub(super) fn insets(ui: &Ui, session: &Session, state: &UiState, window: Rect, arrangement: Arrangement) -> Insets {
     let top = (bar_height(ui) + MARGIN) / window.height();
     let strip = match legend_place(ui, session, state, window, arrangement) {
@@ -144,10 +144,10 @@ pub(super) fn shut_sheet_height(ui: &Ui, session: &Session, arrangement: Arrange
 
 /// Width of a page beside the model.
 pub(super) fn page_width(page: SheetPage, window: Rect) -> f32 {
-    let share = if page == SheetPage::Timeline {
-        TIMELINE_BESIDE_SHARE
+    let fraction = if page == SheetPage::Timeline {
+        TIMELINE_BESIDE_FRACTION
     } else {
-        BESIDE_SHARE
+        BESIDE_FRACTION
     };
-    (share * window.width()).min(MOST_BESIDE)
+    (fraction * window.width()).min(MOST_BESIDE)
 }

@@ -48,7 +48,7 @@ pub(super) enum Icon {
     Cube,
     /// Open files.
     Open,
-    /// The other surroundings, dark or light.
+    /// The other theme, dark or light.
     Contrast,
     /// Light on the model.
     Sun,

@@ -9,10 +9,10 @@ use std::num::NonZeroUsize;
 
 use egui::{Context, Event, Id, Key, Popup, RawInput, Ui};
 
-/// Passes of one frame: what is left waits for the next one.
+/// The most passes of one frame. Events that are left wait for the next frame.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
 
-/// Keeps back what depends on the input before it, one pass after the other.
+/// Holds back events that depend on the result of earlier events, and gives them to later passes.
 #[derive(Debug, Default)]
 pub(super) struct InputOrder {
     waiting: VecDeque<Event>,
@@ -29,13 +29,13 @@ impl egui::Plugin for InputOrder {
         input.events.extend(self.waiting.drain(..count));
         if !self.waiting.is_empty() {
             ctx.request_discard("there is input that depends on this pass");
-            // For what is left when the frame has had its passes.
+            // The next frame takes what this frame's passes left.
             ctx.request_repaint();
         }
     }
 }
 
-/// What an event does to the events after it.
+/// What an event means for the events after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// Moves the pointer.
@@ -50,7 +50,7 @@ enum Kind {
     Typed,
     /// May give the keyboard to another widget, or shut what has it.
     MovesFocus,
-    /// None of these: it goes along with what is before it.
+    /// None of these. It stays in the pass of the event before it.
     Other,
 }
 
@@ -83,9 +83,9 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
             Kind::Other => false,
             Kind::Move | Kind::Typed => end.is_some(),
             Kind::Press | Kind::MovesFocus => end.is_some() || typed,
-            // What was dragged on the way is dragged before it is let go.
+            // The drag that came before is dealt with first.
             Kind::Release => end.is_some() || typed || moved,
-            // The pass that lets go is the last one with a pointer.
+            // A pointer that leaves with its release shares the pass of the release.
             Kind::Gone => end.is_some_and(|end| end != Kind::Release),
         };
         moved |= kind == Kind::Move;
@@ -98,7 +98,7 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
     events.iter().position(waits).unwrap_or(events.len())
 }
 
-/// Who had the keyboard when the last pass ended, and which button opened what hangs from one.
+/// Which widget had the keyboard when the last pass ended, and which button opened the popover.
 #[derive(Debug, Default)]
 pub(super) struct Keyboard {
     focused: Option<Id>,
@@ -107,20 +107,20 @@ pub(super) struct Keyboard {
 }
 
 impl Keyboard {
-    /// Whether keys were typed into a field when this pass began: it had the keyboard, or had it until a key of this pass.
+    /// Whether a text field had the keyboard when this pass began, or until a key of this pass took it away.
     pub(super) fn was_typing(&self, ctx: &Context) -> bool {
         self.typing || ctx.text_edit_focused()
     }
 
-    /// Whether keys are typed into a field as this pass ends, or it is being pressed.
+    /// Whether a text field has the keyboard as this pass ends, or is being pressed.
     pub(super) fn is_typing(&mut self, ctx: &Context) -> bool {
         let pressed = ctx.data_mut(|data| data.remove_temp::<()>(pressed_field()).is_some());
         self.typing = pressed || ctx.text_edit_focused();
         self.typing
     }
 
-    /// Gives the keyboard back to whom something that was shut had taken it from. `popover_was_open`: when this pass began;
-    /// `escape_shut`: Esc has shut something.
+    /// Gives the keyboard back to the widget that had it before a popover or panel was closed. `popover_was_open`: when this pass began;
+    /// `escape_shut`: Esc has closed something.
     pub(super) fn give_back(&mut self, ctx: &Context, popover_was_open: bool, escape_shut: bool) {
         let before = self.focused;
         let focused = ctx.memory(|memory| memory.focused());
@@ -135,7 +135,7 @@ impl Keyboard {
         };
         let popover_shut = popover_was_open && !Popup::is_any_open(ctx);
         if (popover_shut || escape_shut) && focused.is_none_or(|id| popover_shut && hung(id)) {
-            // With a mouse nobody has it.
+            // Who uses a mouse has not given the keyboard to any widget.
             let heir = before.and_then(|id| {
                 if escape_shut && !hung(id) {
                     Some(id)
@@ -151,7 +151,7 @@ impl Keyboard {
     }
 }
 
-/// Says that the pointer presses a field: until it has the keyboard no key is a shortcut.
+/// Says that the pointer presses a text field. Until the field has the keyboard, no key is a shortcut.
 pub(super) fn press_field(ui: &Ui) {
     ui.data_mut(|data| data.insert_temp(pressed_field(), ()));
 }
@@ -160,7 +160,7 @@ fn pressed_field() -> Id {
     Id::unique("a field is pressed")
 }
 
-/// What hangs from a button, by the name that egui gives it.
+/// The id that egui gives to the popup of a button.
 fn popup_of(button: Id) -> Id {
     button.with("popup")
 }

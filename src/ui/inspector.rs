@@ -139,7 +139,7 @@ fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3]) {
         let side = Vec2::splat(height);
         let shown = color.map(srgb8_from_linear);
         if let Some(chosen) = color_button(ui, label, side, shown) {
-            // Only the channels that were changed: the others keep what eight bits cannot say.
+            // Only the channels that changed. The others keep their exact value, which 8 bits would round.
             for channel in 0..3 {
                 if chosen[channel] != shown[channel] {
                     color[channel] = linear_from_srgb8(chosen[channel]);

@@ -13,8 +13,8 @@ use super::{
 };
 use crate::session::{Command, Session};
 
-/// Share of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
-const PAGE_SHARE: f32 = 0.47;
+/// Fraction of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
+const PAGE_FRACTION: f32 = 0.47;
 /// Wide windows.
 pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
     let left_top = window.min + Vec2::splat(MARGIN);
@@ -174,7 +174,7 @@ fn sheet(
                 ui.add_space(10.0);
                 let shut = shut_sheet_height(ui, session, arrangement);
                 let covered = bar_height(ui) + shut + 3.0 * MARGIN;
-                let room = (window.height() * PAGE_SHARE).min(window.height() - covered);
+                let room = (window.height() * PAGE_FRACTION).min(window.height() - covered);
                 show_page(ui, page, session, state, room, commands);
             }
         })

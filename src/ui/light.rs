@@ -78,8 +78,8 @@ fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
 fn environment_turn(ui: &mut Ui, radians: f32, commands: &mut Vec<Command>) {
     let degrees = radians.to_degrees();
     let text = format!("{degrees:.0}°");
-    if let Some(degrees) = Slider::new("Surroundings", degrees, 0.0..=360.0, &text).show(ui) {
-        // A whole turn would come back as none, and the knob would jump to the other end.
+    if let Some(degrees) = Slider::new("Environment", degrees, 0.0..=360.0, &text).show(ui) {
+        // 360° would be read back as 0° and the knob would jump to the other end.
         commands.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()).into());
     }
 }

@@ -92,18 +92,18 @@ fn skeleton_rows(ui: &mut Ui, session: &Session, state: &mut SkeletonState, comm
 }
 
 fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let share = session.bind_share();
+    let weight = session.bind_share();
     if session.clip().is_some() {
         let toggle = &actions::BIND_POSE;
-        if switch_row(ui, toggle.label, toggle.key(), share >= 0.5).clicked() {
+        if switch_row(ui, toggle.label, toggle.key(), weight >= 0.5).clicked() {
             commands.extend(toggle.command(session));
         }
-        let text = format!("{:.0} %", share * 100.0);
-        if let Some(share) = Slider::new("To bind pose", share, 0.0..=1.0, &text).show(ui) {
-            commands.push(Command::SetBindShare(share));
+        let text = format!("{:.0} %", weight * 100.0);
+        if let Some(weight) = Slider::new("To bind pose", weight, 0.0..=1.0, &text).show(ui) {
+            commands.push(Command::SetBindShare(weight));
         }
     }
-    if switch_row(ui, "Bind pose as a veil", "", session.bind_ghost()).clicked() {
+    if switch_row(ui, "Bind pose as a ghost", "", session.bind_ghost()).clicked() {
         commands.push(Command::SetBindGhost(!session.bind_ghost()));
     }
 }

@@ -204,7 +204,7 @@ fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, 
         });
 }
 
-/// A panel through which nothing is seen, since it lies over other words.
+/// An opaque panel, since it lies over text.
 fn popover_frame(tokens: &Tokens) -> Frame {
     theme::panel_frame(tokens)
         .fill(tokens.panel.to_opaque())

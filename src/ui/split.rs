@@ -8,25 +8,25 @@ use super::widgets::{arrow_steps, is_touch, paint_chip};
 use crate::scene::Light;
 use crate::session::{Command, LookCommand, Session};
 
-/// The handle never leaves the window: shares of its width.
+/// The handle never leaves the window: fractions of its width.
 const REACH: std::ops::RangeInclusive<f32> = 0.02..=0.98;
-/// One step of an arrow key, as a share of the width.
+/// One step of an arrow key, as a fraction of the width.
 const KEY_STEP: f32 = 0.01;
 const HANDLE_RADIUS: f32 = 13.0;
 
 /// Shows the line while the picture is divided.
 pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<Command>) {
-    let Some(share) = session.look().split else { return };
-    let x = window.min.x + share * window.width();
+    let Some(fraction) = session.look().split else { return };
+    let x = window.min.x + fraction * window.width();
     let handle = pos2(x, handle_height(ui, window));
     let reach = if is_touch(ui) { 22.0 } else { HANDLE_RADIUS };
     let id = ui.scope_id().with("split");
-    // The line itself is thin; a finger takes the handle, and the model beside it stays within reach.
+    // The line's target is thin, so that the model beside it can still be touched. Fingers use the handle.
     let line = Rect::from_x_y_ranges(x - 4.0..=x + 4.0, window.y_range());
     let line = ui.interact(line, id.with("line"), Sense::click_and_drag());
     let grip = Rect::from_center_size(handle, egui::Vec2::splat(2.0 * reach));
     let grip = ui.interact(grip, id.with("handle"), Sense::click_and_drag());
-    grip.widget_info(|| WidgetInfo::slider(true, f64::from(share), "Split"));
+    grip.widget_info(|| WidgetInfo::slider(true, f64::from(fraction), "Split"));
     let active = [&line, &grip].into_iter().any(|part| part.hovered() || part.dragged());
     if active {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
@@ -37,18 +37,18 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<
     let asked = if line.double_clicked() || grip.double_clicked() {
         Some(0.5)
     } else if steps != 0.0 {
-        Some(share + steps * KEY_STEP)
+        Some(fraction + steps * KEY_STEP)
     } else {
         let pointer = dragged_to(&line).or_else(|| dragged_to(&grip));
         pointer.map(|pointer| (pointer - window.min.x) / window.width().max(1.0))
     };
     if let Some(asked) = asked {
-        let share = asked.clamp(*REACH.start(), *REACH.end());
-        commands.push(LookCommand::SetSplit(Some(share)).into());
+        let fraction = asked.clamp(*REACH.start(), *REACH.end());
+        commands.push(LookCommand::SetSplit(Some(fraction)).into());
     }
 }
 
-/// The handle's height: in the middle, or of what the sheet of a phone leaves.
+/// The handle's y: the middle of the window, or of what a phone's sheet leaves free.
 fn handle_height(ui: &Ui, window: Rect) -> f32 {
     let bar_bottom = window.min.y + MARGIN + bar_height(ui);
     match shown_rect(ui, "sheet") {
@@ -65,7 +65,7 @@ fn dragged_to(part: &Response) -> Option<f32> {
 fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, light: Light, active: bool) {
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
-    // Over any picture the line is seen: light, with a dark edge.
+    // A light line with a dark edge is seen over any picture.
     painter.vline(
         handle.x,
         window.y_range(),

@@ -113,7 +113,7 @@ impl UiState {
         std::mem::take(&mut self.requests)
     }
 
-    /// Asks for a picture as it was chosen, or without ground in any case.
+    /// Asks for a picture as chosen. `transparent`: without background in any case.
     pub(super) fn save_picture(&mut self, ui: &Ui, transparent: bool) {
         let size = self.picture.size_in_pixels(ui);
         self.requests.push(Request::SavePicture {
@@ -165,7 +165,7 @@ pub(super) struct PictureChoice {
 }
 
 impl PictureChoice {
-    /// Width and height in pixels, now that the window is as it is.
+    /// Width and height in pixels. If none was chosen, those of the window.
     pub(super) fn size_in_pixels(&self, ui: &Ui) -> [u32; 2] {
         let window = ui.ctx().content_rect().size() * ui.pixels_per_point();
         let pixels = |side: f32| (side.round() as u32).clamp(1, MAX_PICTURE_SIDE);

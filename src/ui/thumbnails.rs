@@ -68,7 +68,7 @@ fn small_picture(image: &Image) -> Option<ColorImage> {
     Some(ColorImage::from_rgba_unmultiplied(size, &texels))
 }
 
-/// Texels of a picture averaged by squares, so that no side is longer than a thumbnail's. As encoded: it is small, and quick.
+/// Texels averaged by squares, so that no side is longer than a thumbnail's. Averages encoded values, which is quick and good enough.
 fn shrunk([width, height]: [usize; 2], texels: &[u8]) -> ([usize; 2], Vec<u8>) {
     let square = width.max(height).div_ceil(MOST_TEXELS as usize).max(1);
     let size = [width.div_ceil(square), height.div_ceil(square)];
@@ -92,7 +92,7 @@ fn shrunk([width, height]: [usize; 2], texels: &[u8]) -> ([usize; 2], Vec<u8>) {
     (size, small)
 }
 
-/// The third part of a direction of which a map holds two: such maps look as people know them.
+/// The z of a direction of which a map holds x and y, so that the thumbnail has the usual blue.
 fn rebuilt_z(x: u8, y: u8) -> u8 {
     let [x, y] = [x, y].map(|encoded| f32::from(encoded) / 127.5 - 1.0);
     let z = (1.0 - x * x - y * y).max(0.0).sqrt();

@@ -113,12 +113,12 @@ fn open_button(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-/// The name of the other surroundings, and what asks for them.
+/// The name of the other theme, and what asks for it.
 fn other_theme(ui: &Ui) -> (&'static str, Request) {
     if ui.visuals().dark_mode {
-        ("Light surroundings", Request::UseTheme(Theme::Light))
+        ("Light theme", Request::UseTheme(Theme::Light))
     } else {
-        ("Dark surroundings", Request::UseTheme(Theme::Dark))
+        ("Dark theme", Request::UseTheme(Theme::Dark))
     }
 }
 

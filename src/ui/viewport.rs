@@ -9,7 +9,7 @@ use crate::session::{Command, LookCommand};
 
 /// Radians of orbit for a drag over the height of the view.
 const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
-/// Radians that the surroundings turn for a drag over the height of the view.
+/// Radians that the environment turns for a drag over the height of the view.
 const ENVIRONMENT_TURN_PER_HEIGHT: f32 = PI;
 /// Distance factor of one point of wheel movement.
 const ZOOM_PER_POINT: f32 = 0.0025;
@@ -27,7 +27,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
     let response = ui.interact(rect, ui.scope_id().with("viewport"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
-    let shares = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;
+    let fractions = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;
 
     let down = response.is_pointer_button_down_on();
     if down != hold.held {
@@ -40,10 +40,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
     {
         hold.orbit.clear();
         commands.push(Command::Pan {
-            drag: shares(touch.translation_delta),
+            drag: fractions(touch.translation_delta),
         });
         if touch.zoom_delta != 1.0 {
-            let pointer = shares(touch.center_pos - rect.center());
+            let pointer = fractions(touch.center_pos - rect.center());
             commands.push(Command::Zoom {
                 factor: 1.0 / touch.zoom_delta,
                 pointer,
@@ -52,7 +52,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
         return;
     }
     let flies = hold.flight.update(ui, &response, height, commands);
-    drag(ui, &response, &shares, flies, hold, commands);
+    drag(ui, &response, &fractions, flies, hold, commands);
     if response.double_clicked() {
         commands.push(Command::Glide(Box::new(Command::FrameModel)));
     } else if response.clicked()
@@ -67,23 +67,23 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
         if factor != 1.0 {
             commands.push(Command::Zoom {
                 factor,
-                pointer: shares(pointer - rect.center()),
+                pointer: fractions(pointer - rect.center()),
             });
         }
     }
 }
 
-/// What a drag with one pointer does: the surroundings, the model or the eye move.
+/// What a drag with one pointer does: the environment, the model or the eye move.
 fn drag(
     ui: &Ui,
     response: &Response,
-    shares: &dyn Fn(egui::Vec2) -> Vec2,
+    fractions: &dyn Fn(egui::Vec2) -> Vec2,
     flies: bool,
     hold: &mut ViewHold,
     commands: &mut Vec<Command>,
 ) {
     let Modifiers { shift, alt, .. } = ui.input(|input| input.modifiers);
-    let moved = shares(response.drag_delta());
+    let moved = fractions(response.drag_delta());
     let now_secs = ui.input(|input| input.time);
     let orbits = response.dragged_by(PointerButton::Primary) && !shift && !alt;
     if orbits {
@@ -119,8 +119,8 @@ fn drag(
 
 /// A point of the window in the picture: x right, y up, −1…1.
 pub(super) fn in_picture(rect: Rect, at: Pos2) -> Vec2 {
-    let share = (at - rect.min) / rect.size();
-    Vec2::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y)
+    let fraction = (at - rect.min) / rect.size();
+    Vec2::new(2.0 * fraction.x - 1.0, 1.0 - 2.0 * fraction.y)
 }
 
 /// Radians that the head turns for a drag over the height of the view.
@@ -175,7 +175,7 @@ fn keys_held(ui: &Ui) -> Vec3 {
     })
 }
 
-/// Only this last part of a drag counts: who slows down before letting go means to stop.
+/// Only the last part of a drag counts, in seconds: who slows down before letting go wants to stop.
 const RECENT_SECS: f64 = 0.08;
 
 /// What a drag did lately.

@@ -64,9 +64,9 @@ fn sliders_follow_the_pointer_and_the_arrows_and_go_back_with_a_double_click() {
     window.click("Lighting");
     press_slider(&mut window, "Exposure", 0.75);
     assert!((window.session().look().exposure_stops - 2.0).abs() < 0.05);
-    press_slider(&mut window, "Surroundings", 0.5);
+    press_slider(&mut window, "Environment", 0.5);
     assert!((window.session().look().environment_turn_radians - std::f32::consts::PI).abs() < 0.05);
-    press_slider(&mut window, "Surroundings", 1.0);
+    press_slider(&mut window, "Environment", 1.0);
     assert!(
         window.session().look().environment_turn_radians > 6.2,
         "a whole turn stays at its end"

@@ -207,14 +207,14 @@ fn the_error_card_goes_with_escape_and_with_the_next_model() {
 fn opening_and_the_theme_are_asked_of_the_page() {
     let mut wide = window(WIDE, vec![]);
     wide.click("Open files");
-    wide.click("Light surroundings");
+    wide.click("Light theme");
     let light = Request::UseTheme(bindpose::scene::Theme::Light);
     assert_eq!(wide.harness.state().requests, [Request::PickFiles, light]);
 
     let mut narrow = phone(vec![]);
     narrow.click("Open files");
     narrow.click("More");
-    narrow.click("Light surroundings");
+    narrow.click("Light theme");
     assert_eq!(narrow.harness.state().requests, [Request::PickFiles, light]);
 }
 

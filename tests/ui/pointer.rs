@@ -62,7 +62,7 @@ fn dragging_turns_the_model_with_the_pointer() {
 }
 
 #[test]
-fn with_alt_the_surroundings_turn_and_the_camera_stays() {
+fn with_alt_the_environment_turns_and_the_camera_stays() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let before = *window.session().camera();
     drag(&mut window, PointerButton::Primary, Modifiers::ALT, vec2(90.0, 40.0));

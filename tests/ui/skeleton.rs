@@ -212,7 +212,7 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     window.click("Names of bones");
     let joints = window.session().joints();
     assert_eq!((joints.bone_style(), joints.labels_visible()), (BoneStyle::Axes, true));
-    window.click("Bind pose as a veil");
+    window.click("Bind pose as a ghost");
     assert!(window.session().bind_ghost());
     window.click("To bind pose");
     let share = window.session().bind_share();

@@ -370,8 +370,8 @@ fn clips_are_blended_faded_and_added() {
             window.session().blend().map(|blend| (blend.clip, blend.share)),
             Some((1, 0.5))
         );
-        let share = window.rect("Share");
-        let at = pos2(share.max.x - 6.0, share.center().y);
+        let weight = window.rect("Weight");
+        let at = pos2(weight.max.x - 6.0, weight.center().y);
         window.harness.hover_at(at);
         window.harness.drag_at(at);
         window.harness.drop_at(at);

@@ -15,9 +15,9 @@ use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{gradient_shape, paint_elided};
 use crate::ui::wording::{shortened, trimmed};
 
-/// Characters of a name over the view: the whole is in the tree.
+/// The most characters of a name over the view. The tree shows the whole name.
 const MOST_CHARS: usize = 24;
-/// Directions in which a word is drawn in the colour of the ground before it is drawn itself.
+/// Offsets at which a word is first drawn in the panel's colour, as a halo.
 const HALO: [(f32, f32); 8] = [
     (-1.0, -1.0),
     (0.0, -1.2),
@@ -33,14 +33,14 @@ const WIDTH: f32 = SIDE_WIDTH - 26.0;
 /// Height of the colours, and of them with their values.
 const BAR_HEIGHT: f32 = 8.0;
 const COLORS_HEIGHT: f32 = BAR_HEIGHT + 22.0;
-/// What is said of colours that are too many for a legend.
+/// Shown instead of colours that are too many for a legend.
 const COLORS_IN_TREE: &str = "Colours as in the skeleton's tree";
 /// Type of the values, and the least room between two.
 const VALUE_SIZE: f32 = 11.0;
 const VALUE_GAP: f32 = 6.0;
-/// The most that a strip's contents are wide, and the part of it that the colours have.
+/// The greatest width of a strip's contents, and the fraction of it that the colours take.
 const STRIP_MOST: f32 = 336.0;
-const STRIP_SHARE: f32 = 0.55;
+const STRIP_FRACTION: f32 = 0.55;
 const STRIP_MARGIN: Margin = Margin {
     left: 14,
     right: 14,
@@ -103,7 +103,7 @@ fn card(ui: &mut Ui, view: SkinView, title: &str, hint: Option<&str>) {
 
 fn strip(ui: &mut Ui, view: SkinView, title: &str, width: f32) {
     let (rect, _) = ui.allocate_exact_size(vec2(width, COLORS_HEIGHT), Sense::hover());
-    let (left, right) = rect.split_left_right_at_fraction(1.0 - STRIP_SHARE);
+    let (left, right) = rect.split_left_right_at_fraction(1.0 - STRIP_FRACTION);
     show_title(ui, left, title);
     if view == SkinView::DominantJoint {
         let (font, color) = (FontId::proportional(12.0), Tokens::of(ui).muted);
@@ -153,7 +153,7 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
                 Some(joint) => format!("Weight of {}", shortened(&session.joint_label(joint), 20)),
                 None => view.label().to_owned(),
             };
-            // It stays while a bone is merely looked at in advance, so that the card keeps its height.
+            // The hint also stays while the pointer is over another bone, so that the card keeps its height.
             let joints = session.joints();
             let hint = match (joints.selected(), joints.selected_vertex()) {
                 (Some(_), _) => None,
@@ -173,7 +173,7 @@ fn color_of(stop: &LegendStop) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// Values where their colours stand: as far apart as they differ.
+/// A colour gradient with its values below. Values stand in proportion.
 fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
         return;
@@ -182,7 +182,7 @@ fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     let x_of = |value: f32| bar.min.x + (value - first.value) / (last.value - first.value) * bar.width();
     let colors = stops.iter().map(|stop| (x_of(stop.value), color_of(stop)));
     ui.painter().add(gradient_shape(bar.y_range(), colors));
-    // The ends are always named; a value between them where it has room.
+    // The values at the ends are always shown, those between them where there is room.
     let end = value(ui, pos2(bar.max.x, bar.max.y + 3.0), Align2::RIGHT_TOP, last.value);
     let mut taken = value(ui, bar.left_bottom() + vec2(0.0, 3.0), Align2::LEFT_TOP, first.value);
     for stop in &stops[1..stops.len() - 1] {
@@ -197,7 +197,7 @@ fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Colours from {range}")));
 }
 
-/// A field for each value, since there is nothing between them.
+/// A swatch for each value: counts have nothing between them.
 fn swatches(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     let width = rect.width() / stops.len().max(1) as f32;
     for (index, stop) in stops.iter().enumerate() {
@@ -212,7 +212,7 @@ fn swatches(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Colours of 0 to {count} bones")));
 }
 
-/// Writes a value. Where it came to be.
+/// Writes a value and returns its place.
 fn value(ui: &Ui, at: Pos2, anchor: Align2, value: f32) -> Rect {
     let color = Tokens::of(ui).muted;
     ui.painter()
@@ -230,7 +230,7 @@ fn value_size(ui: &Ui, value: f32) -> Vec2 {
 pub(in crate::ui) fn show_marks(ui: &Ui, session: &Session, state: &SkeletonState, window: Rect) {
     let tokens = Tokens::of(ui);
     let (painter, joints) = (ui.painter(), session.joints());
-    // The first ones are the selected and the hovered, then the nearest.
+    // In order of importance: selected, hovered, then the nearest.
     let mut taken: Vec<Rect> = Vec::new();
     for label in &state.reading.labels {
         let marked = joints.selected() == Some(label.joint) || joints.hovered() == Some(label.joint);
@@ -253,7 +253,7 @@ pub(in crate::ui) fn show_marks(ui: &Ui, session: &Session, state: &SkeletonStat
     }
     if let Some(at) = state.reading.vertex_at {
         let at = in_window(window, at);
-        // On any skin the ring is seen: light, with a dark edge.
+        // A light ring with a dark edge is seen on any skin.
         painter.circle_stroke(at, 6.0, Stroke::new(3.6, Color32::from_black_alpha(150)));
         painter.circle_stroke(at, 6.0, Stroke::new(1.8, Color32::WHITE));
         painter.circle(at, 2.2, tokens.accent, Stroke::new(1.0, Color32::from_black_alpha(150)));
@@ -262,8 +262,8 @@ pub(in crate::ui) fn show_marks(ui: &Ui, session: &Session, state: &SkeletonStat
 
 /// A point of the picture (x right, y up, −1…1) in the window.
 fn in_window(window: Rect, at: glam::Vec2) -> Pos2 {
-    let share = vec2(0.5 * (at.x + 1.0), 0.5 * (1.0 - at.y));
-    window.min + share * window.size()
+    let fraction = vec2(0.5 * (at.x + 1.0), 0.5 * (1.0 - at.y));
+    window.min + fraction * window.size()
 }
 
 fn paint_with_halo(painter: &Painter, at: Pos2, galley: &Arc<Galley>, color: Color32, halo: Color32) {

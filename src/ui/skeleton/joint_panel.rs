@@ -30,7 +30,7 @@ const LABEL_WIDTH: f32 = 72.0;
 
 /// The panel's contents. Nothing while nothing is selected.
 pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    // Read in this pass, so it is that of the selected joint.
+    // It was read in this pass, so it is about the joint that is selected now.
     let joint = state.reading.joint.take();
     let vertex = state.reading.vertex.take();
     if let Some(readout) = &joint {
@@ -212,7 +212,7 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
     ui.add_space(4.0);
     let height = pressed_row_height(ui);
     let rows = key_rows(clip, track);
-    // The key that is in force now: the last one that is not after it.
+    // The last key at or before the present time.
     let now_secs = session.playback().time_secs();
     let now = track.times_secs().partition_point(|&secs| secs <= now_secs);
     ScrollArea::vertical()

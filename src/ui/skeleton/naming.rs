@@ -8,9 +8,9 @@ use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
 
-/// A row that is scrolled to is there sooner, if it is to be seen at all.
+/// A row that is scrolled to appears within this time, if at all, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
-/// However slow the passes are.
+/// … but is waited for at least this many passes.
 const LONGEST_WAIT_PASSES: u32 = 10;
 
 /// What is being named.
@@ -24,10 +24,10 @@ pub(super) struct Naming {
     proposed: Proposed,
 }
 
-/// Names that were proposed last, by bone: a search through the whole skeleton.
+/// The names proposed last, by bone. Kept because they take a search through the whole skeleton.
 #[derive(Debug, Default)]
 struct Proposed {
-    /// Model, names and world for which they were sought.
+    /// The model, names and axes that they belong to.
     of: Option<(u64, u64, Handedness, UpAxis)>,
     names: Vec<(usize, String)>,
 }
@@ -50,12 +50,12 @@ impl Proposed {
     }
 }
 
-/// Where the naming of a joint has got to.
+/// The progress of naming a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Stage {
     /// Its field has the keyboard; whether it was shown in this pass.
     Typing { shown: bool },
-    /// Its field was not shown yet, since this time in seconds and for so many passes.
+    /// Its field has not been shown yet, since this time (seconds) and for this many passes.
     Begins { at_secs: f64, passes: u32 },
     #[default]
     Idle,
@@ -73,7 +73,7 @@ impl Naming {
             },
             ..Self::default()
         };
-        // At once, so that no letter is too early for it.
+        // At once, so that the first letters typed go to the field.
         ui.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
@@ -82,7 +82,7 @@ impl Naming {
         matches!(self.stage, Stage::Begins { .. })
     }
 
-    /// At the end of a pass: without its row a name is taken, and one that could not be typed yet is given up.
+    /// At the end of a pass. If the row is out of view, the typed name is accepted; if its field never appeared, naming is cancelled.
     pub(super) fn settle(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
         match &mut self.stage {
             Stage::Typing { shown: shown @ true } => *shown = false,
@@ -115,7 +115,7 @@ fn field_id() -> Id {
     Id::unique("joint name")
 }
 
-/// The field in place of a joint's name. Enter and a click elsewhere take the name, Esc leaves it.
+/// The field in place of a joint's name. Enter or a click elsewhere accepts the name, Esc cancels.
 pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands: &mut Vec<Command>) {
     let field = TextEdit::singleline(&mut naming.text)
         .id(field_id())
@@ -139,7 +139,7 @@ pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands
     }
 }
 
-/// The names that mirrored joints would have, to be taken or left.
+/// The names proposed for mirrored joints, to accept or refuse.
 pub(super) fn show_proposals(
     ui: &mut Ui,
     session: &Session,

@@ -13,10 +13,10 @@ const NUMBER_CHARS: usize = 9;
 /// The most decimals of a number of a matrix, and of a place.
 const MATRIX_DECIMALS: usize = 5;
 const PLACE_DECIMALS: usize = 4;
-/// Numbers may become as large as this many times the model's reach before they lose decimals.
+/// Numbers keep their decimals up to this multiple of the model's largest coordinate.
 const HEADROOM: f32 = 4.0;
 
-/// Decimals for numbers of one model. They follow from its size and not from the number that is shown, so that points stand
+/// Decimals for numbers of one model. They follow from the model's size, not from each number, so that decimal points stand
 /// below each other and stay where they are while a clip plays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Digits {
@@ -61,7 +61,7 @@ impl Digits {
     }
 }
 
-/// A number of nine characters at most, with as many decimals as have room, up to `decimals`; with an exponent beyond.
+/// A number in at most nine characters, with up to `decimals` decimals, or with an exponent if it does not fit.
 /// Never a negative zero.
 pub(super) fn fitted(number: f32, decimals: usize) -> String {
     if !number.is_finite() {
@@ -89,7 +89,7 @@ const LAST_COLUMN_WIDTH: f32 = 22.0;
 /// Of numbers, in points.
 const FONT_SIZE: f32 = 11.0;
 
-/// Position, quaternion, Euler angles and scale, and what these cannot say.
+/// Position, quaternion, Euler angles and scale; shear and mirroring where there is any.
 pub(super) fn show_parts(ui: &mut Ui, parts: &TransformParts, digits: Digits) {
     row(ui, "Position", &digits.place(parts.position.to_array()));
     let quaternion = parts.rotation.to_array().map(|number| fitted(number, 4));
@@ -115,7 +115,7 @@ pub(super) fn row(ui: &mut Ui, label: &str, numbers: &[String]) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {}", numbers.join(" "))));
 }
 
-/// A line of a table: a label that is set already, which a reader calls `spoken`, and numbers in the columns of [`row`].
+/// A line of a table: a label already laid out (`spoken` for screen readers), and numbers in the columns of [`row`].
 pub(super) fn show_line(ui: &mut Ui, spoken: &str, label: LayoutJob, numbers: &[String]) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT), Sense::hover());
     let galley = ui.painter().layout_job(label);
@@ -133,14 +133,14 @@ pub(super) fn rule_over_numbers(ui: &mut Ui) {
     ui.painter().hline(left..=rect.max.x, rect.center().y, stroke);
 }
 
-/// Width of each of three columns of numbers in a line so wide.
+/// Width of each of three columns of numbers in a line of this width.
 pub(super) fn number_column(width: f32) -> f32 {
     ((width - LABEL_WIDTH) / 3.0).clamp(LEAST_COLUMN, MOST_COLUMN)
 }
 
 /// Numbers in columns of one width that end at the right edge.
 fn paint_columns(ui: &Ui, rect: Rect, numbers: &[String]) {
-    // Four numbers are those of a unit quaternion, which are short.
+    // Four numbers are a unit quaternion, whose numbers are short.
     let (column, size) = if numbers.len() > 3 {
         (48.0, FONT_SIZE - 0.5)
     } else {

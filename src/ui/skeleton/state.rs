@@ -31,7 +31,7 @@ pub(in crate::ui) struct SkeletonState {
     pub(super) space: Space,
     pub(super) key_part: KeyPart,
     pub(super) explains: bool,
-    /// Influences of the explained vertex whose matrices are shown, by slot: the next vertex looks like this one.
+    /// Influences of the explained vertex whose matrices are unfolded, by slot. Kept for the next vertex.
     pub(super) unfolded: [bool; 4],
     /// The joint whose row or link is under the pointer in this pass.
     pub(in crate::ui) hovered: Option<JointIndex>,
@@ -61,7 +61,7 @@ impl SkeletonState {
         self.reading.take(session, window.height());
     }
 
-    /// Lets the joint under the pointer stand out; `elsewhere` it is in another panel.
+    /// Highlights the joint under the pointer. `elsewhere`: the joint that is hovered in another panel.
     pub(in crate::ui) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
         let bones_at = self.pointer_in_view.filter(|_| session.joints().bones_visible());
         match (self.hovered.or(elsewhere), bones_at) {
@@ -85,7 +85,7 @@ impl SkeletonState {
         self.naming.of.is_some()
     }
 
-    /// Whether a field for a name is on its way: its row may have to be scrolled to.
+    /// Whether a field for a name is about to appear. Its row may have to be scrolled to first.
     pub(in crate::ui) fn awaits_field(&self) -> bool {
         self.naming.awaits_field()
     }
@@ -138,12 +138,12 @@ impl TreeState {
         self.shown = None;
     }
 
-    /// Does not scroll to a joint that is selected by its own row.
+    /// Says that a joint was selected by its own row, so that the tree does not scroll.
     pub(super) fn select_in_place(&mut self, joint: JointIndex) {
         self.shown = Some(joint);
     }
 
-    /// The place of the selected joint among the rows, once after it was selected.
+    /// The index of the selected joint's row, once after it was selected.
     pub(super) fn row_to_show(&mut self, selected: Option<JointIndex>) -> Option<usize> {
         if self.shown == selected {
             return None;

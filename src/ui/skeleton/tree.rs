@@ -66,7 +66,7 @@ pub(in crate::ui) fn show(
             if let Some(place) = to_show {
                 let top = ui.cursor().min.y + (place as f32 - range.start as f32) * height;
                 let row = Rect::from_min_size(pos2(ui.cursor().min.x, top), vec2(1.0, height));
-                // With the neighbours, so that it is seen where the row stands.
+                // Two neighbours on each side come into view too.
                 ui.scroll_to_rect(row.expand2(vec2(0.0, 2.0 * height)), None);
             }
             for (place, row) in range.clone().zip(&rows[range]) {
@@ -92,7 +92,7 @@ fn search(ui: &mut Ui, query: &mut String) {
         .desired_width(width);
     let response = ui.add(field);
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Search bones"));
-    // Esc takes the words away, and nothing else.
+    // Esc clears the search and does nothing else.
     if response.lost_focus() && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape)) {
         query.clear();
     }
@@ -149,16 +149,16 @@ fn walk(ui: &Ui, rows: &[JointRow], place: usize, commands: &mut Vec<Command>) {
 
 /// Width of a digit of the column of numbers.
 const DIGIT_WIDTH: f32 = 6.7;
-/// Each branch begins this much further right …
+/// Each level is indented by this much …
 const INDENT: f32 = 9.0;
-/// … down to this depth: what hangs deeper stands below each other, so that names keep their room.
+/// … down to this depth. Deeper levels are not indented further, so that names keep their room.
 const DEEPEST: u32 = 10;
 /// Width of the chevron where a mouse is the pointer.
 const CHEVRON_WIDTH: f32 = 16.0;
 
-/// What the row of a joint is known by, wherever it stands.
+/// The id of a joint's row, wherever it stands.
 fn row_id(ui: &Ui, joint: JointIndex) -> Id {
-    // Apart from the rows' scroll area, which has another name each time that it is laid out.
+    // Not derived from the rows' scroll area, whose id changes.
     Id::unique("joint row").with((ui.layer_id(), joint.0))
 }
 
@@ -232,12 +232,12 @@ impl<'a> TreeRow<'a> {
         let reader = format!("{}, {vertices}", self.label);
         response.widget_info(|| WidgetInfo::selected(Role::TreeItem, true, self.selected, &reader));
 
-        // A double click soon after another click counts as a triple one, wherever that was.
+        // egui counts a double click soon after any other click as a triple click.
         if response.double_clicked() || response.triple_clicked() {
             state.naming.begin(ui, session, joint);
         } else if response.clicked() && !folds {
             commands.push(JointCommand::Select(Some(joint)).into());
-            // It is in view where it was clicked.
+            // The row is in view, since it was clicked.
             state.tree.select_in_place(joint);
         }
         let below = counted_vertices(self.row.branch_vertices);
@@ -277,7 +277,7 @@ impl<'a> TreeRow<'a> {
         response.clicked()
     }
 
-    /// Vertices at the right end; of a folded branch all. Where the words begin.
+    /// The count of vertices at the right end (of the whole branch if folded). Returns where the text begins.
     fn show_count(&self, ui: &Ui, rect: Rect) -> f32 {
         let count = if self.row.folded {
             self.row.branch_vertices

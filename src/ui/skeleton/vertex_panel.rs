@@ -1,4 +1,4 @@
-//! The selected vertex: which joints move it and how much, and how it comes to its place.
+//! The selected vertex: which joints move it and how much, and how its position is computed.
 
 use egui::text::LayoutJob;
 use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -90,9 +90,9 @@ fn influence_bar(
     let font = FontId::proportional(13.0);
     paint_elided(ui.painter(), rect.left_center(), &name, font, color, BAR_START - 8.0);
     let y = rect.center().y;
-    let bar = |share: f32| {
+    let bar = |fraction: f32| {
         let (left, right) = (rect.min.x + BAR_START, rect.max.x - BAR_END);
-        Rect::from_min_max(pos2(left, y - 2.5), pos2(left + share * (right - left), y + 2.5))
+        Rect::from_min_max(pos2(left, y - 2.5), pos2(left + fraction * (right - left), y + 2.5))
     };
     ui.painter().rect_filled(bar(1.0), 2.5, tokens.field_hovered);
     ui.painter()
@@ -109,7 +109,7 @@ fn influence_bar(
 
 /// The formula of the book's chapter on one vertex, with the numbers of the present time, to be followed with a finger:
 /// `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`, row vectors.
-/// A line for the bind place, two for each influence or all its matrices, a line for what they come to.
+/// One line for the bind position, two for each influence (or all its matrices), one for the sum.
 fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanation: &VertexExplanation) {
     let tokens = Tokens::of(ui);
     let digits = state.reading.digits;
@@ -168,7 +168,7 @@ fn show_formula(ui: &mut Ui, influences: usize) {
     }
 }
 
-/// What one joint does: its row, its matrices when they are unfolded, and its part of the sum.
+/// One influence: its row, its matrices when unfolded, and its term of the sum.
 fn show_influence(
     ui: &mut Ui,
     session: &Session,
@@ -192,7 +192,7 @@ fn show_influence(
     show_line(ui, &format!("{name}: w·v·F"), label, &weighted);
 }
 
-/// offset, toRoot and their product, and the bind place through it: each row of the product times a number of `v`, added up.
+/// offset, toRoot, and their product applied to the bind position: each row of the product times a coordinate of `v`, added up.
 fn show_matrices(
     ui: &mut Ui,
     digits: Digits,

@@ -2,10 +2,10 @@
 
 use egui::Rangef;
 
-/// Room between the ends of a width and the times at its ends, so that marks there are whole.
+/// Margin at both ends of a width, so that marks at the first and last time are not cut.
 pub(super) const END_ROOM: f32 = 8.0;
 
-/// Frames that are seen at least: nearer there is nothing more to see.
+/// The fewest frames that zooming in shows.
 const LEAST_FRAMES: f32 = 4.0;
 
 /// A stretch of time along a width.
@@ -34,20 +34,20 @@ impl TimeAxis {
         f64::from(self.span_secs[1]) - f64::from(self.span_secs[0])
     }
 
-    /// Where a time is: beyond the ends for a time beyond them. All is at the start of a stretch without length.
+    /// The x of a time, not clamped. Everything is at the start if the stretch has no length.
     pub(super) fn x_of(&self, time_secs: f32) -> f32 {
         let length_secs = self.length_secs();
         if length_secs <= 0.0 {
             return self.points.min;
         }
-        let share = (f64::from(time_secs) - f64::from(self.span_secs[0])) / length_secs;
-        self.points.min + (share * f64::from(self.points.span())) as f32
+        let fraction = (f64::from(time_secs) - f64::from(self.span_secs[0])) / length_secs;
+        self.points.min + (fraction * f64::from(self.points.span())) as f32
     }
 
     /// The time at a place, beyond the ends too.
     pub(super) fn time_at(&self, x: f32) -> f32 {
-        let share = f64::from(x - self.points.min) / f64::from(self.points.span().max(1.0));
-        (f64::from(self.span_secs[0]) + share * self.length_secs()) as f32
+        let fraction = f64::from(x - self.points.min) / f64::from(self.points.span().max(1.0));
+        (f64::from(self.span_secs[0]) + fraction * self.length_secs()) as f32
     }
 
     /// The time at a place, or that of the nearer end.
@@ -78,7 +78,7 @@ impl TimeWindow {
         self.part_secs.unwrap_or(whole_secs)
     }
 
-    /// Whether there is more than what is seen.
+    /// Whether only a part of the clip is shown.
     pub(super) fn is_part(&self) -> bool {
         self.part_secs.is_some()
     }
@@ -88,11 +88,11 @@ impl TimeWindow {
         self.part_secs = None;
     }
 
-    /// Shows a stretch, and of it as much as there is.
+    /// Shows a stretch of time, clamped to the clip. A stretch as long as the clip, or NaN, shows all.
     pub(super) fn show(&mut self, whole_secs: [f32; 2], frame_secs: f32, [start_secs, end_secs]: [f32; 2]) {
         let whole_length = whole_secs[1] - whole_secs[0];
         let length = (end_secs - start_secs).max(LEAST_FRAMES * frame_secs);
-        // Not a part of it, or not a number.
+        // As long as the clip, or NaN.
         if length.partial_cmp(&whole_length) != Some(std::cmp::Ordering::Less) {
             self.part_secs = None;
             return;
@@ -101,18 +101,18 @@ impl TimeWindow {
         self.part_secs = Some([start_secs, start_secs + length]);
     }
 
-    /// Shows `factor` times less around a time, which stays where it is.
+    /// Zooms in by `factor` around a time, which keeps its place.
     pub(super) fn zoom(&mut self, whole_secs: [f32; 2], frame_secs: f32, factor: f32, around_secs: f32) {
         let [start_secs, end_secs] = self.span_secs(whole_secs);
         let length = end_secs - start_secs;
         let least = (LEAST_FRAMES * frame_secs).min(length);
         let zoomed = (length / factor).max(least);
-        let share = if length > 0.0 {
+        let fraction = if length > 0.0 {
             ((around_secs - start_secs) / length).clamp(0.0, 1.0)
         } else {
             0.0
         };
-        let start_secs = around_secs - share * zoomed;
+        let start_secs = around_secs - fraction * zoomed;
         self.show(whole_secs, frame_secs, [start_secs, start_secs + zoomed]);
     }
 

@@ -17,7 +17,7 @@ const END_ROOM: f32 = 12.0;
 /// How far an end of the range can be taken hold of: outside and inside of it.
 const GRIP: [f32; 2] = [11.0, 4.0];
 const TOUCH_GRIP: [f32; 2] = [28.0, 16.0];
-/// A finger on the play head means the time, also where the play head stands at an end: then only what is outside holds the end.
+/// The same while the play head stands at that end: a finger on the play head moves the time, so only the outside holds the end.
 const TOUCH_GRIP_BY_HEAD: [f32; 2] = [32.0, -4.0];
 
 /// An end of the range.
@@ -27,7 +27,7 @@ enum End {
     Out,
 }
 
-/// Shows the bar of the clip on show.
+/// Shows the bar of the clip that is shown.
 pub(super) fn show(ui: &mut Ui, session: &Session, seam: &SeamReading, size: Vec2, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -56,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, seam: &SeamReading, size: Vec
     seam_tick(ui, seam, &axis, rect);
 }
 
-/// What plays, when it is not all of it.
+/// The range that plays, unless it is the whole clip.
 fn paint_range(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
     if let Some([start_secs, end_secs]) = session.playback().range_secs() {
         let points = axis.x_of(start_secs)..=axis.x_of(end_secs);
@@ -68,7 +68,7 @@ fn paint_range(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
 /// An end of the range: a bracket that is dragged from frame to frame.
 fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect: Rect, commands: &mut Vec<Command>) {
     let [in_secs, out_secs] = session.playback().played_secs();
-    // A clip of one frame has no part.
+    // A clip of one frame has no range.
     if clip.last_frame() == 0 {
         return;
     }

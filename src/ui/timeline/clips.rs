@@ -1,4 +1,4 @@
-//! The clips of the model: which one is on show, what is blended into it, and more of them from other files.
+//! The clips of the model: which one is shown, what is blended into it, and more of them from other files.
 
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -118,7 +118,7 @@ fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, com
     response.clicked()
 }
 
-/// What blends a clip into the one on show, or no longer.
+/// What blends a clip into the one that is shown, or ends that.
 fn blend_icon(
     ui: &Ui,
     session: &Session,
@@ -173,8 +173,8 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
         commands.push(Command::ClearBlend);
     }
     let text = format!("{:.0} %", blend.share * 100.0);
-    let share = Slider::new("Share", blend.share, 0.0..=1.0, &text).reset_to(0.5);
-    if let Some(share) = share.show(ui) {
+    let weight = Slider::new("Weight", blend.share, 0.0..=1.0, &text).reset_to(0.5);
+    if let Some(share) = weight.show(ui) {
         commands.push(Command::SetBlend {
             clip: blend.clip,
             share,

@@ -62,7 +62,7 @@ pub(super) fn frame_button(ui: &mut Ui, session: &Session, direction: Direction,
     };
     let label = format!("{} ({}, with Shift ten)", one.label, one.key());
     let response = icon_button(ui, icon, &label, false);
-    // Fingers have no Shift, but patience.
+    // A long touch stands for Shift.
     let long = response.long_touched();
     if response.clicked() || long {
         let many = long || ui.input(|input| input.modifiers.shift);
@@ -82,7 +82,7 @@ pub(super) fn key_button(ui: &mut Ui, session: &Session, direction: Direction, c
 
 /// All buttons that move the time but play, spread over the width: for where a strip has no room for them.
 pub(super) fn all_steps(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    // The slimmest phones reach the ends on the bar alone.
+    // The slimmest phones have no buttons for the ends, only the bar.
     let with_ends = ui.available_width() >= 7.0 * control_size(ui);
     let count = if with_ends { 7.0 } else { 5.0 };
     ui.horizontal(|ui| {
@@ -116,7 +116,7 @@ impl ReadoutWidths {
             let galley = ui.painter().layout_no_wrap(text, font, egui::Color32::WHITE);
             galley.size().x.ceil()
         };
-        // Tabular figures: as wide as the last number in eights.
+        // Figures are tabular, so eights are as wide as any digits.
         let eights = |text: String| text.replace(|letter: char| letter.is_ascii_digit(), "8");
         let most_secs = clip.start_secs.abs().max(clip.end_secs.abs());
         let time = width(eights(format!("{most_secs:.3} s")), theme::mono(12.0)) + 16.0;

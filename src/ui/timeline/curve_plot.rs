@@ -14,7 +14,7 @@ use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
 /// Points of the width from sample to sample.
 const SAMPLE_SPACING: f32 = 2.0;
-/// Samples at most: a width beyond that is of no screen.
+/// The most samples. No screen is wider.
 const MOST_SAMPLES: usize = 2048;
 
 /// What can be chosen.
@@ -219,7 +219,7 @@ fn paint_legend(
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words.join(", ")));
 }
 
-/// Room above and below the curves, as a share of what they take.
+/// Room above and below the curves, as a fraction of what they take.
 const HEADROOM: f32 = 0.08;
 /// Lines are this far apart at least.
 const LINE_SPACING: f32 = 34.0;
@@ -232,8 +232,8 @@ struct ValueAxis {
 }
 
 impl ValueAxis {
-    /// All of some values with room around them. Values that hardly differ are not blown up beyond a thousandth of what
-    /// they are.
+    /// An axis on which all values fit, with headroom. NaN is ignored. The span is at least a thousandth of the largest
+    /// absolute value, so that noise is not magnified.
     fn fitted(height: Rangef, values: impl Iterator<Item = f32>) -> Self {
         let finite = values.filter(|value| value.is_finite());
         let (least, most) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), value| {
@@ -251,8 +251,8 @@ impl ValueAxis {
 
     /// Where a value is.
     fn y_of(&self, value: f32) -> f32 {
-        let share = (value - self.values[0]) / (self.values[1] - self.values[0]);
-        self.height.max - share * self.height.span()
+        let fraction = (value - self.values[0]) / (self.values[1] - self.values[0]);
+        self.height.max - fraction * self.height.span()
     }
 
     /// Round values with room between them, and the decimals that tell them apart.
@@ -262,7 +262,7 @@ impl ValueAxis {
         let step = round_up((most - least) / count);
         let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
         let [first, last] = [(least / step).ceil(), (most / step).floor()];
-        // A count of lines, so that no step is lost to rounding.
+        // Counted, so that rounding loses no line.
         let lines = (0..=(last - first).clamp(0.0, 100.0) as u32).map(|line| (first + line as f32) * step);
         (lines.collect(), decimals)
     }

@@ -75,7 +75,7 @@ impl Curves {
         self.of = Some(of);
     }
 
-    /// The point at a time: its values are those of that time, whatever is seen.
+    /// The exact values at a time, independent of the samples.
     pub(super) fn point_at(&self, session: &Session, open: &OpenModel, time_secs: f32) -> CurvePoint {
         match (&self.curve, compiled_clip(session, open)) {
             (Some(curve), Some(clip)) => curve.at(&open.model.skeleton, clip, time_secs),
@@ -104,18 +104,18 @@ impl Curves {
     pub(super) fn value_at(&self, channel: usize, time_secs: f32) -> Option<f32> {
         let [start_secs, end_secs] = self.of?.span_secs;
         let last = self.points.len().checked_sub(1)?;
-        let share = if end_secs > start_secs {
+        let fraction = if end_secs > start_secs {
             ((time_secs - start_secs) / (end_secs - start_secs)).clamp(0.0, 1.0)
         } else {
             0.0
         };
-        let place = share * last as f32;
+        let place = fraction * last as f32;
         let before = (place as usize).min(last);
         let [a, b] = [before, (before + 1).min(last)].map(|index| self.value(&self.points[index], channel));
         Some(a + (b - a) * (place - before as f32))
     }
 
-    /// What stands behind values.
+    /// The unit written after values.
     pub(super) fn unit(&self) -> &'static str {
         match (self.part, self.rotation) {
             (Part::Rotation, RotationAs::Euler) => "°",

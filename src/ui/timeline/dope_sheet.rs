@@ -200,7 +200,7 @@ impl Sheet<'_> {
             if response.clicked() {
                 state.revealed = Some(joint);
                 commands.push(JointCommand::Select(Some(joint)).into());
-                // Played on, the key would be left at once.
+                // If it played on, it would leave the key at once.
                 commands.push(Command::Pause);
                 commands.push(Command::Seek { time_secs });
             }
@@ -210,13 +210,13 @@ impl Sheet<'_> {
         }
     }
 
-    /// The key of a row that is meant by a place: the joint's own, or one that is folded away below it.
+    /// The key of a row near an x: the joint's own, or one of a joint folded away below it.
     fn key_near(&self, ui: &Ui, rows: &Rows, row: &Row, x: f32) -> Option<f32> {
         let reach = if is_touch(ui) { TOUCH_REACH } else { REACH };
         let folded = rows.folded_below(row).map_or(&[][..], |branch| &branch.times_secs);
         let nearest = [self.key_times(row.joint), folded].map(|times_secs| self.nearest_key(times_secs, x));
         let away = |secs: &f32| (self.axis.x_of(*secs) - x).abs();
-        // Of equal ones the first: the joint's own.
+        // Of two equally near keys `min_by` takes the first, the joint's own.
         let nearest = nearest
             .into_iter()
             .flatten()

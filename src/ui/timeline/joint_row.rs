@@ -18,7 +18,7 @@ use crate::ui::wording::counted;
 const INDENT: f32 = 11.0;
 /// A column of names slimmer than this has little room for a tree.
 const SLIM_NAMES: f32 = 150.0;
-/// Size of the marks of keys folded away, as a share of those of a row's own keys.
+/// Size of the marks of keys folded away, as a fraction of those of a row's own keys.
 const FOLDED_SIZE: f32 = 0.85;
 /// Opacity of the tint of the row that moves most.
 const MOST_TINT: f32 = 0.17;
@@ -54,8 +54,8 @@ impl Sheet<'_> {
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
         let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
-        let share = folded.map_or(activity.fraction, |branch| branch.most_share.max(activity.fraction));
-        let tint = MOST_TINT * share;
+        let fraction = folded.map_or(activity.fraction, |branch| branch.most_motion.max(activity.fraction));
+        let tint = MOST_TINT * fraction;
         if tint > 0.0 {
             let tint = tokens.warning.gamma_multiply(tint);
             ui.painter().rect_filled(time_rect, 0.0, tint);

@@ -50,12 +50,12 @@ pub(super) fn marks(times_secs: &[f32], axis: &TimeAxis, mut draw: impl FnMut(Ma
     }
 }
 
-/// How large keys are drawn that are this far apart.
+/// Radius of the marks of keys that are this far apart, in points.
 pub(super) fn mark_radius(spacing: f32) -> f32 {
     (0.4 * spacing).clamp(LEAST_RADIUS, MOST_RADIUS)
 }
 
-/// Diamonds and bars in one shape: thousands cost as much as the words of a panel.
+/// Diamonds and bars in one mesh, so that thousands are cheap.
 #[derive(Debug)]
 pub(super) struct MarkShape {
     mesh: Mesh,

@@ -31,7 +31,7 @@ pub(super) const WIDTH: f32 = 300.0;
 const IN_A_ROW: usize = 5;
 const FIELD_WIDTH: f32 = 78.0;
 
-/// The popover's contents. `with_steps`: the strip has not room for all buttons that move the time, so they are here.
+/// The popover's contents. `with_steps`: also the buttons that move the time, for which the strip has no room.
 pub(super) fn show(
     ui: &mut Ui,
     session: &Session,

@@ -26,7 +26,7 @@ pub(super) struct SeenRow<'a> {
     pub(super) folded: Option<&'a FoldedBranch>,
 }
 
-/// Rows of the clip on show, in buffers that are kept.
+/// Rows of the clip that is shown, in buffers that are kept.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     /// The liveliest first, instead of the tree.
@@ -131,8 +131,8 @@ pub(super) struct FoldedBranch {
     pub(super) times_secs: Vec<f32>,
     /// Whether nothing of it moves.
     pub(super) constant: bool,
-    /// The share of motion of the joint that moves most of it.
-    pub(super) most_share: f32,
+    /// How much the joint moves that moves most of it, as a fraction of the one that moves most of all.
+    pub(super) most_motion: f32,
 }
 
 impl FoldedBranch {
@@ -141,10 +141,10 @@ impl FoldedBranch {
         let activity = || below.iter().filter_map(|joint| activity.get(joint.index()));
         Self {
             times_secs: merged_key_times_of(clip, below),
-            // A key alone says no less than one that others differ from.
+            // A single key is not called constant.
             constant: activity().all(|joint| joint.constant)
                 && below.iter().any(|&joint| key_times(clip, joint).len() > 1),
-            most_share: activity().map(|joint| joint.fraction).fold(0.0, f32::max),
+            most_motion: activity().map(|joint| joint.fraction).fold(0.0, f32::max),
         }
     }
 }
@@ -247,16 +247,16 @@ mod tests {
         };
         let both = branch(&[1, 2]);
         assert_eq!(
-            (frames(&both), both.most_share, both.constant),
+            (frames(&both), both.most_motion, both.constant),
             (vec![1, 5, 7], 0.7, false)
         );
         let one_key = branch(&[3]);
         assert_eq!(
-            (frames(&one_key), one_key.most_share, one_key.constant),
+            (frames(&one_key), one_key.most_motion, one_key.constant),
             (vec![9], 0.0, false)
         );
         let nothing = branch(&[]);
-        assert!(nothing.times_secs.is_empty() && !nothing.constant && nothing.most_share == 0.0);
+        assert!(nothing.times_secs.is_empty() && !nothing.constant && nothing.most_motion == 0.0);
         let still = FoldedBranch::new(&clip, &[JointIndex(1)], &[0.0; 4].map(moving));
         assert!(still.constant);
     }

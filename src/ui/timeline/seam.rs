@@ -1,15 +1,15 @@
-//! What is seen where a loop begins again: read when it changed, and told in words.
+//! The seam of a loop, where its last pose meets its first: read when it changed, and put in words.
 
 use crate::anim::{JointSeam, Seam};
 use crate::model::JointIndex;
 use crate::session::Session;
 use crate::ui::wording::measured;
 
-/// A distance below this share of the model's size is none: files round their numbers to about six digits.
-const NO_SHARE: f32 = 1e-5;
-/// Less is 0 with two decimals.
+/// Distances below this fraction of the model's size count as zero, since files round to about six digits.
+const NO_FRACTION: f32 = 1e-5;
+/// Smaller angles are 0 with two decimals.
 const LEAST_DEGREES: f32 = 0.005;
-/// Less is 0 per cent with one decimal.
+/// Smaller changes are 0 % with one decimal.
 const LEAST_SCALE: f32 = 5e-4;
 
 /// The seam of what loops, as it is shown.
@@ -49,7 +49,7 @@ impl SeamReading {
         self.seam = session.loop_seam().map(|seam| seam.into_owned()).unwrap_or_default();
         self.order = self.seam.by_travel();
         let size = session.open_model().map_or(1.0, |open| open.size());
-        self.decimals = (-(size * NO_SHARE).log10()).ceil().clamp(0.0, 9.0) as usize;
+        self.decimals = (-(size * NO_FRACTION).log10()).ceil().clamp(0.0, 9.0) as usize;
         self.jumps = self.seam.joints.iter().any(|joint| {
             joint.travel >= self.least_distance()
                 || joint.rotation_degrees >= LEAST_DEGREES
@@ -74,7 +74,7 @@ impl SeamReading {
         self.words.as_deref()
     }
 
-    /// Whether some joint has a number that is not nothing.
+    /// Whether any joint has a jump that is not zero.
     pub(super) fn any_jumps(&self) -> bool {
         self.jumps
     }
@@ -89,7 +89,7 @@ impl SeamReading {
         self.seam.joints.get(joint.index()).copied().unwrap_or_default()
     }
 
-    /// Whether a joint is seen to jump by its way.
+    /// Whether a joint's travel alone makes the seam visible.
     pub(super) fn travel_is_seen(&self, joint: &JointSeam) -> bool {
         joint.travel >= self.seam.visible_travel
     }
@@ -100,7 +100,7 @@ impl SeamReading {
         (distance >= self.least_distance()).then(|| format!("{distance:.decimals$}"))
     }
 
-    /// What is less is 0 with as many decimals.
+    /// Smaller distances are 0 with this many decimals.
     fn least_distance(&self) -> f32 {
         0.5 * 10.0_f32.powi(-(self.decimals as i32))
     }
@@ -128,8 +128,8 @@ impl SeamReading {
 }
 
 /// A change of scale in per cent; `None` where that is nothing.
-pub(super) fn scale(share: f32) -> Option<String> {
-    (share >= LEAST_SCALE).then(|| format!("{:.1} %", share * 100.0))
+pub(super) fn scale(fraction: f32) -> Option<String> {
+    (fraction >= LEAST_SCALE).then(|| format!("{:.1} %", fraction * 100.0))
 }
 
 /// An angle in degrees; `None` where that is nothing.

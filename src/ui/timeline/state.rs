@@ -11,16 +11,16 @@ use super::seam::SeamReading;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
 
-/// Height of the sheet until somebody drags its edge …
+/// Height of the sheet until its edge is dragged …
 const FIRST_HEIGHT: f32 = 264.0;
 /// … or less, so that what is between the bars above and the strip below keeps the better half of a small window.
-const FIRST_SHARE: f32 = 0.45;
+const FIRST_FRACTION: f32 = 0.45;
 /// Height of the bars above and of the strip below, with the room around them.
 const BARS_HEIGHT: f32 = 132.0;
 /// Below this height a sheet shows nothing.
 const LEAST_HEIGHT: f32 = 132.0;
 /// The view keeps the rest of the window.
-const MOST_SHARE: f32 = 0.6;
+const MOST_FRACTION: f32 = 0.6;
 
 /// What the sheet shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,7 +52,7 @@ pub(in crate::ui) struct TimelineState {
 }
 
 impl TimelineState {
-    /// Forgets what belonged to another clip, or to another model, and turns the page when the time leaves it.
+    /// Resets what belonged to another clip or model, and scrolls on when the time leaves what is shown.
     pub(in crate::ui) fn update(&mut self, session: &Session) {
         self.hovered = None;
         self.seam.update(session);
@@ -68,7 +68,7 @@ impl TimelineState {
         self.follow(session, clip);
     }
 
-    /// What is seen goes on with the time, as long as that was seen.
+    /// Follows the play head, if it was in view before.
     fn follow(&mut self, session: &Session, clip: &Clip) {
         let time_secs = session.playback().time_secs();
         let whole_secs = [clip.start_secs, clip.end_secs];
@@ -107,19 +107,19 @@ impl TimelineState {
     /// Height of the sheet in a wide window, while it is open.
     pub(super) fn sheet_height(&self, ui: &Ui) -> Option<f32> {
         let window_height = ui.ctx().content_rect().height();
-        let most = (window_height * MOST_SHARE - 100.0).max(LEAST_HEIGHT);
-        let first = || FIRST_HEIGHT.min(window_height * FIRST_SHARE - BARS_HEIGHT);
+        let most = (window_height * MOST_FRACTION - 100.0).max(LEAST_HEIGHT);
+        let first = || FIRST_HEIGHT.min(window_height * FIRST_FRACTION - BARS_HEIGHT);
         let height = self.dragged_height.unwrap_or_else(first);
         self.open.then(|| height.clamp(LEAST_HEIGHT, most))
     }
 
-    /// Takes a height from the pointer: too little shuts the sheet.
+    /// Sets the height from a drag. The sheet closes when it is too low.
     pub(super) fn drag_height(&mut self, height: f32) {
         self.open = height > 0.5 * LEAST_HEIGHT;
         self.dragged_height = Some(height);
     }
 
-    /// After a drag the height is one that can be had.
+    /// After a drag, clamps the height.
     pub(super) fn settle_height(&mut self, ui: &Ui) {
         self.dragged_height = self.sheet_height(ui);
     }
@@ -128,7 +128,7 @@ impl TimelineState {
 /// A stretch of time and the joints whose keys in it are chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct KeyBox {
-    /// Where the pointer took hold: a time, and a row with its part.
+    /// Where the drag began: a time, and a row (with fraction).
     pub(super) from: (f32, f32),
     /// Start and end, in order.
     pub(super) span_secs: [f32; 2],
@@ -137,7 +137,7 @@ pub(super) struct KeyBox {
 }
 
 impl KeyBox {
-    /// Nothing yet, from a time and a row with its part on.
+    /// An empty box at a time and a row (with fraction).
     pub(super) fn at(from: (f32, f32)) -> Self {
         Self {
             from,
@@ -166,7 +166,7 @@ impl KeyBox {
         self.span_of(times_secs)
     }
 
-    /// Those of key times of several joints that are in it, as far as it has any of those joints.
+    /// Those of the merged key times of several joints that are in it. Empty if it contains none of these joints.
     pub(super) fn part_of_any(
         &self,
         is_among: impl Fn(JointIndex) -> bool,

@@ -18,7 +18,7 @@ const LABEL_SPACING: f32 = 92.0;
 /// Ticks of single frames are this far apart at least.
 const TICK_SPACING: f32 = 5.0;
 
-/// The pointer carries the time; two fingers move what is seen of it instead.
+/// A drag moves the time. Two fingers pan and zoom instead.
 pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Command>) {
     if response.drag_started_by(PointerButton::Primary) {
         commands.push(Command::BeginScrub);

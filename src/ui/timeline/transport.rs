@@ -186,7 +186,7 @@ impl EndOfStrip {
     }
 }
 
-/// The speed, and behind it all about how a clip plays, `with_steps` that the strip has not.
+/// The button with the speed. It opens all options of playing, `with_steps` if the strip has no room for those buttons.
 fn speed_button(
     ui: &mut Ui,
     session: &Session,

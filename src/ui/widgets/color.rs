@@ -47,7 +47,7 @@ pub(crate) fn color_button(ui: &mut Ui, label: &str, size: Vec2, srgb: [u8; 3]) 
 /// The picker in place, over the whole width. The new colour, when there is one.
 pub(crate) fn color_picker(ui: &mut Ui, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]> {
     let id = ui.make_persistent_id(("picker", label));
-    // A grey has no hue and a black has no saturation; they stay where they were put.
+    // Grey has no hue and black has no saturation, so the last chosen ones are kept.
     let kept = ui.data(|data| data.get_temp::<Hsv>(id));
     let hsv = kept
         .filter(|&kept| srgb_from_hsv(kept) == srgb)
@@ -76,9 +76,9 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     let mut mesh = Mesh::default();
     let side = SQUARE_FIELDS + 1;
     for (row, column) in (0..side).flat_map(|row| (0..side).map(move |column| (row, column))) {
-        let share = vec2(column as f32, row as f32) / SQUARE_FIELDS as f32;
-        let at = rect.min + share * rect.size();
-        mesh.colored_vertex(at, color32(srgb_from_hsv([hue, share.x, 1.0 - share.y])));
+        let fraction = vec2(column as f32, row as f32) / SQUARE_FIELDS as f32;
+        let at = rect.min + fraction * rect.size();
+        mesh.colored_vertex(at, color32(srgb_from_hsv([hue, fraction.x, 1.0 - fraction.y])));
         if row > 0 && column > 0 {
             let here = row * side + column;
             mesh.add_triangle(here, here - 1, here - side);
@@ -113,15 +113,18 @@ fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hs
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
     let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
     let colors = (0..=6).map(|sixth| {
-        let share = sixth as f32 / 6.0;
-        (lerp(rect.x_range(), share), color32(srgb_from_hsv([share, 1.0, 1.0])))
+        let fraction = sixth as f32 / 6.0;
+        (
+            lerp(rect.x_range(), fraction),
+            color32(srgb_from_hsv([fraction, 1.0, 1.0])),
+        )
     });
     ui.painter().add(gradient_shape(rect.y_range(), colors));
     let at = pos2(lerp(rect.x_range(), hue), rect.center().y);
     mark(ui, at, color32(srgb_from_hsv([hue, 1.0, 1.0])));
     response.widget_info(|| WidgetInfo::slider(true, f64::from(hue), format!("{label}: hue")));
-    let share = (held(&response)?.x - rect.min.x) / rect.width().max(1.0);
-    Some([share.clamp(0.0, 1.0), saturation, value])
+    let fraction = (held(&response)?.x - rect.min.x) / rect.width().max(1.0);
+    Some([fraction.clamp(0.0, 1.0), saturation, value])
 }
 
 /// Where the pointer holds a field.

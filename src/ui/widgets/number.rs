@@ -82,9 +82,9 @@ impl<'a> Slider<'a> {
         }
         let pressed = response.is_pointer_button_down_on() || response.clicked();
         let pointer = response.interact_pointer_pos().filter(|_| pressed)?;
-        let share = ((pointer.x - left) / (right - left).max(1.0)).clamp(0.0, 1.0);
-        let value = start + share * (end - start);
-        // Near what a double click brings back, the knob stays there: a whole place is easier to find again.
+        let fraction = ((pointer.x - left) / (right - left).max(1.0)).clamp(0.0, 1.0);
+        let value = start + fraction * (end - start);
+        // The knob snaps to the value of a double click, so that it is easy to find again.
         let near = (value - self.reset_to).abs() < 0.015 * (end - start);
         Some(if near { self.reset_to } else { value })
     }
@@ -267,7 +267,7 @@ impl<'a> TypedValue<'a> {
         } else if response.lost_focus() || !response.has_focus() {
             ui.data_mut(|data| data.remove::<String>(id));
             let entered = ui.input(|input| input.key_pressed(Key::Enter));
-            // What Esc shut, it has shut.
+            // Esc ends the typing and nothing else.
             ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
             return entered.then_some(typed);
         }
