@@ -1,43 +1,37 @@
 //! The time in a clip, and how it moves on. There is no clock here: the caller says how much time went by.
 
 use super::span::Span;
+use crate::modes::modes;
 
 /// The slowest speed that can be set.
 pub const MIN_SPEED: f32 = 0.05;
 /// The fastest speed that can be set.
 pub const MAX_SPEED: f32 = 4.0;
 
-/// What happens at the end of the range.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum LoopMode {
-    /// Stop there.
-    Once,
-    /// Go on from the other end.
-    #[default]
-    Loop,
-    /// Turn around.
-    PingPong,
-}
-
-impl LoopMode {
-    /// The word for people.
-    pub const fn label(self) -> &'static str {
-        match self {
-            Self::Once => "Once",
-            Self::Loop => "Loop",
-            Self::PingPong => "There and back",
-        }
+modes! {
+    /// What happens at the end of the range.
+    #[derive(Default)]
+    pub enum LoopMode {
+        /// Stop there.
+        Once = "once", "Once";
+        /// Go on from the other end.
+        #[default]
+        Loop = "loop", "Loop";
+        /// Turn around.
+        PingPong = "pingpong", "There and back";
     }
 }
 
-/// How [`LoopMode::Loop`] goes on from the other end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum WrapMode {
-    /// By what was left of the step, so that a loop takes its length whatever the steps are.
-    #[default]
-    Wrap,
-    /// At time 0, as the books' demo does: the rest of the step is lost. Where the range does not hold 0, at its start.
-    BookDemo,
+modes! {
+    /// How [`LoopMode::Loop`] goes on from the other end.
+    #[derive(Default)]
+    pub enum WrapMode {
+        /// By what was left of the step, so that a loop takes its length whatever the steps are.
+        #[default]
+        Wrap = "wrap", "Wrap";
+        /// At time 0, as the books' demo does: the rest of the step is lost. Where the range does not hold 0, at its start.
+        BookDemo = "book-demo", "As the book's demo";
+    }
 }
 
 /// A time inside the span of a clip, and the way it moves through the span or through a range of it.

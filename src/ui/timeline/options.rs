@@ -75,12 +75,12 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let playback = session.playback();
     section_name(ui, "At the end");
-    let modes = [LoopMode::Once, LoopMode::Loop, LoopMode::PingPong].map(|mode| (mode, mode.label()));
+    let modes = LoopMode::ALL.map(|mode| (mode, mode.label()));
     if let Some(mode) = segmented(ui, "At the end", &modes, Some(playback.loop_mode())) {
         commands.push(Command::SetLoopMode(mode));
     }
     if playback.loop_mode() == LoopMode::Loop {
-        let modes = [(WrapMode::Wrap, "Wrap"), (WrapMode::BookDemo, "As the book's demo")];
+        let modes = WrapMode::ALL.map(|mode| (mode, mode.label()));
         if let Some(mode) = segmented(ui, "Loop", &modes, Some(playback.wrap_mode())) {
             commands.push(Command::SetWrapMode(mode));
         }
