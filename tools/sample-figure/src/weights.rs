@@ -59,10 +59,10 @@ fn by_distance(body: &Body, rig: &Rig, point: DVec3) -> Weights {
             *weight = nearness.max(0.0) * nearness.max(0.0);
         }
     }
-    let side_share = ramp(0.0, MIDDLE, point.x.abs());
+    let side_weight = ramp(0.0, MIDDLE, point.x.abs());
     for side in Side::BOTH {
         let thigh = joint(side, Limb::Thigh);
-        let moved = weights[thigh] * (1.0 - side_share);
+        let moved = weights[thigh] * (1.0 - side_weight);
         weights[thigh] -= moved;
         weights[HIPS] += moved;
     }

@@ -81,7 +81,7 @@ impl Pose {
         let along = side.mirror(ARM);
         let to_palm = along.cross(side.mirror(PALM));
         let turn = |axis: DVec3, degrees: f64| DQuat::from_axis_angle(axis, degrees.to_radians());
-        for (limb, share) in [
+        for (limb, part) in [
             (Limb::Index, 0.9),
             (Limb::IndexTip, 1.1),
             (Limb::Middle, 1.0),
@@ -91,7 +91,7 @@ impl Pose {
             (Limb::Thumb, 0.3),
             (Limb::ThumbTip, 0.7),
         ] {
-            self.turns[joint(side, limb)] = turn(to_palm, degrees * share);
+            self.turns[joint(side, limb)] = turn(to_palm, degrees * part);
         }
         let to_thumb = along.cross(FORWARD);
         let gathered = (0.6 * degrees).clamp(0.0, 9.0);
@@ -189,7 +189,7 @@ pub(crate) struct Footing {
 
 /// Back end of the sole in the bind pose, where a foot rolls with its toes up.
 const HEEL: f64 = 0.06;
-/// A knee never opens past this share of the straight leg: beyond it a knee snaps.
+/// A knee never opens past this fraction of the straight leg, where it would snap.
 const LONGEST: f64 = 0.998;
 
 /// Sets hip, knee, ankle and toes of one leg; the hips must be set before.

@@ -70,7 +70,7 @@ pub(crate) fn idle(rig: &Rig, phase: f64) -> Pose {
 /// Length of [`wave`] in thirtieths of a second.
 pub(crate) const WAVE_KEY_SPANS: usize = 90;
 
-/// Share of the raised arm; the elbow leads, the hand follows.
+/// How far the arm is raised, 0…1; the elbow leads, the hand follows.
 const RAISED: Curve<'_> = Curve::new(&[
     (0.0, 0.0),
     (0.04, -0.03),
@@ -108,7 +108,7 @@ pub(crate) fn wave(rig: &Rig, phase: f64) -> Pose {
     );
 
     let rest = Arm::default();
-    let between = |rest: f64, up: f64, share: f64| rest + (up - rest) * share;
+    let between = |rest: f64, up: f64, raised: f64| rest + (up - rest) * raised;
     pose.set_arm(
         Side::Right,
         Arm {
