@@ -118,6 +118,12 @@ impl App {
         ui::escape_shuts(ctx, &self.session.borrow(), &self.state)
     }
 
+    /// The longest side of a picture that this device can draw, in pixels.
+    pub fn longest_picture_side(&self) -> u32 {
+        let of_device = self.stage.gpu.device.limits().max_texture_dimension_2d;
+        of_device.min(ui::MAX_PICTURE_SIDE)
+    }
+
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
     /// the window leaves out for speed are drawn. `adjust` may change how it looks.
     ///

@@ -1,10 +1,18 @@
-// `globalThis.bindpose`: the page for programs. It is there from the start; what is asked of it waits for the viewer.
+// A viewer for programs, as `globalThis.bindpose` is one. It is there before its viewer is: what is asked of it waits.
+
+import { readBytes } from "./sources.js";
 
 /** What `state()` says before there is a viewer to ask. */
 const EMPTY = { backend: null, model: null, clip: null, timeSecs: 0, playing: false, framesRendered: 0, notices: [], error: null };
 
 /** A failure of the viewer itself, in the shape that `state().error` has for a file. */
 const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, file: null });
+
+/** Commands that are handed on to the viewer as they are. */
+const COMMANDS = [
+  "seek", "play", "pause", "selectClip", "stepFrames", "nextKey", "previousKey", "seekStart", "seekEnd",
+  "setRangeStart", "setRangeEnd", "clearRange", "setSpeed", "setLoop", "setWrap", "setPass", "setRenderScale",
+];
 
 /**
  * Makes the object that programs see, and beside it what only the page may do with it:
@@ -36,9 +44,9 @@ export function createApi() {
   /** Opens files, or adds their clips, one call after the other. `then(before, after)` hears of the states around it. */
   const give = (files, how, then = () => {}) => {
     // A FileList empties itself when its input is used again, so it is copied before anything waits.
-    const given = Array.from(files);
+    const copied = Array.from(files);
     const opened = opening.then(async () => {
-      const records = await Promise.all(given.map(read));
+      const records = await Promise.all(copied.map(readBytes));
       const running = await unlessStopped(ready);
       const before = running.state();
       const after = running[how](records);
@@ -55,32 +63,16 @@ export function createApi() {
     return give(files, how);
   };
 
-  /** Now, or as soon as the viewer runs. */
-  const command = (name) => (...values) => {
-    if (viewer) viewer[name](...values);
-    else if (!failure) ready.then(() => viewer?.[name](...values), () => {});
-  };
+  for (const name of COMMANDS) {
+    bindpose[name] = (...values) => {
+      if (viewer) viewer[name](...values);
+      else if (!failure) ready.then(() => viewer?.[name](...values), () => {});
+    };
+  }
 
   Object.assign(bindpose, {
     ready,
     state: () => viewer?.state() ?? { ...EMPTY, error: failure && stopped(failure) },
-    seek: command("seek"),
-    play: command("play"),
-    pause: command("pause"),
-    selectClip: command("selectClip"),
-    stepFrames: command("stepFrames"),
-    nextKey: command("nextKey"),
-    previousKey: command("previousKey"),
-    seekStart: command("seekStart"),
-    seekEnd: command("seekEnd"),
-    setRangeStart: command("setRangeStart"),
-    setRangeEnd: command("setRangeEnd"),
-    clearRange: command("clearRange"),
-    setSpeed: command("setSpeed"),
-    setLoop: command("setLoop"),
-    setWrap: command("setWrap"),
-    setPass: command("setPass"),
-    setRenderScale: command("setRenderScale"),
 
     /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
     open: asked("open"),
@@ -91,9 +83,7 @@ export function createApi() {
     /** A picture of the current view: a PNG `Blob`, as large as the canvas unless told otherwise. */
     async snapshot(options = {}) {
       const running = await unlessStopped(ready);
-      const { width, height } = document.querySelector("#view canvas");
-      const png = await unlessStopped(running.snapshot({ width, height, transparent: false, ...options }));
-      return new Blob([png], { type: "image/png" });
+      return new Blob([await unlessStopped(running.snapshot(options))], { type: "image/png" });
     },
   });
 
@@ -119,23 +109,4 @@ export function createApi() {
     hasFailed: () => failure !== null,
     emit,
   };
-}
-
-/** Whether it is a `Blob` or a `File`, be it of another window. */
-const isBlob = (item) => typeof item?.arrayBuffer === "function";
-
-/** Bytes with their relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`. */
-async function read(item) {
-  const name = item?.webkitRelativePath || item?.name;
-  if (typeof name !== "string") throw new TypeError("a file to open is a File or {name, bytes}");
-  // A `File` may have a method called `bytes`.
-  const bytes = isBlob(item) ? item : item.bytes ?? item.file;
-  if (ArrayBuffer.isView(bytes)) return { name, bytes: new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) };
-  if (bytes instanceof ArrayBuffer) return { name, bytes: new Uint8Array(bytes) };
-  if (!isBlob(bytes)) throw new TypeError(`${name} needs its bytes as Uint8Array, ArrayBuffer or Blob`);
-  try {
-    return { name, bytes: new Uint8Array(await bytes.arrayBuffer()) };
-  } catch (error) {
-    throw new Error(`${name} could not be read: ${error.message}`, { cause: error });
-  }
 }

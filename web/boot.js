@@ -1,19 +1,14 @@
-// Starts the viewer: fetches the wasm with its progress shown, starts it on the canvas, gives it what was dropped
-// meanwhile, and starts it again when the GPU went away.
+// The page: its elements, and the one viewer on it. Fetches the program with its progress shown, starts the viewer on the canvas, hands it
+// what the person opens, and shows what it cannot say itself.
 
 import { createApi } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
 } from "./fault.js";
-import { freshly, rememberGiven } from "./given.js";
-import { saveFile } from "./save.js";
-import { runsProgram } from "./support.js";
+import { keepOnCanvas } from "./restart.js";
+import { fetchFile, readAgain, rememberSources } from "./sources.js";
 import { letTabLeave, mirrorTransport, nameTextInput } from "./transport.js";
-
-/** A GPU that goes away more often than this within the time below does not come back for good. */
-const MAX_RESTARTS = 3;
-const RESTARTS_FORGOTTEN_MS = 60_000;
 
 /** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
 const SAMPLE = {
@@ -28,6 +23,17 @@ const SAMPLE = {
   "visor_norm.png": "sample/visor_norm.png",
 };
 
+/** A program of one function, which loads and drops a vector of 128 bits: the least that only a browser with SIMD accepts. */
+const SIMD_PROGRAM = [
+  0x00, 0x61, 0x73, 0x6d, 1, 0, 0, 0, // "\0asm", version 1
+  1, 4, 1, 0x60, 0, 0, // a type: nothing in, nothing out
+  3, 2, 1, 0, // a function of that type
+  10, 23, 1, 21, 0, 0xfd, 12, ...new Array(16).fill(0), 0x1a, 0x0b, // v128.const 0, drop, end
+];
+
+/** How long a download may take to begin before its bytes are given up. */
+const DOWNLOAD_KEPT_MS = 60_000;
+
 const element = (id) => document.getElementById(id);
 const view = element("view");
 /** What the address asks for, before the `#` or after it. */
@@ -35,18 +41,16 @@ const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash
 const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi();
 globalThis.bindpose = bindpose;
 
-let viewer = null; // The wasm module's exports.
-let gpu = null; // {backend, adapter} of the last start that worked.
+let viewer = null;
+let onCanvas = null; // What starts the viewer on the page's canvas, and again.
 let openName = ""; // Of the model that is open: what is dragged over the page asks for it many times a second.
-let starts = 0; // Losses are told apart by the start that they belong to.
-let restarts = [];
-let restarting = false;
-let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
+let received = false; // Whether a person gave anything, be it sound or not.
+const sources = rememberSources();
 
 /** Begins anew, as a visit of the page does, but without loading the program. Resolves with the state after it. */
 bindpose.reset = async () => {
   clearNotice();
-  given.forget();
+  sources.forget();
   // What could not be fetched is told there; then nothing is open.
   const files = (await fetchOpening()) ?? [];
   await give(files, "startOver");
@@ -55,26 +59,32 @@ bindpose.reset = async () => {
 };
 
 const refuse = (words) => showNotice("Some files could not be read", words);
-const given = rememberGiven();
-let received = false; // Whether a person gave anything, be it sound or not.
+const say = (words) => (element("spoken").textContent = words);
+const focusView = () => view.querySelector("canvas").focus();
+
 const receive = async (files, addsClips = false) => {
   clearNotice();
   received = true;
-  if (!gpu) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
+  if (!bindpose.state().backend) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
   await hand(files, addsClips);
 };
+
 /** Hands files of the person to the viewer, and remembers what became of them. */
 const hand = async (files, addsClips) => {
   try {
     // Without a model to join, a file of clips is opened.
-    await give(files, addsClips ? "addClips" : "open", (before, { error }) => given.add(files, addsClips && Boolean(before.model), !error));
+    await give(files, addsClips ? "addClips" : "open", (before, { error }) => sources.add(files, addsClips && Boolean(before.model), !error));
   } catch (error) {
     refuse(wordsOf(error));
   }
 };
-const pick = takeChoices({ receive, refuse });
-takeDrops({ receive, refuse, openModel: () => openName });
-const refreshTransport = mirrorTransport(bindpose);
+
+const pick = takeChoices({ files: element("files"), folder: element("folder"), clips: element("clips") }, { receive, refuse });
+// The page has one viewer, so all of it is the viewer's.
+takeDrops(globalThis, { receive, refuse, openModel: () => openName, show: showDrop });
+const refreshTransport = mirrorTransport(bindpose, {
+  section: element("transport"), control: (name) => element(`transport-${name}`), say, focusView,
+});
 letTabLeave(view, () => !hasFailed() && Boolean(viewer?.escapeShuts()));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
@@ -83,32 +93,47 @@ element("notice-close").addEventListener("click", clearNotice);
 boot();
 
 async function boot() {
-  if (!runsProgram()) {
+  if (!(typeof WebAssembly === "object" && WebAssembly.validate(new Uint8Array(SIMD_PROGRAM)))) {
     fail(new Error("WebAssembly with SIMD is missing"));
     showOldBrowser();
     return;
   }
   const opensAtOnce = fetchOpening();
+  const backend = wantedBackend();
+  addEventListener("error", ({ error }) => isPanic(error) && onPanic(wordsOf(error)));
+  addEventListener("unhandledrejection", ({ reason }) => isPanic(reason) && onPanic(wordsOf(reason)));
   try {
-    viewer = await load();
+    const { Viewer } = await load();
+    viewer = new Viewer({ renderScale: addressedScale() }, onEvent);
   } catch (error) {
     fail(error);
     showDownloadFailure(error);
     return;
   }
-  addEventListener("error", ({ error }) => error instanceof WebAssembly.RuntimeError && onPanic(wordsOf(error)));
-  addEventListener("unhandledrejection", ({ reason }) => reason instanceof WebAssembly.RuntimeError && onPanic(wordsOf(reason)));
   // Also by a restart, when the GPU goes away during the first start.
   bindpose.ready.then(async () => {
-    element("shell").classList.add("leaving");
-    setTimeout(() => (element("shell").hidden = true), 200);
+    hideShell();
     const files = await opensAtOnce;
     if (files && !wasUsed() && !received) await give(files, "open").catch((error) => refuse(wordsOf(error)));
     refreshTransport();
   }, () => {});
-  await start(wantedBackend()).catch((error) => {
+  onCanvas = keepOnCanvas(viewer, {
+    canvas: element("canvas"),
+    backend,
+    isOver: hasFailed,
+    onStart() {
+      nameTextInput(view);
+      view.classList.add("drawn");
+      attach(viewer);
+    },
+    onEnd(error, gpu) {
+      fail(error);
+      showGpuLoss(error, gpu);
+    },
+  });
+  await onCanvas.start().catch((error) => {
     fail(error);
-    showGpuFailure(error, wantedBackend());
+    showGpuFailure(error, backend);
   });
 }
 
@@ -144,6 +169,22 @@ function showProgress(arrived, total) {
   }
 }
 
+function hideShell() {
+  const shell = element("shell");
+  shell.classList.add("leaving");
+  // The keyboard does not stay on a button that goes.
+  if (shell.contains(document.activeElement)) focusView();
+  setTimeout(() => (shell.hidden = true), 200);
+}
+
+/** Says what a drop would do; `null` when nothing is dragged over the page. */
+function showDrop(words) {
+  element("drop-overlay").hidden = !words;
+  if (!words) return;
+  element("drop-title").textContent = words.title;
+  element("drop-what").textContent = words.what;
+}
+
 /** How fine the address asks the view to be drawn. */
 function addressedScale() {
   return Number(options.get("scale") ?? 1);
@@ -154,97 +195,26 @@ function wantedBackend() {
   return ["webgpu", "webgl2"].includes(named) ? named : "auto";
 }
 
-/** Starts on the canvas of the page, which must never have been drawn on. What becomes of a start after which another one came is of no account. */
-async function start(backend) {
-  const canvas = element("canvas");
-  const mine = ++starts;
-  canvas.addEventListener("webglcontextlost", () => restart("the WebGL context was lost", mine), { once: true });
-  try {
-    const started = await viewer.start(canvas, { backend, renderScale: addressedScale() }, onEvent);
-    if (mine !== starts) return;
-    gpu = started;
-  } catch (error) {
-    if (mine !== starts) return;
-    throw error;
-  }
-  nameTextInput(view);
-  view.classList.add("drawn");
-  attach(viewer);
-}
-
-/** The GPU went away: what is open lives on in the module, so a new canvas and a new start bring all of it back. */
-async function restart(reason, of = starts) {
-  if (of !== starts || hasFailed()) return;
-  if (restarting) {
-    lostMeanwhile = reason;
-    return;
-  }
-  restarting = true;
-  try {
-    for (;;) {
-      const now = performance.now();
-      restarts = restarts.filter((at) => now - at < RESTARTS_FORGOTTEN_MS);
-      if (restarts.length === MAX_RESTARTS) throw new Error(`The GPU went away ${MAX_RESTARTS} times: ${reason}`);
-      restarts.push(now);
-      viewer.stop();
-      lostMeanwhile = null;
-      // A canvas remembers the kind of its first context for ever.
-      const old = element("canvas");
-      const fresh = old.cloneNode(false);
-      fresh.removeAttribute("style");
-      const hadFocus = view.contains(document.activeElement);
-      old.replaceWith(fresh);
-      try {
-        // The last try takes the plainer way, unless the address asks for one.
-        const plainer = restarts.length === MAX_RESTARTS && wantedBackend() === "auto";
-        await start(plainer ? "webgl2" : wantedBackend());
-        if (hadFocus) fresh.focus();
-        if (!lostMeanwhile) return;
-        reason = lostMeanwhile;
-      } catch (error) {
-        reason = wordsOf(error);
-        await new Promise((done) => setTimeout(done, 250 * restarts.length));
-      }
-    }
-  } catch (error) {
-    fail(error);
-    showGpuLoss(error, gpu);
-  } finally {
-    restarting = false;
-  }
-}
-
 function onEvent(type, detail) {
-  if (type === "devicelost") return void restart(detail?.reason ?? "the device was lost");
-  if (type === "panic") return onPanic(detail?.message ?? "");
+  if (type === "devicelost") return void onCanvas.restart(detail.reason);
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
-  if (type === "readagain") return void readAgain();
+  if (type === "readagain") return void readSourcesAgain();
   if (type === "picture") return saveFile(detail.name, detail.bytes, "image/png");
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
     clearNotice();
     const name = (openName = detail?.name ?? "");
     document.title = name ? `${name} · Bindpose` : "Bindpose";
-    element("spoken").textContent = name ? `${name} is open` : "";
+    say(name ? `${name} is open` : "");
   }
-  if (type === "error") element("spoken").textContent = detail?.message ?? "";
+  if (type === "error") say(detail?.message ?? "");
   emit(type, detail);
 }
 
-/** Opens what is open once more, as it is on disk or on the server now; while an error is shown, what it is about. */
-async function readAgain() {
-  const refused = bindpose.state().error && given.refused();
-  // What a script opened is the script's to open again.
-  if (!refused && !given.hasModel() && wasUsed()) return;
-  try {
-    if (refused) return await hand(await freshly(refused.files), refused.addsClips);
-    const { files, clips } = await given.readAgain(fetchOpening);
-    if (files.length) await give(files, "open");
-    if (clips.length) await give(clips, "addClips");
-  } catch (error) {
-    refuse(`${wordsOf(error)}\nA file that was changed after it was chosen in a dialog has to be chosen again.`);
-  }
+/** A panic of the program is reported with its words; the error that ends the program follows, and comes alone in old browsers. */
+function isPanic(error) {
+  return error?.name === "Panic" || error instanceof WebAssembly.RuntimeError;
 }
 
 function onPanic(message) {
@@ -252,11 +222,26 @@ function onPanic(message) {
   showPanic(message);
 }
 
+/** Opens what is open once more, as it is on disk or on the server now; while an error is shown, what it is about. */
+async function readSourcesAgain() {
+  const refused = bindpose.state().error && sources.refused();
+  // What a script opened is the script's to open again.
+  if (!refused && !sources.hasModel() && wasUsed()) return;
+  try {
+    if (refused) return await hand(await readAgain(refused.files), refused.addsClips);
+    const { files, clips } = await sources.again(fetchOpening);
+    if (files.length) await give(files, "open");
+    if (clips.length) await give(clips, "addClips");
+  } catch (error) {
+    refuse(`${wordsOf(error)}\nA file that was changed after it was chosen in a dialog has to be chosen again.`);
+  }
+}
+
 /** What the page opens by itself: the files that the address names, else the sample. */
 async function fetchOpening() {
   const named = ["src", "tex"].flatMap((key) => options.getAll(key));
   try {
-    if (named.length) return await Promise.all(named.map((address) => fetchFile(address, lastPart(address))));
+    if (named.length) return await Promise.all(named.map((address) => fetchFile(address)));
     const [model, ...maps] = Object.entries(SAMPLE).map(([name, at]) => fetchFile(new URL(at, import.meta.url), name));
     // A figure without one of its maps is still a figure.
     const opened = await Promise.all([model, ...maps.map((map) => map.catch(() => null))]);
@@ -267,12 +252,12 @@ async function fetchOpening() {
   }
 }
 
-async function fetchFile(address, name) {
-  const response = await fetch(address);
-  if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
-  return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
-}
-
-function lastPart(address) {
-  return decodeURIComponent(new URL(address, location.href).pathname.split("/").pop());
+/** Saves bytes as a file of this name, as a download. */
+function saveFile(name, bytes, type) {
+  const address = URL.createObjectURL(new Blob([bytes], { type }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), DOWNLOAD_KEPT_MS);
 }

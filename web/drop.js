@@ -1,4 +1,4 @@
-// Files and folders from the person: dropped anywhere on the page, or chosen in a dialog.
+// Files and folders from the person: dropped on a viewer, or chosen in a dialog.
 
 /** What a model can use out of a folder; the rest of the folder is left where it is. */
 const USEFUL = /\.(m3d|a3d|dds|png|jpe?g|bmp|tga)$/i;
@@ -6,35 +6,31 @@ const USEFUL = /\.(m3d|a3d|dds|png|jpe?g|bmp|tga)$/i;
 /** A folder with more than this in it was not meant for a viewer. */
 const MAX_ENTRIES = 20_000;
 
-const element = (id) => document.getElementById(id);
-
 /**
- * Takes every drop on the page. `receive(files, addsClips)` gets `{name, file}` records, name being the path inside what was
- * dropped, and whether only their clips are wanted, as Shift says; `refuse(words)` hears what could not be read;
- * `openModel()` names the model that a drop would replace, if any.
+ * Takes every drop on `area`: an element of one viewer among several, or `window` for the only one of its page. `receive(files, addsClips)`
+ * gets `{name, file}` records, name being the path inside what was dropped, and whether only their clips are wanted, as Shift says;
+ * `refuse(words)` hears what could not be read; `openModel()` names the model that a drop would replace, if any; `show({title, what})` says
+ * while files are over the area what a drop would do, and `show(null)` that none are.
  */
-export function takeDrops({ receive, refuse, openModel }) {
-  const overlay = element("drop-overlay");
-  const hide = () => (overlay.hidden = true);
-
+export function takeDrops(area, { receive, refuse, openModel, show }) {
   const onDrag = (event) => {
     if (!carriesFiles(event)) return;
     claim(event);
     event.dataTransfer.dropEffect = "copy";
     const addsClips = event.shiftKey && Boolean(openModel());
-    element("drop-title").textContent = addsClips ? "Drop to add clips" : "Drop to open";
-    element("drop-what").textContent = describe(event, openModel(), addsClips);
-    overlay.hidden = false;
+    show({ title: addsClips ? "Drop to add clips" : "Drop to open", what: describe(event, openModel(), addsClips) });
   };
+  // Where the pointer goes to; nowhere outside the window.
+  const leaves = ({ relatedTarget }) => !relatedTarget || area.contains?.(relatedTarget) === false;
   // In the capture phase, so that nothing below sees the drop and takes half of it.
-  addEventListener("dragenter", onDrag, true);
-  addEventListener("dragover", onDrag, true);
-  addEventListener("dragleave", (event) => event.relatedTarget ?? hide(), true);
-  addEventListener("dragend", hide, true);
-  addEventListener("drop", async (event) => {
+  area.addEventListener("dragenter", onDrag, true);
+  area.addEventListener("dragover", onDrag, true);
+  area.addEventListener("dragleave", (event) => leaves(event) && show(null), true);
+  area.addEventListener("dragend", () => show(null), true);
+  area.addEventListener("drop", async (event) => {
     if (!carriesFiles(event)) return;
     claim(event);
-    hide();
+    show(null);
     // The list is emptied when this listener returns, so the entries are taken now.
     const roots = entriesOf(event.dataTransfer);
     const addsClips = event.shiftKey;
@@ -45,19 +41,21 @@ export function takeDrops({ receive, refuse, openModel }) {
   }, true);
 }
 
-/** Makes the hidden file inputs hand their files to `receive`. Gives `pick(what)`, which opens a dialog for "files", a "folder" or "clips". */
-export function takeChoices({ receive, refuse }) {
-  for (const id of ["files", "folder", "clips"]) {
-    const input = element(id);
+/**
+ * Makes file inputs hand their files to `receive`: `inputs` has one for "files", a "folder" and "clips". Gives `pick(what)`, which opens its
+ * dialog.
+ */
+export function takeChoices(inputs, { receive, refuse }) {
+  for (const [what, input] of Object.entries(inputs)) {
     input.addEventListener("change", () => {
       const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
       input.value = ""; // So that choosing the same file again is a change.
-      const files = id === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
-      if (files.length) receive(files, id === "clips");
+      const files = what === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
+      if (files.length) receive(files, what === "clips");
       else if (chosen.length) refuse("There is no model and no picture in this folder.");
     });
   }
-  return (what) => element(what).click();
+  return (what) => inputs[what].click();
 }
 
 function carriesFiles(event) {

@@ -1,8 +1,6 @@
 // The transport as DOM controls, for screen readers and for keyboards: the viewer's own are pixels on a canvas.
 // Seen only while one of them has the focus.
 
-const element = (id) => document.getElementById(id);
-
 /** What each button asks of the viewer. */
 const BUTTONS = {
   first: (bindpose) => bindpose.seekStart(),
@@ -16,19 +14,21 @@ const BUTTONS = {
   all: (bindpose) => bindpose.clearRange(),
 };
 
-/** Follows and steers `bindpose`. */
-export function mirrorTransport(bindpose) {
-  const section = element("transport");
+/**
+ * Follows and steers `bindpose` with the controls in `section`, each found by its name; `say(words)` tells a screen reader where a button
+ * led, and `focusView()` gives the viewer the keyboard. Returns what brings the controls up to date.
+ */
+export function mirrorTransport(bindpose, { section, control, say, focusView }) {
   const [play, clip, time, speed, loop, wrap, range, all] =
-    ["play", "clip", "time", "speed", "loop", "wrap", "range", "all"].map((name) => element(`transport-${name}`));
-  const buttons = Object.keys(BUTTONS).map((name) => element(`transport-${name}`));
+    ["play", "clip", "time", "speed", "loop", "wrap", "range", "all"].map(control);
+  const buttons = Object.keys(BUTTONS).map(control);
 
   const refresh = () => {
     const state = bindpose.state();
     const clips = state.model?.clips ?? [];
     section.hidden = !state.model;
     play.textContent = state.playing ? "Pause" : "Play";
-    for (const control of [play, time, speed, loop, wrap, ...buttons]) control.disabled = clips.length === 0;
+    for (const widget of [play, time, speed, loop, wrap, ...buttons]) widget.disabled = clips.length === 0;
     const names = clips.map(({ name }) => name);
     if (names.join("\n") !== Array.from(clip.options, ({ value }) => value).join("\n")) {
       clip.replaceChildren(...names.map((name) => new Option(name, name)));
@@ -59,17 +59,17 @@ export function mirrorTransport(bindpose) {
   loop.addEventListener("change", () => bindpose.setLoop(loop.value));
   wrap.addEventListener("change", () => bindpose.setWrap(wrap.value));
   for (const [name, ask] of Object.entries(BUTTONS)) {
-    const button = element(`transport-${name}`);
+    const button = control(name);
     button.addEventListener("click", () => {
       ask(bindpose);
       const state = bindpose.state();
       // Where it came to is seen on the canvas alone.
-      element("spoken").textContent = ["in", "out", "all"].includes(name) ? rangeWords(state) : `${timeWords(state)} seconds`;
+      say(["in", "out", "all"].includes(name) ? rangeWords(state) : `${timeWords(state)} seconds`);
       // A button that has done its work must not take the focus with it.
       if (button.disabled) play.focus();
     });
   }
-  element("transport-view").addEventListener("click", () => element("canvas").focus());
+  control("view").addEventListener("click", focusView);
   section.addEventListener("focusin", refresh);
   for (const type of ["load", "play", "pause", "playbackchange"]) bindpose.addEventListener(type, refresh);
   // Many a second while it plays: only when somebody looks.

@@ -13,7 +13,9 @@ use crate::shaders;
 /// Texels of a sky's side. More would hardly show: a sky is far behind the model, or mirrored in it.
 const MAX_SKY_SIDE: u32 = 1024;
 
+// Made once for all renderers of a program.
 static STUDIO: LazyLock<Prefiltered> = LazyLock::new(|| Prefiltered::of(&Environment::studio()));
+static DAYLIGHT: LazyLock<Environment> = LazyLock::new(Environment::daylight);
 
 /// Maps of an environment that lights the model.
 struct EnvironmentMaps {
@@ -35,15 +37,14 @@ pub(super) struct Environments {
 
 impl Environments {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let daylight = Environment::daylight();
         Self {
             uniforms: Light::ALL.map(|_| uniform_buffer::<shaders::Environment>(device, "environment")),
             table: table(device, queue),
             studio: EnvironmentMaps::upload(device, queue, &STUDIO),
             daylight: Cube {
-                side: daylight.side() as u32,
+                side: DAYLIGHT.side() as u32,
                 format: wgpu::TextureFormat::Rgba8UnormSrgb,
-                levels: vec![daylight.to_rgba8_srgb()],
+                levels: vec![DAYLIGHT.to_rgba8_srgb()],
             }
             .upload(device, queue, "daylight"),
             dropped: None,

@@ -1,82 +1,72 @@
-//! Pictures of the view as PNG files.
+//! Pictures of the view as PNG files: for scripts, and for the person who asks for one in the window.
 
-use js_sys::{Reflect, Uint8Array};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use js_sys::{Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::{PAGE, Running, detail, emit, text_of};
-use crate::scene::{Background, FrameOptions};
-use crate::ui::{MAX_PICTURE_SIDE, picture_name};
+use super::{field, is_absent, sleep};
+use crate::app::App;
+use crate::scene::{Background, FrameOptions, Light, Overlay, ViewMode};
 
-fn not_running() -> JsError {
-    JsError::new("the viewer is not running")
+/// The app while it runs.
+pub(super) type AppSlot = Rc<RefCell<Option<App>>>;
+
+/// The picture that `Viewer::snapshot` promises; `canvas_size` where the options have none.
+pub(super) async fn snapshot(app: AppSlot, canvas_size: [u32; 2], options: JsValue) -> Result<JsValue, JsError> {
+    // Read before anything is borrowed: a getter is a script, and may call back.
+    let wanted = PictureOptions::read(|name| field(&options, name))?;
+    let sides = ["width", "height"].map(|name| (name, field(&options, name)));
+    let longest = longest_side(&app)?;
+    let mut size = canvas_size;
+    for (pixels, (name, side)) in size.iter_mut().zip(sides) {
+        let side = if is_absent(&side) {
+            Some(f64::from(*pixels))
+        } else {
+            side.as_f64()
+        };
+        *pixels = match side {
+            Some(side) if (1.0..=f64::from(longest)).contains(&side) => side as u32,
+            _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {longest}"))),
+        };
+    }
+    png(app, size, |options| wanted.apply(options)).await
 }
 
-/// Calls something with what runs.
-fn with_running<T>(call: impl FnOnce(&Running) -> Result<T, JsError>) -> Result<T, JsError> {
-    PAGE.with_borrow(|page| {
-        let running = page.as_ref().and_then(|page| page.running.as_ref());
-        call(running.ok_or_else(not_running)?)
-    })
+/// The picture that is asked for in the window. A size beyond the device's reach is drawn as large as it can be.
+pub(super) async fn of_window(app: AppSlot, size: [u32; 2], transparent: bool) -> Result<JsValue, JsError> {
+    let size = within(size, longest_side(&app)?);
+    let adjust = |options: &mut FrameOptions| {
+        if transparent {
+            options.background = Background::None;
+        }
+    };
+    png(app, size, adjust).await
 }
 
-/// The longest side that this device can draw.
-///
-/// # Errors
-/// When the viewer is not running.
-pub(super) fn longest_side() -> Result<u32, JsError> {
-    with_running(|running| {
-        let of_device = running.gpu.device.limits().max_texture_dimension_2d;
-        Ok(of_device.min(MAX_PICTURE_SIDE))
-    })
-}
-
-/// The view without the interface, as the bytes of a PNG.
+/// The bytes of a PNG of the view, without the interface.
 ///
 /// # Errors
 /// When the viewer is not running or the GPU fails.
-pub(super) async fn picture(size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Result<Uint8Array, JsError> {
-    let picture = with_running(|running| {
-        let mut app = running.app.borrow_mut();
-        let app = app.as_mut().ok_or_else(not_running)?;
-        Ok(app.draw_snapshot(size, adjust)?)
-    })?;
+async fn png(app: AppSlot, size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Result<JsValue, JsError> {
+    let picture = match app.borrow_mut().as_mut() {
+        Some(app) => app.draw_snapshot(size, adjust)?,
+        None => return Err(not_running()),
+    };
     let [width, height] = size;
-    let pixels = picture.pixels(async || super::sleep(1).await).await?;
+    let pixels = picture.pixels(async || sleep(1).await).await?;
     let png = crate::image::encode_png(&pixels, width, height).map_err(|error| JsError::new(&error.to_string()))?;
-    Ok(Uint8Array::from(png.as_slice()))
+    Ok(Uint8Array::from(png.as_slice()).into())
 }
 
-/// Draws a picture and hands it to the page, which saves it: `picture` with `{name, bytes}`, or `picturefailed` with
-/// `{message}`. A size beyond the device's reach is drawn as large as it can be.
-pub(super) fn save(size: [u32; 2], transparent: bool) {
-    // The name is that of the moment when the picture was asked for.
-    let name = PAGE.with_borrow(|page| page.as_ref().map(|page| picture_name(&page.session.borrow())));
-    let Some(name) = name else { return };
-    wasm_bindgen_futures::spawn_local(async move {
-        let drawn = match longest_side() {
-            Ok(most) => {
-                let adjust = |options: &mut FrameOptions| {
-                    if transparent {
-                        options.background = Background::None;
-                    }
-                };
-                picture(within(size, most), adjust).await
-            }
-            Err(error) => Err(error),
-        };
-        match drawn {
-            Ok(bytes) => {
-                let file = detail("name", &name);
-                let _ = Reflect::set(&file, &"bytes".into(), &bytes);
-                emit("picture", &file);
-            }
-            Err(error) => {
-                let error = JsValue::from(error);
-                let message = Reflect::get(&error, &"message".into()).unwrap_or(error);
-                emit("picturefailed", &detail("message", &text_of(&message)));
-            }
-        }
-    });
+fn longest_side(app: &AppSlot) -> Result<u32, JsError> {
+    let app = app.borrow();
+    app.as_ref().map(App::longest_picture_side).ok_or_else(not_running)
+}
+
+pub(super) fn not_running() -> JsError {
+    JsError::new("the viewer is not running")
 }
 
 /// A size in the same shape with no side longer than `most`.
@@ -87,4 +77,84 @@ fn within(size: [u32; 2], most: u32) -> [u32; 2] {
     }
     let scaled = |side: u32| (u64::from(side) * u64::from(most) / u64::from(longest)).max(1) as u32;
     size.map(scaled)
+}
+
+/// How a script wants a picture to be drawn, where that differs from what the window shows.
+struct PictureOptions {
+    light: Option<Light>,
+    view_mode: Option<ViewMode>,
+    background: Option<Background>,
+    split: Option<f32>,
+    overlays: Option<Vec<Overlay>>,
+}
+
+impl PictureOptions {
+    /// Reads the fields of an object. `transparent` overrules `background`.
+    ///
+    /// # Errors
+    /// When a name is none, or a field is of another type.
+    fn read(field: impl Fn(&str) -> JsValue) -> Result<Self, JsError> {
+        let background = if field("transparent").is_truthy() {
+            Some(Background::None)
+        } else {
+            named(&field, "background", Background::from_name)?
+        };
+        let split = field("split");
+        Ok(Self {
+            light: named(&field, "light", Light::from_name)?,
+            view_mode: named(&field, "viewMode", ViewMode::from_name)?,
+            background,
+            split: match split.as_f64() {
+                Some(fraction) if (0.0..=1.0).contains(&fraction) => Some(fraction as f32),
+                None if is_absent(&split) => None,
+                _ => return Err(JsError::new("split must be a number from 0 to 1")),
+            },
+            overlays: overlays(&field("overlays"))?,
+        })
+    }
+
+    fn apply(&self, options: &mut FrameOptions) {
+        if let Some(light) = self.light {
+            (options.light, options.split) = (light, None);
+        }
+        if self.split.is_some() {
+            options.split = self.split;
+        }
+        options.view_mode = self.view_mode.unwrap_or(options.view_mode);
+        options.background = self.background.unwrap_or(options.background);
+        if let Some(overlays) = &self.overlays {
+            for overlay in Overlay::ALL {
+                options.overlays.set(overlay, overlays.contains(&overlay));
+            }
+        }
+    }
+}
+
+fn named<T>(
+    field: impl Fn(&str) -> JsValue,
+    name: &str,
+    from_name: impl Fn(&str) -> Option<T>,
+) -> Result<Option<T>, JsError> {
+    let value = field(name);
+    if is_absent(&value) {
+        return Ok(None);
+    }
+    let found = value.as_string().and_then(|text| from_name(&text));
+    found
+        .map(Some)
+        .ok_or_else(|| JsError::new(&format!("{name} has no such value")))
+}
+
+fn overlays(value: &JsValue) -> Result<Option<Vec<Overlay>>, JsError> {
+    if is_absent(value) {
+        return Ok(None);
+    }
+    let unknown = || JsError::new("overlays must be an array of names");
+    let names = value.dyn_ref::<Array>().ok_or_else(unknown)?;
+    let overlay = |name: JsValue| Overlay::from_name(&name.as_string()?);
+    names
+        .iter()
+        .map(|name| overlay(name).ok_or_else(unknown))
+        .collect::<Result<_, _>>()
+        .map(Some)
 }

@@ -3,10 +3,20 @@
 use js_sys::{Array, Object, Reflect};
 use wasm_bindgen::JsValue;
 
-use super::playing::{loop_name, wrap_name};
+use crate::anim::{LoopMode, WrapMode};
 use crate::diagnostic::Diagnostic;
 use crate::scene::{Aabb, Overlay, Pass, Projection};
 use crate::session::{Event, OpenModel, Session};
+
+/// Names of what happens at the end, as the state gives them.
+pub(super) const LOOP_NAMES: [(LoopMode, &str); 3] = [
+    (LoopMode::Once, "once"),
+    (LoopMode::Loop, "loop"),
+    (LoopMode::PingPong, "pingpong"),
+];
+
+/// Names of how a loop goes on.
+pub(super) const WRAP_NAMES: [(WrapMode, &str); 2] = [(WrapMode::Wrap, "wrap"), (WrapMode::BookDemo, "book-demo")];
 
 /// An object built field by field.
 struct Fields(Object);
@@ -92,8 +102,8 @@ fn how_it_plays(session: &Session, fields: Fields) -> Fields {
             range_secs.map_or(JsValue::NULL, |range| numbers(range).into()),
         )
         .with("speed", playback.speed())
-        .with("loop", loop_name(playback.loop_mode()))
-        .with("wrap", wrap_name(playback.wrap_mode()))
+        .with("loop", name_of(&LOOP_NAMES, playback.loop_mode()))
+        .with("wrap", name_of(&WRAP_NAMES, playback.wrap_mode()))
 }
 
 fn model(session: &Session, open: &OpenModel) -> JsValue {
@@ -254,4 +264,15 @@ fn vector(vector: glam::Vec3) -> Array {
 
 fn numbers(numbers: impl IntoIterator<Item = f32>) -> Array {
     numbers.into_iter().map(JsValue::from).collect()
+}
+
+fn name_of<T: Copy + PartialEq>(names: &[(T, &'static str)], value: T) -> &'static str {
+    let named = names.iter().find(|(named, _)| *named == value);
+    named.map_or("", |(_, name)| name)
+}
+
+/// The value that has this name.
+pub(super) fn named<T: Copy>(names: &[(T, &str)], wanted: &str) -> Option<T> {
+    let named = names.iter().find(|(_, name)| *name == wanted);
+    named.map(|(value, _)| *value)
 }

@@ -10,4 +10,5 @@ import "./looking.js";
 import "./subsets.js";
 import "./moving.js";
 import "./fingers.js";
+import "./several.js";
 import "./lasting.js";

@@ -222,6 +222,27 @@ export function test(name, options, body) {
   );
 }
 
+/**
+ * For `prepare`: the page gets the real program, but for members of its class `Viewer` that are written anew. In them `super` is the real
+ * viewer and `this.onEvent` the page's callback.
+ */
+export const withViewer = (members) => (page) =>
+  page.route("**/pkg/bindpose.js", async (route) => {
+    const script = await (await route.fetch()).text();
+    assert.match(script, /^export class Viewer /m);
+    const body = `${script.replace(/^export class Viewer /m, "class Viewer ")}
+      class OtherViewer extends Viewer {
+        constructor(options, onEvent) {
+          super(options, onEvent);
+          this.onEvent = onEvent;
+        }
+        ${members}
+      }
+      export { OtherViewer as Viewer };`;
+    // Without the file's own tag: with it the browser would keep this script for the real one.
+    await route.fulfill({ contentType: "text/javascript", body });
+  });
+
 /** Waits until the viewer runs, shows a model and has drawn its panels, and makes sure that it draws with the backend under test. */
 export async function running(page) {
   await page.waitForFunction(() => !document.getElementById("fault").hidden || globalThis.bindpose?.state().model);
@@ -256,15 +277,15 @@ export async function until(page, predicate) {
 const SHIFT = 8;
 
 /**
- * Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths. `shift`:
- * with Shift held.
+ * Drops files and folders of this machine on the page, the way a person does: enter, over, drop, with real paths, in the middle of
+ * the view or `at` another place. `shift`: with Shift held.
  */
-export async function drop(page, paths, { look, shift = false } = {}) {
+export async function drop(page, paths, { look, shift = false, at: [x, y] = CENTRE } = {}) {
   const devtools = await page.context().newCDPSession(page);
   const data = { items: [], files: paths, dragOperationsMask: 1 };
   for (const type of ["dragEnter", "dragOver", "dragOver", "drop"]) {
     if (type === "drop") await look?.();
-    await devtools.send("Input.dispatchDragEvent", { type, x: CENTRE[0], y: CENTRE[1], data, modifiers: shift ? SHIFT : 0 });
+    await devtools.send("Input.dispatchDragEvent", { type, x, y, data, modifiers: shift ? SHIFT : 0 });
   }
   await devtools.detach();
 }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
-import { BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until } from "./harness.js";
+import { BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until, withViewer } from "./harness.js";
 import { coloursOnScreen, difference, picture } from "./picture.js";
 
 /** Keeps what the page asks the browser for, so that a test can take it away again. */
@@ -77,24 +77,17 @@ test("a GPU that goes away again and again ends in words", { prepare: watchGpu, 
   await keep(page, "fault-lost");
 });
 
-/** The program with another `start`: `around` is the body of `start(canvas, options, onEvent)`, in which `begin` is the real one. */
-const startedBy = (around) => (page) =>
-  page.route("**/pkg/bindpose.js", async (route) => {
-    const script = await (await route.fetch()).text();
-    const begun = script.replace(/export (async )?function start\(/, "$1function begin(");
-    const body = `${begun}\nlet calls = 0;\nexport async function start(canvas, options, onEvent) {${around}}`;
-    // Without the file's own tag: with it the browser would keep this script for the real one.
-    await route.fulfill({ contentType: "text/javascript", body });
-  });
-
 test("a GPU that goes away during the first start and does not come back ends in words", {
   bare: true,
   expectErrors: true,
-  prepare: startedBy(`
-    calls += 1;
-    if (calls > 1) throw new Error("no device any more");
-    onEvent("devicelost", { reason: "it was unplugged" });
-    return new Promise(() => {});`),
+  prepare: withViewer(`
+    calls = 0;
+    async start() {
+      this.calls += 1;
+      if (this.calls > 1) throw new Error("no device any more");
+      this.onEvent("devicelost", { reason: "it was unplugged" });
+      return new Promise(() => {});
+    }`),
 }, async (page) => {
   await page.waitForSelector("#fault:not([hidden])");
   assert.match(await page.textContent("#fault-title"), /graphics went away/);
@@ -107,15 +100,18 @@ test("a GPU that goes away during the first start and does not come back ends in
 test("a start that was overtaken by another leaves nothing behind", {
   expectErrors: true,
   // The GPU goes away while the first start is under way, and that one comes to its end all the same, late.
-  prepare: startedBy(`
-    calls += 1;
-    if (calls > 1) return begin(canvas, options, onEvent);
-    const first = begin(canvas, options, onEvent);
-    onEvent("devicelost", { reason: "it was unplugged" });
-    await first.catch(() => {});
-    await new Promise((done) => setTimeout(done, 3000));
-    globalThis.firstHasEnded = true;
-    return { backend: "webgl2", adapter: "the one that is gone" };`),
+  prepare: withViewer(`
+    calls = 0;
+    async start(...values) {
+      this.calls += 1;
+      if (this.calls > 1) return super.start(...values);
+      const first = super.start(...values);
+      this.onEvent("devicelost", { reason: "it was unplugged" });
+      await first.catch(() => {});
+      await new Promise((done) => setTimeout(done, 3000));
+      globalThis.firstHasEnded = true;
+      return { backend: "webgl2", adapter: "the one that is gone" };
+    }`),
 }, async (page) => {
   await page.waitForFunction(() => globalThis.firstHasEnded);
   await settled(page);

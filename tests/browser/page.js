@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, CENTRE, LARGE, PAGE, call, keep, settled, state, test, until } from "./harness.js";
+import { BACKEND, CENTRE, LARGE, PAGE, call, keep, settled, state, test, until, withViewer } from "./harness.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
 
 test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true }, async (page) => {
@@ -196,19 +196,12 @@ test("a browser without graphics is told which other way there is", {
 test("a panic shows what happened and a way on", {
   bare: true,
   expectErrors: true,
-  // The real program on its real path, but for the word that it panicked.
-  prepare: (page) =>
-    page.route("**/pkg/bindpose.js", async (route) => {
-      const script = await (await route.fetch()).text();
-      const body = `${script.replace(/export (async )?function start\(/, "$1function begin(")}
-        export async function start(canvas, options, onEvent) {
-          const gpu = await begin(canvas, options, onEvent);
-          onEvent("panic", { message: "index out of bounds" });
-          return gpu;
-        }`;
-      // Without the file's own tag: with it the browser would keep this script for the real one.
-      await route.fulfill({ contentType: "text/javascript", body });
-    }),
+  prepare: withViewer(`
+    async start(...values) {
+      const gpu = await super.start(...values);
+      reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" }));
+      return gpu;
+    }`),
 }, async (page) => {
   await page.waitForSelector("#fault:not([hidden])");
   assert.match(await page.textContent("#fault-title"), /stopped/);

@@ -1,5 +1,5 @@
-//! Names of joints, kept in the browser by the hierarchy that they belong to. A browser that keeps nothing, or is full, is
-//! no reason to say anything: the names are there until the page is closed.
+//! Names of joints, kept in the browser by the hierarchy that they belong to, for all viewers of the site. When the browser keeps nothing or
+//! is full, nobody is told: the names are there until the page is closed.
 
 use web_sys::Storage;
 
@@ -9,27 +9,27 @@ use crate::session::{JointCommand, Session};
 /// More text than this is not kept, in bytes: names for two thousand joints.
 const MOST_BYTES: usize = 64 * 1024;
 
-/// What was taken up from the browser's store, and what was put there.
+/// Which names were read from the browser's store, and which were put there.
 #[derive(Debug, Default)]
-pub(super) struct KeptNames {
+pub(super) struct JointNames {
     model: u64,
     revision: u64,
 }
 
-impl KeptNames {
-    /// Gives a model that was opened the names that its hierarchy had, and keeps those that were given since. Whether the
-    /// model has other names now.
+impl JointNames {
+    /// Gives a newly opened model the names that were kept for its hierarchy, and keeps names that the person gives. Returns whether the
+    /// model got names.
     pub(super) fn follow(&mut self, session: &mut Session) -> bool {
         let opened = self.model != session.model_revision();
         self.model = session.model_revision();
-        let taken_up = opened && take_up(session).is_some();
+        let restored = opened && restore(session).is_some();
         let revision = session.joint_names_revision();
         if !opened && self.revision != revision {
             // See above: a failure means nothing.
             let _ = keep(session);
         }
         self.revision = revision;
-        taken_up
+        restored
     }
 }
 
@@ -41,7 +41,7 @@ fn key(fingerprint: u64) -> String {
     format!("bindpose.names.{fingerprint:016x}")
 }
 
-fn take_up(session: &mut Session) -> Option<()> {
+fn restore(session: &mut Session) -> Option<()> {
     let fingerprint = session.saved_joint_names()?.fingerprint;
     if !session.joint_names().is_empty() {
         // They came along from a model with these bones.

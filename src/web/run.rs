@@ -1,0 +1,352 @@
+//! A viewer on a canvas: starting, frames, the loss of the GPU, and giving the canvas back.
+
+use std::cell::{Cell, RefCell};
+use std::rc::{Rc, Weak};
+use std::sync::mpsc;
+
+use js_sys::Function;
+use wasm_bindgen::prelude::*;
+use web_sys::{HtmlCanvasElement, HtmlElement};
+
+use super::backend::{self, Chosen, Preference};
+use super::joint_names::JointNames;
+use super::picture::{self, AppSlot};
+use super::{coarse_pointer, field, object, sleep, state, text_of};
+use crate::app::App;
+use crate::session::Session;
+use crate::ui::{Request, picture_name};
+
+/// Why a start came to nothing that was followed by another one, or by a stop.
+const OVERTAKEN: &str = "another start came after this one";
+
+/// What a viewer shares with its callbacks.
+pub(super) struct Shared {
+    pub(super) session: Rc<RefCell<Session>>,
+    pub(super) running: RefCell<Option<Running>>,
+    /// Counts starts and stops, so that an earlier start and its device cannot speak for the present one.
+    starts: Cell<u32>,
+    /// Hears of events until the viewer is dropped.
+    listener: RefCell<Option<Function>>,
+}
+
+/// What lives as long as a viewer has its canvas.
+pub(super) struct Running {
+    pub(super) canvas: HtmlCanvasElement,
+    pub(super) app: AppSlot,
+    pub(super) ctx: egui::Context,
+    pub(super) backend: &'static str,
+    pub(super) adapter: String,
+    pub(super) frames_rendered: Rc<Cell<u64>>,
+    runner: eframe::WebRunner,
+    _context_watch: ContextWatch,
+}
+
+impl Running {
+    /// Leaves the canvas with its listeners and frames, and frees what was made for it.
+    ///
+    /// Later, since whoever wants it may have been called from within a frame, which holds all of it.
+    pub(super) fn give_back(self) {
+        wasm_bindgen_futures::spawn_local(async move {
+            if self.runner.has_panicked() {
+                // What a frame held when it panicked it holds for ever; eframe has let go of the listeners.
+                std::mem::forget(self);
+                return;
+            }
+            self.runner.destroy();
+            self.app.take();
+        });
+    }
+}
+
+impl Shared {
+    pub(super) fn new(session: Session, listener: Function) -> Self {
+        Self {
+            session: Rc::new(RefCell::new(session)),
+            running: RefCell::new(None),
+            starts: Cell::new(0),
+            listener: RefCell::new(Some(listener)),
+        }
+    }
+
+    /// Tells the page's listener.
+    pub(super) fn emit(&self, kind: &str, detail: &JsValue) {
+        let listener = self.listener.borrow().clone();
+        if let Some(listener) = listener {
+            // What a listener throws is its own affair; the browser reports it.
+            let _ = listener.call2(&JsValue::NULL, &kind.into(), detail);
+        }
+    }
+
+    /// Passes what happened in the session on to the listener, with the state that it would ask for.
+    pub(super) fn emit_events(&self) {
+        let events = self.session.borrow_mut().take_events();
+        for event in events {
+            let detail = state::event_detail(&self.session.borrow(), event);
+            self.emit(event.name(), &detail);
+        }
+    }
+
+    /// Tells of a lost device or context, unless it is that of an earlier start.
+    fn emit_loss(&self, start: u32, reason: &str) {
+        if start == self.starts.get() {
+            self.emit("devicelost", &object([("reason", reason.into())]));
+        }
+    }
+
+    /// Tells nobody of events any more.
+    pub(super) fn silence(&self) {
+        self.listener.take();
+    }
+
+    /// Gives the canvas back, also one on which a start is under way.
+    pub(super) fn stop(&self) {
+        self.starts.set(self.starts.get() + 1);
+        if let Some(running) = self.running.take() {
+            running.give_back();
+        }
+    }
+}
+
+/// Starts a viewer; see `Viewer::start`.
+pub(super) async fn start(
+    shared: Rc<Shared>,
+    canvas: HtmlCanvasElement,
+    preference: Preference,
+) -> Result<JsValue, JsError> {
+    shared.stop();
+    let mine = shared.starts.get();
+    let is_overtaken = || shared.starts.get() != mine;
+    let chosen = backend::choose(preference)
+        .await
+        .map_err(|reasons| JsError::new(&reasons))?;
+    if is_overtaken() {
+        return Err(JsError::new(OVERTAKEN));
+    }
+    let running = run(canvas, chosen, &shared, mine).await?;
+    if is_overtaken() {
+        running.give_back();
+        return Err(JsError::new(OVERTAKEN));
+    }
+    let started = object([
+        ("backend", running.backend.into()),
+        ("adapter", (&*running.adapter).into()),
+    ]);
+    let frames = Rc::clone(&running.frames_rendered);
+    running.ctx.request_repaint();
+    shared.running.replace(Some(running));
+    // A frame that never comes (a hidden tab) must not hold the page up.
+    for _ in 0..100 {
+        if frames.get() > 0 {
+            break;
+        }
+        sleep(20).await;
+    }
+    Ok(started)
+}
+
+async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, start: u32) -> Result<Running, JsError> {
+    let backend = chosen.name();
+    let context_watch = ContextWatch::new(&canvas, shared, start)?;
+    let web_options = eframe::WebOptions {
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: chosen.into_configuration(),
+        // The page's own listeners take drops; keys of the browser stay with the browser.
+        should_stop_propagation: Box::new(|_| false),
+        should_prevent_default: Box::new(owns_event),
+        ..Default::default()
+    };
+    let app = Rc::new(RefCell::new(None));
+    let frames_rendered = Rc::new(Cell::new(0));
+    let (tell_of_loss, loss) = mpsc::channel();
+    let shell = Shell {
+        app: Rc::clone(&app),
+        shared: Rc::clone(shared),
+        start,
+        loss,
+        frames: Rc::clone(&frames_rendered),
+        names: JointNames::default(),
+    };
+    let made = Rc::new(RefCell::new(None));
+    let made_out = Rc::clone(&made);
+    let runner = eframe::WebRunner::new();
+    let had_focus = focused_element();
+    let started = runner
+        .start(
+            canvas.clone(),
+            web_options,
+            Box::new(move |creation| {
+                let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
+                watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
+                let session = Rc::clone(&shell.shared.session);
+                let app = App::new(&creation.egui_ctx, &gpu, session, coarse_pointer());
+                shell.app.replace(Some(app));
+                let adapter = backend::adapter_name(&gpu.adapter);
+                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), adapter));
+                Ok(Box::new(shell))
+            }),
+        )
+        .await;
+    if let Some(element) = had_focus {
+        leave_focus(&canvas, &element);
+    }
+    if let Err(error) = started {
+        runner.destroy();
+        return Err(JsError::new(&format!("{backend}: {}", text_of(&error))));
+    }
+    let (ctx, adapter) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
+    Ok(Running {
+        canvas,
+        app,
+        ctx,
+        backend,
+        adapter,
+        frames_rendered,
+        runner,
+        _context_watch: context_watch,
+    })
+}
+
+/// What eframe runs: the app, and the page's part in what it asks for.
+struct Shell {
+    app: AppSlot,
+    shared: Rc<Shared>,
+    start: u32,
+    /// Why the device was lost, once it was.
+    loss: mpsc::Receiver<String>,
+    frames: Rc<Cell<u64>>,
+    names: JointNames,
+}
+
+impl Shell {
+    /// Draws a picture and hands it to the page, which saves it.
+    fn save_picture(&self, size: [u32; 2], transparent: bool) {
+        let shared = Rc::clone(&self.shared);
+        // The name is that of the moment when the picture was asked for.
+        let name = picture_name(&shared.session.borrow());
+        let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
+        wasm_bindgen_futures::spawn_local(async move {
+            match drawn.await {
+                Ok(bytes) => shared.emit("picture", &object([("name", name.into()), ("bytes", bytes)])),
+                Err(error) => {
+                    let message = field(&error.into(), "message");
+                    shared.emit("picturefailed", &object([("message", message)]));
+                }
+            }
+        });
+    }
+}
+
+impl eframe::App for Shell {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        if let Ok(reason) = self.loss.try_recv() {
+            self.shared.emit_loss(self.start, &reason);
+            return;
+        }
+        let mut requests = Vec::new();
+        if let Some(app) = self.app.borrow_mut().as_mut() {
+            requests = app.ui(ui);
+            self.frames.set(app.frames_rendered());
+        }
+        for request in requests {
+            match request {
+                Request::PickFiles => self.shared.emit("pickfiles", &JsValue::UNDEFINED),
+                Request::ReadAgain => self.shared.emit("readagain", &JsValue::UNDEFINED),
+                Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
+                Request::SavePicture { size, transparent } => self.save_picture(size, transparent),
+                // The app has done it.
+                Request::UseTheme(_) => {}
+            }
+        }
+        self.shared.emit_events();
+        if self.names.follow(&mut self.shared.session.borrow_mut()) {
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        [0.0, 0.0, 0.0, 1.0]
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}
+
+/// Keys that the viewer acts on, and all pointer events; the rest is the browser's (F5, F12, Ctrl+L …).
+fn owns_event(event: &egui::Event) -> bool {
+    match event {
+        egui::Event::Key {
+            key: egui::Key::Tab, ..
+        } => false,
+        egui::Event::Key { key, modifiers, .. } => crate::ui::owns_key(*key, *modifiers),
+        egui::Event::Text(_) | egui::Event::Copy | egui::Event::Cut => false,
+        _ => true,
+    }
+}
+
+/// The element that has the focus; `None` when that is nothing but the page itself.
+fn focused_element() -> Option<HtmlElement> {
+    let document = web_sys::window()?.document()?;
+    let element = document.active_element()?.dyn_into::<HtmlElement>().ok()?;
+    (document.body().as_ref() != Some(&element)).then_some(element)
+}
+
+/// Gives the focus back to another viewer or a field of the page: eframe takes it when it starts on a canvas, for the hidden input that it
+/// puts behind the canvas.
+fn leave_focus(canvas: &HtmlCanvasElement, element: &HtmlElement) {
+    let taken_by = focused_element().map(web_sys::Element::from);
+    if taken_by.is_some() && taken_by == canvas.next_element_sibling() {
+        let options = web_sys::FocusOptions::new();
+        options.set_prevent_scroll(true);
+        let _ = element.focus_with_options(&options);
+    }
+}
+
+/// Logs the errors of a device that nobody waits for, and has the next frame hear of its loss: the callback may not hold what belongs to
+/// one thread.
+fn watch_device(device: &egui_wgpu::wgpu::Device, ctx: &egui::Context, tell_of_loss: mpsc::Sender<String>) {
+    device.on_uncaptured_error(std::sync::Arc::new(|error: egui_wgpu::wgpu::Error| {
+        web_sys::console::error_1(&format!("GPU error: {error}").into());
+    }));
+    let ctx = ctx.clone();
+    device.set_device_lost_callback(move |reason, message| {
+        let by_us = reason == egui_wgpu::wgpu::DeviceLostReason::Destroyed && message.is_empty();
+        if !by_us && tell_of_loss.send(message).is_ok() {
+            ctx.request_repaint();
+        }
+    });
+}
+
+/// Tells of a lost WebGL context of a canvas, until it is dropped.
+struct ContextWatch {
+    canvas: HtmlCanvasElement,
+    on_lost: Closure<dyn FnMut(web_sys::Event)>,
+}
+
+impl ContextWatch {
+    const EVENT: &str = "webglcontextlost";
+
+    fn new(canvas: &HtmlCanvasElement, shared: &Rc<Shared>, start: u32) -> Result<Self, JsError> {
+        let shared = Rc::downgrade(shared);
+        let on_lost = Closure::<dyn FnMut(web_sys::Event)>::new(move |event: web_sys::Event| {
+            event.prevent_default();
+            if let Some(shared) = Weak::upgrade(&shared) {
+                shared.emit_loss(start, "the WebGL context was lost");
+            }
+        });
+        canvas
+            .add_event_listener_with_callback(Self::EVENT, on_lost.as_ref().unchecked_ref())
+            .map_err(|error| JsError::new(&text_of(&error)))?;
+        Ok(Self {
+            canvas: canvas.clone(),
+            on_lost,
+        })
+    }
+}
+
+impl Drop for ContextWatch {
+    fn drop(&mut self) {
+        let listener = self.on_lost.as_ref().unchecked_ref();
+        let _ = self.canvas.remove_event_listener_with_callback(Self::EVENT, listener);
+    }
+}

@@ -1,0 +1,308 @@
+//! The viewer as scripts have it. Every call acts on the session at once; the window draws it in its next frame.
+
+use std::rc::Rc;
+use std::sync::Once;
+
+use js_sys::{Array, Function, Promise, Uint8Array};
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+
+use super::backend::Preference;
+use super::run::{self, Shared};
+use super::{field, picture, promise, reduced_motion, state};
+use crate::anim::Direction;
+use crate::scene::Pass;
+use crate::session::{Command, File, PassChoice, RenderScale, Session};
+
+/// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
+///
+/// `free()`, or losing the handle to the garbage collector, gives the canvas, its listeners and its frames back, and forgets what is open.
+/// A panic ends every viewer of the page, since they share a memory; see [`report_panics`].
+#[wasm_bindgen]
+pub struct Viewer {
+    shared: Rc<Shared>,
+}
+
+#[wasm_bindgen]
+impl Viewer {
+    /// Makes a viewer with nothing open and no canvas.
+    ///
+    /// `options`: `{renderScale: number}`, 1 where it is absent. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`,
+    /// `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page can do: `pickfiles`, `pickclips`,
+    /// `readagain`, `picture` (`{name, bytes}`) and `picturefailed` (`{message}`). It may call any method but `free`.
+    #[wasm_bindgen(constructor)]
+    pub fn new(options: &JsValue, on_event: Function) -> Self {
+        report_panics();
+        let mut session = Session::new(reduced_motion());
+        let scale = field(options, "renderScale").as_f64().unwrap_or(1.0);
+        session.apply(Command::SetRenderScale(RenderScale::new(scale as f32)));
+        Self {
+            shared: Rc::new(Shared::new(session, on_event)),
+        }
+    }
+
+    /// Starts on a canvas that was never drawn on, instead of the canvas that it has. What is open stays.
+    ///
+    /// `options`: `{backend: "auto" | "webgpu" | "webgl2"}`. Resolves with `{backend, adapter}` when the first frame was drawn. Rejects when no
+    /// backend works, with the reasons of each that was tried, and when another start or a stop came meanwhile.
+    pub fn start(&self, canvas: HtmlCanvasElement, options: &JsValue) -> Promise {
+        let preference = Preference::from_name(&field(options, "backend").as_string().unwrap_or_default());
+        promise(run::start(Rc::clone(&self.shared), canvas, preference))
+    }
+
+    /// Gives the canvas back, also one on which a start is under way, with its listeners and frames. What is open stays.
+    /// The canvas is free when the script that called it has come to its end.
+    pub fn stop(&self) {
+        self.shared.stop();
+    }
+
+    /// The session and what runs it, as one plain object.
+    pub fn state(&self) -> JsValue {
+        let running = self.shared.running.borrow();
+        let view = state::View {
+            backend: running.as_ref().map(|running| running.backend),
+            adapter: running.as_ref().map(|running| running.adapter.as_str()),
+            frames_rendered: running.as_ref().map_or(0, |running| running.frames_rendered.get()),
+        };
+        state::state(&self.shared.session.borrow(), &view)
+    }
+
+    /// Whether Esc would shut something in the viewer, end what is being typed or let go of a selection. Then it does not mean that
+    /// Tab should leave the canvas.
+    #[wasm_bindgen(js_name = escapeShuts)]
+    pub fn escape_shuts(&self) -> bool {
+        self.shared.running.borrow().as_ref().is_some_and(|running| {
+            let app = running.app.try_borrow();
+            app.is_ok_and(|app| app.as_ref().is_some_and(|app| app.escape_shuts(&running.ctx)))
+        })
+    }
+
+    /// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens; a failure is in the
+    /// state's `error`. Returns the state.
+    ///
+    /// # Errors
+    /// When an entry is not of that shape.
+    pub fn open(&self, files: &Array) -> Result<JsValue, JsError> {
+        self.shared.apply(Command::AddFiles(files_of(files)?));
+        Ok(self.state())
+    }
+
+    /// Adds the clips of models with the same bones to the open one: an array as [`Viewer::open`] takes it. Without an open model it
+    /// opens them; a failure is in the state's `error`. Returns the state.
+    ///
+    /// # Errors
+    /// When an entry is not of that shape.
+    #[wasm_bindgen(js_name = addClips)]
+    pub fn add_clips(&self, files: &Array) -> Result<JsValue, JsError> {
+        self.shared.apply(Command::AddClips(files_of(files)?));
+        Ok(self.state())
+    }
+
+    /// Begins anew, as a new viewer does: every choice is forgotten and these files are opened, an array as [`Viewer::open`] takes
+    /// it. What the GPU has compiled stays. Returns the state.
+    ///
+    /// # Errors
+    /// When an entry is not of that shape.
+    #[wasm_bindgen(js_name = startOver)]
+    pub fn start_over(&self, files: &Array) -> Result<JsValue, JsError> {
+        let files = files_of(files)?;
+        self.shared.session.borrow_mut().start_over(reduced_motion());
+        if let Some(running) = &*self.shared.running.borrow()
+            && let Some(app) = running.app.borrow_mut().as_mut()
+        {
+            app.start_over(&running.ctx);
+        }
+        self.shared.apply(Command::AddFiles(files));
+        Ok(self.state())
+    }
+
+    /// A picture of the view without the interface, as the bytes of a PNG. `width` and `height` are those of the canvas where they are
+    /// absent. `transparent`, `light`, `viewMode`, `background`, `split` and `overlays` (an array of names) may have it drawn in another
+    /// way than the window shows; the names are those of the command line.
+    ///
+    /// Rejects when the viewer is not running, the size is not possible, a name is none, or the GPU fails.
+    pub fn snapshot(&self, options: JsValue) -> Promise {
+        let running = self.shared.running.borrow().as_ref().map(|running| {
+            let canvas = &running.canvas;
+            (Rc::clone(&running.app), [canvas.width(), canvas.height()])
+        });
+        promise(async {
+            let (app, canvas_size) = running.ok_or_else(picture::not_running)?;
+            picture::snapshot(app, canvas_size, options).await
+        })
+    }
+
+    /// Goes to a time in seconds, clamped to the clip.
+    pub fn seek(&self, secs: f32) {
+        self.shared.apply(Command::Seek { time_secs: secs });
+    }
+
+    /// Plays on.
+    pub fn play(&self) {
+        self.shared.apply(Command::Play);
+    }
+
+    /// Stops where it is.
+    pub fn pause(&self) {
+        self.shared.apply(Command::Pause);
+    }
+
+    /// Shows the clip with this name. Returns whether there is one.
+    #[wasm_bindgen(js_name = selectClip)]
+    pub fn select_clip(&self, name: &str) -> bool {
+        let index = self.shared.session.borrow().open_model().and_then(|open| {
+            let clips = &open.model.clips;
+            clips.iter().position(|clip| clip.name == name)
+        });
+        self.shared.apply_named(index, Command::SelectClip)
+    }
+
+    /// Pauses and goes some frames on, or back where the number is below 0, to a whole frame.
+    #[wasm_bindgen(js_name = stepFrames)]
+    pub fn step_frames(&self, frames: i32) {
+        self.shared.apply(Command::StepFrames(frames));
+    }
+
+    /// Pauses and goes to the next key: of the selected bone, or of any.
+    #[wasm_bindgen(js_name = nextKey)]
+    pub fn next_key(&self) {
+        self.shared.step_key(Direction::Forward);
+    }
+
+    /// Pauses and goes to the key before: of the selected bone, or of any.
+    #[wasm_bindgen(js_name = previousKey)]
+    pub fn previous_key(&self) {
+        self.shared.step_key(Direction::Backward);
+    }
+
+    /// Goes to the first frame of what plays.
+    #[wasm_bindgen(js_name = seekStart)]
+    pub fn seek_start(&self) {
+        self.shared.apply(Command::SeekStart);
+    }
+
+    /// Goes to the last frame of what plays.
+    #[wasm_bindgen(js_name = seekEnd)]
+    pub fn seek_end(&self) {
+        self.shared.apply(Command::SeekEnd);
+    }
+
+    /// Lets playing begin at a time in seconds, or at the present one.
+    #[wasm_bindgen(js_name = setRangeStart)]
+    pub fn set_range_start(&self, secs: Option<f32>) {
+        self.shared.apply(Command::SetRangeStart(secs));
+    }
+
+    /// Lets playing end at a time in seconds, or at the present one.
+    #[wasm_bindgen(js_name = setRangeEnd)]
+    pub fn set_range_end(&self, secs: Option<f32>) {
+        self.shared.apply(Command::SetRangeEnd(secs));
+    }
+
+    /// Lets the whole clip play.
+    #[wasm_bindgen(js_name = clearRange)]
+    pub fn clear_range(&self) {
+        self.shared.apply(Command::ClearRange);
+    }
+
+    /// Sets the speed, 1 as the file has it, within the limits of the viewer.
+    #[wasm_bindgen(js_name = setSpeed)]
+    pub fn set_speed(&self, speed: f32) {
+        self.shared.apply(Command::SetSpeed(speed));
+    }
+
+    /// Sets what happens at the end: `once`, `loop` or `pingpong`. Returns whether the name is one of these.
+    #[wasm_bindgen(js_name = setLoop)]
+    pub fn set_loop(&self, name: &str) -> bool {
+        self.shared
+            .apply_named(state::named(&state::LOOP_NAMES, name), Command::SetLoopMode)
+    }
+
+    /// Sets how a loop goes on: `wrap` or `book-demo`. Returns whether the name is one of these.
+    #[wasm_bindgen(js_name = setWrap)]
+    pub fn set_wrap(&self, name: &str) -> bool {
+        self.shared
+            .apply_named(state::named(&state::WRAP_NAMES, name), Command::SetWrapMode)
+    }
+
+    /// Draws a pass or leaves it out: `shadow`, `reflections`, `contact` or `ao`. Returns whether the name is one of these.
+    #[wasm_bindgen(js_name = setPass)]
+    pub fn set_pass(&self, name: &str, drawn: bool) -> bool {
+        let choice = if drawn { PassChoice::On } else { PassChoice::Off };
+        self.shared
+            .apply_named(Pass::from_name(name), |pass| Command::SetPass(pass, choice))
+    }
+
+    /// Draws the view in the window with this fraction of its width and height in pixels, from 0.1 to 1.
+    #[wasm_bindgen(js_name = setRenderScale)]
+    pub fn set_render_scale(&self, fraction: f32) {
+        self.shared.apply(Command::SetRenderScale(RenderScale::new(fraction)));
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        self.shared.silence();
+        self.shared.stop();
+    }
+}
+
+impl Shared {
+    /// Applies a command and asks for a frame.
+    fn apply(&self, command: Command) {
+        self.session.borrow_mut().apply(command);
+        if let Some(running) = &*self.running.borrow() {
+            running.ctx.request_repaint();
+        }
+        self.emit_events();
+    }
+
+    fn step_key(&self, direction: Direction) {
+        let joint = self.session.borrow().joints().selected();
+        self.apply(Command::StepKey { direction, joint });
+    }
+
+    /// Applies a command with the value that has this name. Returns whether there is one.
+    fn apply_named<T>(&self, value: Option<T>, command: impl FnOnce(T) -> Command) -> bool {
+        let is_there = value.is_some();
+        if let Some(value) = value {
+            self.apply(command(value));
+        }
+        is_there
+    }
+}
+
+/// Has every panic reported as an uncaught error of the page, with the name `Panic` and the panic's words as message.
+///
+/// A panic hook belongs to the whole program, as the memory does that a panic leaves in disorder. So it is told to the page, once, the way
+/// browsers tell of uncaught errors, and not to one viewer or to a list of them kept for this purpose. The `RuntimeError` that follows is
+/// its echo, and all that a browser without `reportError` hears of it.
+fn report_panics() {
+    static INSTALLED: Once = Once::new();
+    // Before the first hook of eframe's: each runner installs one, which logs, stops that runner and then calls the one before.
+    INSTALLED.call_once(|| {
+        std::panic::set_hook(Box::new(|info| {
+            let error = js_sys::Error::new(&info.to_string());
+            error.set_name("Panic");
+            let global = js_sys::global();
+            if let Ok(report) = field(&global, "reportError").dyn_into::<Function>() {
+                let _ = report.call1(&global, &error);
+            }
+        }));
+    });
+}
+
+/// Files of `{name, bytes}` records.
+fn files_of(records: &Array) -> Result<Vec<File>, JsError> {
+    let mut files = Vec::new();
+    for record in records.iter() {
+        let name = field(&record, "name")
+            .as_string()
+            .ok_or_else(|| JsError::new("a file needs a name"))?;
+        let bytes: Uint8Array = field(&record, "bytes")
+            .dyn_into()
+            .map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
+        files.push(File::new(&name, bytes.to_vec()));
+    }
+    Ok(files)
+}

@@ -1,0 +1,65 @@
+// Where files come from, and how the page gets their bytes: from the person, from a program, from the server.
+
+const MODEL = /\.(m3d|a3d)$/i;
+
+/** Whether it is a `Blob` or a `File`, be it of another window. */
+const isBlob = (item) => typeof item?.arrayBuffer === "function";
+
+/** Bytes with their relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`. */
+export async function readBytes(item) {
+  const name = item?.webkitRelativePath || item?.name;
+  if (typeof name !== "string") throw new TypeError("a file to open is a File or {name, bytes}");
+  // A `File` may have a method called `bytes`.
+  const bytes = isBlob(item) ? item : item.bytes ?? item.file;
+  if (ArrayBuffer.isView(bytes)) return { name, bytes: new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) };
+  if (bytes instanceof ArrayBuffer) return { name, bytes: new Uint8Array(bytes) };
+  if (!isBlob(bytes)) throw new TypeError(`${name} needs its bytes as Uint8Array, ArrayBuffer or Blob`);
+  try {
+    return { name, bytes: new Uint8Array(await bytes.arrayBuffer()) };
+  } catch (error) {
+    throw new Error(`${name} could not be read: ${error.message}`, { cause: error });
+  }
+}
+
+/** The file at an address, with the last part of its path as name unless it is given another one. */
+export async function fetchFile(address, name = decodeURIComponent(new URL(address, location.href).pathname.split("/").pop())) {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
+  return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+}
+
+/** `before` without the files whose names come again in `files`, and then those. */
+const joined = (before, files) => {
+  const names = new Set(files.map(({ name }) => name));
+  return [...before.filter(({ name }) => !names.has(name)), ...files];
+};
+
+/** `{name, file}` records with the files as they are on disk, where the page may ask for them again. */
+export const readAgain = (files) =>
+  Promise.all(files.map(async (item) => ({ ...item, file: item.again ? await item.again() : item.file })));
+
+/** Remembers the files that the person opened, for another reading: they may have changed on disk. */
+export function rememberSources() {
+  let model = null; // The files that brought the model.
+  let beside = []; // Maps and skies that came later.
+  let clips = []; // Files whose clips were added.
+  let refused = null; // What came last, if it could not be opened: it may be mended on disk.
+  return {
+    add(files, addsClips, opened) {
+      refused = opened ? null : { files, addsClips };
+      if (!opened) return;
+      if (addsClips) clips = joined(clips, files);
+      else if (files.some(({ name }) => MODEL.test(name))) [model, beside, clips] = [files, [], []];
+      else beside = joined(beside, files);
+    },
+    forget: () => ([model, beside, clips, refused] = [null, [], [], null]),
+    refused: () => refused,
+    hasModel: () => Boolean(model),
+    /** All of it, read again: `files` to open and `clips` to add. Without a model of the person's, `own()` gives the page's. */
+    async again(own) {
+      const opened = model ? await readAgain(model) : await own();
+      const rest = await Promise.all([beside, clips].map(readAgain));
+      return { files: [...(opened ?? []), ...rest[0]], clips: rest[1] };
+    },
+  };
+}
