@@ -67,12 +67,13 @@ const PASSES = ["shadow", "reflections", "contact", "ao"];
 const COARSE = 0.2;
 
 /**
- * What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was.
+ * What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was. A
+ * page with a window of its own is told the same scale, since it is told 1 otherwise.
  * Most tests have a coarse screen: everything stands where it would, and the panels too have a quarter of their pixels.
  */
 const DEVICES = {
   desk: { scale: 1, context: { viewport: VIEWPORT } },
-  coarseDesk: { scale: 0.5, context: { viewport: VIEWPORT } },
+  coarseDesk: { scale: 0.5, context: { viewport: VIEWPORT, deviceScaleFactor: 0.5 } },
   coarsePhone: { scale: 0.5, context: { viewport: null, hasTouch: true } },
   sharpPhone: { scale: 2, context: { viewport: null, hasTouch: true } },
 };
