@@ -6,7 +6,7 @@ import { readBytes } from "./sources.js";
 const EMPTY = { backend: null, model: null, clip: null, timeSecs: 0, playing: false, framesRendered: 0, notices: [], error: null };
 
 /** A failure of the viewer itself, in the shape that `state().error` has for a file. */
-const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, file: null });
+const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, subject: null, count: 1, places: [], file: null });
 
 /** Commands that are handed on to the viewer as they are. */
 const COMMANDS = [

@@ -6,13 +6,14 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::failure::{Failure, Outcome};
-use super::finding::{Finding, write_finding};
+use super::finding::write_finding;
 use super::input;
 use crate::anim::CompiledClip;
 use crate::check;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::format::{self, LineIndex};
 use crate::model::Model;
+use crate::session::summary::Finding;
 
 /// List what is wrong with files, or was mended while reading them.
 ///
@@ -42,6 +43,8 @@ JSON: an array with one object for each file that could be read
     message           one sentence
     line, column      place, both from 1, the column in bytes; null when it is about the whole file
     expected, found   what belonged there and what stood there, in a few words, or null
+    subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
+                      \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
 

@@ -1,69 +1,11 @@
-//! Findings as lines and as JSON.
+//! Findings as lines.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use serde::Serialize;
-
 use super::text::OneLine;
-use crate::diagnostic::{Diagnostic, Position};
+use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
-
-/// What every output says of a finding. Line and column are `null` for a finding about the whole file.
-#[derive(Debug, Serialize)]
-pub(super) struct Notice<'a> {
-    severity: &'static str,
-    code: &'static str,
-    message: &'a str,
-    line: Option<u32>,
-    column: Option<u32>,
-}
-
-impl<'a> From<&'a Diagnostic> for Notice<'a> {
-    fn from(diagnostic: &'a Diagnostic) -> Self {
-        Self {
-            severity: diagnostic.severity.as_str(),
-            code: diagnostic.code,
-            message: &diagnostic.message,
-            line: diagnostic.position.map(|position| position.line),
-            column: diagnostic.position.map(|position| position.column),
-        }
-    }
-}
-
-/// A finding with what belonged in its place, where that can be said.
-#[derive(Debug, Serialize)]
-pub(super) struct Finding<'a> {
-    #[serde(flatten)]
-    notice: Notice<'a>,
-    expected: Option<&'a str>,
-    found: Option<&'a str>,
-    count: u32,
-    places: Vec<Place>,
-}
-
-/// One of the places that a finding is about.
-#[derive(Debug, Serialize)]
-struct Place {
-    line: u32,
-    column: u32,
-}
-
-impl<'a> From<&'a Diagnostic> for Finding<'a> {
-    fn from(diagnostic: &'a Diagnostic) -> Self {
-        Self {
-            notice: diagnostic.into(),
-            expected: diagnostic.expected.as_deref(),
-            found: diagnostic.found.as_deref(),
-            count: diagnostic.count,
-            places: diagnostic
-                .places
-                .iter()
-                .map(|&Position { line, column }| Place { line, column })
-                .collect(),
-        }
-    }
-}
 
 /// `file:line:column: severity[code]: message`, then the lines it is about, and where others alike stand.
 pub(super) fn write_finding(

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::failure::Failure;
-use super::finding::{Notice, worded_place};
+use super::finding::worded_place;
 use super::input;
 use super::text::{Plain, column_width, counted, grouped};
 use super::textures::{MapState, NamedMap, Textures, Wanted, by_name, named_maps};
@@ -14,6 +14,7 @@ use crate::anim::animated_bounds;
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
+use crate::session::summary::{self, Bounds, Finding};
 use crate::session::{MapSlot, Maps, OpenModel};
 
 /// Print what is in a model.
@@ -50,6 +51,7 @@ JSON: an object
     name
     start_secs      least and
     end_secs        greatest time of its keys
+    keys_per_sec    keys a second of the densest track
     keys            number of keys in the file
   bind_bounds       box of all vertices as the file has them: min and max, each [x, y, z];
                     null without vertices
@@ -60,6 +62,7 @@ JSON: an object
     code            stable name of the kind of finding
     message         one sentence
     line, column    place, both from 1; null when it is about the whole file
+                    and expected, found, subject, count, places, as `bindpose check --json` has them
 
 A file with errors has no such output: the error is told on standard error, with exit code 1. Missing maps are no errors;
 what is skipped in the folders is told on standard error.";
@@ -68,25 +71,11 @@ what is skipped in the folders is told on standard error.";
 #[derive(Debug, Serialize)]
 struct Info<'a> {
     file: String,
-    dialect: &'static str,
-    handedness: &'static str,
-    up_axis: &'static str,
-    counts: Counts,
-    materials: Vec<&'a str>,
+    #[serde(flatten)]
+    model: summary::Model<'a>,
     maps: Vec<Map<'a>>,
-    clips: Vec<Clip<'a>>,
-    bind_bounds: Option<Bounds>,
     animated_bounds: Option<Bounds>,
-    notices: Vec<Notice<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct Counts {
-    materials: usize,
-    vertices: usize,
-    triangles: usize,
-    bones: usize,
-    clips: usize,
+    notices: Vec<Finding<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -97,20 +86,6 @@ struct Map<'a> {
     state: Option<&'static str>,
     path: Option<String>,
     problem: Option<&'a str>,
-}
-
-#[derive(Debug, Serialize)]
-struct Clip<'a> {
-    name: &'a str,
-    start_secs: f32,
-    end_secs: f32,
-    keys: usize,
-}
-
-#[derive(Clone, Copy, Debug, Serialize)]
-struct Bounds {
-    min: [f32; 3],
-    max: [f32; 3],
 }
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), Failure> {
@@ -138,34 +113,12 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
 
 impl<'a> Info<'a> {
     fn new(file: String, open: &'a OpenModel, maps: &'a [NamedMap<'a>]) -> Self {
-        let model = &open.model;
         Self {
             file,
-            dialect: open.dialect.as_str(),
-            handedness: model.handedness.as_str(),
-            up_axis: model.up_axis.as_str(),
-            counts: Counts {
-                materials: model.materials.len(),
-                vertices: model.mesh.vertex_count(),
-                triangles: model.mesh.triangle_count(),
-                bones: model.skeleton.joint_count(),
-                clips: model.clips.len(),
-            },
-            materials: model.materials.iter().map(|material| material.name.as_str()).collect(),
+            model: open.into(),
             maps: maps.iter().map(Map::from).collect(),
-            clips: model
-                .clips
-                .iter()
-                .map(|clip| Clip {
-                    name: &clip.name,
-                    start_secs: clip.start_secs,
-                    end_secs: clip.end_secs,
-                    keys: clip.key_count,
-                })
-                .collect(),
-            bind_bounds: bounds(open.bind_bounds),
-            animated_bounds: bounds_of_all_clips(open).and_then(bounds),
-            notices: open.notices.iter().map(Notice::from).collect(),
+            animated_bounds: bounds_of_all_clips(open).and_then(|bounds| Bounds::of(&bounds)),
+            notices: open.notices.iter().map(Finding::from).collect(),
         }
     }
 }
@@ -201,13 +154,6 @@ fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
     Some(of_clips.reduce(Aabb::union).unwrap_or(open.bind_bounds))
 }
 
-fn bounds(bounds: Aabb) -> Option<Bounds> {
-    (!bounds.is_empty()).then(|| Bounds {
-        min: bounds.min.to_array(),
-        max: bounds.max.to_array(),
-    })
-}
-
 fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {
     let dialect = match open.dialect {
         Dialect::D3d12 => "D3D12 book",
@@ -226,9 +172,9 @@ fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[Na
     writeln!(out, "{dialect}, {hand}, {up}\n")?;
 
     let counts = [
-        ("Vertices", info.counts.vertices),
-        ("Triangles", info.counts.triangles),
-        ("Bones", info.counts.bones),
+        ("Vertices", info.model.counts.vertices),
+        ("Triangles", info.model.counts.triangles),
+        ("Bones", info.model.counts.bones),
     ];
     for (name, count) in counts {
         writeln!(out, "{name:<10}{:>12}", grouped(count))?;
@@ -241,7 +187,7 @@ fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[Na
 }
 
 fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
-    let Some(bind) = info.bind_bounds else {
+    let Some(bind) = info.model.bind_bounds else {
         return Ok(());
     };
     writeln!(out, "\nBounds {:>18} {:>12} {:>12}", "x", "y", "z")?;
@@ -249,7 +195,7 @@ fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
     row("bind min", bind.min)?;
     row("bind max", bind.max)?;
     match info.animated_bounds {
-        _ if info.clips.is_empty() => Ok(()),
+        _ if info.model.clips.is_empty() => Ok(()),
         Some(animated) => {
             row("clips min", animated.min)?;
             row("clips max", animated.max)
@@ -300,12 +246,12 @@ fn write_maps(out: &mut dyn Write, maps: &[NamedMap<'_>]) -> io::Result<()> {
 }
 
 fn write_clips(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
-    if info.clips.is_empty() {
+    if info.model.clips.is_empty() {
         return Ok(());
     }
-    writeln!(out, "\n{}", counted(info.clips.len(), "clip"))?;
-    let width = column_width(info.clips.iter().map(|clip| clip.name));
-    for clip in &info.clips {
+    writeln!(out, "\n{}", counted(info.model.clips.len(), "clip"))?;
+    let width = column_width(info.model.clips.iter().map(|clip| clip.name));
+    for clip in &info.model.clips {
         let name = Plain(clip.name).to_string();
         let (start_secs, end_secs) = (clip.start_secs, clip.end_secs);
         let keys = grouped(clip.keys);

@@ -28,6 +28,7 @@ mod showing;
 mod skeleton_cache;
 mod sky;
 mod subsets;
+pub mod summary;
 mod textures;
 mod view;
 

@@ -1,12 +1,16 @@
 //! What scripts see of the session: plain objects.
 
+use std::collections::BTreeMap;
+
 use js_sys::{Array, Object, Reflect};
-use wasm_bindgen::JsValue;
+use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
+use wasm_bindgen::{JsCast as _, JsValue};
 
 use crate::anim::{LoopMode, WrapMode};
-use crate::diagnostic::Diagnostic;
-use crate::scene::{Aabb, Overlay, Pass, Projection};
-use crate::session::{Event, OpenModel, Session};
+use crate::scene::{Overlay, Pass, Projection};
+use crate::session::summary::{self, Finding};
+use crate::session::{Checklist, Event, LoadError, Session};
 
 /// Names of what happens at the end, as the state gives them.
 pub(super) const LOOP_NAMES: [(LoopMode, &str); 3] = [
@@ -18,252 +22,274 @@ pub(super) const LOOP_NAMES: [(LoopMode, &str); 3] = [
 /// Names of how a loop goes on.
 pub(super) const WRAP_NAMES: [(WrapMode, &str); 2] = [(WrapMode::Wrap, "wrap"), (WrapMode::BookDemo, "book-demo")];
 
-/// An object built field by field.
-struct Fields(Object);
-
-impl Fields {
-    fn new() -> Self {
-        Self(Object::new())
-    }
-
-    fn with(self, name: &str, value: impl Into<JsValue>) -> Self {
-        // Setting a field of a fresh plain object cannot fail.
-        let _ = Reflect::set(&self.0, &name.into(), &value.into());
-        self
-    }
-
-    fn done(self) -> JsValue {
-        self.0.into()
-    }
-}
-
-/// What the running viewer adds to the session.
-pub(super) struct View<'a> {
-    pub(super) backend: Option<&'a str>,
-    pub(super) adapter: Option<&'a str>,
-    pub(super) frames_rendered: u64,
-}
-
 /// `bindpose.state()`.
-pub(super) fn state(session: &Session, view: &View<'_>) -> JsValue {
-    let playback = session.playback();
-    let camera = session.camera();
-    let error = session.error().map_or(JsValue::NULL, |error| {
-        Fields(diagnostic(&error.diagnostic))
-            .with("file", &*error.file_name)
-            .done()
-    });
-    let fields = Fields::new()
-        .with("backend", view.backend)
-        .with("adapter", view.adapter)
-        .with(
-            "model",
-            session.open_model().map_or(JsValue::NULL, |open| model(session, open)),
-        )
-        .with("textures", textures(session))
-        .with("blend", blend(session))
-        .with("timeSecs", playback.time_secs())
-        .with("playing", playback.is_playing())
-        .with("backward", playback.is_backward());
-    how_it_plays(session, fields)
-        .with(
-            "camera",
-            Fields::new()
-                .with("target", vector(camera.target))
-                .with("distance", camera.distance)
-                .with("yawRadians", camera.yaw_radians)
-                .with("pitchRadians", camera.pitch_radians)
-                .with("orthographic", camera.projection == Projection::Orthographic)
-                .done(),
-        )
-        .with("gridVisible", session.grid_visible())
-        .with("look", look(session))
-        .with("skeleton", skeleton(session))
-        .with("framesRendered", view.frames_rendered as f64)
-        .with(
-            "notices",
-            session
-                .notices()
-                .map(|notice| JsValue::from(diagnostic(notice)))
-                .collect::<Array>(),
-        )
-        .with("error", error)
-        .done()
+#[derive(Serialize)]
+pub(super) struct State<'a> {
+    backend: Option<&'a str>,
+    adapter: Option<&'a str>,
+    model: Option<Model<'a>>,
+    textures: Textures<'a>,
+    blend: Option<Blend<'a>>,
+    time_secs: f32,
+    playing: bool,
+    backward: bool,
+    #[serde(flatten)]
+    playback: Playback<'a>,
+    camera: Camera,
+    grid_visible: bool,
+    look: Look,
+    skeleton: Skeleton<'a>,
+    frames_rendered: u64,
+    notices: Vec<Finding<'a>>,
+    error: Option<FileError<'a>>,
 }
 
-/// What of the model plays, and how.
-fn how_it_plays(session: &Session, fields: Fields) -> Fields {
-    let playback = session.playback();
-    let range_secs = playback.range_secs();
-    fields
-        .with("clip", session.clip().map(|clip| clip.name.as_str()))
-        .with(
-            "rangeSecs",
-            range_secs.map_or(JsValue::NULL, |range| numbers(range).into()),
-        )
-        .with("speed", playback.speed())
-        .with("loop", name_of(&LOOP_NAMES, playback.loop_mode()))
-        .with("wrap", name_of(&WRAP_NAMES, playback.wrap_mode()))
-}
-
-fn model(session: &Session, open: &OpenModel) -> JsValue {
-    let model = &open.model;
-    let clips = model.clips.iter().map(|clip| {
-        Fields::new()
-            .with("name", &*clip.name)
-            .with("startSecs", clip.start_secs)
-            .with("endSecs", clip.end_secs)
-            .with("keysPerSec", clip.keys_per_sec)
-            .with("keys", clip.key_count as f64)
-            .done()
-    });
-    let materials = model.materials.iter().map(|material| JsValue::from(&*material.name));
-    Fields::new()
-        .with("name", open.file.base_name())
-        .with("path", &*open.file.path)
-        .with("dialect", open.dialect.as_str())
-        .with("handedness", session.handedness().as_str())
-        .with("upAxis", session.up_axis().as_str())
-        .with(
-            "counts",
-            Fields::new()
-                .with("materials", model.materials.len() as f64)
-                .with("vertices", model.mesh.vertex_count() as f64)
-                .with("triangles", model.mesh.triangle_count() as f64)
-                .with("bones", model.skeleton.joint_count() as f64)
-                .with("clips", model.clips.len() as f64)
-                .done(),
-        )
-        .with("materials", materials.collect::<Array>())
-        .with("clips", clips.collect::<Array>())
-        .with("bindBounds", bounds(&open.bind_bounds))
-        .done()
-}
-
-/// How the model is looked at, with the names that `snapshot` takes, and what became of each pass.
-fn look(session: &Session) -> JsValue {
-    let look = session.look();
-    let overlays = Overlay::ALL.into_iter().filter(|&overlay| look.overlays.has(overlay));
-    let quality = session.quality();
-    let passes = Pass::ALL.into_iter().fold(Fields::new(), |passes, pass| {
-        passes.with(pass.name(), quality.state(pass).name())
-    });
-    Fields::new()
-        .with("light", look.light.name())
-        .with("split", look.split.map_or(JsValue::NULL, JsValue::from))
-        .with("viewMode", look.view_mode.name())
-        .with("background", look.background.name())
-        .with(
-            "overlays",
-            overlays.map(|overlay| JsValue::from(overlay.name())).collect::<Array>(),
-        )
-        .with("exposure", look.exposure_stops)
-        .with("passes", passes.done())
-        .with("renderScale", quality.render_scale().fraction())
-        .done()
-}
-
-/// The clip that is blended into the one on show, and its share of the pose.
-fn blend(session: &Session) -> JsValue {
-    let clip_name = |index: usize| Some(&*session.open_model()?.model.clips.get(index)?.name);
-    session.blend().map_or(JsValue::NULL, |blend| {
-        Fields::new()
-            .with("clip", clip_name(blend.clip))
-            .with("share", blend.share)
-            .done()
-    })
-}
-
-/// What is chosen of the bones and the skin, and how they are shown. Bones go by their numbers in the file.
-fn skeleton(session: &Session) -> JsValue {
-    let joints = session.joints();
-    let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
-    let selected = joints.selected().and_then(|joint| bones?.get(joint.index()).copied());
-    let names = session.joint_names().all().iter();
-    Fields::new()
-        .with("selected", selected.map_or(JsValue::NULL, JsValue::from))
-        .with(
-            "vertex",
-            joints
-                .selected_vertex()
-                .map_or(JsValue::NULL, |selected| selected.vertex.into()),
-        )
-        .with("bonesVisible", joints.bones_visible())
-        .with("boneStyle", joints.bone_style().name())
-        .with("labelsVisible", joints.labels_visible())
-        .with(
-            "skinView",
-            joints.skin_view().map_or(JsValue::NULL, |view| view.name().into()),
-        )
-        .with("bindShare", session.bind_share())
-        .with(
-            "names",
-            names
-                .fold(Fields::new(), |names, (bone, name)| {
-                    names.with(&bone.to_string(), name.as_str())
-                })
-                .done(),
-        )
-        .done()
+#[derive(Serialize)]
+struct Model<'a> {
+    name: &'a str,
+    path: &'a str,
+    #[serde(flatten)]
+    summary: summary::Model<'a>,
 }
 
 /// How many maps the materials name, and the names that no file fits.
-fn textures(session: &Session) -> JsValue {
-    let checklist = session.maps().checklist();
-    let list = |names: &[String]| names.iter().map(|name| JsValue::from(&**name)).collect::<Array>();
-    Fields::new()
-        .with("named", checklist.named as f64)
-        .with("missing", list(&checklist.missing))
-        .with("unreadable", list(&checklist.unreadable))
-        .done()
+#[derive(Serialize)]
+struct Textures<'a> {
+    named: usize,
+    missing: &'a [String],
+    unreadable: &'a [String],
+}
+
+/// The clip that is blended into the one on show, and its weight in the pose.
+#[derive(Serialize)]
+struct Blend<'a> {
+    clip: Option<&'a str>,
+    share: f32,
+}
+
+/// What of the model plays, and how.
+#[derive(Serialize)]
+struct Playback<'a> {
+    clip: Option<&'a str>,
+    range_secs: Option<[f32; 2]>,
+    speed: f32,
+    #[serde(rename = "loop")]
+    loop_mode: &'static str,
+    wrap: &'static str,
+}
+
+#[derive(Serialize)]
+struct Camera {
+    target: [f32; 3],
+    distance: f32,
+    yaw_radians: f32,
+    pitch_radians: f32,
+    orthographic: bool,
+}
+
+/// How the model is looked at, with the names that `snapshot` takes, and what became of each pass.
+#[derive(Serialize)]
+struct Look {
+    light: &'static str,
+    split: Option<f32>,
+    view_mode: &'static str,
+    background: String,
+    overlays: Vec<&'static str>,
+    exposure: f32,
+    passes: BTreeMap<&'static str, &'static str>,
+    render_scale: f32,
+}
+
+/// What is chosen of the bones and the skin, and how they are shown. Bones go by their numbers in the file.
+#[derive(Serialize)]
+struct Skeleton<'a> {
+    selected: Option<u32>,
+    vertex: Option<u32>,
+    bones_visible: bool,
+    bone_style: &'static str,
+    labels_visible: bool,
+    skin_view: Option<&'static str>,
+    bind_share: f32,
+    names: BTreeMap<String, &'a str>,
+}
+
+#[derive(Serialize)]
+struct FileError<'a> {
+    #[serde(flatten)]
+    finding: Finding<'a>,
+    file: &'a str,
+}
+
+impl<'a> State<'a> {
+    /// `backend` and `adapter` are those of the running viewer, and so is the number of frames.
+    pub(super) fn new(
+        session: &'a Session,
+        backend: Option<&'a str>,
+        adapter: Option<&'a str>,
+        frames_rendered: u64,
+    ) -> Self {
+        let playback = session.playback();
+        let camera = session.camera();
+        let Checklist {
+            named,
+            missing,
+            unreadable,
+        } = session.maps().checklist();
+        Self {
+            backend,
+            adapter,
+            model: model(session),
+            textures: Textures {
+                named: *named,
+                missing,
+                unreadable,
+            },
+            blend: blend(session),
+            time_secs: playback.time_secs(),
+            playing: playback.is_playing(),
+            backward: playback.is_backward(),
+            playback: Playback::of(session),
+            camera: Camera {
+                target: camera.target.to_array(),
+                distance: camera.distance,
+                yaw_radians: camera.yaw_radians,
+                pitch_radians: camera.pitch_radians,
+                orthographic: camera.projection == Projection::Orthographic,
+            },
+            grid_visible: session.grid_visible(),
+            look: look(session),
+            skeleton: skeleton(session),
+            frames_rendered,
+            notices: session.notices().map(Finding::from).collect(),
+            error: session.error().map(FileError::from),
+        }
+    }
+}
+
+fn model(session: &Session) -> Option<Model<'_>> {
+    let open = session.open_model()?;
+    Some(Model {
+        name: open.file.base_name(),
+        path: &open.file.path,
+        summary: summary::Model {
+            // As the person may have corrected them.
+            handedness: session.handedness().as_str(),
+            up_axis: session.up_axis().as_str(),
+            ..open.into()
+        },
+    })
+}
+
+fn blend(session: &Session) -> Option<Blend<'_>> {
+    let blend = session.blend()?;
+    let clip = session.open_model().and_then(|open| open.model.clips.get(blend.clip));
+    Some(Blend {
+        clip: clip.map(|clip| &*clip.name),
+        share: blend.share,
+    })
+}
+
+impl<'a> Playback<'a> {
+    fn of(session: &'a Session) -> Self {
+        let playback = session.playback();
+        Self {
+            clip: session.clip().map(|clip| &*clip.name),
+            range_secs: playback.range_secs(),
+            speed: playback.speed(),
+            loop_mode: name_of(&LOOP_NAMES, playback.loop_mode()),
+            wrap: name_of(&WRAP_NAMES, playback.wrap_mode()),
+        }
+    }
+}
+
+fn look(session: &Session) -> Look {
+    let look = session.look();
+    let overlays = Overlay::ALL.into_iter().filter(|&overlay| look.overlays.has(overlay));
+    let quality = session.quality();
+    Look {
+        light: look.light.name(),
+        split: look.split,
+        view_mode: look.view_mode.name(),
+        background: look.background.name(),
+        overlays: overlays.map(Overlay::name).collect(),
+        exposure: look.exposure_stops,
+        passes: Pass::ALL.map(|pass| (pass.name(), quality.state(pass).name())).into(),
+        render_scale: quality.render_scale().fraction(),
+    }
+}
+
+fn skeleton(session: &Session) -> Skeleton<'_> {
+    let joints = session.joints();
+    let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
+    let names = session.joint_names().all().iter();
+    Skeleton {
+        selected: joints.selected().and_then(|joint| bones?.get(joint.index()).copied()),
+        vertex: joints.selected_vertex().map(|selected| selected.vertex),
+        bones_visible: joints.bones_visible(),
+        bone_style: joints.bone_style().name(),
+        labels_visible: joints.labels_visible(),
+        skin_view: joints.skin_view().map(|view| view.name()),
+        bind_share: session.bind_share(),
+        names: names.map(|(bone, name)| (bone.to_string(), name.as_str())).collect(),
+    }
+}
+
+impl<'a> From<&'a LoadError> for FileError<'a> {
+    fn from(error: &'a LoadError) -> Self {
+        Self {
+            finding: Finding::from(&error.diagnostic),
+            file: &error.file_name,
+        }
+    }
 }
 
 /// The detail of an event: enough to act on without asking for the whole state.
 pub(super) fn event_detail(session: &Session, event: Event) -> JsValue {
     match event {
-        Event::Load => Fields::new()
-            .with("name", session.open_model().map(|open| open.file.base_name()))
-            .done(),
-        Event::Error => session.error().map_or(JsValue::NULL, |error| {
-            Fields(diagnostic(&error.diagnostic))
-                .with("file", &*error.file_name)
-                .done()
-        }),
-        Event::Play | Event::Pause | Event::TimeUpdate => {
-            Fields::new().with("timeSecs", session.playback().time_secs()).done()
+        Event::Load => {
+            let name = session.open_model().map(|open| open.file.base_name());
+            to_js(&BTreeMap::from([("name", name)]))
         }
-        Event::PlaybackChange => how_it_plays(session, Fields::new()).done(),
+        Event::Error => to_js(&session.error().map(FileError::from)),
+        Event::Play | Event::Pause | Event::TimeUpdate => {
+            to_js(&BTreeMap::from([("time_secs", session.playback().time_secs())]))
+        }
+        Event::PlaybackChange => to_js(&Playback::of(session)),
     }
 }
 
-fn diagnostic(finding: &Diagnostic) -> Object {
-    Fields::new()
-        .with("severity", finding.severity.as_str())
-        .with("code", finding.code)
-        .with("message", &*finding.message)
-        .with("expected", finding.expected.as_deref())
-        .with("found", finding.found.as_deref())
-        .with("line", finding.position.map(|position| position.line))
-        .with("column", finding.position.map(|position| position.column))
-        .0
+/// A plain object with keys in camelCase; what is `None` is `null`.
+pub(super) fn to_js(value: &impl Serialize) -> JsValue {
+    let value = value.serialize(&Serializer::json_compatible());
+    // None of our values refuses to be written.
+    value.map_or(JsValue::NULL, with_camel_case_keys)
 }
 
-fn bounds(bounds: &Aabb) -> JsValue {
-    if bounds.is_empty() {
-        return JsValue::NULL;
+fn with_camel_case_keys(value: JsValue) -> JsValue {
+    if let Some(array) = value.dyn_ref::<Array>() {
+        return array.iter().map(with_camel_case_keys).collect::<Array>().into();
     }
-    Fields::new()
-        .with("min", vector(bounds.min))
-        .with("max", vector(bounds.max))
-        .done()
+    let Some(object) = value.dyn_ref::<Object>() else {
+        return value;
+    };
+    let renamed = Object::new();
+    for entry in Object::entries(object).iter() {
+        let [key, value] = [0, 1].map(|index| entry.unchecked_ref::<Array>().get(index));
+        let key = camel_case(&key.as_string().unwrap_or_default());
+        // Setting a field of a fresh plain object cannot fail.
+        let _ = Reflect::set(&renamed, &key.into(), &with_camel_case_keys(value));
+    }
+    renamed.into()
 }
 
-fn vector(vector: glam::Vec3) -> Array {
-    numbers(vector.to_array())
-}
-
-fn numbers(numbers: impl IntoIterator<Item = f32>) -> Array {
-    numbers.into_iter().map(JsValue::from).collect()
+/// `bind_bounds` as `bindBounds`.
+fn camel_case(key: &str) -> String {
+    let mut words = key.split('_');
+    let first = words.next().unwrap_or_default().to_owned();
+    words.fold(first, |name, word| {
+        let (initial, rest) = word.split_at(word.len().min(1));
+        name + &initial.to_uppercase() + rest
+    })
 }
 
 fn name_of<T: Copy + PartialEq>(names: &[(T, &'static str)], value: T) -> &'static str {

@@ -59,12 +59,13 @@ impl Viewer {
     /// The session and what runs it, as one plain object.
     pub fn state(&self) -> JsValue {
         let running = self.shared.running.borrow();
-        let view = state::View {
-            backend: running.as_ref().map(|running| running.backend),
-            adapter: running.as_ref().map(|running| running.adapter.as_str()),
-            frames_rendered: running.as_ref().map_or(0, |running| running.frames_rendered.get()),
-        };
-        state::state(&self.shared.session.borrow(), &view)
+        let running = running.as_ref();
+        state::to_js(&state::State::new(
+            &self.shared.session.borrow(),
+            running.map(|running| running.backend),
+            running.map(|running| running.adapter.as_str()),
+            running.map_or(0, |running| running.frames_rendered.get()),
+        ))
     }
 
     /// Whether Esc would shut something in the viewer, end what is being typed or let go of a selection. Then it does not mean that

@@ -61,6 +61,7 @@ fn json_has_an_object_for_each_file() {
             "column": 17,
             "expected": "a bone index",
             "found": "2",
+            "subject": null,
             "count": 1,
             "places": [{"line": 34, "column": 17}],
         }]},

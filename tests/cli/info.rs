@@ -28,7 +28,7 @@ fn json_says_all_of_a_skinned_file() {
             {"material": "skin", "slot": "diffuse", "name": "skin_diff.dds", "state": null, "path": null, "problem": null},
             {"material": "skin", "slot": "normal", "name": "skin_norm.dds", "state": null, "path": null, "problem": null},
         ],
-        "clips": [{"name": "Wave", "start_secs": 0.0, "end_secs": 0.5, "keys": 3}],
+        "clips": [{"name": "Wave", "start_secs": 0.0, "end_secs": 0.5, "keys_per_sec": 2.0, "keys": 3}],
         "bind_bounds": null,
         "animated_bounds": null,
         "notices": [{
@@ -37,6 +37,11 @@ fn json_says_all_of_a_skinned_file() {
             "message": "1 bone stands before the parent; the joints are sorted and keep the file's numbers for display.",
             "line": 51,
             "column": 1,
+            "expected": null,
+            "found": null,
+            "subject": {"kind": "bone", "index": 0},
+            "count": 1,
+            "places": [{"line": 51, "column": 1}],
         }],
     });
     assert_eq!(found, expected);
@@ -66,6 +71,11 @@ fn notices_come_from_both_stages_in_the_order_of_the_file() {
             "message": "1 of 2 triangles wind as in a left-handed file, the rest as in a right-handed one.",
             "line": null,
             "column": null,
+            "expected": null,
+            "found": null,
+            "subject": null,
+            "count": 1,
+            "places": [],
         },
         {
             "severity": "note",
@@ -73,6 +83,11 @@ fn notices_come_from_both_stages_in_the_order_of_the_file() {
             "message": "2 values of vertex ranges of the subset table are unreadable; they are not used.",
             "line": 30,
             "column": 26,
+            "expected": null,
+            "found": null,
+            "subject": null,
+            "count": 2,
+            "places": [{"line": 30, "column": 26}, {"line": 30, "column": 41}],
         },
         {
             "severity": "note",
@@ -80,6 +95,11 @@ fn notices_come_from_both_stages_in_the_order_of_the_file() {
             "message": "A label of the subset table is spelt \"VetexCount:\"; it was read by its place.",
             "line": 30,
             "column": 29,
+            "expected": null,
+            "found": "VetexCount:",
+            "subject": null,
+            "count": 1,
+            "places": [{"line": 30, "column": 29}],
         },
     ]);
     assert_eq!(found["notices"], expected);

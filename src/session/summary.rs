@@ -1,0 +1,173 @@
+//! What programs are told of a model and of findings, as plain data for serde. The command line writes the keys as they are here, the page
+//! in camelCase.
+
+use serde::Serialize;
+
+use super::OpenModel;
+use crate::diagnostic::{Diagnostic, Position, Subject};
+use crate::scene::Aabb;
+
+/// What a model is and has.
+#[derive(Debug, Serialize)]
+pub struct Model<'a> {
+    /// `d3d12`, `d3d11` or `imm`.
+    pub dialect: &'static str,
+    /// `left` or `right`, found from the triangles.
+    pub handedness: &'static str,
+    /// `y` or `z`, as the dialect suggests.
+    pub up_axis: &'static str,
+    /// How much of each there is.
+    pub counts: Counts,
+    /// Names of the materials, in the order of the file.
+    pub materials: Vec<&'a str>,
+    /// The clips, in the order of the file.
+    pub clips: Vec<Clip<'a>>,
+    /// Box of all vertices in the file's space; `None` without vertices.
+    pub bind_bounds: Option<Bounds>,
+}
+
+/// How much of each a model has.
+#[derive(Debug, Serialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Counts {
+    pub materials: usize,
+    pub vertices: usize,
+    pub triangles: usize,
+    pub bones: usize,
+    pub clips: usize,
+}
+
+/// A clip.
+#[derive(Debug, Serialize)]
+pub struct Clip<'a> {
+    /// Its name, unique in the model.
+    pub name: &'a str,
+    /// Least time of its keys.
+    pub start_secs: f32,
+    /// Greatest time of its keys.
+    pub end_secs: f32,
+    /// Keys a second of the densest track: the unit of a frame.
+    pub keys_per_sec: f32,
+    /// Number of keys in the file.
+    pub keys: usize,
+}
+
+/// Corners of a box.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Bounds {
+    pub min: [f32; 3],
+    pub max: [f32; 3],
+}
+
+/// A finding. What cannot be said is `None`.
+#[derive(Debug, Serialize)]
+pub struct Finding<'a> {
+    /// `note`, `warning` or `error`.
+    pub severity: &'static str,
+    /// Stable name of the kind of finding.
+    pub code: &'static str,
+    /// One sentence.
+    pub message: &'a str,
+    /// What belonged in its place, in a few words.
+    pub expected: Option<&'a str>,
+    /// What stood there, in a few words.
+    pub found: Option<&'a str>,
+    /// Line, from 1; `None` when it is about the whole file.
+    pub line: Option<u32>,
+    /// Column in bytes, from 1; `None` when it is about the whole file.
+    pub column: Option<u32>,
+    /// The part of the model that it is about, the first one of several.
+    pub subject: Option<Part>,
+    /// How many alike things it tells of, 1 or more.
+    pub count: u32,
+    /// Where the first of them stand, at most [`Diagnostic::MOST_PLACES`]; empty when it is about the whole file.
+    pub places: Vec<Place>,
+}
+
+/// A part of a model.
+#[derive(Debug, Serialize)]
+pub struct Part {
+    /// `material`, `subset`, `vertex`, `triangle`, `bone` or `clip`.
+    pub kind: &'static str,
+    /// Its number in the file, from 0.
+    pub index: u32,
+}
+
+/// A place in a file, both numbers from 1, the column in bytes.
+#[derive(Debug, Serialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Place {
+    pub line: u32,
+    pub column: u32,
+}
+
+impl<'a> From<&'a OpenModel> for Model<'a> {
+    fn from(open: &'a OpenModel) -> Self {
+        let model = &open.model;
+        let clips = model.clips.iter().map(|clip| Clip {
+            name: &clip.name,
+            start_secs: clip.start_secs,
+            end_secs: clip.end_secs,
+            keys_per_sec: clip.keys_per_sec,
+            keys: clip.key_count,
+        });
+        Self {
+            dialect: open.dialect.as_str(),
+            handedness: model.handedness.as_str(),
+            up_axis: model.up_axis.as_str(),
+            counts: Counts {
+                materials: model.materials.len(),
+                vertices: model.mesh.vertex_count(),
+                triangles: model.mesh.triangle_count(),
+                bones: model.skeleton.joint_count(),
+                clips: model.clips.len(),
+            },
+            materials: model.materials.iter().map(|material| material.name.as_str()).collect(),
+            clips: clips.collect(),
+            bind_bounds: Bounds::of(&open.bind_bounds),
+        }
+    }
+}
+
+impl Bounds {
+    /// `None` for a box without points.
+    pub fn of(bounds: &Aabb) -> Option<Self> {
+        (!bounds.is_empty()).then(|| Self {
+            min: bounds.min.to_array(),
+            max: bounds.max.to_array(),
+        })
+    }
+}
+
+impl<'a> From<&'a Diagnostic> for Finding<'a> {
+    fn from(diagnostic: &'a Diagnostic) -> Self {
+        let place = |&Position { line, column }: &Position| Place { line, column };
+        Self {
+            severity: diagnostic.severity.as_str(),
+            code: diagnostic.code,
+            message: &diagnostic.message,
+            expected: diagnostic.expected.as_deref(),
+            found: diagnostic.found.as_deref(),
+            line: diagnostic.position.map(|position| position.line),
+            column: diagnostic.position.map(|position| position.column),
+            subject: diagnostic.subject.map(Part::from),
+            count: diagnostic.count,
+            places: diagnostic.places.iter().map(place).collect(),
+        }
+    }
+}
+
+impl From<Subject> for Part {
+    fn from(subject: Subject) -> Self {
+        let (kind, index) = match subject {
+            Subject::Material(index) => ("material", index),
+            Subject::Subset(index) => ("subset", index),
+            Subject::Vertex(index) => ("vertex", index),
+            Subject::Triangle(index) => ("triangle", index),
+            Subject::Bone(index) => ("bone", index),
+            Subject::Clip(index) => ("clip", index),
+        };
+        Self { kind, index }
+    }
+}
