@@ -120,7 +120,7 @@ impl App {
 
     /// The longest side of a picture that this device can draw, in pixels.
     pub fn longest_picture_side(&self) -> u32 {
-        let of_device = self.stage.gpu.device.limits().max_texture_dimension_2d;
+        let of_device = self.painter.gpu.device.limits().max_texture_dimension_2d;
         of_device.min(ui::MAX_PICTURE_SIDE)
     }
 

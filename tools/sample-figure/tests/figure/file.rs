@@ -1,10 +1,10 @@
 //! The document as a whole, and the committed file.
 
-use bindpose::format::{self, Document, LineMap, Reflectance};
+use bindpose::format::{self, Document, Reflectance};
 use bindpose::model::{Handedness, UpAxis};
+use bindpose::session::{File, load};
 
 use super::FIGURE;
-use crate::documents::read;
 
 #[test]
 fn materials_are_physically_plausible() {
@@ -82,8 +82,10 @@ fn assert_close(ours: &[f32], theirs: &[f32]) {
 
 #[test]
 fn it_makes_a_left_handed_model_without_a_word() {
-    let (model, notices) = read(&FIGURE, &LineMap::default());
-    assert!(notices.is_empty(), "{notices:?}");
+    let file = File::new("figure.m3d", format::write(&FIGURE).into_bytes());
+    let open = load(&file).expect("the figure is sound");
+    assert!(open.notices.is_empty(), "{:?}", open.notices);
+    let model = &open.model;
     assert_eq!(model.handedness, Handedness::Left);
     assert_eq!(model.up_axis, UpAxis::Y);
     assert!(
