@@ -7,20 +7,9 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::anim::{LoopMode, WrapMode};
 use crate::scene::{Overlay, Pass, Projection};
 use crate::session::summary::{self, Finding};
 use crate::session::{Checklist, Event, LoadError, Session};
-
-/// Names of what happens at the end, as the state gives them.
-pub(super) const LOOP_NAMES: [(LoopMode, &str); 3] = [
-    (LoopMode::Once, "once"),
-    (LoopMode::Loop, "loop"),
-    (LoopMode::PingPong, "pingpong"),
-];
-
-/// Names of how a loop goes on.
-pub(super) const WRAP_NAMES: [(WrapMode, &str); 2] = [(WrapMode::Wrap, "wrap"), (WrapMode::BookDemo, "book-demo")];
 
 /// `bindpose.state()`.
 #[derive(Serialize)]
@@ -196,8 +185,8 @@ impl<'a> Playback<'a> {
             clip: session.clip().map(|clip| &*clip.name),
             range_secs: playback.range_secs(),
             speed: playback.speed(),
-            loop_mode: name_of(&LOOP_NAMES, playback.loop_mode()),
-            wrap: name_of(&WRAP_NAMES, playback.wrap_mode()),
+            loop_mode: playback.loop_mode().name(),
+            wrap: playback.wrap_mode().name(),
         }
     }
 }
@@ -290,15 +279,4 @@ fn camel_case(key: &str) -> String {
         let (initial, rest) = word.split_at(word.len().min(1));
         name + &initial.to_uppercase() + rest
     })
-}
-
-fn name_of<T: Copy + PartialEq>(names: &[(T, &'static str)], value: T) -> &'static str {
-    let named = names.iter().find(|(named, _)| *named == value);
-    named.map_or("", |(_, name)| name)
-}
-
-/// The value that has this name.
-pub(super) fn named<T: Copy>(names: &[(T, &str)], wanted: &str) -> Option<T> {
-    let named = names.iter().find(|(_, name)| *name == wanted);
-    named.map(|(value, _)| *value)
 }

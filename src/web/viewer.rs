@@ -10,7 +10,7 @@ use web_sys::HtmlCanvasElement;
 use super::backend::Preference;
 use super::run::{self, Shared};
 use super::{field, picture, promise, reduced_motion, state};
-use crate::anim::Direction;
+use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
 use crate::session::{Command, File, PassChoice, RenderScale, Session};
 
@@ -215,15 +215,13 @@ impl Viewer {
     /// Sets what happens at the end: `once`, `loop` or `pingpong`. Returns whether the name is one of these.
     #[wasm_bindgen(js_name = setLoop)]
     pub fn set_loop(&self, name: &str) -> bool {
-        self.shared
-            .apply_named(state::named(&state::LOOP_NAMES, name), Command::SetLoopMode)
+        self.shared.apply_named(LoopMode::from_name(name), Command::SetLoopMode)
     }
 
     /// Sets how a loop goes on: `wrap` or `book-demo`. Returns whether the name is one of these.
     #[wasm_bindgen(js_name = setWrap)]
     pub fn set_wrap(&self, name: &str) -> bool {
-        self.shared
-            .apply_named(state::named(&state::WRAP_NAMES, name), Command::SetWrapMode)
+        self.shared.apply_named(WrapMode::from_name(name), Command::SetWrapMode)
     }
 
     /// Draws a pass or leaves it out: `shadow`, `reflections`, `contact` or `ao`. Returns whether the name is one of these.
