@@ -78,7 +78,7 @@ test("roughness is edited in the inspector, and Reset brings the very same pictu
   assert.equal((await picture(page)).digest, before.digest);
 });
 
-test("Shift+P saves the picture without what is behind the model", STILL, async (page) => {
+test("Shift+P saves the picture without what is behind the model", { ...STILL, fine: true }, async (page) => {
   await page.mouse.click(...GROUND);
   await atRest(page);
   const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+P")]);
