@@ -5,42 +5,19 @@ use std::collections::{HashMap, HashSet};
 use glam::Vec3;
 
 use crate::model::{Influences, JointIndex, Mesh};
+use crate::modes::modes;
 
-/// Which number of a vertex is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SkinView {
-    /// The weight of one joint, 0…1.
-    Weight,
-    /// How many joints move it, 0…4.
-    InfluenceCount,
-    /// The joint with the greatest weight.
-    DominantJoint,
-    /// How much the edges around it are stretched against the bind pose: 1 is unchanged.
-    Stretch,
-}
-
-impl SkinView {
-    /// In the order of menus.
-    pub const ALL: [Self; 4] = [Self::Weight, Self::InfluenceCount, Self::DominantJoint, Self::Stretch];
-
-    /// Name for menus.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Weight => "Weight of a bone",
-            Self::InfluenceCount => "Number of bones",
-            Self::DominantJoint => "Strongest bone",
-            Self::Stretch => "Stretch",
-        }
-    }
-
-    /// Name for programs and addresses.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Weight => "weight",
-            Self::InfluenceCount => "influences",
-            Self::DominantJoint => "dominant",
-            Self::Stretch => "stretch",
-        }
+modes! {
+    /// Which number of a vertex is shown.
+    pub enum SkinView {
+        /// The weight of one joint, 0…1.
+        Weight = "weight", "Weight of a bone";
+        /// How many joints move it, 0…4.
+        InfluenceCount = "influences", "Number of bones";
+        /// The joint with the greatest weight.
+        DominantJoint = "dominant", "Strongest bone";
+        /// How much the edges around it are stretched against the bind pose: 1 is unchanged.
+        Stretch = "stretch", "Stretch";
     }
 }
 

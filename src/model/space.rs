@@ -2,43 +2,29 @@
 
 use glam::{Affine3A, Mat3A, Vec3, Vec3A};
 
-/// Whether x × y = z by the left or by the right hand.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Handedness {
-    /// As in the books.
-    #[default]
-    Left,
-    /// As the soldier; the books' demo mirrors z to show it.
-    Right,
-}
+use crate::modes::modes;
 
-impl Handedness {
-    /// The word that outputs use: `left`, `right`.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Left => "left",
-            Self::Right => "right",
-        }
+modes! {
+    /// Whether x × y = z by the left or by the right hand.
+    #[derive(Default)]
+    pub enum Handedness {
+        /// As in the books.
+        #[default]
+        Left = "left", "Left-handed";
+        /// As the soldier; the books' demo mirrors z to show it.
+        Right = "right", "Right-handed";
     }
 }
 
-/// Which axis of the file points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum UpAxis {
-    /// As in the books.
-    #[default]
-    Y,
-    /// As Blender's exporters write.
-    Z,
-}
-
-impl UpAxis {
-    /// The letter that outputs use: `y`, `z`.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Y => "y",
-            Self::Z => "z",
-        }
+modes! {
+    /// Which axis of the file points up.
+    #[derive(Default)]
+    pub enum UpAxis {
+        /// As in the books.
+        #[default]
+        Y = "y", "Y up";
+        /// As Blender's exporters write.
+        Z = "z", "Z up";
     }
 }
 

@@ -118,6 +118,21 @@ impl Background {
     }
 }
 
+impl serde::Serialize for Background {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&self.name())
+    }
+}
+
+impl<'de> serde::Deserialize<'de> for Background {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = <std::borrow::Cow<'de, str>>::deserialize(deserializer)?;
+        let expected = &"backdrop, sky, none, or a colour such as #20262e";
+        Self::from_name(&name)
+            .ok_or_else(|| serde::de::Error::invalid_value(serde::de::Unexpected::Str(&name), expected))
+    }
+}
+
 modes! {
     /// Lines drawn over or beside the model.
     pub enum Overlay {

@@ -11,8 +11,8 @@ use crate::modes::modes;
 /// Field of view of the perspective view: π/4, as in the books' demo.
 pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_4;
 
-/// A hair less than straight up and down, so that "right" stays defined while dragging.
-const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
+/// The greatest lift of the eye, radians: a hair less than straight up, so that "right" stays defined while dragging.
+pub const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 
 /// Distances at which sizes in view stay finite.
 pub(super) const LEAST_DISTANCE: f32 = f32::MIN_POSITIVE * 1e6;

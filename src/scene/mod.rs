@@ -19,7 +19,7 @@ pub use appearance::{Background, Light, Overlay, Overlays, Pass, Passes, Theme, 
 pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
 pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones};
 pub use bones::{Bone, Bones};
-pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, Projection, ViewPreset};
+pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, MAX_PITCH_RADIANS, Projection, ViewPreset};
 pub use frame::{FrameOptions, Ghosts, OverlayGeometry, OverlayVertex, RenderFrame, VertexColors};
 pub use framing::Insets;
 pub use ground::Ground;

@@ -175,12 +175,13 @@ impl Session {
             }
             Command::EditMaterial { index, material } => self.edit_material(index, &material),
             Command::ResetMaterial(material) => self.reset_material(material),
-            Command::SetGhosts(plan) => self.view.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0),
+            Command::SetGhosts(plan) => self.view.set_ghosts(plan),
             Command::SetBindGhost(visible) => self.view.bind_ghost = visible,
             Command::Look(command) => self.view.look.apply(command),
             Command::SetPass(pass, choice) => self.quality.choose(pass, choice),
             Command::SetRenderScale(scale) => self.quality.render_scale = scale,
             Command::SetTheme(theme) => self.view.theme = theme,
+            Command::Restore(state) => self.restore(&state),
         }
     }
 }

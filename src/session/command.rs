@@ -7,6 +7,7 @@ use super::joints::JointCommand;
 use super::look::LookCommand;
 use super::quality::{PassChoice, RenderScale};
 use super::subsets::SubsetCommand;
+use super::view_state::ViewState;
 use crate::anim::{Direction, GhostPlan, LoopMode, WrapMode};
 use crate::model::{Handedness, JointIndex, Material, UpAxis};
 use crate::scene::{Insets, Pass, Theme, ViewPreset};
@@ -201,6 +202,9 @@ pub enum Command {
     SetRenderScale(RenderScale),
     /// Dark or light surroundings.
     SetTheme(Theme),
+    /// Looks at the open model as a state says; see [`super::Session::view_state`]. Clips, bones and subsets that the model has not
+    /// are ignored, and numbers are brought into their ranges.
+    Restore(Box<ViewState>),
 }
 
 impl From<LookCommand> for Command {

@@ -96,11 +96,15 @@ impl Look {
         }
     }
 
-    /// Lets time pass: the book's lights turn. A step that is not finite is ignored.
-    pub(super) fn advance(&mut self, dt_secs: f32) {
-        if dt_secs.is_finite() {
-            let radians = self.book_lights_turn_radians + dt_secs * BOOK_TURN_RADIANS_PER_SEC;
+    /// Turns the book's lights to an angle about y, radians. What is not finite is ignored.
+    pub(super) fn set_book_lights_turn(&mut self, radians: f32) {
+        if radians.is_finite() {
             self.book_lights_turn_radians = radians.rem_euclid(TAU);
         }
+    }
+
+    /// Lets time pass: the book's lights turn. A step that is not finite is ignored.
+    pub(super) fn advance(&mut self, dt_secs: f32) {
+        self.set_book_lights_turn(self.book_lights_turn_radians + dt_secs * BOOK_TURN_RADIANS_PER_SEC);
     }
 }

@@ -23,6 +23,7 @@ mod overlays;
 mod picking;
 mod playing;
 mod quality;
+mod restoring;
 mod selecting;
 mod showing;
 mod skeleton_cache;
@@ -31,6 +32,7 @@ mod subsets;
 pub mod summary;
 mod textures;
 mod view;
+mod view_state;
 
 pub use changes::Changes;
 pub use command::{Command, Event};
@@ -47,6 +49,7 @@ pub use quality::{PassChoice, PassState, Quality, RenderScale};
 pub use skeleton_cache::SkinColorsKey;
 pub use subsets::{SubsetCommand, Subsets};
 pub use textures::{Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
+pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 
 use actor::Actor;
 use changes::Revisions;

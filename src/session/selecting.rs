@@ -154,7 +154,7 @@ impl Session {
     }
 
     /// The number of a joint in the file.
-    fn bone_number(&self, joint: JointIndex) -> u32 {
+    pub(super) fn bone_number(&self, joint: JointIndex) -> u32 {
         let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
         let bone = bones.and_then(|bones| bones.get(joint.index()));
         bone.copied().unwrap_or(joint.0)

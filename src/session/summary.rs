@@ -114,8 +114,8 @@ impl<'a> From<&'a OpenModel> for Model<'a> {
         });
         Self {
             dialect: open.dialect.as_str(),
-            handedness: model.handedness.as_str(),
-            up_axis: model.up_axis.as_str(),
+            handedness: model.handedness.name(),
+            up_axis: model.up_axis.name(),
             counts: Counts {
                 materials: model.materials.len(),
                 vertices: model.mesh.vertex_count(),

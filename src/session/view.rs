@@ -112,6 +112,11 @@ impl View {
         }
     }
 
+    /// Poses beside that of now. A plan without any is none.
+    pub(super) fn set_ghosts(&mut self, plan: Option<GhostPlan>) {
+        self.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0);
+    }
+
     /// Frames points of the world in what the panels leave free.
     pub(super) fn frame_points(&mut self, world_points: &[Vec3]) {
         // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.

@@ -162,8 +162,8 @@ fn model(session: &Session) -> Option<Model<'_>> {
         path: &open.file.path,
         summary: summary::Model {
             // As the person may have corrected them.
-            handedness: session.handedness().as_str(),
-            up_axis: session.up_axis().as_str(),
+            handedness: session.handedness().name(),
+            up_axis: session.up_axis().name(),
             ..open.into()
         },
     })

@@ -21,6 +21,7 @@ mod sky;
 mod slowness;
 mod subsets;
 mod transport;
+mod view_state;
 
 use bindpose::session::{Command, File, Session};
 

@@ -1,0 +1,145 @@
+//! The view as plain data, and back.
+
+use super::joints::JointCommand;
+use super::look::LookCommand;
+use super::mixer::Blend;
+use super::subsets::SubsetCommand;
+use super::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
+use super::{Event, Session};
+use crate::anim::GhostPlan;
+use crate::model::JointIndex;
+use crate::scene::Overlays;
+
+impl Session {
+    /// How the model is looked at now, for [`Command::Restore`](super::Command::Restore).
+    pub fn view_state(&self) -> ViewState {
+        let (joints, subsets) = (self.joints(), self.subsets());
+        let open = self.open_model();
+        let file_bones = open.map_or(&[][..], |open| open.model.skeleton.file_bones());
+        ViewState {
+            camera: CameraState::of(&self.view),
+            appearance: AppearanceState::of(&self.view, joints, file_bones),
+            playback: PlaybackState::of(&self.actor, self.content.clips()),
+            selection: SelectionState {
+                bone: joints.selected().map(|joint| self.bone_number(joint)),
+                vertex: joints.selected_vertex().map(|selected| selected.vertex),
+                subset: subsets.selected(),
+                hidden_subsets: (0..subsets.count())
+                    .filter(|&subset| subsets.is_hidden(subset))
+                    .collect(),
+                solo_subset: subsets.solo(),
+            },
+        }
+    }
+
+    /// Looks at the open model as a state says. Clips, bones and subsets that the model has not are ignored, and numbers are brought
+    /// into their ranges.
+    pub(super) fn restore(&mut self, state: &ViewState) {
+        self.restore_appearance(&state.appearance);
+        self.restore_playback(&state.playback);
+        self.restore_selection(&state.selection);
+        self.view.motion.interrupt();
+        self.view.motion.set_turntable(state.camera.turntable);
+        self.view.camera = state.camera.camera();
+        self.view.framed = state.camera.framed;
+    }
+
+    fn restore_appearance(&mut self, state: &AppearanceState) {
+        let mut overlays = Overlays::none();
+        state.overlays.iter().for_each(|&overlay| overlays.set(overlay, true));
+        let view = &mut self.view;
+        overlays.line_length = view.look.overlays.line_length;
+        view.look.overlays = overlays;
+        for command in [
+            LookCommand::SetLight(state.light),
+            LookCommand::SetSplit(state.split),
+            LookCommand::SetViewMode(state.view_mode),
+            LookCommand::SetBackground(state.background),
+            LookCommand::SetLineLength(state.line_length),
+            LookCommand::SetEnvironmentTurn(state.environment_turn_radians),
+            LookCommand::SetExposure(state.exposure_stops),
+            LookCommand::SetNormalGreenFlipped(state.normal_green_flipped),
+        ] {
+            view.look.apply(command);
+        }
+        view.look.set_book_lights_turn(state.book_lights_turn_radians);
+        view.handedness = state.handedness;
+        view.up_axis = state.up_axis;
+        view.set_ghosts(state.ghosts.map(|[before, after, step_frames]| GhostPlan {
+            before,
+            after,
+            step_frames,
+        }));
+        view.bind_ghost = state.bind_ghost;
+        let trails: Vec<JointIndex> = state
+            .trails
+            .iter()
+            .filter_map(|&bone| self.joint_of_bone(bone))
+            .collect();
+        for command in [
+            JointCommand::SetBoneStyle(state.bone_style),
+            JointCommand::SetLabelsVisible(state.labels_visible),
+            JointCommand::SetBonesVisible(state.bones_visible),
+            JointCommand::SetSkinView(state.skin_view),
+            JointCommand::ClearTrails,
+        ]
+        .into_iter()
+        .chain(trails.into_iter().map(JointCommand::ToggleTrail))
+        {
+            self.apply_to_joints(command);
+        }
+    }
+
+    fn restore_playback(&mut self, state: &PlaybackState) {
+        self.actor.mixer.set_crossfade(state.crossfade_secs);
+        self.actor.mixer.end_fades();
+        self.actor.mixer.set_blend(None);
+        self.actor.set_bind_share(state.bind_weight);
+        let playback = &mut self.actor.playback;
+        playback.set_speed(state.speed);
+        playback.set_loop_mode(state.loop_mode);
+        playback.set_wrap_mode(state.wrap_mode);
+        playback.set_backward(state.backward);
+        playback.clear_range();
+        let Some(open) = &self.content.open else { return };
+        let clips = &open.model.clips;
+        let named = |name: &str| clips.iter().position(|clip| clip.name == name);
+        let Some(clip) = state.clip.as_deref().and_then(named) else {
+            return;
+        };
+        self.actor.show_clip(open, clip);
+        if let Some((name, share)) = &state.blend
+            && let Some(clip) = named(name)
+        {
+            self.actor.set_blend(Blend { clip, share: *share }, clips.len());
+        }
+        if let Some([start_secs, end_secs]) = state.range_secs {
+            self.actor.playback.set_range_end(end_secs);
+            self.actor.playback.set_range_start(start_secs);
+        }
+        self.set_playing(state.playing);
+        // What stood at its end would begin anew by playing.
+        self.actor.playback.seek(state.time_secs);
+        self.note(Event::TimeUpdate);
+    }
+
+    fn restore_selection(&mut self, state: &SelectionState) {
+        self.apply_to_subsets(SubsetCommand::ShowAll);
+        for &subset in &state.hidden_subsets {
+            self.apply_to_subsets(SubsetCommand::SetVisible { subset, visible: false });
+        }
+        if let Some(subset) = state.solo_subset {
+            self.apply_to_subsets(SubsetCommand::Solo(subset));
+        }
+        let joint = state.bone.and_then(|bone| self.joint_of_bone(bone));
+        self.apply_to_subsets(SubsetCommand::Select(state.subset));
+        self.apply_to_joints(JointCommand::Select(joint));
+        self.apply_to_joints(JointCommand::SelectVertex(state.vertex));
+    }
+
+    /// The joint of a bone of the file.
+    fn joint_of_bone(&self, bone: u32) -> Option<JointIndex> {
+        let joints = self.open_model()?.model.skeleton.joint_of_bone();
+        joints.get(bone as usize).copied()
+    }
+}
