@@ -85,6 +85,7 @@ takeDrops(globalThis, { receive, refuse, openModel: () => openName, show: showDr
 const refreshTransport = mirrorTransport(bindpose, {
   section: element("transport"), control: (name) => element(`transport-${name}`), say, focusView,
 });
+takeUnclaimedKeys();
 letTabLeave(view, () => !hasFailed() && Boolean(viewer?.escapeShuts()));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
@@ -134,6 +135,19 @@ async function boot() {
   await onCanvas.start().catch((error) => {
     fail(error);
     showGpuFailure(error, backend);
+  });
+}
+
+/** Keys that are pressed while nothing on the page has the focus go to its one viewer, which gets the focus by the first that it acts on. */
+function takeUnclaimedKeys() {
+  addEventListener("keydown", (event) => {
+    if (event.target !== document.body || event.key === "Tab" || !onCanvas || hasFailed()) return;
+    const canvas = view.querySelector("canvas");
+    canvas.focus({ preventScroll: true });
+    const { key, code, location, repeat, ctrlKey, shiftKey, altKey, metaKey } = event;
+    const again = new KeyboardEvent("keydown", { key, code, location, repeat, ctrlKey, shiftKey, altKey, metaKey, cancelable: true });
+    if (canvas.dispatchEvent(again)) canvas.blur();
+    else event.preventDefault();
   });
 }
 

@@ -1,4 +1,4 @@
-//! What is open and how it is looked at. Commands change it, time moves it, a [`RenderFrame`] comes out.
+//! What is open and how it is looked at. Commands change it, time moves it, a [`RenderFrame`](crate::scene::RenderFrame) comes out.
 
 mod actor;
 mod apply;

@@ -203,6 +203,24 @@ function focused(page) {
   });
 }
 
+test("while nothing has the focus keys go to the only viewer, and it gets the focus by those that it acts on", STILL, async (page) => {
+  await page.evaluate(() => document.activeElement?.blur());
+  assert.equal(await focused(page), "body");
+  await page.keyboard.press("F9");
+  assert.equal(await focused(page), "body", "a key that the viewer has no use for changes nothing");
+  await page.keyboard.press("Space");
+  await until(page, ({ playing }) => playing);
+  assert.equal(await focused(page), "canvas");
+  await page.keyboard.press("Space");
+  await until(page, ({ playing }) => !playing);
+
+  await page.evaluate(() => document.activeElement.blur());
+  await page.evaluate(() => bindpose.open([{ name: "bad.m3d", bytes: new Uint8Array([35, 10]) }]));
+  await until(page, ({ error }) => error !== null);
+  await page.keyboard.press("Escape");
+  await until(page, ({ error }) => error === null);
+});
+
 test("Escape, then Tab leaves the view, and Shift and Tab comes back", SMALL, async (page) => {
   await focusView(page);
   assert.equal(await focused(page), "canvas");
