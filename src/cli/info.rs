@@ -62,7 +62,11 @@ JSON: an object
     code            stable name of the kind of finding
     message         one sentence
     line, column    place, both from 1; null when it is about the whole file
-                    and expected, found, subject, count, places, as `bindpose check --json` has them
+    expected, found   what belonged there and what stood there, in a few words, or null
+    subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
+                      \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0
+    count             how many alike things it tells of, 1 or more
+    places            line and column of the first four of them; empty when it is about the whole file
 
 A file with errors has no such output: the error is told on standard error, with exit code 1. Missing maps are no errors;
 what is skipped in the folders is told on standard error.";

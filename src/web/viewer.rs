@@ -1,7 +1,7 @@
 //! The viewer as scripts have it. Every call acts on the session at once; the window draws it in its next frame.
 
 use std::rc::Rc;
-use std::sync::Once;
+use std::sync::{Arc, Once};
 
 use js_sys::{Array, Function, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
@@ -291,6 +291,15 @@ fn report_panics() {
     });
 }
 
+/// The bytes of the page as bytes of ours: copied once, to where they stay.
+fn copied(bytes: &Uint8Array) -> Arc<[u8]> {
+    let mut copy: Arc<[u8]> = std::iter::repeat_n(0, bytes.length() as usize).collect();
+    if let Some(copy) = Arc::get_mut(&mut copy) {
+        bytes.copy_to(copy);
+    }
+    copy
+}
+
 /// Files of `{name, bytes}` records.
 fn files_of(records: &Array) -> Result<Vec<File>, JsError> {
     let mut files = Vec::new();
@@ -301,7 +310,7 @@ fn files_of(records: &Array) -> Result<Vec<File>, JsError> {
         let bytes: Uint8Array = field(&record, "bytes")
             .dyn_into()
             .map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
-        files.push(File::new(&name, bytes.to_vec()));
+        files.push(File::new(&name, copied(&bytes)));
     }
     Ok(files)
 }

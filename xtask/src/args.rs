@@ -14,11 +14,12 @@ Bindpose's own commands. Each does its set-up itself.
         --release   optimised, slower to build
         --watch     build again when a source file changes; reload the page to see it
 
-    cargo xtask test [--browser [webgpu | webgl2 | firefox | webkit]]
+    cargo xtask test [--browser [webgpu | webgl2 | firefox | webkit] [--only PATTERN]]
         Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests: all of them
         in Chromium on WebGPU and on WebGL2, a few in Firefox and in WebKit. Stops at the first failure and prints the
         command that repeats it.
         --browser   the browser tests alone: all, or those in Chromium on one backend, or those in another browser
+        --only      of these the tests whose name fits a regular expression
 
     cargo xtask pictures
         The README's pictures, drawn by the page in Chromium: assets/page/.
@@ -57,6 +58,8 @@ pub(crate) struct TestOptions {
     pub(crate) browser_alone: bool,
     /// The browsers, in turn.
     pub(crate) browsers: Vec<BrowserRun>,
+    /// A pattern of the names of browser tests; all without one.
+    pub(crate) only: Option<String>,
 }
 
 /// Reads the arguments after the program's name.
@@ -87,20 +90,20 @@ fn nothing_more(name: &str, rest: &[String]) -> Result<(), Failure> {
 
 fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
     let words: Vec<&str> = rest.iter().map(String::as_str).collect();
-    match words[..] {
-        [] => Ok(TestOptions {
-            browser_alone: false,
-            browsers: RUNS.to_vec(),
-        }),
-        ["--browser"] => Ok(TestOptions {
-            browser_alone: true,
-            browsers: RUNS.to_vec(),
-        }),
-        ["--browser", name] => match RUNS.into_iter().find(|run| run.name() == name) {
-            Some(run) => Ok(TestOptions {
-                browser_alone: true,
-                browsers: vec![run],
-            }),
+    let (words, only) = match words[..] {
+        [ref words @ .., "--only", pattern] if !words.is_empty() => (words, Some(pattern.to_owned())),
+        ref words => (words, None),
+    };
+    let options = |browser_alone: bool, browsers: Vec<BrowserRun>| TestOptions {
+        browser_alone,
+        browsers,
+        only,
+    };
+    match words {
+        [] => Ok(options(false, RUNS.to_vec())),
+        ["--browser"] => Ok(options(true, RUNS.to_vec())),
+        ["--browser", name] => match RUNS.into_iter().find(|run| run.name() == *name) {
+            Some(run) => Ok(options(true, vec![run])),
             None => Err(Failure::Usage(format!(
                 "`--browser` takes {}, but `{name}` was given",
                 RUNS.map(BrowserRun::name).join(", ")
@@ -169,11 +172,19 @@ mod tests {
         let expected = TestOptions {
             browser_alone: true,
             browsers: vec![RUNS[1]],
+            only: None,
         };
         assert_eq!(parsed("test --browser webgl2"), Ok(Task::Test(expected)));
         let expected = TestOptions {
+            browser_alone: true,
+            browsers: RUNS.to_vec(),
+            only: Some("keys".to_owned()),
+        };
+        assert_eq!(parsed("test --browser --only keys"), Ok(Task::Test(expected)));
+        let expected = TestOptions {
             browser_alone: false,
             browsers: RUNS.to_vec(),
+            only: None,
         };
         assert_eq!(parsed("test"), Ok(Task::Test(expected)));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
@@ -188,6 +199,11 @@ mod tests {
             ("serve --port", "but nothing was given"),
             ("serve --port 70000", "but `70000` was given"),
             ("test --fast", "`test` does not know `--fast`"),
+            ("test --only keys", "`test` does not know `--only keys`"),
+            (
+                "test --browser webgl2 --only",
+                "`test` does not know `--browser webgl2 --only`",
+            ),
             ("test --browser metal", "but `metal` was given"),
             ("dist --fast", "`dist` takes no options, but `--fast` was given"),
         ] {

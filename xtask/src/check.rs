@@ -28,7 +28,12 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     let page = page(&mut steps)?;
     let (here, elsewhere): (Vec<BrowserRun>, Vec<BrowserRun>) =
         options.browsers.iter().partition(|run| run.browser.is_run_here());
-    browsers(&mut steps, &here, &page, &absent)?;
+    let browser_tests = BrowserTests {
+        page: &page,
+        only: options.only.as_deref(),
+        absent: &absent,
+    };
+    browsers(&mut steps, &here, browser_tests)?;
     steps.summary();
     for run in elsewhere {
         eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");
@@ -43,7 +48,7 @@ pub(crate) fn pictures() -> Result<(), Failure> {
     let page = page(&mut steps)?;
     let run = RUNS[1];
     let tests = "tests/browser/readme.js";
-    steps.step("The pictures", || node(run, tests, &page).run())
+    steps.step("The pictures", || node(run, None, tests, &page).run())
 }
 
 /// Builds the page, serves it and brings what drives the browsers. Gives its address.
@@ -108,8 +113,11 @@ fn clippy(what: &[&str]) -> Result<(), Failure> {
 }
 
 /// The line that runs a file of tests in a browser.
-fn node(run: BrowserRun, tests: &str, page: &str) -> Line {
-    let node = ["--test", "--test-reporter=spec", tests];
+fn node(run: BrowserRun, only: Option<&str>, tests: &str, page: &str) -> Line {
+    let node = ["--test", "--test-reporter=spec"]
+        .into_iter()
+        .chain(only)
+        .chain([tests]);
     let line = match run.browser {
         Browser::Chromium => Line::new("node").args(node),
         // These two draw in a window only, and on a GPU of software only when they are told so.
@@ -124,13 +132,22 @@ fn node(run: BrowserRun, tests: &str, page: &str) -> Line {
         .env("BACKEND", run.backend)
 }
 
+/// What every run of browser tests is told.
+#[derive(Clone, Copy)]
+struct BrowserTests<'a> {
+    page: &'a str,
+    only: Option<&'a str>,
+    absent: &'a Absent,
+}
+
 /// The line that runs a browser's tests.
-fn browser(run: BrowserRun, page: &str, absent: &Absent) -> Line {
+fn browser(run: BrowserRun, BrowserTests { page, only, absent }: BrowserTests<'_>) -> Line {
     let tests = match run.browser {
         Browser::Chromium => "tests/browser/all.js",
         Browser::Firefox | Browser::Webkit => "tests/browser/short.js",
     };
-    node(run, tests, page).env(absent::VARIABLE, absent.list())
+    let only = only.map(|pattern| format!("--test-name-pattern={pattern}"));
+    node(run, only.as_deref(), tests, page).env(absent::VARIABLE, absent.list())
 }
 
 /// The page that was served here ends with this program, so node alone could not repeat what failed.
@@ -145,11 +162,11 @@ fn repeated_with_xtask(failure: Failure, run: BrowserRun) -> Failure {
 }
 
 /// Runs the tests in these browsers at the same time, since much of each test is waiting. What one wrote is shown when it ends.
-fn browsers(steps: &mut Steps, runs: &[BrowserRun], page: &str, absent: &Absent) -> Result<(), Failure> {
+fn browsers(steps: &mut Steps, runs: &[BrowserRun], tests: BrowserTests<'_>) -> Result<(), Failure> {
     let name = |run: BrowserRun| format!("The page in {run}");
     if let &[only] = runs {
         return steps.step(&name(only), || {
-            let outcome = browser(only, page, absent).run();
+            let outcome = browser(only, tests).run();
             outcome.map_err(|failure| repeated_with_xtask(failure, only))
         });
     }
@@ -158,7 +175,7 @@ fn browsers(steps: &mut Steps, runs: &[BrowserRun], page: &str, absent: &Absent)
     let in_background = |run: BrowserRun| {
         let path = logs.join(format!("{}.log", run.name()));
         let log = File::create(&path).doing(format!("writing {}", path.display()))?;
-        let outcome = browser(run, page, absent).run_into(&log);
+        let outcome = browser(run, tests).run_into(&log);
         let written = fs::read(&path).doing(format!("reading {}", path.display()))?;
         Ok((outcome, String::from_utf8_lossy(&written).into_owned()))
     };
