@@ -1,12 +1,11 @@
 //! `cargo xtask test`: every check, in order, stopping at the first failure.
 
-use std::fs::{self, File};
 use std::time::{Duration, Instant};
 
 use crate::absent::{self, Absent};
 use crate::args::TestOptions;
 use crate::browsers::{Browser, BrowserRun, RUNS};
-use crate::failure::{Doing as _, Failure};
+use crate::failure::Failure;
 use crate::prerequisites;
 use crate::process::Line;
 use crate::serve;
@@ -18,7 +17,7 @@ const BROWSER_TESTS: &str = "tests/browser";
 
 /// Runs all of them, or those in the browser alone.
 pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
-    let mut steps = Steps::new();
+    let mut steps = Steps::default();
     let absent = Absent::new()?;
     steps.step("What the tests draw with", prerequisites::ensure)?;
     steps.step("The wasm target", wasm::ensure_target)?;
@@ -28,12 +27,17 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     let page = page(&mut steps)?;
     let (here, elsewhere): (Vec<BrowserRun>, Vec<BrowserRun>) =
         options.browsers.iter().partition(|run| run.browser.is_run_here());
-    let browser_tests = BrowserTests {
+    let tests = BrowserTests {
         page: &page,
         only: options.only.as_deref(),
         absent: &absent,
     };
-    browsers(&mut steps, &here, browser_tests)?;
+    for run in here {
+        steps.step(&format!("The page in {run}"), || {
+            let outcome = browser(run, tests).run();
+            outcome.map_err(|failure| repeated_with_xtask(failure, run))
+        })?;
+    }
     steps.summary();
     for run in elsewhere {
         eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");
@@ -43,7 +47,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
 
 /// Draws the README's pictures.
 pub(crate) fn pictures() -> Result<(), Failure> {
-    let mut steps = Steps::new();
+    let mut steps = Steps::default();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
     let page = page(&mut steps)?;
     let run = RUNS[1];
@@ -161,79 +165,30 @@ fn repeated_with_xtask(failure: Failure, run: BrowserRun) -> Failure {
     }
 }
 
-/// Runs the tests in these browsers at the same time, since much of each test is waiting. What one wrote is shown when it ends.
-fn browsers(steps: &mut Steps, runs: &[BrowserRun], tests: BrowserTests<'_>) -> Result<(), Failure> {
-    let name = |run: BrowserRun| format!("The page in {run}");
-    if let &[only] = runs {
-        return steps.step(&name(only), || {
-            let outcome = browser(only, tests).run();
-            outcome.map_err(|failure| repeated_with_xtask(failure, only))
-        });
-    }
-    let logs = crate::target_dir().join("browser-tests");
-    fs::create_dir_all(&logs).doing(format!("making {}", logs.display()))?;
-    let in_background = |run: BrowserRun| {
-        let path = logs.join(format!("{}.log", run.name()));
-        let log = File::create(&path).doing(format!("writing {}", path.display()))?;
-        let outcome = browser(run, tests).run_into(&log);
-        let written = fs::read(&path).doing(format!("reading {}", path.display()))?;
-        Ok((outcome, String::from_utf8_lossy(&written).into_owned()))
-    };
-    eprintln!("\nIn {} browsers at once:", runs.len());
-    std::thread::scope(|scope| {
-        let tests = runs.iter().map(|&run| {
-            let started = Instant::now();
-            (run, scope.spawn(move || (in_background(run), started.elapsed())))
-        });
-        // All are started before the first is waited for, and all are waited for, also when one has failed.
-        let tests: Vec<_> = tests.collect();
-        let mut outcome = Ok(());
-        for (run, test) in tests {
-            let Ok((ended, elapsed)) = test.join() else {
-                return Err(Failure::Site(format!("what runs {run} has panicked")));
-            };
-            let (ended, written) = ended?;
-            eprintln!("\n── {}. {}\n{written}", steps.done.len() + 1, name(run));
-            steps.end(&name(run), elapsed, ended.is_ok());
-            outcome = outcome.and(ended.map_err(|failure| repeated_with_xtask(failure, run)));
-        }
-        outcome
-    })
-}
-
 /// Names each step, times it and lists them at the end.
+#[derive(Default)]
 struct Steps {
-    started: Instant,
     done: Vec<(String, Duration)>,
 }
 
 impl Steps {
-    fn new() -> Self {
-        Self {
-            started: Instant::now(),
-            done: Vec::new(),
-        }
-    }
-
     fn step<T>(&mut self, name: &str, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
         eprintln!("\n── {}. {name}", self.done.len() + 1);
         let started = Instant::now();
         let outcome = work();
-        self.end(name, started.elapsed(), outcome.is_ok());
+        let elapsed = started.elapsed();
+        let word = if outcome.is_ok() { "passed" } else { "FAILED" };
+        eprintln!("── {word} in {:.1} s: {name}", elapsed.as_secs_f32());
+        self.done.push((name.to_owned(), elapsed));
         outcome
     }
 
-    fn end(&mut self, name: &str, elapsed: Duration, passed: bool) {
-        let word = if passed { "passed" } else { "FAILED" };
-        eprintln!("── {word} in {:.1} s: {name}", elapsed.as_secs_f32());
-        self.done.push((name.to_owned(), elapsed));
-    }
-
     fn summary(&self) {
-        eprintln!("\nAll passed. Where there are several browsers, they ran at the same time.");
+        eprintln!("\nAll passed.");
         for (name, elapsed) in &self.done {
             eprintln!("{:8.1} s  {name}", elapsed.as_secs_f32());
         }
-        eprintln!("{:8.1} s  in all", self.started.elapsed().as_secs_f32());
+        let total: Duration = self.done.iter().map(|(_, elapsed)| elapsed).sum();
+        eprintln!("{:8.1} s  in all", total.as_secs_f32());
     }
 }

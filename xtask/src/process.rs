@@ -1,8 +1,7 @@
 //! Starting other programs, with the line shown first so that a person can repeat it.
 
 use std::ffi::OsStr;
-use std::fs::File;
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, Stdio};
 
 use crate::failure::Failure;
 
@@ -55,26 +54,15 @@ impl Line {
     /// Runs it with its output going to the terminal.
     pub(crate) fn run(mut self) -> Result<(), Failure> {
         eprintln!("$ {}", self.shown);
-        let status = self.command.status();
-        self.outcome(status)
-    }
-
-    /// Runs it beside others: its output goes to a file, for whoever shows it when it has ended.
-    pub(crate) fn run_into(mut self, output: &File) -> Result<(), Failure> {
-        let status = output.try_clone().and_then(|errors| {
-            let output = output.try_clone()?;
-            self.command.stdin(Stdio::null()).stdout(output).stderr(errors).status()
-        });
-        self.outcome(status)
-    }
-
-    fn outcome(self, status: std::io::Result<ExitStatus>) -> Result<(), Failure> {
-        let why = match status {
+        let failed = match self.command.status() {
             Ok(status) if status.success() => return Ok(()),
             Ok(status) => format!("the command ended with {status}"),
             Err(error) => format!("the command could not be started: {error}"),
         };
-        Err(Failure::Command { shown: self.shown, why })
+        Err(Failure::Command {
+            shown: self.shown,
+            why: failed,
+        })
     }
 
     /// Runs it quietly; gives what it wrote to standard output, or `None` when it is not there or ended with an error.
