@@ -351,7 +351,7 @@ actions! {
     BIND_POSE: Action::new(Group::Bones, &["K"], "bind pose, clip", "Bind pose", |session| {
         with_bones(session, Command::ToggleBindPose)
     })
-    .now(|session| on(session.bind_share() >= 1.0));
+    .now(|session| on(session.bind_weight() >= 1.0));
     /// Name the selected bone.
     NAME_BONE: Action::new(Group::Bones, &["F2"], "name the bone", "Rename", |session| {
         session.joints().selected().map(|_| Ask::NameBone)

@@ -130,7 +130,7 @@ impl Textures {
         Ok(textures)
     }
 
-    /// What became of each map that the materials name. `maps` has taken up [`Textures::pictures`].
+    /// What became of each map that the materials name. `maps` holds [`Textures::pictures`].
     pub(super) fn states<'a>(&'a self, materials: &'a [Material], maps: &'a Maps) -> Vec<NamedMap<'a>> {
         let unopened = find_maps(materials, &self.unopened, &[]);
         let unopened = |material: usize, slot| {

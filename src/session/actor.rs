@@ -14,7 +14,7 @@ pub(super) struct Actor {
     pub(super) scrubbing: bool,
     pub(super) mixer: Mixer,
     /// 0 the clip's pose … 1 the bind pose.
-    pub(super) bind_share: f32,
+    pub(super) bind_weight: f32,
     pub(super) pose: PoseBuffers,
     /// The revision of the pose in the buffers.
     posed: Option<u64>,
@@ -35,7 +35,7 @@ pub(super) struct PlaybackSettings {
 pub(super) struct PoseInputs {
     clip: Option<usize>,
     time_secs: f32,
-    bind_share: f32,
+    bind_weight: f32,
 }
 
 impl Actor {
@@ -53,7 +53,7 @@ impl Actor {
     pub(super) fn for_model_again(open: &OpenModel, before: &Self, clip_name: Option<&str>) -> Self {
         let mut actor = Self {
             playback: before.playback.clone(),
-            bind_share: before.bind_share,
+            bind_weight: before.bind_weight,
             ..Self::for_model(open, before)
         };
         let clips = &open.model.clips;
@@ -85,7 +85,7 @@ impl Actor {
         PoseInputs {
             clip: self.clip,
             time_secs: self.playback.time_secs(),
-            bind_share: self.bind_share,
+            bind_weight: self.bind_weight,
         }
     }
 
@@ -105,9 +105,9 @@ impl Actor {
     }
 
     /// NaN is ignored; other values are clamped to 0…1.
-    pub(super) fn set_bind_share(&mut self, share: f32) {
-        if !share.is_nan() {
-            self.bind_share = share.clamp(0.0, 1.0);
+    pub(super) fn set_bind_weight(&mut self, weight: f32) {
+        if !weight.is_nan() {
+            self.bind_weight = weight.clamp(0.0, 1.0);
         }
     }
 
@@ -121,7 +121,7 @@ impl Actor {
         match self.clip.and_then(|clip| open.compiled.get(clip)) {
             Some(clip) => {
                 self.mixer.pose(open, clip, self.playback.time_secs(), &mut self.pose);
-                self.pose.bring_toward_bind(skeleton, self.bind_share);
+                self.pose.bring_toward_bind(skeleton, self.bind_weight);
             }
             None => self.pose.set_bind_pose(skeleton),
         }
@@ -134,10 +134,10 @@ impl Actor {
     }
 
     /// Blends a second of `clip_count` clips into the one that plays.
-    pub(super) fn set_blend(&mut self, Blend { clip, share }: Blend, clip_count: usize) {
-        if clip < clip_count && Some(clip) != self.clip && !share.is_nan() {
-            let share = share.clamp(0.0, 1.0);
-            self.mixer.set_blend(Some(Blend { clip, share }));
+    pub(super) fn set_blend(&mut self, Blend { clip, weight }: Blend, clip_count: usize) {
+        if clip < clip_count && Some(clip) != self.clip && !weight.is_nan() {
+            let weight = weight.clamp(0.0, 1.0);
+            self.mixer.set_blend(Some(Blend { clip, weight }));
         }
     }
 
@@ -169,7 +169,7 @@ impl Actor {
             .mixer
             .clips()
             .fold(of_clip, |reach, clip| reach.union(open.extent(Some(clip)).0));
-        if self.bind_share > 0.0 {
+        if self.bind_weight > 0.0 {
             of_clips.union(open.bind_bounds)
         } else {
             of_clips

@@ -66,7 +66,9 @@ impl Session {
             Command::SelectClip(clip) => self.select_clip(clip),
             Command::CycleClip(places) => self.cycle_clip(places),
             Command::SetCrossfade(secs) => self.actor.mixer.set_crossfade(secs),
-            Command::SetBlend { clip, share } => self.actor.set_blend(Blend { clip, share }, self.content.clip_count()),
+            Command::SetBlend { clip, weight } => {
+                self.actor.set_blend(Blend { clip, weight }, self.content.clip_count());
+            }
             Command::ClearBlend => self.actor.mixer.set_blend(None),
             Command::SetSpeed(speed) => self.actor.playback.set_speed(speed),
             Command::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
@@ -168,10 +170,10 @@ impl Session {
                 }
             }
             Command::SelectAt(pointer) => self.select_at(pointer),
-            Command::SetBindShare(share) => self.actor.set_bind_share(share),
+            Command::SetBindWeight(weight) => self.actor.set_bind_weight(weight),
             Command::ToggleBindPose => {
-                let share = if self.actor.bind_share < 0.5 { 1.0 } else { 0.0 };
-                self.actor.set_bind_share(share);
+                let weight = if self.actor.bind_weight < 0.5 { 1.0 } else { 0.0 };
+                self.actor.set_bind_weight(weight);
             }
             Command::EditMaterial { index, material } => self.edit_material(index, &material),
             Command::ResetMaterial(material) => self.reset_material(material),

@@ -73,12 +73,12 @@ pub enum Command {
     /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
     /// Under reduced motion it is at once in any case.
     SetCrossfade(f32),
-    /// Blends a second clip into the one on show, at the same share of its length. Nothing for the clip on show itself.
+    /// Blends a second clip into the one on show, at the same fraction of its length. Nothing for the clip on show itself.
     SetBlend {
         /// Index of the clip.
         clip: usize,
-        /// Its share of the pose, clamped to 0…1.
-        share: f32,
+        /// Its weight in the pose, clamped to 0…1.
+        weight: f32,
     },
     /// Shows the clip on show alone.
     ClearBlend,
@@ -176,8 +176,8 @@ pub enum Command {
     SelectAt(Vec2),
     /// Which joints are selected, hovered, how they are called and shown.
     Joint(JointCommand),
-    /// Brings the pose a share of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
-    SetBindShare(f32),
+    /// Brings the pose a part of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
+    SetBindWeight(f32),
     /// The bind pose, or the clip's, in turn.
     ToggleBindPose,
     /// Draws a material with the values of another. Its names, the names of its maps and its book stay; numbers are brought
@@ -190,9 +190,9 @@ pub enum Command {
     },
     /// Draws a material as the file has it.
     ResetMaterial(usize),
-    /// Shows poses before and after that of now as veils, or none.
+    /// Shows poses before and after that of now as ghosts, or none.
     SetGhosts(Option<GhostPlan>),
-    /// Shows the bind pose as a veil, or not.
+    /// Shows the bind pose as a ghost, or not.
     SetBindGhost(bool),
     /// Light, view mode, background, lines.
     Look(LookCommand),
@@ -200,7 +200,7 @@ pub enum Command {
     SetPass(Pass, PassChoice),
     /// How fine the picture in the window is.
     SetRenderScale(RenderScale),
-    /// Dark or light surroundings.
+    /// The dark or the light theme.
     SetTheme(Theme),
     /// Looks at the open model as a state says; see [`super::Session::view_state`]. Clips, bones and subsets that the model has not
     /// are ignored, and numbers are brought into their ranges.

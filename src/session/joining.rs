@@ -8,7 +8,7 @@ use super::open_model::{ClipFacts, JoinedFile, OpenModel};
 use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
 use crate::model::{Skeleton, unique_names};
 
-/// Numbers of two bone offsets that differ by less are the same: lengths as shares of the model's size, axes as they are.
+/// Numbers of two bone offsets that differ by less are the same: lengths as fractions of the model's size, axes as they are.
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
 const OFFSET_TOLERANCE: f32 = 1e-3;
 

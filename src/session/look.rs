@@ -10,7 +10,7 @@ const BOOK_TURN_RADIANS_PER_SEC: f32 = 0.1;
 /// Stops of exposure that can be asked for, either way.
 pub const MAX_EXPOSURE_STOPS: f32 = 4.0;
 
-/// The longest line along a normal, as a share of the scene's radius.
+/// The longest line along a normal, as a fraction of the scene's radius.
 pub const MAX_LINE_LENGTH: f32 = 0.25;
 
 /// How the model is looked at.
@@ -18,7 +18,7 @@ pub const MAX_LINE_LENGTH: f32 = 0.25;
 pub struct Look {
     /// Studio or book light.
     pub light: Light,
-    /// Where the picture is divided between both lights, as a share of its width.
+    /// Where the picture is divided between both lights, as a fraction of its width.
     pub split: Option<f32>,
     /// What of a surface is shown.
     pub view_mode: ViewMode,
@@ -26,7 +26,7 @@ pub struct Look {
     pub background: Background,
     /// Lines over and beside the model.
     pub overlays: Overlays,
-    /// Turn of the surroundings about y, radians.
+    /// Turn of the environment about y, radians.
     pub environment_turn_radians: f32,
     /// Exposure of the studio light.
     pub exposure_stops: f32,
@@ -43,7 +43,7 @@ pub enum LookCommand {
     SetLight(Light),
     /// The other light.
     ToggleLight,
-    /// Divides the picture between both lights at a share of its width, or shows one.
+    /// Divides the picture between both lights at a fraction of its width, or shows one.
     SetSplit(Option<f32>),
     /// What of a surface is shown.
     SetViewMode(ViewMode),
@@ -55,11 +55,11 @@ pub enum LookCommand {
     SetOverlay(Overlay, bool),
     /// Shows or hides lines, in turn.
     ToggleOverlay(Overlay),
-    /// Length of the lines along normals and tangents, as a share of the scene's radius.
+    /// Length of the lines along normals and tangents, as a fraction of the scene's radius.
     SetLineLength(f32),
-    /// Turns the surroundings to an angle about y, radians.
+    /// Turns the environment to an angle about y, radians.
     SetEnvironmentTurn(f32),
-    /// Turns the surroundings on by an angle about y, radians.
+    /// Turns the environment on by an angle about y, radians.
     TurnEnvironment(f32),
     /// Exposure of the studio light; each stop doubles it.
     SetExposure(f32),

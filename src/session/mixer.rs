@@ -12,13 +12,13 @@ pub const MAX_CROSSFADE_SECS: f32 = 10.0;
 /// Fades at one time. Who changes clips more often within one fade sees the oldest of them leave early.
 const MOST_FADES: usize = 4;
 
-/// A second clip in the pose, at the same share of its length as the clip on show.
+/// A second clip in the pose, at the same fraction of its length as the clip on show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend {
     /// Index of the clip.
     pub clip: usize,
-    /// Its share of the pose, 0…1; the rest is the clip on show.
-    pub share: f32,
+    /// Its weight in the pose, 0…1; the rest is the clip on show.
+    pub weight: f32,
 }
 
 /// What is posed beside the clip on show.
@@ -58,7 +58,7 @@ struct Fade {
 
 impl Fade {
     /// How much of what comes next is seen: slow at both ends, so that neither shows a jolt.
-    fn share_of_next(&self) -> f32 {
+    fn weight_of_next(&self) -> f32 {
         let part = (self.elapsed_secs / self.duration_secs).clamp(0.0, 1.0);
         part * part * (3.0 - 2.0 * part)
     }
@@ -169,16 +169,16 @@ impl Mixer {
     pub(super) fn pose(&mut self, open: &OpenModel, shown: &CompiledClip, time_secs: f32, buffers: &mut PoseBuffers) {
         let clips = &open.compiled;
         let Self { scratch, pose, .. } = self;
-        let mut next_share = None;
+        let mut next_weight = None;
         for fade in &self.fades {
             if let Some(clip) = clips.get(fade.clip) {
                 scratch.pose_layer(clips, clip, fade.blend, fade.playback.time_secs());
-                scratch.put_over(pose, next_share);
-                next_share = Some(fade.share_of_next());
+                scratch.put_over(pose, next_weight);
+                next_weight = Some(fade.weight_of_next());
             }
         }
         scratch.pose_layer(clips, shown, self.blend, time_secs);
-        scratch.put_over(pose, next_share);
+        scratch.put_over(pose, next_weight);
         std::mem::swap(pose, &mut buffers.local);
         buffers.place(&open.model.skeleton);
     }
@@ -203,19 +203,19 @@ impl Scratch {
     /// A clip and what is blended into it, in `layer`.
     fn pose_layer(&mut self, clips: &[CompiledClip], clip: &CompiledClip, with: Option<Blend>, time_secs: f32) {
         sample(clip, time_secs, &mut self.layer);
-        if let Some(Blend { clip: index, share }) = with
+        if let Some(Blend { clip: index, weight }) = with
             && let Some(other) = clips.get(index)
         {
             sample(other, time_in_step(clip, time_secs, other), &mut self.second);
-            blend(&self.layer, &self.second, share, &mut self.out);
+            blend(&self.layer, &self.second, weight, &mut self.out);
             std::mem::swap(&mut self.layer, &mut self.out);
         }
     }
 
-    /// The layer over a pose with a share, or in its place.
-    fn put_over(&mut self, pose: &mut LocalPose, share: Option<f32>) {
-        if let Some(share) = share {
-            blend(pose, &self.layer, share, &mut self.out);
+    /// Blends the layer over a pose with a weight, or puts it in its place.
+    fn put_over(&mut self, pose: &mut LocalPose, weight: Option<f32>) {
+        if let Some(weight) = weight {
+            blend(pose, &self.layer, weight, &mut self.out);
             std::mem::swap(pose, &mut self.out);
         } else {
             std::mem::swap(pose, &mut self.layer);
@@ -223,7 +223,7 @@ impl Scratch {
     }
 }
 
-/// The time of `other` at the share of its length that `time_secs` is of `clip`'s; its start when `clip` has no length.
+/// The time of `other` at the fraction of its length that `time_secs` is of `clip`'s; its start when `clip` has no length.
 fn time_in_step(clip: &CompiledClip, time_secs: f32, other: &CompiledClip) -> f32 {
     let start_secs = f64::from(clip.start_secs());
     let length_secs = f64::from(clip.end_secs()) - start_secs;

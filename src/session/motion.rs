@@ -183,15 +183,15 @@ impl Glide {
     /// Quick at first and slow at the end: the way that is left shrinks with the third power of the time that is left.
     fn camera(&self) -> Camera {
         let left = 1.0 - (self.elapsed_secs / GLIDE_SECS).clamp(0.0, 1.0);
-        let share = 1.0 - left * left * left;
+        let fraction = 1.0 - left * left * left;
         let Self { from, to, .. } = self;
-        let mix = |a: f32, b: f32| a * (1.0 - share) + b * share;
+        let mix = |a: f32, b: f32| a * (1.0 - fraction) + b * fraction;
         // The short way round.
         let yaw = (to.yaw_radians - from.yaw_radians + PI).rem_euclid(TAU) - PI;
         Camera {
-            target: from.target * (1.0 - share) + to.target * share,
+            target: from.target * (1.0 - fraction) + to.target * fraction,
             distance: mix(from.distance.ln(), to.distance.ln()).exp(),
-            yaw_radians: (from.yaw_radians + yaw * share).rem_euclid(TAU),
+            yaw_radians: (from.yaw_radians + yaw * fraction).rem_euclid(TAU),
             pitch_radians: mix(from.pitch_radians, to.pitch_radians),
             projection: to.projection,
         }

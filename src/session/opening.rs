@@ -202,7 +202,7 @@ impl Session {
         let name = |index: usize| Some(self.content.clips().get(index)?.name.clone());
         ShownClips {
             shown: self.actor.clip.and_then(name),
-            blended: self.blend().and_then(|blend| Some((name(blend.clip)?, blend.share))),
+            blended: self.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
         }
     }
 
@@ -235,10 +235,10 @@ impl Session {
             }
         }
         actor.mixer.set_blend(None);
-        if let Some((name, share)) = &before.blended
+        if let Some((name, weight)) = &before.blended
             && let Some(clip) = place_of(name)
         {
-            actor.set_blend(Blend { clip, share: *share }, clips.len());
+            actor.set_blend(Blend { clip, weight: *weight }, clips.len());
         }
         if actor.playback.time_secs() != was_at {
             self.note(Event::TimeUpdate);

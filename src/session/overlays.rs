@@ -196,8 +196,8 @@ fn ghost_color(ghost: usize, past: usize, count: usize) -> [u8; 4] {
         (ghost - past + 1, count - past, FUTURE_SRGB)
     };
     let [near, far] = GHOST_ALPHA.map(f32::from);
-    let share = (steps_away - 1) as f32 / most.max(1) as f32;
-    [red, green, blue, (near + (far - near) * share) as u8]
+    let fraction = (steps_away - 1) as f32 / most.max(1) as f32;
+    [red, green, blue, (near + (far - near) * fraction) as u8]
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@ use crate::model::JointIndex;
 impl Session {
     /// How far the pose is brought to the bind pose: 0 as the clip has it … 1 the bind pose. See
     /// [`crate::anim::blend_to_rest`].
-    pub fn bind_share(&self) -> f32 {
-        self.actor.bind_share
+    pub fn bind_weight(&self) -> f32 {
+        self.actor.bind_weight
     }
 
     /// Brings the pose to the clip and the time.

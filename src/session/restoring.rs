@@ -94,7 +94,7 @@ impl Session {
         self.actor.mixer.set_crossfade(state.crossfade_secs);
         self.actor.mixer.end_fades();
         self.actor.mixer.set_blend(None);
-        self.actor.set_bind_share(state.bind_weight);
+        self.actor.set_bind_weight(state.bind_weight);
         let playback = &mut self.actor.playback;
         playback.set_speed(state.speed);
         playback.set_loop_mode(state.loop_mode);
@@ -108,10 +108,10 @@ impl Session {
             return;
         };
         self.actor.show_clip(open, clip);
-        if let Some((name, share)) = &state.blend
+        if let Some((name, weight)) = &state.blend
             && let Some(clip) = named(name)
         {
-            self.actor.set_blend(Blend { clip, share: *share }, clips.len());
+            self.actor.set_blend(Blend { clip, weight: *weight }, clips.len());
         }
         if let Some([start_secs, end_secs]) = state.range_secs {
             self.actor.playback.set_range_end(end_secs);

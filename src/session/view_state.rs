@@ -236,9 +236,9 @@ impl PlaybackState {
             loop_mode: playback.loop_mode(),
             wrap_mode: playback.wrap_mode(),
             range_secs: playback.range_secs(),
-            blend: mixer.blend().and_then(|blend| Some((name(blend.clip)?, blend.share))),
+            blend: mixer.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
             crossfade_secs: mixer.crossfade_secs(),
-            bind_weight: actor.bind_share,
+            bind_weight: actor.bind_weight,
         }
     }
 }

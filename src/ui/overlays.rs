@@ -63,7 +63,7 @@ fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
 fn any_of_skeleton(session: &Session) -> bool {
     let joints = session.joints();
     let over = joints.bones_visible() || !joints.trails().is_empty();
-    over || session.ghost_plan().is_some() || session.bind_ghost() || session.bind_share() > 0.0
+    over || session.ghost_plan().is_some() || session.bind_ghost() || session.bind_weight() > 0.0
 }
 
 /// Bones, names, bind pose, ghosts, trails.
@@ -92,7 +92,7 @@ fn skeleton_rows(ui: &mut Ui, session: &Session, state: &mut SkeletonState, comm
 }
 
 fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let weight = session.bind_share();
+    let weight = session.bind_weight();
     if session.clip().is_some() {
         let toggle = &actions::BIND_POSE;
         if switch_row(ui, toggle.label, toggle.key(), weight >= 0.5).clicked() {
@@ -100,7 +100,7 @@ fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         }
         let text = format!("{:.0} %", weight * 100.0);
         if let Some(weight) = Slider::new("To bind pose", weight, 0.0..=1.0, &text).show(ui) {
-            commands.push(Command::SetBindShare(weight));
+            commands.push(Command::SetBindWeight(weight));
         }
     }
     if switch_row(ui, "Bind pose as a ghost", "", session.bind_ghost()).clicked() {

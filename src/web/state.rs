@@ -174,7 +174,7 @@ fn blend(session: &Session) -> Option<Blend<'_>> {
     let clip = session.open_model().and_then(|open| open.model.clips.get(blend.clip));
     Some(Blend {
         clip: clip.map(|clip| &*clip.name),
-        share: blend.share,
+        share: blend.weight,
     })
 }
 
@@ -218,7 +218,7 @@ fn skeleton(session: &Session) -> Skeleton<'_> {
         bone_style: joints.bone_style().name(),
         labels_visible: joints.labels_visible(),
         skin_view: joints.skin_view().map(|view| view.name()),
-        bind_share: session.bind_share(),
+        bind_share: session.bind_weight(),
         names: names.map(|(bone, name)| (bone.to_string(), name.as_str())).collect(),
     }
 }

@@ -1,7 +1,7 @@
 //! Tests of `anim`.
 
 mod activity;
-mod bind_share;
+mod bind_weight;
 mod blend;
 mod bounds;
 mod curve;

@@ -287,7 +287,7 @@ fn curves_on_a_phone() {
 
 #[test]
 fn clips_and_how_they_are_mixed() {
-    let then = vec![Command::SetBlend { clip: 1, share: 0.5 }];
+    let then = vec![Command::SetBlend { clip: 1, weight: 0.5 }];
     compare(
         "wide-dark-clips",
         &draw_after(WIDE, Theme::Dark, false, then, &["Clip "]),

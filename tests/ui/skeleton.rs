@@ -49,7 +49,7 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     let joints = window.session().joints();
     assert!(joints.bones_visible() && joints.labels_visible());
     assert_eq!(joints.skin_view(), Some(SkinView::Weight));
-    assert_eq!(window.session().bind_share(), 1.0);
+    assert_eq!(window.session().bind_weight(), 1.0);
     assert!(window.shows("Legend: Weight of a bone"));
     press(&mut window, Modifiers::SHIFT, Key::B);
     press(&mut window, Modifiers::NONE, Key::B);
@@ -57,7 +57,7 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     press(&mut window, Modifiers::NONE, Key::K);
     let joints = window.session().joints();
     assert!(!joints.bones_visible() && !joints.labels_visible() && joints.skin_view().is_none());
-    assert_eq!(window.session().bind_share(), 0.0);
+    assert_eq!(window.session().bind_weight(), 0.0);
     let mut still = window_of_still();
     still.press(Modifiers::NONE, Key::B);
     assert!(!still.session().joints().bones_visible(), "no bones, no key");
@@ -215,7 +215,7 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     window.click("Bind pose as a ghost");
     assert!(window.session().bind_ghost());
     window.click("To bind pose");
-    let share = window.session().bind_share();
+    let share = window.session().bind_weight();
     assert!((0.4..0.6).contains(&share), "{share}");
     window.click("Ghosts");
     let plan = GhostPlan {

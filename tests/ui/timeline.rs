@@ -367,7 +367,7 @@ fn clips_are_blended_faded_and_added() {
         assert_eq!(window.harness.state().requests, [Request::PickClips]);
         window.click("Blend with Turn");
         assert_eq!(
-            window.session().blend().map(|blend| (blend.clip, blend.share)),
+            window.session().blend().map(|blend| (blend.clip, blend.weight)),
             Some((1, 0.5))
         );
         let weight = window.rect("Weight");
@@ -376,7 +376,7 @@ fn clips_are_blended_faded_and_added() {
         window.harness.drag_at(at);
         window.harness.drop_at(at);
         window.pass_on();
-        assert_eq!(window.session().blend().map(|blend| blend.share), Some(1.0));
+        assert_eq!(window.session().blend().map(|blend| blend.weight), Some(1.0));
         window.click("End the blend with Turn");
         assert_eq!(window.session().blend(), None);
         let fade = window.rect("Crossfade");

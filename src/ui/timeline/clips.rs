@@ -149,7 +149,7 @@ fn blend_icon(
         } else {
             Command::SetBlend {
                 clip: index,
-                share: 0.5,
+                weight: 0.5,
             }
         });
     }
@@ -172,12 +172,12 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
     if section_with_action(ui, "Blend", Some("End")) {
         commands.push(Command::ClearBlend);
     }
-    let text = format!("{:.0} %", blend.share * 100.0);
-    let weight = Slider::new("Weight", blend.share, 0.0..=1.0, &text).reset_to(0.5);
-    if let Some(share) = weight.show(ui) {
+    let text = format!("{:.0} %", blend.weight * 100.0);
+    let weight = Slider::new("Weight", blend.weight, 0.0..=1.0, &text).reset_to(0.5);
+    if let Some(weight) = weight.show(ui) {
         commands.push(Command::SetBlend {
             clip: blend.clip,
-            share,
+            weight,
         });
     }
     paint_ends(ui, names);

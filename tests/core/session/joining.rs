@@ -298,7 +298,7 @@ fn a_file_that_is_added_again_replaces_its_clips_where_they_stood() {
     add(&mut session, guest("run.m3d", &["run"], 5));
     let model = (session.model_revision(), session.clips_revision());
     session.apply(Command::SelectClip(3));
-    session.apply(Command::SetBlend { clip: 1, share: 0.25 });
+    session.apply(Command::SetBlend { clip: 1, weight: 0.25 });
     session.apply(Command::Seek { time_secs: 0.5 });
     session.take_events();
     let picture = session.picture_revision();
@@ -318,7 +318,7 @@ fn a_file_that_is_added_again_replaces_its_clips_where_they_stood() {
         (Some(4), 0.5),
         "the clip on show is found under its new number"
     );
-    assert_eq!(session.blend().map(|blend| (blend.clip, blend.share)), Some((1, 0.25)));
+    assert_eq!(session.blend().map(|blend| (blend.clip, blend.weight)), Some((1, 0.25)));
     assert!(session.is_animating());
     assert_eq!(session.take_events(), [Event::PlaybackChange]);
     let told = |session: &Session| {

@@ -293,7 +293,7 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
     ] {
         session.apply(joint(command));
     }
-    session.apply(Command::SetBindShare(0.5));
+    session.apply(Command::SetBindWeight(0.5));
     let again = |session: &mut Session, path: &str, count| {
         session.apply(Command::AddFiles(vec![models::file(path, &mirrored(count))]));
     };
@@ -305,7 +305,7 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
     );
     assert!(session.joints().is_folded(JointIndex(2)));
     assert_eq!(session.joints().selected_vertex(), None, "of the old mesh");
-    assert_eq!(session.bind_share(), 0.5);
+    assert_eq!(session.bind_weight(), 0.5);
 
     again(&mut session, "chains.m3d", 7);
     assert!(session.joint_names().is_empty(), "another hierarchy");
@@ -314,32 +314,32 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
     rename(&mut session, 1, "arm");
     again(&mut session, "other.m3d", 7);
     assert!(session.joint_names().is_empty() && session.joints().trails().is_empty());
-    assert_eq!(session.bind_share(), 0.0);
+    assert_eq!(session.bind_weight(), 0.0);
     assert!(session.joints().bones_visible(), "how it is shown stays");
     assert_eq!(session.joints().skin_view(), Some(SkinView::Weight));
 }
 
 #[test]
-fn the_bind_share_goes_from_the_clip_to_the_bind_pose_and_back() {
+fn the_bind_weight_goes_from_the_clip_to_the_bind_pose_and_back() {
     let mut session = opened(moving("a.m3d"));
     session.apply(Command::Pause);
     session.apply(Command::Seek { time_secs: 0.3 });
     let animated = session.frame().palette.0.clone();
     let revision = session.picture_revision();
-    session.apply(Command::SetBindShare(0.25));
+    session.apply(Command::SetBindWeight(0.25));
     assert!(session.picture_revision() > revision);
     assert_ne!(session.frame().palette.0, animated);
-    session.apply(Command::SetBindShare(f32::NAN));
-    assert_eq!(session.bind_share(), 0.25);
+    session.apply(Command::SetBindWeight(f32::NAN));
+    assert_eq!(session.bind_weight(), 0.25);
     session.apply(Command::ToggleBindPose);
-    assert_eq!(session.bind_share(), 1.0);
+    assert_eq!(session.bind_weight(), 1.0);
     assert_eq!(session.frame().palette.0, [Affine3A::IDENTITY; 2]);
     let hit = session.pick(Vec2::ZERO).expect("the model is in the middle");
     session.apply(Command::ToggleBindPose);
     assert_eq!(session.frame().palette.0, animated);
     assert_ne!(session.pick(Vec2::ZERO), Some(hit), "what is picked is what is seen");
-    session.apply(Command::SetBindShare(7.0));
-    assert_eq!(session.bind_share(), 1.0);
+    session.apply(Command::SetBindWeight(7.0));
+    assert_eq!(session.bind_weight(), 1.0);
 }
 
 #[test]

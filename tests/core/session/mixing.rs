@@ -28,9 +28,9 @@ fn pose(session: &Session, clip: usize, time_secs: f32) -> LocalPose {
     pose
 }
 
-fn mixed(from: &LocalPose, to: &LocalPose, share: f32) -> LocalPose {
+fn mixed(from: &LocalPose, to: &LocalPose, weight: f32) -> LocalPose {
     let mut out = LocalPose::default();
-    blend(from, to, share, &mut out);
+    blend(from, to, weight, &mut out);
     out
 }
 
@@ -235,7 +235,7 @@ fn odd_lengths_of_fades_are_left_out() {
 }
 
 #[test]
-fn two_clips_blend_at_the_same_share_of_their_lengths() {
+fn two_clips_blend_at_the_same_fraction_of_their_lengths() {
     for bones in JOINT_COUNTS {
         let mut session = playing(bones);
         session.apply(Command::SelectClip(2));
@@ -244,8 +244,8 @@ fn two_clips_blend_at_the_same_share_of_their_lengths() {
             let ragged = &session.open_model().expect("open").model.clips[0];
             [ragged.start_secs, ragged.end_secs]
         };
-        session.apply(Command::SetBlend { clip: 0, share: 0.3 });
-        assert_eq!(session.blend(), Some(Blend { clip: 0, share: 0.3 }));
+        session.apply(Command::SetBlend { clip: 0, weight: 0.3 });
+        assert_eq!(session.blend(), Some(Blend { clip: 0, weight: 0.3 }));
         for phase in [0.0_f32, 0.25, 0.5, 1.0] {
             session.apply(Command::Seek {
                 time_secs: 3.0 + 2.0 * phase,
@@ -260,11 +260,11 @@ fn two_clips_blend_at_the_same_share_of_their_lengths() {
                 "{bones} {phase}"
             );
         }
-        session.apply(Command::SetBlend { clip: 0, share: 0.0 });
+        session.apply(Command::SetBlend { clip: 0, weight: 0.0 });
         let shown = pose(&session, 2, 5.0);
         assert_shows(&mut session, shown.clone());
-        session.apply(Command::SetBlend { clip: 0, share: 7.0 });
-        assert_eq!(session.blend().map(|blend| blend.share), Some(1.0));
+        session.apply(Command::SetBlend { clip: 0, weight: 7.0 });
+        assert_eq!(session.blend().map(|blend| blend.weight), Some(1.0));
         session.apply(Command::ClearBlend);
         assert_eq!(session.blend(), None);
         assert_shows(&mut session, shown);
@@ -275,11 +275,11 @@ fn two_clips_blend_at_the_same_share_of_their_lengths() {
 fn a_blend_needs_another_clip_that_is_there() {
     let mut session = playing(1);
     let picture = session.picture_revision();
-    for (clip, share) in [(0, 0.5), (3, 0.5), (1, f32::NAN)] {
-        session.apply(Command::SetBlend { clip, share });
+    for (clip, weight) in [(0, 0.5), (3, 0.5), (1, f32::NAN)] {
+        session.apply(Command::SetBlend { clip, weight });
         assert_eq!((session.blend(), session.picture_revision()), (None, picture));
     }
-    session.apply(Command::SetBlend { clip: 2, share: 0.5 });
+    session.apply(Command::SetBlend { clip: 2, weight: 0.5 });
     assert!(session.picture_revision() > picture);
     session.apply(Command::SelectClip(1));
     assert_eq!(
@@ -289,7 +289,7 @@ fn a_blend_needs_another_clip_that_is_there() {
     );
     session.apply(Command::SelectClip(2));
     assert_eq!(session.blend(), None, "but not with itself");
-    session.apply(Command::SetBlend { clip: 0, share: 0.5 });
+    session.apply(Command::SetBlend { clip: 0, weight: 0.5 });
     let file = session.open_model().expect("open").file.clone();
     session.apply(Command::AddFiles(vec![file]));
     assert_eq!(session.blend(), None);
@@ -301,7 +301,7 @@ fn the_box_holds_all_clips_in_the_pose() {
     session.apply(Command::SelectClip(1));
     session.apply(Command::Pause);
     let still = session.world_bounds();
-    session.apply(Command::SetBlend { clip: 2, share: 0.5 });
+    session.apply(Command::SetBlend { clip: 2, weight: 0.5 });
     let both = session.world_bounds();
     // The first bone of the third clip wanders two units along x.
     assert!(
@@ -335,15 +335,15 @@ fn ghosts_and_trails_are_of_what_is_on_show_a_blend_too() {
     );
 
     let mut trails = Vec::new();
-    for share in [0.0, 0.5] {
-        session.apply(Command::SetBlend { clip: 2, share });
+    for weight in [0.0, 0.5] {
+        session.apply(Command::SetBlend { clip: 2, weight });
         let expected = [-away_secs, away_secs].map(|by_secs| {
             let time_secs = now_secs + by_secs;
             let part = (time_secs - clip.start_secs) / (clip.end_secs - clip.start_secs);
             let local = mixed(
                 &pose(&session, 0, time_secs),
                 &pose(&session, 2, 3.0 + 2.0 * part),
-                share,
+                weight,
             );
             palette(&session, local)
         });
@@ -358,11 +358,11 @@ fn ghosts_and_trails_are_of_what_is_on_show_a_blend_too() {
         for (ghost, expected) in ghosts.iter().flatten().zip(expected.iter().flatten()) {
             assert!(
                 ghost.abs_diff_eq(*expected, 1e-5),
-                "blend {share}: {ghost} instead of {expected}"
+                "blend {weight}: {ghost} instead of {expected}"
             );
         }
         trails.push(trail(&mut session));
     }
-    assert!(trails[0] == alone, "a share of nothing changes nothing");
+    assert!(trails[0] == alone, "a weight of nothing changes nothing");
     assert!(trails[1] != alone, "the way of the blend is another");
 }

@@ -146,7 +146,7 @@ fn timeline() -> impl Strategy<Value = Command> {
         Just(Command::ClearRange),
         prop::sample::select(vec![WrapMode::Wrap, WrapMode::BookDemo]).prop_map(Command::SetWrapMode),
         number().prop_map(Command::SetCrossfade),
-        (0usize..5, number()).prop_map(|(clip, share)| Command::SetBlend { clip, share }),
+        (0usize..5, number()).prop_map(|(clip, weight)| Command::SetBlend { clip, weight }),
         Just(Command::ClearBlend),
     ]
 }
@@ -214,7 +214,7 @@ fn plain_command() -> impl Strategy<Value = Command> {
         4 => moving_camera(),
         4 => subset_command().prop_map(Command::Subset),
         5 => joint_command().prop_map(Command::Joint),
-        1 => number().prop_map(Command::SetBindShare),
+        1 => number().prop_map(Command::SetBindWeight),
         1 => Just(Command::ToggleBindPose),
         1 => any::<bool>().prop_map(Command::SetBindGhost),
         1 => prop::option::of((0u32..40, 0u32..40, 0u32..3)).prop_map(|plan| {
@@ -302,7 +302,7 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
 }
 
 fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError> {
-    prop_assert!((0.0..=1.0).contains(&session.bind_share()));
+    prop_assert!((0.0..=1.0).contains(&session.bind_weight()));
     let joints = session.joints().clone();
     prop_assert_eq!(joints.count(), count);
     let marked = [joints.selected(), joints.hovered()].into_iter().flatten();

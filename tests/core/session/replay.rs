@@ -53,7 +53,7 @@ fn snapshot(session: &mut Session) -> String {
         session.weighed_joint(),
         session.ghost_plan(),
         session.bind_ghost(),
-        session.bind_share(),
+        session.bind_weight(),
     );
     let look = (session.look(), session.sky_file().map(|file| &file.path));
     let revisions = (
