@@ -34,7 +34,15 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     };
     for run in here {
         steps.step(&format!("The page in {run}"), || {
-            let outcome = browser(run, tests).run();
+            let outcome = match browser(run, tests).run() {
+                // Chromium's tests are tried again one by one. The walk in the others is one piece, and a browser may fail in it
+                // that does not the next time: WebKit's compiler was seen to give the program wrong numbers.
+                Err(_) if run.browser != Browser::Chromium => {
+                    eprintln!("── The page in {run} is tried again; what fails twice is broken.");
+                    browser(run, tests).run()
+                }
+                outcome => outcome,
+            };
             outcome.map_err(|failure| repeated_with_xtask(failure, run))
         })?;
     }
