@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { atRest, call, keep, settled, state, test, turnPhone, until } from "./harness.js";
 import { LOW_SHEET_BUTTON, LOW_TIME_BAR, PHONE_TIME_BAR } from "./widgets.js";
 
-const PHONE = { phone: true, reducedMotion: "reduce" };
+const PHONE = { phone: true };
 const STEPS = 6;
 
 /** Puts fingers down where they begin, moves them together to where they end, and lifts them. */

@@ -126,8 +126,8 @@ export async function turnPhone(page, width, height) {
 }
 
 /** Gives a page its window and what the person prefers. */
-async function furnish(page, device, { viewport = VIEWPORT, colorScheme = "dark", reducedMotion = "no-preference" }) {
-  await page.emulateMedia({ colorScheme, reducedMotion });
+async function furnish(page, device, { viewport = VIEWPORT, colorScheme = "dark", motion = false }) {
+  await page.emulateMedia({ colorScheme, reducedMotion: motion ? "no-preference" : "reduce" });
   if (isPhone(device)) await turnPhone(page, 390, 844);
   else await page.setViewportSize(viewport);
 }
@@ -156,12 +156,13 @@ async function sharedPage(device, options) {
 }
 
 /**
- * A test in the page. `viewport`, `colorScheme` and `reducedMotion` are the person's; `phone` gives a small screen under fingers,
- * `sharp` that with two pixels to the point. A test is quicker without what it does not look at: `passes` draws all that a saved picture
- * can have, `fine` the view and the panels in the window too, with every pixel. Tests share a page, which begins anew for each. A test has a page of its own with
- * `own`, for one that leaves traces in the page, or when it says how the page is loaded: `query` is added to the address, `prepare` may
- * change the page before, `bare` does not wait for the viewer. A test fails when the page logs an error, unless `expectErrors` says
- * that it may, and once it has failed twice.
+ * A test in the page. `viewport` and `colorScheme` are the person's; `phone` gives a small screen under fingers, `sharp` that with two
+ * pixels to the point. A test is quicker without what it does not look at: `motion` lets the sample play and the camera coast, which
+ * a person who prefers reduced motion does not have; `passes` draws all that a saved picture can have; `fine` draws every pixel of the
+ * view and the panels. Tests share a page, which begins anew for each. A test has a page of its own with `own`, for one that leaves
+ * traces in the page, or when it says how the page is loaded: `query` is added to the address, `prepare` may change the page before,
+ * `bare` does not wait for the viewer. A test fails when the page logs an error, unless `expectErrors` says that it may, and once it
+ * has failed twice.
  */
 export function test(name, options, body) {
   const { query, prepare, expectErrors = false, skip, bare = false, phone = false, sharp = false, passes = false, fine = false, own = false, ...person } = options;
@@ -181,7 +182,7 @@ export function test(name, options, body) {
         page = await sharedPage(device, person);
       }
       if (!bare) {
-        const left = fine || passes ? [] : PASSES;
+        const left = passes ? [] : PASSES;
         const scale = fine ? 1 : COARSE;
         await page.evaluate(([left, scale]) => {
           left.forEach((pass) => bindpose.setPass(pass, false));
@@ -316,9 +317,9 @@ export async function drag(page, [fromX, fromY], [toX, toY], { button = "left" }
   await page.mouse.up({ button });
 }
 
-/** Waits for the next frames to be on screen. */
+/** Waits for the next frames to be on screen: the first of them has dealt with all input until now. */
 export function settled(page) {
-  return page.evaluate(() => new Promise((done) => setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 100)));
+  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
 /** Waits until the camera has come to rest after a drag and nothing more is drawn. The clip must be paused. */

@@ -5,10 +5,8 @@ import { atRest, drag, settled, state, test, until } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
 import { GROUND } from "./widgets.js";
 
-/** The sample waits on its first frame, and the camera is where it was sent at once. */
-const STILL = { reducedMotion: "reduce" };
 /** So too in a window so small that this GPU of software draws many frames a second: there are many keys. */
-const SMALL = { ...STILL, viewport: { width: 360, height: 300 } };
+const SMALL = { viewport: { width: 360, height: 300 } };
 /** Ground beside the figure there. */
 const SMALL_GROUND = [50, 150];
 
@@ -122,7 +120,7 @@ test("the keys for the look", SMALL, async (page) => {
 /** Where the table of keys hangs from its button. */
 const HELP = { x: 640, y: 60, width: 308, height: 400 };
 
-test("the question mark shows the table, and again takes it away", STILL, async (page) => {
+test("the question mark shows the table, and again takes it away", {}, async (page) => {
   await focusView(page, GROUND);
   const shown = async () => {
     await atRest(page);
@@ -203,7 +201,7 @@ function focused(page) {
   });
 }
 
-test("while nothing has the focus keys go to the only viewer, and it gets the focus by those that it acts on", STILL, async (page) => {
+test("while nothing has the focus keys go to the only viewer, and it gets the focus by those that it acts on", {}, async (page) => {
   await page.evaluate(() => document.activeElement?.blur());
   assert.equal(await focused(page), "body");
   await page.keyboard.press("F9");
@@ -247,7 +245,7 @@ test("Escape, then Tab leaves the view, and Shift and Tab comes back", SMALL, as
   assert.equal(await focused(page), "canvas");
 });
 
-test("an Escape that shuts something does not let Tab leave the view", STILL, async (page) => {
+test("an Escape that shuts something does not let Tab leave the view", {}, async (page) => {
   await focusView(page, GROUND);
   await page.keyboard.press("?");
   await settled(page);
@@ -267,7 +265,7 @@ test("an Escape that shuts something does not let Tab leave the view", STILL, as
   assert.equal(await focused(page), "transport-play", "there was nothing left to shut");
 });
 
-test("the input for what is typed has a name and is passed over by Tab", STILL, async (page) => {
+test("the input for what is typed has a name and is passed over by Tab", {}, async (page) => {
   const inputs = await page.$$eval("#view input", (inputs) => inputs.map((input) => [input.tabIndex, input.ariaLabel]));
   assert.deepEqual(inputs, [[-1, "Text of the field in the 3D view"]]);
 });

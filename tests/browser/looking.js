@@ -8,8 +8,6 @@ import { atRest, drag, drop, keep, settled, state, test, until } from "./harness
 import { difference, picture } from "./picture.js";
 import { GROUND, LIGHT_BUTTON, LIGHT_POPOVER, SPLIT_HANDLE } from "./widgets.js";
 
-/** The sample waits on its first frame, so that only what a test does can change the picture. */
-const STILL = { reducedMotion: "reduce" };
 
 /** Gives the view the keyboard, with a click that selects nothing. */
 async function focusView(page) {
@@ -23,7 +21,7 @@ async function press(page, key, predicate) {
   return (await until(page, ({ look }) => predicate(look))).look;
 }
 
-test("V switches the light, and back to the same picture", STILL, async (page) => {
+test("V switches the light, and back to the same picture", {}, async (page) => {
   await focusView(page);
   const studio = await picture(page);
   await press(page, "v", ({ light }) => light === "book");
@@ -35,7 +33,7 @@ test("V switches the light, and back to the same picture", STILL, async (page) =
   assert.equal((await picture(page)).digest, studio.digest);
 });
 
-test("T goes through the view modes and round again", STILL, async (page) => {
+test("T goes through the view modes and round again", {}, async (page) => {
   await focusView(page);
   const lit = await picture(page);
   const modes = [(await state(page)).look.viewMode];
@@ -51,7 +49,7 @@ test("T goes through the view modes and round again", STILL, async (page) => {
   await atRest(page);
 });
 
-test("the keys for lines draw them and take them away", STILL, async (page) => {
+test("the keys for lines draw them and take them away", {}, async (page) => {
   await focusView(page);
   const before = await picture(page);
   for (const [key, overlay] of [["z", "wireframe"], ["n", "normals"], ["x", "axes"], ["g", "grid"]]) {
@@ -68,7 +66,7 @@ test("the keys for lines draw them and take them away", STILL, async (page) => {
   await keep(page, "look-lines");
 });
 
-test("Alt and a drag turn the surroundings, and the camera stays", STILL, async (page) => {
+test("Alt and a drag turn the surroundings, and the camera stays", {}, async (page) => {
   await focusView(page);
   const [before, { camera }] = [await picture(page), await state(page)];
   await page.keyboard.down("Alt");
@@ -80,7 +78,7 @@ test("Alt and a drag turn the surroundings, and the camera stays", STILL, async 
   assert.ok(difference(before, turned) > 0.02, `${difference(before, turned)} of the pixels`);
 });
 
-test("the picture is divided, and its handle moves where the lights meet", { ...STILL, passes: true }, async (page) => {
+test("the picture is divided, and its handle moves where the lights meet", { passes: true }, async (page) => {
   await page.mouse.click(...LIGHT_BUTTON);
   await settled(page);
   await page.mouse.click(...LIGHT_POPOVER.split);
@@ -103,7 +101,7 @@ test("the picture is divided, and its handle moves where the lights meet", { ...
   await keep(page, "look-split");
 });
 
-test("a pass that is left out is missing in the picture", { ...STILL, passes: true }, async (page) => {
+test("a pass that is left out is missing in the picture", { passes: true }, async (page) => {
   await page.mouse.click(...LIGHT_BUTTON);
   await settled(page);
   for (const [pass, row] of Object.entries(LIGHT_POPOVER.passes)) {
@@ -129,7 +127,7 @@ function cubeMap(faces, side = 8) {
   return Buffer.concat([header, ...texels]);
 }
 
-test("a dropped cube map becomes the sky and lights the model", STILL, async (page) => {
+test("a dropped cube map becomes the sky and lights the model", {}, async (page) => {
   await atRest(page);
   const before = await picture(page, { background: "none" });
   const file = join(mkdtempSync(join(tmpdir(), "bindpose-")), "evening.dds");

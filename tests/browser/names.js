@@ -5,8 +5,6 @@ import { atRest, keep, running, settled, test, until } from "./harness.js";
 import { decoded, difference } from "./picture.js";
 import { GROUND, SECOND_BONE, SKELETON_PAGE, TREE } from "./widgets.js";
 
-/** The sample waits on its first frame, so that only what a test does can change the page. */
-const STILL = { reducedMotion: "reduce" };
 
 /** What the browser keeps for this page. */
 function kept(page) {
@@ -36,7 +34,7 @@ async function nameSecondBone(page, name) {
   await page.keyboard.press("Escape");
 }
 
-test("names of bones are kept and are there after a reload", STILL, async (page) => {
+test("names of bones are kept and are there after a reload", {}, async (page) => {
   await openTree(page);
   const unnamed = await tree(page);
   assert.deepEqual(await kept(page), []);
@@ -60,7 +58,6 @@ test("names of bones are kept and are there after a reload", STILL, async (page)
 });
 
 test("a browser that keeps nothing does not stand in the way", {
-  ...STILL,
   prepare: (page) => page.addInitScript(() => {
     const refuse = () => { throw new DOMException("full", "QuotaExceededError"); };
     Object.assign(Storage.prototype, { getItem: refuse, setItem: refuse, removeItem: refuse });
@@ -72,7 +69,7 @@ test("a browser that keeps nothing does not stand in the way", {
   assert.ok(difference(unnamed, await tree(page)) > 0, "the name is in the tree all the same");
 });
 
-test("a name that is typed in one slow frame is kept, and none of its letters is a shortcut", { own: true }, async (page) => {
+test("a name that is typed in one slow frame is kept, and none of its letters is a shortcut", { own: true, motion: true }, async (page) => {
   // The model plays meanwhile, and the page draws once in a second.
   await page.evaluate(() => {
     const soon = requestAnimationFrame.bind(globalThis);

@@ -133,7 +133,7 @@ test("the same file again keeps the clip and the time", {}, async (page) => {
   assert.ok(difference(before, await picture(page)) < 0.001);
 });
 
-test("R reads the files again as they are on disk now", { reducedMotion: "reduce" }, async (page) => {
+test("R reads the files again as they are on disk now", {}, async (page) => {
   const { path } = copyOfSample("changing.m3d");
   const rewrite = (from, to) => writeFileSync(path, readFileSync(path, "latin1").replace(from, to), "latin1");
   await dropAndWait(page, [path]);
@@ -156,7 +156,7 @@ test("R reads the files again as they are on disk now", { reducedMotion: "reduce
   assert.equal(mended.error, null);
 });
 
-test("R reads the sample again, and with a model the maps and clips that joined it later", { reducedMotion: "reduce" }, async (page) => {
+test("R reads the sample again, and with a model the maps and clips that joined it later", {}, async (page) => {
   const loads = () => page.evaluate(() => globalThis.loads);
   await page.evaluate(() => {
     globalThis.loads = 0;
@@ -188,7 +188,7 @@ test("R reads the sample again, and with a model the maps and clips that joined 
   assert.ok(!again.textures.missing.includes("late.png"), "the map is there");
 });
 
-test("R tries again what was refused while its error is shown, and what is open when it is not", { reducedMotion: "reduce" }, async (page) => {
+test("R tries again what was refused while its error is shown, and what is open when it is not", {}, async (page) => {
   const { folder, path } = copyOfSample("open.m3d");
   const rewrite = (file, from, to) => writeFileSync(file, readFileSync(file, "latin1").replace(from, to), "latin1");
   const press = async (key) => {
@@ -224,7 +224,7 @@ test("R tries again what was refused while its error is shown, and what is open 
   assert.equal((await until(page, ({ model }) => model.name === "other.m3d")).error, null);
 });
 
-test("R opens again the model of a folder that was chosen", { reducedMotion: "reduce", fine: true }, async (page) => {
+test("R opens again the model of a folder that was chosen", {}, async (page) => {
   const { folder, path } = copyOfSample("pack", "small.m3d");
   writeFileSync(join(folder, "pack", "large.m3d"), `${readFileSync(path, "utf8")}\n\n\n\n`);
   await dropAndWait(page, [join(folder, "pack")]);
@@ -241,7 +241,7 @@ test("R opens again the model of a folder that was chosen", { reducedMotion: "re
   assert.equal((await until(page, ({ model }) => model.clips[0].name === "Stroll")).model.name, "small.m3d");
 });
 
-test("R tells of a file from the dialog that has changed since", { reducedMotion: "reduce", expectErrors: true }, async (page) => {
+test("R tells of a file from the dialog that has changed since", { expectErrors: true }, async (page) => {
   const { path } = copyOfSample("chosen.m3d");
   await page.setInputFiles("#files", path);
   await until(page, ({ model }) => model?.name === "chosen.m3d");
@@ -254,7 +254,7 @@ test("R tells of a file from the dialog that has changed since", { reducedMotion
   assert.equal((await state(page)).model.clips[0].name, "Walk", "the model that was open stays");
 });
 
-test("maps are found beside the model and join it later, and are drawn", { fine: true }, async (page) => {
+test("maps are found beside the model and join it later, and are drawn", {}, async (page) => {
   const { folder, path } = copyOfSample("mapped.m3d");
   const plain = readFileSync(path, "utf8").replace(/^(DiffuseMap|NormalMap):.*$/gm, "$1: None");
   const named = plain.replace(/^DiffuseMap:.*$/m, "DiffuseMap: C:\\art\\Coat.dds");

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { BACKEND, CENTRE, LARGE, PAGE, call, keep, settled, state, test, until, withViewer } from "./harness.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
 
-test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true }, async (page) => {
+test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true, passes: true, motion: true }, async (page) => {
   const { model, playing, error } = await state(page);
   assert.equal(model.name, "figure.m3d");
   assert.ok(model.clips.length >= 2, "a walk and a wave at least");
@@ -83,7 +83,7 @@ test("nothing is drawn while nothing changes", {}, async (page) => {
   assert.equal(after - before, 0, "frames drawn in a second of rest");
 });
 
-test("under reduced motion the sample waits on its first frame", { own: true, reducedMotion: "reduce" }, async (page) => {
+test("under reduced motion the sample waits on its first frame", { own: true }, async (page) => {
   const { playing, timeSecs } = await state(page);
   assert.equal(playing, false);
   assert.equal(timeSecs, 0);
@@ -213,7 +213,7 @@ test("a panic shows what happened and a way on", {
   await until(page, ({ model }) => model !== null);
 });
 
-test("after a panic programs hear of it, and calls end", { own: true, expectErrors: true }, async (page) => {
+test("after a panic programs hear of it, and calls end", { own: true, motion: true, expectErrors: true }, async (page) => {
   await page.evaluate(() => {
     globalThis.heard = [];
     bindpose.addEventListener("error", ({ detail }) => globalThis.heard.push(detail));

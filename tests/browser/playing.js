@@ -7,7 +7,7 @@ import {
   BLEND_END, BLEND_KNOB, BLEND_MOST, BLEND_SECOND_CLIP, CLIPS_BUTTON, RANGE_IN, RANGE_OUT, TIME_BAR,
 } from "./widgets.js";
 
-test("time advances, with events, and pauses", {}, async (page) => {
+test("time advances, with events, and pauses", { motion: true }, async (page) => {
   await page.evaluate(() => {
     globalThis.heard = [];
     for (const type of ["timeupdate", "play", "pause"]) bindpose.addEventListener(type, () => heard.push(type));
@@ -77,7 +77,7 @@ async function held(page) {
   throw new Error("the time goes on");
 }
 
-test("a drag on the bar carries the time, which goes on from there", {}, async (page) => {
+test("a drag on the bar carries the time, which goes on from there", { motion: true }, async (page) => {
   const { clip, model } = await state(page);
   const { startSecs, endSecs } = model.clips.find(({ name }) => name === clip);
   const shareOf = ({ timeSecs }) => (timeSecs - startSecs) / (endSecs - startSecs);
@@ -102,7 +102,7 @@ test("a drag on the bar carries the time, which goes on from there", {}, async (
   assert.equal((await state(page)).playing, true);
 });
 
-test("a click on the bar of a paused clip goes there and stays", { reducedMotion: "reduce" }, async (page) => {
+test("a click on the bar of a paused clip goes there and stays", {}, async (page) => {
   await page.mouse.click(...onBar(0.75));
   const { timeSecs, playing } = await until(page, ({ timeSecs }) => timeSecs > 0);
   assert.equal(playing, false);
@@ -142,7 +142,7 @@ async function focusView(page) {
   await settled(page);
 }
 
-test("the transport is there for screen readers and moves with the viewer", {}, async (page) => {
+test("the transport is there for screen readers and moves with the viewer", { motion: true }, async (page) => {
   await page.focus("#transport-play");
   await page.keyboard.press("Space");
   await until(page, ({ playing }) => !playing);
@@ -226,7 +226,7 @@ test("all that moves the time is there for screen readers, and stays in step", {
   assert.equal((await state(page)).loop, "once", "a name that is none changes nothing");
 });
 
-test("a clip is blended into another with the mouse, more and less, and no longer", { reducedMotion: "reduce" }, async (page) => {
+test("a clip is blended into another with the mouse, more and less, and no longer", {}, async (page) => {
   const { model } = await state(page);
   const alone = await picture(page);
   await page.mouse.click(...CLIPS_BUTTON);

@@ -9,7 +9,7 @@ mkdirSync(FOLDER, { recursive: true });
 
 /** The window of all of them. */
 const WINDOW = { width: 1280, height: 800 };
-const STILL = { viewport: WINDOW, reducedMotion: "reduce", fine: true, own: true };
+const WHOLE = { viewport: WINDOW, fine: true, passes: true, own: true };
 /** Places in that window: ground beside the figure, its left hand, and what is on its bars and panels. */
 const GROUND = [820, 640];
 const HAND = [676, 392];
@@ -31,18 +31,18 @@ async function keep(page, name) {
   await page.screenshot({ path: `${FOLDER}${name}.jpg`, type: "jpeg", quality: 88 });
 }
 
-test("light", { ...STILL, colorScheme: "light" }, async (page) => {
+test("light", { ...WHOLE, colorScheme: "light" }, async (page) => {
   await inStep(page);
   await keep(page, "light");
 });
 
-test("dark, with the timeline open", STILL, async (page) => {
+test("dark, with the timeline open", WHOLE, async (page) => {
   await inStep(page);
   await page.mouse.click(...SHEET_BUTTON);
   await keep(page, "dark-timeline");
 });
 
-test("one vertex explained", STILL, async (page) => {
+test("one vertex explained", WHOLE, async (page) => {
   await inStep(page);
   await page.mouse.click(...GROUND);
   await page.keyboard.press("w");
@@ -59,7 +59,7 @@ test("one vertex explained", STILL, async (page) => {
   await keep(page, "vertex");
 });
 
-test("both lights side by side", STILL, async (page) => {
+test("both lights side by side", WHOLE, async (page) => {
   await inStep(page);
   await page.mouse.click(...LIGHT_BUTTON);
   await settled(page);

@@ -6,8 +6,6 @@ import { SAMPLE, atRest, keep, settled, state, test, until } from "./harness.js"
 import { decoded, difference, picture } from "./picture.js";
 import { BONES, GROUND, LEGEND_BAR } from "./widgets.js";
 
-/** The sample waits on its first frame, so that only what a test does can change the picture. */
-const STILL = { reducedMotion: "reduce" };
 
 /** Shows the bones. The click gives the view the keyboard and selects nothing. */
 async function showBones(page) {
@@ -23,7 +21,7 @@ async function selectBone(page, bone) {
   await until(page, ({ skeleton }) => skeleton.selected === Number(bone));
 }
 
-test("a click on a bone selects it, one beside all bones none, and Esc lets go", STILL, async (page) => {
+test("a click on a bone selects it, one beside all bones none, and Esc lets go", {}, async (page) => {
   await showBones(page);
   const plain = await picture(page);
   for (const bone of Object.keys(BONES)) {
@@ -45,7 +43,7 @@ test("a click on a bone selects it, one beside all bones none, and Esc lets go",
   assert.equal((await picture(page)).digest, plain.digest);
 });
 
-test("a bone that is not drawn is not selected by a click", STILL, async (page) => {
+test("a bone that is not drawn is not selected by a click", {}, async (page) => {
   await page.mouse.click(...Object.values(BONES)[0]);
   await atRest(page);
   assert.equal((await state(page)).skeleton.selected, null, "the click is about a subset");
@@ -105,7 +103,7 @@ const channels = ({ pixels, width }, x, y) => {
   return [...pixels.subarray(at, at + 3)];
 };
 
-test("vertices have the colours that the legend has for their weights", { ...STILL, fine: true }, async (page) => {
+test("vertices have the colours that the legend has for their weights", { fine: true }, async (page) => {
   const bone = 19;
   await showBones(page);
   await selectBone(page, bone);
@@ -130,7 +128,7 @@ test("vertices have the colours that the legend has for their weights", { ...STI
   }
 });
 
-test("with the skin in colours a click selects the vertex that is there", STILL, async (page) => {
+test("with the skin in colours a click selects the vertex that is there", {}, async (page) => {
   await page.mouse.click(...GROUND);
   await settled(page);
   for (const key of ["w", "k"]) await page.keyboard.press(key);
@@ -149,7 +147,7 @@ test("with the skin in colours a click selects the vertex that is there", STILL,
   await until(page, ({ skeleton }) => skeleton.vertex === null);
 });
 
-test("F frames the bone that is selected, Shift+F the whole animation, and F without a selection the model", STILL, async (page) => {
+test("F frames the bone that is selected, Shift+F the whole animation, and F without a selection the model", {}, async (page) => {
   await showBones(page);
   const { camera } = await state(page);
   const far = (one, other) => Math.hypot(...minus(one.target, other.target));
@@ -170,7 +168,7 @@ test("F frames the bone that is selected, Shift+F the whole animation, and F wit
   assert.deepEqual([whole.yawRadians, whole.pitchRadians], [camera.yawRadians, camera.pitchRadians], "from where it looked");
 });
 
-test("F2 names the bone that is selected", STILL, async (page) => {
+test("F2 names the bone that is selected", {}, async (page) => {
   const [bone] = Object.keys(BONES);
   await showBones(page);
   await selectBone(page, bone);

@@ -8,8 +8,6 @@ import {
   CHEST, GROUND, INSPECTOR, RESET_MATERIAL, ROUGHNESS_KNOB, ROUGHNESS_LEAST, TRIM_EYE, TRIM_ROW,
 } from "./widgets.js";
 
-/** The sample waits on its first frame, so that only what a test does can change the picture. */
-const STILL = { reducedMotion: "reduce" };
 
 /** The part of the page where the inspector is when something is selected. */
 async function inspectorArea(page) {
@@ -17,7 +15,7 @@ async function inspectorArea(page) {
   return decoded(page, await page.screenshot({ clip: INSPECTOR }));
 }
 
-test("a click in the view selects what is there, and the inspector comes and goes with it", STILL, async (page) => {
+test("a click in the view selects what is there, and the inspector comes and goes with it", {}, async (page) => {
   const nothing = await inspectorArea(page);
   const before = await picture(page);
   await page.mouse.click(...CHEST);
@@ -33,7 +31,7 @@ test("a click in the view selects what is there, and the inspector comes and goe
   assert.equal(difference(nothing, await inspectorArea(page)), 0, "and Esc lets go");
 });
 
-test("the eye of a subset hides it and shows it again", STILL, async (page) => {
+test("the eye of a subset hides it and shows it again", {}, async (page) => {
   await atRest(page);
   const all = await picture(page);
   const clickEye = async () => {
@@ -60,7 +58,7 @@ test("the eye of a subset hides it and shows it again", STILL, async (page) => {
   assert.equal((await picture(page)).digest, all.digest);
 });
 
-test("roughness is edited in the inspector, and Reset brings the very same picture back", { ...STILL, passes: true }, async (page) => {
+test("roughness is edited in the inspector, and Reset brings the very same picture back", { passes: true }, async (page) => {
   await atRest(page);
   const before = await picture(page);
   await page.mouse.click(...CHEST);
@@ -78,7 +76,7 @@ test("roughness is edited in the inspector, and Reset brings the very same pictu
   assert.equal((await picture(page)).digest, before.digest);
 });
 
-test("Shift+P saves the picture without what is behind the model", { ...STILL, fine: true }, async (page) => {
+test("Shift+P saves the picture without what is behind the model", { fine: true }, async (page) => {
   await page.mouse.click(...GROUND);
   await atRest(page);
   const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+P")]);
