@@ -26,11 +26,11 @@ export function createApi() {
   let used = false;
   let resolve, reject;
   let opening = Promise.resolve();
-  const pending = new Set(); // What rejects the promises that were given out: a viewer that stopped settles none of them.
+  const pending = new Set(); // Rejects open promises when the viewer stops: it would never settle them.
   const bindpose = new EventTarget();
   const ready = new Promise((...settle) => ([resolve, reject] = settle));
   const emit = (type, detail) => bindpose.dispatchEvent(new CustomEvent(type, { detail }));
-  // Whoever waits for it hears of a failure; nobody has to wait.
+  // A failure that nobody waits for must not be reported as an unhandled rejection.
   ready.catch(() => {});
 
   /** What a promise gives, or the viewer's failure, if that comes first. */

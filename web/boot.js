@@ -31,7 +31,7 @@ const SIMD_PROGRAM = [
   10, 23, 1, 21, 0, 0xfd, 12, ...new Array(16).fill(0), 0x1a, 0x0b, // v128.const 0, drop, end
 ];
 
-/** How long a download may take to begin before its bytes are given up. */
+/** How long the bytes of a saved file stay in memory: the browser may take this long to begin the download. */
 const DOWNLOAD_KEPT_MS = 60_000;
 
 const element = (id) => document.getElementById(id);
@@ -42,16 +42,16 @@ const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi();
 globalThis.bindpose = bindpose;
 
 let viewer = null;
-let onCanvas = null; // What starts the viewer on the page's canvas, and again.
-let openName = ""; // Of the model that is open: what is dragged over the page asks for it many times a second.
-let received = false; // Whether a person gave anything, be it sound or not.
+let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
+let openName = ""; // Name of the open model. Kept here since a drag over the page reads it many times a second.
+let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
 
-/** Begins anew, as a visit of the page does, but without loading the program. Resolves with the state after it. */
+/** Resets the page to how a visit begins, without loading the program again. Resolves with the new state. */
 bindpose.reset = async () => {
   clearNotice();
   sources.forget();
-  // What could not be fetched is told there; then nothing is open.
+  // fetchOpening() reports what it could not fetch. Then nothing is opened.
   const files = (await fetchOpening()) ?? [];
   await give(files, "startOver");
   bindpose.setRenderScale(addressedScale());
@@ -69,7 +69,7 @@ const receive = async (files, addsClips = false) => {
   await hand(files, addsClips);
 };
 
-/** Hands files of the person to the viewer, and remembers what became of them. */
+/** Opens the person's files in the viewer, and remembers them for R. */
 const hand = async (files, addsClips) => {
   try {
     // Without a model to join, a file of clips is opened.
@@ -111,7 +111,7 @@ async function boot() {
     showDownloadFailure(error);
     return;
   }
-  // Also by a restart, when the GPU goes away during the first start.
+  // A restart comes here too, when the GPU goes away during the first start.
   bindpose.ready.then(async () => {
     hideShell();
     const files = await opensAtOnce;
@@ -186,7 +186,7 @@ function showProgress(arrived, total) {
 function hideShell() {
   const shell = element("shell");
   shell.classList.add("leaving");
-  // The keyboard does not stay on a button that goes.
+  // The button that has the focus is about to be hidden.
   if (shell.contains(document.activeElement)) focusView();
   setTimeout(() => (shell.hidden = true), 200);
 }
@@ -199,7 +199,7 @@ function showDrop(words) {
   element("drop-what").textContent = words.what;
 }
 
-/** How fine the address asks the view to be drawn. */
+/** The render scale that the address asks for. */
 function addressedScale() {
   return Number(options.get("scale") ?? 1);
 }
@@ -239,7 +239,7 @@ function onPanic(message) {
 /** Opens what is open once more, as it is on disk or on the server now; while an error is shown, what it is about. */
 async function readSourcesAgain() {
   const refused = bindpose.state().error && sources.refused();
-  // What a script opened is the script's to open again.
+  // What a script opened, only the script can open again.
   if (!refused && !sources.hasModel() && wasUsed()) return;
   try {
     if (refused) return await hand(await readAgain(refused.files), refused.addsClips);

@@ -20,7 +20,7 @@ export function takeDrops(area, { receive, refuse, openModel, show }) {
     const addsClips = event.shiftKey && Boolean(openModel());
     show({ title: addsClips ? "Drop to add clips" : "Drop to open", what: describe(event, openModel(), addsClips) });
   };
-  // Where the pointer goes to; nowhere outside the window.
+  // The element that the pointer enters; null outside the window.
   const leaves = ({ relatedTarget }) => !relatedTarget || area.contains?.(relatedTarget) === false;
   // In the capture phase, so that nothing below sees the drop and takes half of it.
   area.addEventListener("dragenter", onDrag, true);

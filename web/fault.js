@@ -83,7 +83,7 @@ export function showDownloadFailure(error) {
   );
 }
 
-/** The words of whatever was thrown. */
+/** The message of what was thrown, which need not be an `Error`. */
 export function wordsOf(error) {
   return error?.message ?? String(error);
 }

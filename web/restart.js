@@ -12,11 +12,11 @@ const RESTARTS_FORGOTTEN_MS = 60_000;
 export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }) {
   let gpu = null; // {backend, adapter} of the last start that worked.
   let starts = 0;
-  let restarts = []; // When they were.
+  let restarts = []; // Times of the latest restarts, in milliseconds.
   let restarting = false;
-  let lostMeanwhile = null; // Why the GPU went away again while a restart was under way.
+  let lostMeanwhile = null; // The reason, when the GPU went away again during a restart.
 
-  /** Starts on the present canvas. What becomes of a start after which another one came is of no account. */
+  /** Starts on the present canvas. The outcome of a start is ignored once a later one has begun. */
   const start = async (wanted) => {
     const mine = ++starts;
     let started;

@@ -2,7 +2,7 @@
 
 const MODEL = /\.(m3d|a3d)$/i;
 
-/** Whether it is a `Blob` or a `File`, be it of another window. */
+/** Whether it is a `Blob` or a `File`, also one of another window. */
 const isBlob = (item) => typeof item?.arrayBuffer === "function";
 
 /** Bytes with their relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`. */
