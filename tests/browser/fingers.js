@@ -11,11 +11,11 @@ const STEPS = 6;
 async function fingers(page, ...ways) {
   const devtools = await page.context().newCDPSession(page);
   const send = (type, touchPoints) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints });
-  const at = (share) =>
+  const at = (fraction) =>
     ways.map(([[fromX, fromY], [toX, toY]], id) => ({
       id,
-      x: fromX + share * (toX - fromX),
-      y: fromY + share * (toY - fromY),
+      x: fromX + fraction * (toX - fromX),
+      y: fromY + fraction * (toY - fromY),
     }));
   // One finger is always the first.
   for (let down = 1; down <= ways.length; down += 1) await send("touchStart", at(0).slice(0, down));

@@ -91,11 +91,11 @@ test("the keys for bones and skin", SMALL, async (page) => {
     ["k", "the clip", ({ skeleton }) => skeleton.bindShare === 0],
   ]);
   assert.equal((await picture(page)).digest, before.digest, "each takes away what it brought");
-  for (const [key, share] of [["b", 0.001], ["w", 0.008], ["k", 0.008]]) {
+  for (const [key, fraction] of [["b", 0.001], ["w", 0.008], ["k", 0.008]]) {
     await page.keyboard.press(key);
     await settled(page);
     const drawn = await picture(page);
-    assert.ok(difference(before, drawn) > share, `${key}: ${difference(before, drawn)} of the pixels`);
+    assert.ok(difference(before, drawn) > fraction, `${key}: ${difference(before, drawn)} of the pixels`);
     await page.keyboard.press(key);
     await settled(page);
   }

@@ -64,7 +64,7 @@ export async function picture(page, options = {}) {
  */
 export function difference(one, other, { tolerance = 8, columns = [0, 1] } = {}) {
   assert.deepEqual([one.width, one.height], [other.width, other.height]);
-  const [from, to] = columns.map((share) => Math.round(share * one.width));
+  const [from, to] = columns.map((fraction) => Math.round(fraction * one.width));
   let differing = 0;
   for (let y = 0; y < one.height; y += 1) {
     for (let x = from; x < to; x += 1) {

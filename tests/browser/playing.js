@@ -62,8 +62,8 @@ test("a clip is chosen by its name; a name that is not there changes nothing", {
   assert.equal((await state(page)).clip, model.clips[1].name);
 });
 
-/** Where a share of the clip is on the bar. */
-const onBar = (share) => [TIME_BAR.first + share * (TIME_BAR.last - TIME_BAR.first), TIME_BAR.y];
+/** Where a fraction of the clip is on the bar. */
+const onBar = (fraction) => [TIME_BAR.first + fraction * (TIME_BAR.last - TIME_BAR.first), TIME_BAR.y];
 
 /** The state when the time stands still: of a clip that plays, while the pointer holds it. */
 async function held(page) {
@@ -80,25 +80,25 @@ async function held(page) {
 test("a drag on the bar carries the time, which goes on from there", { motion: true }, async (page) => {
   const { clip, model } = await state(page);
   const { startSecs, endSecs } = model.clips.find(({ name }) => name === clip);
-  const shareOf = ({ timeSecs }) => (timeSecs - startSecs) / (endSecs - startSecs);
+  const fractionOf = ({ timeSecs }) => (timeSecs - startSecs) / (endSecs - startSecs);
   // The strip can be taken hold of once it was drawn.
   await settled(page);
   await page.mouse.move(...onBar(0.2));
   await page.mouse.down();
-  for (const share of [0.4, 0.9, 0.3]) {
-    await page.mouse.move(...onBar(share), { steps: 3 });
+  for (const fraction of [0.4, 0.9, 0.3]) {
+    await page.mouse.move(...onBar(fraction), { steps: 3 });
     // A point is a three hundredth of the clip.
-    await until(page, (now) => Math.abs(shareOf(now) - share) < 0.004);
+    await until(page, (now) => Math.abs(fractionOf(now) - fraction) < 0.004);
     const now = await held(page);
-    assert.ok(Math.abs(shareOf(now) - share) < 0.004, `held at ${share}, the time stands at ${shareOf(now)}`);
+    assert.ok(Math.abs(fractionOf(now) - fraction) < 0.004, `held at ${fraction}, the time stands at ${fractionOf(now)}`);
     assert.equal(now.playing, true, "the pointer holds the time; it is not paused");
   }
   await page.mouse.move(TIME_BAR.last + 200, TIME_BAR.y);
-  await until(page, (now) => Math.abs(shareOf(now) - 1) < 1e-4);
+  await until(page, (now) => Math.abs(fractionOf(now) - 1) < 1e-4);
   await page.mouse.move(...onBar(0.5));
-  await until(page, (now) => Math.abs(shareOf(now) - 0.5) < 0.004);
+  await until(page, (now) => Math.abs(fractionOf(now) - 0.5) < 0.004);
   await page.mouse.up();
-  await until(page, (now) => Math.abs(shareOf(now) - 0.5) > 0.01);
+  await until(page, (now) => Math.abs(fractionOf(now) - 0.5) > 0.01);
   assert.equal((await state(page)).playing, true);
 });
 

@@ -55,8 +55,8 @@ function vertices() {
   const numbers = (words) => words.trim().split(/\s+/).map(Number);
   const vertex = /Position: (.*)\nTangent: .*\nNormal: (.*)\nTex-Coords: .*\nBlendWeights: (.*)\nBlendIndices: (.*)\n/g;
   return Array.from(text.matchAll(vertex), ([, position, normal, weights, bones]) => {
-    const [shares, indices] = [numbers(weights), numbers(bones)];
-    const weightOf = (bone) => shares.reduce((sum, share, at) => sum + (indices[at] === bone ? share : 0), 0);
+    const [weightsOfVertex, indices] = [numbers(weights), numbers(bones)];
+    const weightOf = (bone) => weightsOfVertex.reduce((sum, weight, at) => sum + (indices[at] === bone ? weight : 0), 0);
     return { position: numbers(position), normal: numbers(normal), weightOf };
   });
 }
