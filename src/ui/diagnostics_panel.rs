@@ -12,7 +12,7 @@ use super::widgets::{closable_heading, focus_ring, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubsetCommand};
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32, commands: &mut Vec<Command>) {
@@ -141,7 +141,7 @@ impl Goal {
                 Some(Self {
                     words: format!("Clip {name}"),
                     // The timeline has it.
-                    commands: vec![Command::SelectClip(clip as usize)],
+                    commands: vec![PlayCommand::SelectClip(clip as usize).into()],
                     page: None,
                 })
             }
@@ -199,13 +199,13 @@ impl Goal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::File;
+    use crate::session::{File, FileCommand};
 
     /// No model that can be shown has a finding about a triangle, so no click can lead there yet.
     #[test]
     fn the_way_to_a_triangle_is_that_to_its_first_corner_and_what_is_not_there_has_none() {
         let mut session = Session::new(true);
-        session.apply(Command::AddFiles(vec![File::new(
+        session.apply(FileCommand::Add(vec![File::new(
             "figure.m3d",
             include_bytes!("../../web/sample/figure.m3d").to_vec(),
         )]));

@@ -11,7 +11,9 @@ use super::widgets::{
 };
 use crate::actions;
 use crate::scene::{Background, Light, Pass};
-use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, Session};
+use crate::session::{
+    Command, FileCommand, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, Session,
+};
 
 /// Colours that a background of one colour begins with: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
@@ -131,7 +133,7 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         paint_elided(painter, at, name, font, tokens.text, rect.max.x - at.x);
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
         if icon_button(ui, Icon::Close, "Remove the sky", false).clicked() {
-            commands.push(Command::ClearSky);
+            commands.push(FileCommand::ClearSky.into());
         }
     });
 }
@@ -154,7 +156,7 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             PassState::TooSlow => (PassChoice::On, "Draw it however long frames take"),
         };
         if pass_row(ui, pass.label(), words, color).on_hover_text(hint).clicked() {
-            commands.push(Command::SetPass(pass, choice));
+            commands.push(QualityCommand::SetPass(pass, choice).into());
         }
     }
     if let Some(note) = slow_passes(session) {

@@ -33,7 +33,7 @@ pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 
 use crate::scene::Theme;
-use crate::session::{Command, LoadError, Session, SubsetCommand};
+use crate::session::{CameraCommand, Command, LoadError, Session, SubsetCommand};
 use input::{InputOrder, MOST_PASSES};
 use panel::{Arrangement, PANEL_AROUND, Panel, bar_height};
 use state::Framed;
@@ -70,7 +70,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     commands.push(set_theme(ui));
     commands.extend(set_viewport(ui, session, state, window, arrangement));
     if std::mem::take(&mut state.frames_selection) {
-        commands.push(Command::Glide(Box::new(Command::FrameSelection)));
+        commands.push(CameraCommand::Glide(Box::new(CameraCommand::FrameSelection)).into());
     }
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
@@ -166,11 +166,11 @@ fn set_viewport(
     if before == Some(now) {
         return None;
     }
-    let command = Command::SetViewport { aspect, insets };
+    let command = CameraCommand::SetViewport { aspect, insets };
     let same_picture = before.is_some_and(|before| (before.window, before.model) == (window, now.model));
-    Some(if same_picture {
-        Command::Glide(Box::new(command))
+    Some(Command::Camera(if same_picture {
+        CameraCommand::Glide(Box::new(command))
     } else {
         command
-    })
+    }))
 }

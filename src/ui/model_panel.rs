@@ -16,7 +16,7 @@ use super::wording::{counted, dialect_name, grouped, measured, shortened};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, Submesh, UpAxis};
 use crate::scene::display_color;
-use crate::session::{Command, MapSlot, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, FileCommand, MapSlot, OpenModel, Session, SubsetCommand};
 
 /// Subsets listed before the list scrolls.
 const ROWS: f32 = 8.0;
@@ -130,7 +130,7 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 open_path == Some(file.path.as_str()),
             );
             if response.on_hover_text(&file.path).clicked() {
-                commands.push(Command::OpenFile(file.path.clone()));
+                commands.push(FileCommand::Open(file.path.clone()).into());
             }
         }
     });

@@ -18,7 +18,7 @@ use super::{light, overlays, picture};
 use crate::actions;
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
-use crate::session::{Command, JointCommand, LookCommand, Session};
+use crate::session::{CameraCommand, Command, JointCommand, LookCommand, Session};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -142,7 +142,7 @@ fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
     let before = commands.len();
     for preset in ViewPreset::ALL {
-        let command = Command::Glide(Box::new(Command::LookFrom(preset)));
+        let command = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(preset))).into();
         // A model opens with the camera at three quarters.
         let key = match preset {
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),

@@ -8,7 +8,7 @@ use super::vertex_panel;
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
     TextButton, focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_with_action,
@@ -225,7 +225,7 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
                 let in_force = row.key + 1 == now;
                 if key_row(ui, &row, *part, in_force) {
                     let time_secs = row.time_secs;
-                    commands.extend([Command::Pause, Command::Seek { time_secs }]);
+                    commands.extend([PlayCommand::Pause.into(), PlayCommand::Seek { time_secs }.into()]);
                 }
             }
         });

@@ -100,13 +100,10 @@ impl Naming {
     fn take_name(&mut self, commands: &mut Vec<Command>) {
         let naming = std::mem::take(self);
         if let Some(joint) = naming.of {
-            commands.push(
-                JointCommand::Rename {
-                    joint,
-                    name: naming.text,
-                }
-                .into(),
-            );
+            commands.push(Command::Joint(JointCommand::Rename {
+                joint,
+                name: naming.text,
+            }));
         }
     }
 }

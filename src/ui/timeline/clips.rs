@@ -3,7 +3,7 @@
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::actions;
-use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, Session};
+use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
@@ -57,7 +57,7 @@ fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Com
     list.show_rows(ui, height, count, |ui, seen| {
         for (index, summary) in open.clip_list().enumerate().skip(seen.start).take(seen.len()) {
             if row(ui, session, index, &summary, commands) {
-                commands.push(Command::SelectClip(index));
+                commands.push(PlayCommand::SelectClip(index).into());
                 chosen = true;
             }
         }
@@ -145,12 +145,12 @@ fn blend_icon(
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, &label));
     if response.on_hover_text(label).clicked() {
         commands.push(if on {
-            Command::ClearBlend
+            PlayCommand::ClearBlend.into()
         } else {
-            Command::SetBlend {
+            Command::Play(PlayCommand::SetBlend {
                 clip: index,
                 weight: 0.5,
-            }
+            })
         });
     }
 }
@@ -161,7 +161,7 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
     let text = format!("{secs:.2} s");
     let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text).reset_to(DEFAULT_CROSSFADE_SECS);
     if let Some(secs) = fade.show(ui) {
-        commands.push(Command::SetCrossfade(secs));
+        commands.push(PlayCommand::SetCrossfade(secs).into());
     }
     let Some(blend) = session.blend() else { return };
     let names = [session.clip_index(), Some(blend.clip)].map(|clip| {
@@ -170,15 +170,15 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
     });
     popover_gap(ui);
     if section_with_action(ui, "Blend", Some("End")) {
-        commands.push(Command::ClearBlend);
+        commands.push(PlayCommand::ClearBlend.into());
     }
     let text = format!("{:.0} %", blend.weight * 100.0);
     let weight = Slider::new("Weight", blend.weight, 0.0..=1.0, &text).reset_to(0.5);
     if let Some(weight) = weight.show(ui) {
-        commands.push(Command::SetBlend {
+        commands.push(Command::Play(PlayCommand::SetBlend {
             clip: blend.clip,
             weight,
-        });
+        }));
     }
     paint_ends(ui, names);
 }

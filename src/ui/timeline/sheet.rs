@@ -5,7 +5,7 @@ use egui::{CursorIcon, FontId, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, vec
 use super::state::{SheetTab, TimelineState};
 use super::time_area::segmented_of_width;
 use super::{controls, curve_plot, dope_sheet};
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
@@ -91,9 +91,9 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     ui.painter().galley(at, galley, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
     if start_secs < end_secs && TextButton::new("As range", "As range").show(ui).clicked() {
-        commands.push(Command::ClearRange);
-        commands.push(Command::SetRangeStart(Some(start_secs)));
-        commands.push(Command::SetRangeEnd(Some(end_secs)));
+        commands.push(PlayCommand::ClearRange.into());
+        commands.push(PlayCommand::SetRangeStart(Some(start_secs)).into());
+        commands.push(PlayCommand::SetRangeEnd(Some(end_secs)).into());
     }
 }
 
