@@ -15,7 +15,7 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubsetCommand};
 
 /// The panel's contents.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
     if closable_heading(ui, "Diagnostics") {
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_heig
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));
         return;
     }
-    scrolled("findings", max_height)
+    scrolled("findings", ui.available_height())
         .auto_shrink([false, true])
         .show(ui, |ui| {
             for notice in session.notices() {

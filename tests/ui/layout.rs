@@ -3,10 +3,11 @@
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{FileCommand, JointCommand, PlayCommand, SubsetCommand};
+use bindpose::ui::SheetPage;
 use egui::{Rect, Vec2, pos2, vec2};
 
 use crate::models::{self, broken, moving, still};
-use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+use crate::page::{PHONE, Page, WIDE, Window, phone, touch_window, window};
 
 const LONG: &str = "a_name_that_somebody_gave_to_a_model_without_thinking_of_panels_at_all_and_then_some.m3d";
 
@@ -327,7 +328,7 @@ fn assert_model_is_free(window: &mut Window, size: Vec2) {
 
 #[test]
 fn an_open_dope_sheet_leaves_the_better_half_to_the_model() {
-    for (size, height) in [(vec2(900.0, 700.0), 183.0), (vec2(900.0, 600.0), 138.0), (WIDE, 264.0)] {
+    for (size, height) in [(vec2(900.0, 700.0), 184.0), (vec2(900.0, 600.0), 144.0), (WIDE, 264.0)] {
         let mut window = window(size, vec![moving("a.m3d")]);
         let before = panel(&window, "timeline").height();
         window.click("Dope sheet and");
@@ -336,6 +337,36 @@ fn an_open_dope_sheet_leaves_the_better_half_to_the_model() {
         let model = model_rect(&mut window, size);
         assert!(model.max.y < timeline.min.y + 2.0, "{model} under {timeline}");
         assert!(model.height() > 0.48 * size.y, "{model} is small in {size}");
+    }
+}
+
+/// What opens changes the sizes of panels, which are known only once they were laid out.
+#[test]
+fn what_opens_stands_in_its_place_from_its_first_frame_on() {
+    for size in [WIDE, vec2(900.0, 700.0), PHONE, vec2(844.0, 390.0)] {
+        let mut window = window(size, vec![moving("a.m3d")]);
+        let mut assert_in_place = |what: &str, open: &dyn Fn(&mut Page)| {
+            open(window.harness.state_mut());
+            window.harness.step();
+            let first = window.widgets();
+            window.pass_on();
+            assert_eq!(window.widgets(), first, "{what} of {size}");
+        };
+        assert_in_place("inspector", &|page| {
+            page.session.apply(SubsetCommand::Select(Some(0)));
+        });
+        assert_in_place("legend", &|page| {
+            page.session
+                .apply(JointCommand::SetSkinView(Some(SkinView::Stretch)));
+        });
+        assert_in_place("sheet", &|page| page.state.sheet = Some(SheetPage::Light));
+        assert_in_place("findings", &|page| page.state.diagnostics_open = true);
+        assert_in_place("keys", &|page| page.state.help_open = true);
+        assert_in_place("error", &|page| {
+            page.session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
+        });
+        assert_in_place("no findings", &|page| page.state.diagnostics_open = false);
+        assert_in_place("no sheet", &|page| page.state.sheet = None);
     }
 }
 

@@ -30,19 +30,12 @@ const LEAST_ROWS: f32 = 4.0;
 /// Between the search and the rows.
 const GAP: f32 = 8.0;
 
-/// The page's contents, `room` high at most.
-pub(in crate::ui) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    room: f32,
-    commands: &mut Vec<Command>,
-) {
+/// The page's contents, no higher than what is available.
+pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     if state.naming.proposing {
-        show_proposals(ui, session, &mut state.naming, room, commands);
+        show_proposals(ui, session, &mut state.naming, commands);
         return;
     }
-    let top = ui.cursor().min.y;
     ui.horizontal(|ui| {
         search(ui, &mut state.tree.query);
         menu(ui, session, state, commands);
@@ -54,7 +47,7 @@ pub(in crate::ui) fn show(
         return;
     }
     let height = pressed_row_height(ui);
-    let most = (room - (ui.cursor().min.y - top)).max(LEAST_ROWS * height);
+    let most = ui.available_height().max(LEAST_ROWS * height);
     let to_show = state.tree.row_to_show(session.joints().selected());
     let rows = std::mem::take(&mut state.tree.rows);
     ScrollArea::vertical()

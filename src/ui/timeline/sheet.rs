@@ -30,11 +30,11 @@ pub(super) fn show(
     contents(&mut child, session, state, commands);
 }
 
-/// The sheet as a page of a narrow window, with `room` for its height.
-pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, room: f32, commands: &mut Vec<Command>) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), room), Sense::hover());
+/// The sheet as a page of a narrow window, as high as what is available.
+pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
-    if room >= WITH_TRANSPORT {
+    if rect.height() >= WITH_TRANSPORT {
         controls::all_steps(&mut child, session, commands);
         child.add_space(GAP);
     }
@@ -111,11 +111,14 @@ pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
         state.dragged_height = Some(0.0);
     }
     if response.dragged() {
-        let height = state.dragged_height.or(state.sheet_height(ui)).unwrap_or(0.0);
+        let height = state
+            .dragged_height
+            .or(state.sheet_height(ui.available_height()))
+            .unwrap_or(0.0);
         state.drag_height(height - response.drag_delta().y);
     }
     if response.drag_stopped() {
-        state.settle_height(ui);
+        state.settle_height(ui.available_height());
     }
     if response.double_clicked() {
         state.open = !state.open;

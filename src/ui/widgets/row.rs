@@ -172,7 +172,7 @@ pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
 }
 
 /// Height of the handle of a sheet.
-pub(crate) const SHEET_HANDLE_HEIGHT: f32 = 24.0;
+const SHEET_HANDLE_HEIGHT: f32 = 24.0;
 
 /// The grip of the bottom sheet.
 pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
