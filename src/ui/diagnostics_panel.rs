@@ -7,8 +7,8 @@ use super::error_card::show_excerpt;
 use super::panel::scrolled;
 use super::skeleton::state::SidePage;
 use super::state::{ShownFinding, UiState};
-use super::theme::{CONTROL_RADIUS, MARGIN, Tokens};
-use super::widgets::{closable_heading, focus_ring, rule};
+use super::theme::{MARGIN, Tokens};
+use super::widgets::{closable_heading, paint_row_ground, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
@@ -74,11 +74,7 @@ fn finding(
     job.append(&format!("{place}{}", notice.code), 0.0, plain(11.5, tokens.muted));
     let galley = ui.painter().layout_job(job);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), galley.size().y + 12.0), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if response.hovered() || response.has_focus() || shown {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    paint_row_ground(ui, rect, &response, false, response.contains_pointer() || shown);
     ui.painter().circle_filled(rect.min + vec2(4.0, 14.0), 3.0, color);
     ui.painter().galley(rect.min + vec2(16.0, 6.0), galley, tokens.text);
     let about = goal

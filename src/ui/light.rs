@@ -4,9 +4,9 @@ use egui::{Align2, Color32, FontId, Response, RichText, Role, Sense, Ui, WidgetI
 
 use super::icons::Icon;
 use super::panel::popover_gap;
-use super::theme::{CONTROL_RADIUS, Tokens};
+use super::theme::Tokens;
 use super::widgets::{
-    Slider, color_picker, control_size, focus_ring, icon_button, keyed_section_name, paint_elided, pressed_row_height,
+    Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, paint_ends, pressed_row,
     section_name, segmented, switch_row,
 };
 use crate::actions;
@@ -184,24 +184,8 @@ fn slow_passes(session: &Session) -> Option<String> {
 }
 
 fn pass_row(ui: &mut Ui, label: &str, words: &str, color: Color32) -> Response {
-    let tokens = Tokens::of(ui);
-    let size = vec2(ui.available_width(), pressed_row_height(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if response.hovered() {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
-    let font = FontId::proportional(13.0);
-    let painter = ui.painter();
-    painter.text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        label,
-        font.clone(),
-        tokens.text,
-    );
-    painter.text(rect.right_center(), Align2::RIGHT_CENTER, words, font, color);
+    let (rect, response) = pressed_row(ui, false);
+    paint_ends(ui, rect, (label, Tokens::of(ui).text), (words, color));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {words}")));
     response
 }

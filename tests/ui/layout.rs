@@ -356,8 +356,7 @@ fn what_opens_stands_in_its_place_from_its_first_frame_on() {
             page.session.apply(SubsetCommand::Select(Some(0)));
         });
         assert_in_place("legend", &|page| {
-            page.session
-                .apply(JointCommand::SetSkinView(Some(SkinView::Stretch)));
+            page.session.apply(JointCommand::SetSkinView(Some(SkinView::Stretch)));
         });
         assert_in_place("sheet", &|page| page.state.sheet = Some(SheetPage::Light));
         assert_in_place("findings", &|page| page.state.diagnostics_open = true);

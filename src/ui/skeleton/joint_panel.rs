@@ -11,7 +11,7 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_with_action,
+    TextButton, focus_ring, paint_elided, pressed_row, pressed_row_height, rule, section_with_action,
     section_with_labelled_action, segmented, selected_heading, switch_row, value_row,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
@@ -234,14 +234,7 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
 /// Whether it was clicked.
 fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if in_force {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
-    } else if response.hovered() && !is_touch(ui) {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    let (rect, response) = pressed_row(ui, in_force);
     let numbers = match part {
         KeyPart::Position => row.parts.position.to_array().map(|number| fitted(number, 3)),
         KeyPart::Rotation => row.parts.euler_xyz_degrees.to_array().map(|number| fitted(number, 2)),

@@ -4,12 +4,12 @@ use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, Widge
 
 use crate::actions;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand, Session};
-use crate::ui::icons::{self, Icon};
+use crate::ui::icons::Icon;
 use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{
-    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
+    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, row_icon, section_name, section_with_action,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -128,22 +128,13 @@ fn blend_icon(
     row: &Response,
     commands: &mut Vec<Command>,
 ) {
-    let tokens = Tokens::of(ui);
     let on = session.blend().is_some_and(|blend| blend.clip == index);
-    let response = ui.interact(place, row.id.with("blend"), Sense::click());
-    let color = match (on, response.hovered() || response.has_focus()) {
-        (true, _) => tokens.accent,
-        (false, hovered) => tokens.muted_to_text(hovered),
-    };
-    icons::paint(ui.painter(), place, Icon::Blend, color);
-    focus_ring(ui, place, &response);
     let label = if on {
         format!("End the blend with {name}")
     } else {
         format!("Blend with {name}")
     };
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, &label));
-    if response.on_hover_text(label).clicked() {
+    if row_icon(ui, place, row, Icon::Blend, &label, on) {
         commands.push(if on {
             PlayCommand::ClearBlend.into()
         } else {
