@@ -10,7 +10,7 @@ use std::time::Instant;
 use bindpose::render::device::{self, Backend};
 use bindpose::render::{MaterialImages, Renderer, Target};
 use bindpose::scene::{FrameOptions, Light, Pass, Passes, ViewMode};
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{File, FileCommand, PlayCommand, Session};
 
 const SIZE: [u32; 2] = [1280, 720];
 const ROUNDS: usize = 9;
@@ -71,8 +71,8 @@ fn session() -> (&'static str, Session) {
     } else {
         ("sample figure", files_in(&root.join("web/sample")))
     };
-    session.apply(Command::AddFiles(files));
-    session.apply(Command::Seek { time_secs: 1.0 });
+    session.apply(FileCommand::Add(files));
+    session.apply(PlayCommand::Seek { time_secs: 1.0 });
     (name, session)
 }
 

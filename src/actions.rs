@@ -5,7 +5,7 @@
 
 use crate::anim::{Direction, SkinView};
 use crate::scene::{Overlay, Projection, ViewPreset};
-use crate::session::{Command, JointCommand, LookCommand, Session};
+use crate::session::{CameraCommand, Command, JointCommand, LookCommand, PlayCommand, Session};
 
 /// What an action asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -187,8 +187,8 @@ fn ask(command: impl Into<Command>) -> Option<Ask> {
     Some(Ask::Command(command.into()))
 }
 
-fn glide(command: Command) -> Option<Ask> {
-    ask(Command::Glide(Box::new(command)))
+fn glide(command: CameraCommand) -> Option<Ask> {
+    ask(CameraCommand::Glide(Box::new(command)))
 }
 
 /// Asks only for a model that has bones.
@@ -197,7 +197,7 @@ fn with_bones(session: &Session, command: impl Into<Command>) -> Option<Ask> {
 }
 
 fn step_key(session: &Session, direction: Direction) -> Option<Ask> {
-    ask(Command::StepKey {
+    ask(PlayCommand::StepKey {
         direction,
         joint: session.joints().selected(),
     })
@@ -235,27 +235,27 @@ macro_rules! actions {
 
 actions! {
     /// Play or pause.
-    PLAY: Action::new(Group::Time, &["Space"], "play or pause", "Play", |_| ask(Command::TogglePlay))
+    PLAY: Action::new(Group::Time, &["Space"], "play or pause", "Play", |_| ask(PlayCommand::Toggle))
         .now(|session| plays(session, false));
     /// Play backward or pause.
     PLAY_BACKWARD: Action::new(Group::Time, &["Shift Space"], "play backward", "Backward", |_| {
-        ask(Command::TogglePlayBackward)
+        ask(PlayCommand::ToggleBackward)
     })
     .now(|session| plays(session, true));
     /// One frame back.
-    FRAME_BACK: Action::new(Group::Time, &["←", ","], "one frame", "One frame back", |_| ask(Command::StepFrames(-1)))
+    FRAME_BACK: Action::new(Group::Time, &["←", ","], "one frame", "One frame back", |_| ask(PlayCommand::StepFrames(-1)))
         .repeats();
     /// One frame on.
-    FRAME_ON: Action::new(Group::Time, &["→", "."], "one frame", "One frame on", |_| ask(Command::StepFrames(1)))
+    FRAME_ON: Action::new(Group::Time, &["→", "."], "one frame", "One frame on", |_| ask(PlayCommand::StepFrames(1)))
         .repeats();
     /// Ten frames back.
     TEN_FRAMES_BACK: Action::new(Group::Time, &["Shift ←", "Shift ,"], "ten frames", "Ten frames back", |_| {
-        ask(Command::StepFrames(-10))
+        ask(PlayCommand::StepFrames(-10))
     })
     .repeats();
     /// Ten frames on.
     TEN_FRAMES_ON: Action::new(Group::Time, &["Shift →", "Shift ."], "ten frames", "Ten frames on", |_| {
-        ask(Command::StepFrames(10))
+        ask(PlayCommand::StepFrames(10))
     })
     .repeats();
     /// To the next key of the selected joint, or of any.
@@ -269,66 +269,66 @@ actions! {
     })
     .repeats();
     /// To the first frame of what plays.
-    FIRST_FRAME: Action::new(Group::Time, &["Home"], "first, last frame", "First frame", |_| ask(Command::SeekStart));
+    FIRST_FRAME: Action::new(Group::Time, &["Home"], "first, last frame", "First frame", |_| ask(PlayCommand::SeekStart));
     /// To the last frame of what plays.
-    LAST_FRAME: Action::new(Group::Time, &["End"], "first, last frame", "Last frame", |_| ask(Command::SeekEnd));
+    LAST_FRAME: Action::new(Group::Time, &["End"], "first, last frame", "Last frame", |_| ask(PlayCommand::SeekEnd));
     /// Begin the range at the present time.
-    RANGE_IN: Action::new(Group::Time, &["I"], "range in, out", "Range in", |_| ask(Command::SetRangeStart(None)))
+    RANGE_IN: Action::new(Group::Time, &["I"], "range in, out", "Range in", |_| ask(PlayCommand::SetRangeStart(None)))
         .now(range_on);
     /// End the range at the present time.
-    RANGE_OUT: Action::new(Group::Time, &["O"], "range in, out", "Range out", |_| ask(Command::SetRangeEnd(None)))
+    RANGE_OUT: Action::new(Group::Time, &["O"], "range in, out", "Range out", |_| ask(PlayCommand::SetRangeEnd(None)))
         .now(range_on)
         .without_shift();
     /// Play the whole clip again.
-    CLEAR_RANGE: Action::new(Group::Time, &["Shift I"], "no range", "Clear the range", |_| ask(Command::ClearRange));
+    CLEAR_RANGE: Action::new(Group::Time, &["Shift I"], "no range", "Clear the range", |_| ask(PlayCommand::ClearRange));
     /// Play slower.
-    SLOWER: Action::new(Group::Time, &["["], "slower, faster, 1×", "Slower", |_| ask(Command::Slower)).now(speed).repeats();
+    SLOWER: Action::new(Group::Time, &["["], "slower, faster, 1×", "Slower", |_| ask(PlayCommand::Slower)).now(speed).repeats();
     /// Play faster.
-    FASTER: Action::new(Group::Time, &["]"], "slower, faster, 1×", "Faster", |_| ask(Command::Faster)).now(speed).repeats();
+    FASTER: Action::new(Group::Time, &["]"], "slower, faster, 1×", "Faster", |_| ask(PlayCommand::Faster)).now(speed).repeats();
     /// Play at the speed of the file.
-    NORMAL_SPEED: Action::new(Group::Time, &["\\"], "slower, faster, 1×", "Speed 1×", |_| ask(Command::SetSpeed(1.0)))
+    NORMAL_SPEED: Action::new(Group::Time, &["\\"], "slower, faster, 1×", "Speed 1×", |_| ask(PlayCommand::SetSpeed(1.0)))
         .now(speed);
     /// To the next loop mode: once, loop, there and back.
-    NEXT_LOOP_MODE: Action::new(Group::Time, &["L"], "next loop mode", "Loop mode", |_| ask(Command::CycleLoopMode))
+    NEXT_LOOP_MODE: Action::new(Group::Time, &["L"], "next loop mode", "Loop mode", |_| ask(PlayCommand::CycleLoopMode))
         .now(|session| Some(session.playback().loop_mode().label().to_owned()));
     /// To the next clip.
-    NEXT_CLIP: Action::new(Group::Time, &["C"], "next clip", "Next clip", |_| ask(Command::CycleClip(1)));
+    NEXT_CLIP: Action::new(Group::Time, &["C"], "next clip", "Next clip", |_| ask(PlayCommand::CycleClip(1)));
     /// To the previous clip.
-    PREVIOUS_CLIP: Action::new(Group::Time, &["Shift C"], "previous clip", "Previous clip", |_| ask(Command::CycleClip(-1)));
+    PREVIOUS_CLIP: Action::new(Group::Time, &["Shift C"], "previous clip", "Previous clip", |_| ask(PlayCommand::CycleClip(-1)));
 
     /// Frame what is selected, or the model.
     FRAME_SELECTION: Action::new(Group::Camera, &["F"], "frame the selection, all", "Frame the selection", |_| {
-        glide(Command::FrameSelection)
+        glide(CameraCommand::FrameSelection)
     });
     /// Frame the whole clip.
     FRAME_MODEL: Action::new(Group::Camera, &["Shift F"], "frame the selection, all", "Frame the model", |_| {
-        glide(Command::FrameModel)
+        glide(CameraCommand::FrameModel)
     });
     /// View from the front.
-    FRONT: Action::new(Group::Camera, &["1"], "front, right, top", "Front", |_| glide(Command::LookFrom(ViewPreset::Front)));
+    FRONT: Action::new(Group::Camera, &["1"], "front, right, top", "Front", |_| glide(CameraCommand::LookFrom(ViewPreset::Front)));
     /// View from the right.
-    RIGHT: Action::new(Group::Camera, &["3"], "front, right, top", "Right", |_| glide(Command::LookFrom(ViewPreset::Right)));
+    RIGHT: Action::new(Group::Camera, &["3"], "front, right, top", "Right", |_| glide(CameraCommand::LookFrom(ViewPreset::Right)));
     /// View from above.
-    TOP: Action::new(Group::Camera, &["7"], "front, right, top", "Top", |_| glide(Command::LookFrom(ViewPreset::Top)));
+    TOP: Action::new(Group::Camera, &["7"], "front, right, top", "Top", |_| glide(CameraCommand::LookFrom(ViewPreset::Top)));
     /// View from the back.
-    BACK: Action::new(Group::Camera, &["Ctrl 1"], "the opposite side", "Back", |_| glide(Command::LookFrom(ViewPreset::Back)));
+    BACK: Action::new(Group::Camera, &["Ctrl 1"], "the opposite side", "Back", |_| glide(CameraCommand::LookFrom(ViewPreset::Back)));
     /// View from the left.
-    LEFT: Action::new(Group::Camera, &["Ctrl 3"], "the opposite side", "Left", |_| glide(Command::LookFrom(ViewPreset::Left)));
+    LEFT: Action::new(Group::Camera, &["Ctrl 3"], "the opposite side", "Left", |_| glide(CameraCommand::LookFrom(ViewPreset::Left)));
     /// View from below.
     BOTTOM: Action::new(Group::Camera, &["Ctrl 7"], "the opposite side", "Bottom", |_| {
-        glide(Command::LookFrom(ViewPreset::Bottom))
+        glide(CameraCommand::LookFrom(ViewPreset::Bottom))
     });
     /// Orthographic or perspective.
-    ORTHOGRAPHIC: Action::new(Group::Camera, &["5"], "orthographic", "Orthographic", |_| ask(Command::ToggleProjection))
+    ORTHOGRAPHIC: Action::new(Group::Camera, &["5"], "orthographic", "Orthographic", |_| ask(CameraCommand::ToggleProjection))
         .now(|session| on(session.camera().projection == Projection::Orthographic));
     /// View from an upper corner.
     ISOMETRIC: Action::new(Group::Camera, &["9"], "isometric, reset", "Isometric", |_| {
-        glide(Command::LookFrom(ViewPreset::Isometric))
+        glide(CameraCommand::LookFrom(ViewPreset::Isometric))
     });
     /// The camera that a model opens with.
-    RESET_CAMERA: Action::new(Group::Camera, &["0"], "isometric, reset", "Reset the camera", |_| glide(Command::ResetCamera));
+    RESET_CAMERA: Action::new(Group::Camera, &["0"], "isometric, reset", "Reset the camera", |_| glide(CameraCommand::Reset));
     /// The camera goes round the model.
-    TURNTABLE: Action::new(Group::Camera, &[], "turntable", "Turntable", |_| ask(Command::ToggleTurntable))
+    TURNTABLE: Action::new(Group::Camera, &[], "turntable", "Turntable", |_| ask(CameraCommand::ToggleTurntable))
         .now(|session| on(session.turntable()));
 
     /// Bones over the model.
@@ -349,7 +349,7 @@ actions! {
     .now(|session| on(session.joints().skin_view() == Some(SkinView::Weight)));
     /// Between the clip and the bind pose.
     BIND_POSE: Action::new(Group::Bones, &["K"], "bind pose, clip", "Bind pose", |session| {
-        with_bones(session, Command::ToggleBindPose)
+        with_bones(session, PlayCommand::ToggleBindPose)
     })
     .now(|session| on(session.bind_weight() >= 1.0));
     /// Name the selected bone.

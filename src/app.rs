@@ -81,6 +81,7 @@ impl App {
         }
         let points_to_pixels = ui.pixels_per_point() * session.quality().render_scale().fraction();
         let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
+        let told = (session.model_revision(), session.error().is_some());
         let drawn = self
             .painter
             .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
@@ -90,6 +91,8 @@ impl App {
         if goes_on
             || self.painter.was_moving
             || session.picture_revision() != self.painter.drawn.map_or(0, |drawn| drawn.picture)
+            // The GPU refused something: the panels of this pass do not tell of it yet.
+            || (session.model_revision(), session.error().is_some()) != told
         {
             ui.ctx().request_repaint();
         }

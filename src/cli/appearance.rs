@@ -2,7 +2,7 @@
 
 use super::input::one_of;
 use crate::scene::{Background, Light, Overlay, Pass, ViewMode};
-use crate::session::{Command, LookCommand, PassChoice, Session};
+use crate::session::{LookCommand, PassChoice, QualityCommand, Session};
 
 /// How the model appears.
 #[derive(Debug, clap::Args)]
@@ -54,7 +54,7 @@ impl AppearanceArguments {
             LookCommand::SetEnvironmentTurn(self.turn.to_radians()),
             LookCommand::SetNormalGreenFlipped(self.flip_green),
         ] {
-            session.apply(command.into());
+            session.apply(command);
         }
         let background = if self.transparent {
             Some(Background::None)
@@ -62,13 +62,13 @@ impl AppearanceArguments {
             self.background
         };
         if let Some(background) = background {
-            session.apply(LookCommand::SetBackground(background).into());
+            session.apply(LookCommand::SetBackground(background));
         }
         for &overlay in &self.overlay {
-            session.apply(LookCommand::SetOverlay(overlay, true).into());
+            session.apply(LookCommand::SetOverlay(overlay, true));
         }
         for &pass in &self.without {
-            session.apply(Command::SetPass(pass, PassChoice::Off));
+            session.apply(QualityCommand::SetPass(pass, PassChoice::Off));
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, watched};
 use crate::scene::{Insets, Theme, ViewPreset};
-use crate::session::{Command, Session};
+use crate::session::{CameraCommand, Command, FileCommand, PlayCommand, Session};
 
 /// Draw a model into a PNG file.
 ///
@@ -130,7 +130,7 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     let path = &arguments.file;
     // Paused, so that time stays where it is set.
     let mut session = Session::new(true);
-    session.apply(Command::AddFiles(vec![input::read(path)?]));
+    session.apply(FileCommand::Add(vec![input::read(path)?]));
     if let Some(error) = session.error() {
         return Err(Failure::Refused {
             path: path.clone(),
@@ -141,19 +141,19 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     if let (Some(open), Some(asked)) = (session.open_model(), &arguments.clip)
         && let Some(clip) = input::choose_clip(&open.model, path, Some(asked))?
     {
-        session.apply(Command::SelectClip(clip));
+        session.apply(PlayCommand::SelectClip(clip));
     }
     if let Some(time_secs) = arguments.time {
-        session.apply(Command::Seek { time_secs });
+        session.apply(PlayCommand::Seek { time_secs });
     }
     let [width, height] = arguments.size;
-    session.apply(Command::SetViewport {
+    session.apply(CameraCommand::SetViewport {
         aspect: width as f32 / height as f32,
         insets: Insets::default(),
     });
     session.apply(Command::SetTheme(arguments.theme));
     arguments.appearance.apply(&mut session);
-    session.apply(Command::LookFrom(arguments.view));
+    session.apply(CameraCommand::LookFrom(arguments.view));
     Ok((session, lacks_maps))
 }
 
@@ -169,13 +169,13 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
     textures.write_warnings(err)?;
     let pictures = std::mem::take(&mut textures.pictures);
     if !pictures.is_empty() {
-        session.apply(Command::AddFiles(pictures));
+        session.apply(FileCommand::Add(pictures));
     }
     let lacks_maps = write_missing(err, &arguments.file, &textures.states(&materials, session.maps()))?;
     for path in &textures.cubes {
         match read_sky(path) {
             Ok(file) => {
-                session.apply(Command::AddFiles(vec![file]));
+                session.apply(FileCommand::Add(vec![file]));
                 break;
             }
             Err(warning) => write_finding(err, path, &warning, None)?,

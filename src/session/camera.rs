@@ -1,20 +1,176 @@
-//! Where the model is seen from, where that depends on the model: framing, zooming, gliding, flying.
+//! From where the model is seen: turning, zooming, gliding, flying.
 
 use glam::{Affine3A, Vec2, Vec3};
 
+use super::Session;
 use super::view::View;
-use super::{Command, Session};
-use crate::anim::GhostPlan;
 use crate::model::{Handedness, UpAxis};
-use crate::scene::{Camera, Insets};
+use crate::scene::{Camera, Insets, Projection, ViewPreset};
 
 /// Flight ends this far from the scene's middle, in radii of the scene: where zooming ends too.
 const FARTHEST_RADII: f32 = 100.0;
 
-/// What is framed around a vertex, as a part of the model's radius: its neighbourhood, and where on the model that is.
-const VERTEX_ROOM: f32 = 0.15;
+/// A wish about the camera.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CameraCommand {
+    /// Turns the camera about its target.
+    Orbit {
+        /// Positive moves the eye to its left.
+        yaw_radians: f32,
+        /// Positive lifts the eye.
+        pitch_radians: f32,
+    },
+    /// Moves the scene with the pointer.
+    Pan {
+        /// Shares of the picture's height, x right, y down.
+        drag: Vec2,
+    },
+    /// Comes nearer (factor below 1) to what is under the pointer.
+    Zoom {
+        /// Factor of the distance.
+        factor: f32,
+        /// Shares of the picture's height from its centre, x right, y down.
+        pointer: Vec2,
+    },
+    /// Frames all that the clip reaches.
+    FrameModel,
+    /// Frames what is selected as it is posed now: what a joint moves, the neighbourhood of a vertex, or a subset; all that the
+    /// clip reaches when nothing is selected.
+    FrameSelection,
+    /// Looks from a named direction and frames.
+    LookFrom(ViewPreset),
+    /// Perspective or orthographic.
+    ToggleProjection,
+    /// The default view.
+    Reset,
+    /// Does what another command asks, but lets the camera go there within a quarter of a second where it would jump.
+    /// Under reduced motion it jumps.
+    Glide(Box<CameraCommand>),
+    /// The pointer holds the camera: what it did by itself ends, and the turntable waits until [`CameraCommand::EndDrag`].
+    BeginDrag,
+    /// The pointer let go.
+    EndDrag,
+    /// Turns on after a drag, slower and slower. Nothing under reduced motion.
+    Fling {
+        /// Rate of [`CameraCommand::Orbit`]'s yaw when the pointer let go, radians a second.
+        yaw_radians_per_sec: f32,
+        /// Rate of its pitch.
+        pitch_radians_per_sec: f32,
+    },
+    /// Turns the camera about the model, once in twelve seconds, or leaves it.
+    SetTurntable(bool),
+    /// Turns the camera about the model, or leaves it, in turn.
+    ToggleTurntable,
+    /// Flies on, at one radius of the scene a second, until another command of this kind: the keys that are held now.
+    Fly {
+        /// To the right, up in the world, forward: −1…1 each. Zero ends it.
+        direction: Vec3,
+        /// Four times as fast.
+        fast: bool,
+    },
+    /// Turns the head: the eye stays where it is.
+    FlyLook {
+        /// Positive looks to the right.
+        yaw_radians: f32,
+        /// Positive looks up.
+        pitch_radians: f32,
+    },
+    /// The picture's shape, and what of it is covered by panels.
+    SetViewport {
+        /// Width / height.
+        aspect: f32,
+        /// Covered margins.
+        insets: Insets,
+    },
+}
+
+impl CameraCommand {
+    /// Whether it says where the camera shall be.
+    fn sends_camera(&self) -> bool {
+        matches!(
+            self,
+            Self::Orbit { .. }
+                | Self::Pan { .. }
+                | Self::Zoom { .. }
+                | Self::FrameModel
+                | Self::FrameSelection
+                | Self::LookFrom(_)
+                | Self::Reset
+                | Self::SetViewport { .. }
+        )
+    }
+}
 
 impl Session {
+    pub(super) fn apply_to_camera(&mut self, command: CameraCommand) {
+        match command {
+            CameraCommand::Orbit {
+                yaw_radians,
+                pitch_radians,
+            } => {
+                self.view.motion.interrupt();
+                self.view.camera.orbit(yaw_radians, pitch_radians);
+            }
+            CameraCommand::Pan { drag } => {
+                self.view.motion.interrupt();
+                self.view.camera.pan(drag);
+                self.view.framed = false;
+            }
+            CameraCommand::Zoom { factor, pointer } => {
+                self.view.motion.interrupt();
+                self.zoom(factor, pointer);
+            }
+            CameraCommand::FrameModel => {
+                self.view.motion.interrupt();
+                self.frame_model();
+            }
+            CameraCommand::FrameSelection => {
+                self.view.motion.interrupt();
+                self.frame_selection();
+            }
+            CameraCommand::LookFrom(preset) => {
+                self.view.motion.interrupt();
+                self.view.camera.look_from(preset);
+                self.frame_model();
+            }
+            CameraCommand::ToggleProjection => self.change_goal(|session| {
+                session.view.camera.projection = match session.view.camera.projection {
+                    Projection::Perspective { .. } => Projection::Orthographic,
+                    Projection::Orthographic => Camera::default().projection,
+                };
+            }),
+            CameraCommand::Reset => {
+                self.view.motion.interrupt();
+                self.view.camera = Camera::default();
+                self.frame_model();
+            }
+            CameraCommand::Glide(command) => self.glide(*command),
+            CameraCommand::BeginDrag => self.view.motion.hold(true),
+            CameraCommand::EndDrag => self.view.motion.hold(false),
+            CameraCommand::Fling {
+                yaw_radians_per_sec,
+                pitch_radians_per_sec,
+            } if !self.reduced_motion => self.view.motion.fling(yaw_radians_per_sec, pitch_radians_per_sec),
+            CameraCommand::Fling { .. } => {}
+            CameraCommand::SetTurntable(turns) => self.view.motion.set_turntable(turns),
+            CameraCommand::ToggleTurntable => self.view.motion.set_turntable(!self.turntable()),
+            CameraCommand::Fly { direction, fast } => self.view.motion.fly(direction, fast),
+            CameraCommand::FlyLook {
+                yaw_radians,
+                pitch_radians,
+            } => {
+                self.view.motion.interrupt();
+                self.view.camera.look_around(yaw_radians, pitch_radians);
+                self.view.framed = false;
+            }
+            CameraCommand::SetViewport { aspect, insets } => {
+                if (self.view.aspect, self.view.insets) != (aspect, insets) {
+                    self.change_goal(|session| session.set_viewport(aspect, insets));
+                }
+            }
+        }
+    }
+
     /// From where the model is seen.
     pub fn camera(&self) -> &Camera {
         &self.view.camera
@@ -40,105 +196,18 @@ impl Session {
         self.view.up_axis
     }
 
-    /// Poses beside that of now.
-    pub fn ghost_plan(&self) -> Option<GhostPlan> {
-        self.view.ghosts
-    }
-
-    /// Whether the bind pose is seen as a ghost.
-    pub fn bind_ghost(&self) -> bool {
-        self.view.bind_ghost
-    }
-
     /// The file's space -> the world.
     pub(super) fn world_from_model(&self) -> Affine3A {
         self.view.world_from_model(self.open_model())
     }
 
-    pub(super) fn zoom(&mut self, factor: f32, pointer: Vec2) {
+    fn zoom(&mut self, factor: f32, pointer: Vec2) {
         let radius = self.world_bounds().radius().max(1e-6);
         let View { camera, framed, .. } = &mut self.view;
         // Neither through the model nor so far that it is a dot.
         let distance = (camera.distance * factor).clamp(radius * 1e-2, radius * 100.0);
         camera.zoom(distance / camera.distance, pointer);
         *framed = false;
-    }
-
-    pub(super) fn frame_model(&mut self) {
-        let world_from_model = self.world_from_model();
-        if let Some(open) = &self.content.open {
-            let (_, points) = open.extent(self.actor.clip);
-            let points: Vec<_> = points
-                .iter()
-                .map(|&point| world_from_model.transform_point3(point))
-                .collect();
-            self.view.frame_points(&points);
-        }
-        self.view.framed = true;
-    }
-
-    pub(super) fn frame_selection(&mut self) {
-        let points = self.selected_points();
-        if points.is_empty() {
-            self.frame_model();
-        } else {
-            self.view.frame_points(&points);
-            self.view.framed = false;
-        }
-    }
-
-    /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex with a little
-    /// around it; or those of the selected subset. World space, as they are posed now.
-    fn selected_points(&mut self) -> Vec<Vec3> {
-        self.pose_vertices();
-        let around_vertex = VERTEX_ROOM * self.world_bounds().radius();
-        let world_from_model = self.world_from_model();
-        let joints = &self.selection.joints;
-        let (joint, vertex) = (joints.selected(), joints.selected_vertex().copied());
-        let mut points = Vec::new();
-        if let Some(joint) = joint {
-            let bones = self.bones().bones().iter().filter(|bone| bone.joint == joint);
-            points.extend(bones.flat_map(|bone| [bone.from, bone.to]));
-        }
-        let Some(open) = &self.content.open else { return points };
-        let mesh = &open.model.mesh;
-        let positions = self.caches.picker.positions();
-        let in_world = |vertex: usize| Some(world_from_model.transform_point3(*positions.get(vertex)?));
-        let submesh = self.selection.subsets.selected();
-        if let Some(joint) = joint {
-            let moved = mesh.influences.iter().enumerate().filter(|(_, influences)| {
-                let slots = influences.joints.into_iter().zip(influences.weights);
-                let of_joint = slots.filter(|&(of, _)| of == joint.0);
-                of_joint.map(|(_, weight)| weight).sum::<f32>() >= 0.5
-            });
-            points.extend(moved.filter_map(|(vertex, _)| in_world(vertex)));
-        } else if let Some(place) = vertex.and_then(|vertex| in_world(vertex.vertex as usize)) {
-            let sides = Vec3::AXES.map(|axis| axis * around_vertex);
-            points.extend(sides.into_iter().flat_map(|side| [place - side, place + side]));
-        } else if let Some(submesh) = submesh.and_then(|submesh| mesh.submeshes.get(submesh)) {
-            let start = submesh.triangle_start as usize * 3;
-            let corners = &mesh.indices[start..start + submesh.triangle_count as usize * 3];
-            points.extend(corners.iter().filter_map(|&vertex| in_world(vertex as usize)));
-        }
-        points
-    }
-
-    /// A model that nobody panned or zoomed stays framed in a picture of another shape. An aspect or insets that are not finite
-    /// are ignored.
-    pub(super) fn set_viewport(&mut self, aspect: f32, insets: Insets) {
-        let Insets {
-            left,
-            right,
-            top,
-            bottom,
-        } = insets;
-        if !(aspect.is_finite() && aspect > 0.0 && [left, right, top, bottom].into_iter().all(f32::is_finite)) {
-            return;
-        }
-        (self.view.aspect, self.view.insets) = (aspect, insets);
-        if self.view.framed {
-            self.frame_model();
-        }
     }
 
     /// Whether the camera turns about the model by itself.
@@ -151,9 +220,9 @@ impl Session {
     }
 
     /// Does what was asked, and lets the camera go there instead of jumping.
-    pub(super) fn glide(&mut self, command: Command) {
+    fn glide(&mut self, command: CameraCommand) {
         if self.reduced_motion || !command.sends_camera() {
-            return self.perform(command);
+            return self.apply_to_camera(command);
         }
         let from = self.view.camera;
         // Sent again on its way, it goes from here to where it would have been sent from there.
@@ -161,7 +230,7 @@ impl Session {
             self.view.camera = goal;
             self.view.motion.end_glide();
         }
-        self.perform(command);
+        self.apply_to_camera(command);
         let View { camera, motion, .. } = &mut self.view;
         let to = std::mem::replace(camera, from);
         camera.projection = to.projection;
@@ -210,22 +279,5 @@ impl Session {
         }
         // An orthographic view grows instead; it ends where zooming does.
         self.zoom(1.0, Vec2::ZERO);
-    }
-}
-
-impl Command {
-    /// Whether it says where the camera shall be.
-    fn sends_camera(&self) -> bool {
-        matches!(
-            self,
-            Self::Orbit { .. }
-                | Self::Pan { .. }
-                | Self::Zoom { .. }
-                | Self::FrameModel
-                | Self::FrameSelection
-                | Self::LookFrom(_)
-                | Self::ResetCamera
-                | Self::SetViewport { .. }
-        )
     }
 }

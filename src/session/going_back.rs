@@ -1,8 +1,9 @@
 //! What was dropped is on the screen when the GPU has taken it. Until then what was there before is kept, and comes back when the
 //! GPU refuses.
 
+use super::camera::CameraCommand;
 use super::changes::Changes;
-use super::{Command, Event, LoadError, Session};
+use super::{Event, LoadError, Session};
 use crate::diagnostic::codes;
 
 impl Session {
@@ -28,7 +29,7 @@ impl Session {
             ..before
         };
         self.view.theme = theme;
-        self.perform(Command::SetViewport { aspect, insets });
+        self.apply_to_camera(CameraCommand::SetViewport { aspect, insets });
         // Whoever has seen the one that failed must not take this for it.
         self.commit(Changes::CONTENT);
         self.note(Event::Load);

@@ -1,7 +1,8 @@
-//! How the model is looked at: light, view mode, background, lines, passes.
+//! How the model is looked at: light, view mode, background, lines, ghosts.
 
 use std::f32::consts::TAU;
 
+use crate::anim::GhostPlan;
 use crate::scene::{Background, Light, Overlay, Overlays, ViewMode};
 
 /// The book's lights turn by this much a second.
@@ -34,6 +35,10 @@ pub struct Look {
     pub book_lights_turn_radians: f32,
     /// Whether the green of normal maps points up in the picture.
     pub normal_green_flipped: bool,
+    /// Poses before and after that of now as ghosts.
+    pub ghosts: Option<GhostPlan>,
+    /// Whether the bind pose is seen as a ghost.
+    pub bind_ghost: bool,
 }
 
 /// A wish about the look.
@@ -65,6 +70,10 @@ pub enum LookCommand {
     SetExposure(f32),
     /// Which way the green of normal maps points.
     SetNormalGreenFlipped(bool),
+    /// Shows poses before and after that of now as ghosts, or none.
+    SetGhosts(Option<GhostPlan>),
+    /// Shows the bind pose as a ghost, or not.
+    SetBindGhost(bool),
 }
 
 impl Look {
@@ -93,6 +102,9 @@ impl Look {
             }
             LookCommand::SetLineLength(_) | LookCommand::SetEnvironmentTurn(_) | LookCommand::SetExposure(_) => {}
             LookCommand::SetNormalGreenFlipped(flipped) => self.normal_green_flipped = flipped,
+            // A plan without any is none.
+            LookCommand::SetGhosts(plan) => self.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0),
+            LookCommand::SetBindGhost(visible) => self.bind_ghost = visible,
         }
     }
 

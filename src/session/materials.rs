@@ -5,6 +5,21 @@ use crate::model::{Material, Reflectance};
 /// The greatest specular exponent that can be asked for: a highlight a few pixels wide.
 pub const MAX_SPEC_POWER: f32 = 1024.0;
 
+/// A wish about materials, by their index. An index that the model has not is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialCommand {
+    /// Draws a material with the values of another. Its names, the names of its maps and its book stay; numbers are brought
+    /// into their range.
+    Edit {
+        /// Which of the model's.
+        index: usize,
+        /// The values.
+        material: Material,
+    },
+    /// Draws a material as the file has it.
+    Reset(usize),
+}
+
 /// The materials of the open model as they are drawn.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Materials {
@@ -40,16 +55,15 @@ impl Materials {
         materials
     }
 
-    /// Draws a material with other values. Whether it is different now.
-    pub(super) fn edit(&mut self, index: usize, wanted: &Material) -> bool {
-        let edited = self.drawn.get(index).map(|drawn| with_values(drawn, wanted));
-        edited.is_some_and(|edited| self.replace(index, edited))
-    }
-
-    /// Draws a material as the file has it. Whether it is different now.
-    pub(super) fn reset(&mut self, index: usize, of_file: &[Material]) -> bool {
-        let of_file = of_file.get(index);
-        of_file.is_some_and(|of_file| self.replace(index, of_file.clone()))
+    /// Does what was asked; `of_file` are the materials of the file. Whether one is different now.
+    pub(super) fn apply(&mut self, command: MaterialCommand, of_file: &[Material]) -> bool {
+        let (index, material) = match command {
+            MaterialCommand::Edit { index, material } => {
+                (index, self.get(index).map(|drawn| with_values(drawn, &material)))
+            }
+            MaterialCommand::Reset(index) => (index, of_file.get(index).cloned()),
+        };
+        material.is_some_and(|material| self.replace(index, material))
     }
 
     fn replace(&mut self, index: usize, material: Material) -> bool {

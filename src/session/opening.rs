@@ -12,6 +12,30 @@ use super::materials::Materials;
 use super::mixer::Blend;
 use super::sky::FoundSky;
 use super::{Event, Session};
+
+/// A wish about files.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileCommand {
+    /// Opens the largest model of a drop; the others are listed, pictures are kept beside it, a cube map becomes the sky.
+    Add(Vec<File>),
+    /// Adds the clips of other models with the same bones to the open one; without an open model it opens them. One whose
+    /// bones differ is refused as an error, and the model stays.
+    AddClips(Vec<File>),
+    /// Opens another model of the last drop, by its path.
+    Open(String),
+    /// Takes the sky away that was dropped.
+    ClearSky,
+    /// Takes the error card away.
+    DismissError,
+}
+
+impl FileCommand {
+    /// Whether it may bring something that a renderer uploads.
+    pub(super) fn opens(&self) -> bool {
+        matches!(self, Self::Add(_) | Self::AddClips(_) | Self::Open(_))
+    }
+}
+
 /// What plays, by the names of clips.
 #[derive(Clone, Debug)]
 struct ShownClips {
@@ -20,7 +44,17 @@ struct ShownClips {
 }
 
 impl Session {
-    pub(super) fn add_files(&mut self, files: Vec<File>) {
+    pub(super) fn apply_to_files(&mut self, command: FileCommand) {
+        match command {
+            FileCommand::Add(files) => self.add_files(files),
+            FileCommand::AddClips(files) => self.add_clips(files),
+            FileCommand::Open(path) => self.open_file(&path),
+            FileCommand::ClearSky => self.clear_sky(),
+            FileCommand::DismissError => self.content.error = None,
+        }
+    }
+
+    fn add_files(&mut self, files: Vec<File>) {
         self.content.maps.forget_unused();
         let files = Arc::new(FileSet::new(files));
         match self.wanted_model(&files).and_then(|path| files.get(&path).cloned()) {
@@ -30,7 +64,7 @@ impl Session {
         }
     }
 
-    pub(super) fn open_file(&mut self, path: &str) {
+    fn open_file(&mut self, path: &str) {
         if let Some(file) = self.content.files.get(path).cloned() {
             self.load(LoadJob::new(Arc::clone(&self.content.files), file).without_sky());
         }
@@ -95,7 +129,7 @@ impl Session {
     }
 
     /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices.
-    pub(super) fn replace_model(&mut self, loaded: Loaded) {
+    fn replace_model(&mut self, loaded: Loaded) {
         let Loaded { files, open, maps, sky } = loaded;
         let was_playing = self.actor.playback.is_playing();
         let clip_name = self.clip().map(|clip| clip.name.clone());
@@ -142,7 +176,7 @@ impl Session {
     }
 
     /// Goes to the first clip, if there is one, and plays it unless things are to stand still.
-    pub(super) fn show_first_clip(&mut self) {
+    fn show_first_clip(&mut self) {
         if let Some(open) = &self.content.open
             && self.actor.show_clip(open, 0)
             && !self.reduced_motion
@@ -152,7 +186,7 @@ impl Session {
     }
 
     /// Adds the clips of every model of a drop. Without a model to join the drop is opened.
-    pub(super) fn add_clips(&mut self, files: Vec<File>) {
+    fn add_clips(&mut self, files: Vec<File>) {
         if self.content.open.is_none() {
             return self.add_files(files);
         }

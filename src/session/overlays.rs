@@ -5,12 +5,11 @@ use glam::{Affine3A, Vec3};
 
 use super::actor::Actor;
 use super::changes::Revisions;
-
 use super::joints::Joints;
+use super::look::Look;
 use super::mixer::Blend;
 use super::open_model::OpenModel;
 use super::skeleton_cache::{SkeletonCache, SkinColorsKey};
-use super::view::View;
 use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
 use crate::model::{JointIndex, Model};
 use crate::scene::{BoneColors, Ghosts, OverlayGeometry, Theme, VertexColors, joint_colors};
@@ -130,13 +129,13 @@ impl OverlayCache {
         &mut self,
         open: Option<&OpenModel>,
         actor: &mut Actor,
-        view: &View,
+        look: &Look,
         revisions: Revisions,
     ) {
         let wanted = GhostsKey {
             pose_revision: revisions.pose,
-            plan: view.ghosts,
-            bind_ghost: view.bind_ghost,
+            plan: look.ghosts,
+            bind_ghost: look.bind_ghost,
         };
         if self.ghosts_for == Some(wanted) {
             return;
@@ -147,7 +146,7 @@ impl OverlayCache {
         let Some(open) = open else { return };
         let skeleton = &open.model.skeleton;
         let clip = actor.clip.and_then(|clip| open.clip(clip));
-        if let (Some(plan), Some((clip, compiled))) = (view.ghosts, clip) {
+        if let (Some(plan), Some((clip, compiled))) = (look.ghosts, clip) {
             let now_secs = actor.playback.time_secs();
             self.times_secs.clear();
             ghost_times(clip, now_secs, plan, &mut self.times_secs);
@@ -159,7 +158,7 @@ impl OverlayCache {
             let colors = (0..times_secs.len()).map(|ghost| ghost_color(ghost, past, times_secs.len()));
             self.ghost_colors_srgb.extend(colors);
         }
-        if view.bind_ghost && skeleton.joint_count() > 0 {
+        if look.bind_ghost && skeleton.joint_count() > 0 {
             self.scratch.set_bind_pose(skeleton);
             self.palettes.push(self.scratch.palette.clone());
             self.ghost_colors_srgb.push(BIND_SRGB);

@@ -3,10 +3,145 @@
 use std::borrow::Cow;
 
 use super::{Blend, Event, SPEEDS, Session};
-use crate::anim::{Direction, Seam, next_key, previous_key};
+use crate::anim::{Direction, LoopMode, Seam, WrapMode, next_key, previous_key};
 use crate::model::JointIndex;
 
+/// A wish about what plays and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlayCommand {
+    /// Plays on in the direction it had; a clip that stopped at its end starts over.
+    Play,
+    /// Stops where it is.
+    Pause,
+    /// Plays or pauses.
+    Toggle,
+    /// Plays backward, or pauses when it does.
+    ToggleBackward,
+    /// Goes to a time, clamped to the clip.
+    Seek {
+        /// Seconds in the clip's own time.
+        time_secs: f32,
+    },
+    /// Pauses and goes some frames on (or back), to a whole frame.
+    StepFrames(i32),
+    /// Goes to a place in frames of the clip's own key rate, clamped to the clip; between two frames where it has a fraction.
+    SeekFrame(f64),
+    /// Pauses and goes to the next key of a joint, or of any, in a direction; nowhere when there is none.
+    StepKey {
+        /// To later or to earlier keys.
+        direction: Direction,
+        /// Whose keys; `None` is every joint's.
+        joint: Option<JointIndex>,
+    },
+    /// First frame, of the range where there is one.
+    SeekStart,
+    /// Last frame, of the range where there is one.
+    SeekEnd,
+    /// Lets playing begin at a time, seconds, or at the present one. A range that would end before then ends with the clip.
+    /// Ranges are forgotten with their clip.
+    SetRangeStart(Option<f32>),
+    /// Lets playing end at a time, seconds, or at the present one. A range that would begin after then begins with the clip.
+    SetRangeEnd(Option<f32>),
+    /// Lets the whole clip play.
+    ClearRange,
+    /// The pointer holds the time: playing waits until [`PlayCommand::EndScrub`].
+    BeginScrub,
+    /// The pointer let go: playing goes on if it played before.
+    EndScrub,
+    /// Shows a clip, by its index.
+    SelectClip(usize),
+    /// Shows the clip some places further, around the end.
+    CycleClip(i32),
+    /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
+    /// Under reduced motion it is at once in any case.
+    SetCrossfade(f32),
+    /// Blends a second clip into the one on show, at the same fraction of its length. Nothing for the clip on show itself.
+    SetBlend {
+        /// Index of the clip.
+        clip: usize,
+        /// Its weight in the pose, clamped to 0…1.
+        weight: f32,
+    },
+    /// Shows the clip on show alone.
+    ClearBlend,
+    /// Speed as a factor of the file's, clamped to [`crate::anim::MIN_SPEED`] and [`crate::anim::MAX_SPEED`].
+    SetSpeed(f32),
+    /// One of the [`crate::session::SPEEDS`] down.
+    Slower,
+    /// One of the [`crate::session::SPEEDS`] up.
+    Faster,
+    /// What happens at the end.
+    SetLoopMode(LoopMode),
+    /// Once, loop, ping-pong, in turn.
+    CycleLoopMode,
+    /// How a loop begins again.
+    SetWrapMode(WrapMode),
+    /// Brings the pose a part of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
+    SetBindWeight(f32),
+    /// The bind pose, or the clip's, in turn.
+    ToggleBindPose,
+}
+
 impl Session {
+    pub(super) fn apply_to_playback(&mut self, command: PlayCommand) {
+        match command {
+            PlayCommand::Play => self.set_playing(true),
+            PlayCommand::Pause => self.set_playing(false),
+            PlayCommand::Toggle => {
+                let playing = !self.actor.playback.is_playing();
+                self.actor.playback.set_backward(false);
+                self.set_playing(playing);
+            }
+            PlayCommand::ToggleBackward => {
+                let playing = !(self.actor.playback.is_playing() && self.actor.playback.is_backward());
+                self.actor.playback.set_backward(true);
+                self.set_playing(playing);
+            }
+            PlayCommand::Seek { time_secs } => self.seek(time_secs),
+            PlayCommand::StepFrames(frames) => self.step_frames(frames),
+            PlayCommand::SeekFrame(frame) => self.seek_frame(frame),
+            PlayCommand::StepKey { direction, joint } => self.step_key(direction, joint),
+            PlayCommand::SeekStart => self.seek(self.actor.playback.played_secs()[0]),
+            PlayCommand::SeekEnd => self.seek(self.actor.playback.played_secs()[1]),
+            PlayCommand::SetRangeStart(secs) => {
+                let secs = secs.unwrap_or(self.actor.playback.time_secs());
+                self.actor.playback.set_range_start(secs);
+            }
+            PlayCommand::SetRangeEnd(secs) => {
+                let secs = secs.unwrap_or(self.actor.playback.time_secs());
+                self.actor.playback.set_range_end(secs);
+            }
+            PlayCommand::ClearRange => self.actor.playback.clear_range(),
+            PlayCommand::BeginScrub => self.actor.scrubbing = true,
+            PlayCommand::EndScrub => self.actor.scrubbing = false,
+            PlayCommand::SelectClip(clip) => self.select_clip(clip),
+            PlayCommand::CycleClip(places) => self.cycle_clip(places),
+            PlayCommand::SetCrossfade(secs) => self.actor.mixer.set_crossfade(secs),
+            PlayCommand::SetBlend { clip, weight } => {
+                self.actor.set_blend(Blend { clip, weight }, self.content.clip_count());
+            }
+            PlayCommand::ClearBlend => self.actor.mixer.set_blend(None),
+            PlayCommand::SetSpeed(speed) => self.actor.playback.set_speed(speed),
+            PlayCommand::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
+            PlayCommand::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
+            PlayCommand::SetLoopMode(mode) => self.actor.playback.set_loop_mode(mode),
+            PlayCommand::CycleLoopMode => {
+                let next = match self.actor.playback.loop_mode() {
+                    LoopMode::Once => LoopMode::Loop,
+                    LoopMode::Loop => LoopMode::PingPong,
+                    LoopMode::PingPong => LoopMode::Once,
+                };
+                self.actor.playback.set_loop_mode(next);
+            }
+            PlayCommand::SetWrapMode(mode) => self.actor.playback.set_wrap_mode(mode),
+            PlayCommand::SetBindWeight(weight) => self.actor.set_bind_weight(weight),
+            PlayCommand::ToggleBindPose => {
+                let weight = if self.actor.bind_weight < 0.5 { 1.0 } else { 0.0 };
+                self.actor.set_bind_weight(weight);
+            }
+        }
+    }
+
     /// How far the pose is brought to the bind pose: 0 as the clip has it … 1 the bind pose. See
     /// [`crate::anim::blend_to_rest`].
     pub fn bind_weight(&self) -> f32 {
@@ -39,7 +174,7 @@ impl Session {
         }
     }
 
-    pub(super) fn seek(&mut self, time_secs: f32) {
+    fn seek(&mut self, time_secs: f32) {
         if self.actor.clip.is_none() || time_secs.is_nan() {
             return;
         }
@@ -52,21 +187,21 @@ impl Session {
         }
     }
 
-    pub(super) fn step_frames(&mut self, frames: i32) {
+    fn step_frames(&mut self, frames: i32) {
         let Some(clip) = self.clip() else { return };
         let time_secs = clip.step_frames(self.actor.playback.time_secs(), frames);
         self.set_playing(false);
         self.seek(time_secs);
     }
 
-    pub(super) fn seek_frame(&mut self, frame: f64) {
+    fn seek_frame(&mut self, frame: f64) {
         let Some(clip) = self.clip() else { return };
         if !frame.is_nan() {
             self.seek(clip.time_at_place(frame));
         }
     }
 
-    pub(super) fn step_key(&mut self, direction: Direction, joint: Option<JointIndex>) {
+    fn step_key(&mut self, direction: Direction, joint: Option<JointIndex>) {
         let Some(clip) = self.clip() else { return };
         let (key_times, time_secs) = (self.key_times(joint), self.actor.playback.time_secs());
         let key_secs = match direction {
@@ -79,7 +214,7 @@ impl Session {
         }
     }
 
-    pub(super) fn select_clip(&mut self, index: usize) {
+    fn select_clip(&mut self, index: usize) {
         let Some(open) = self.content.open.clone() else { return };
         if self.actor.clip == Some(index) || index >= open.model.clips.len() {
             return;
@@ -90,14 +225,14 @@ impl Session {
         self.note(Event::TimeUpdate);
     }
 
-    pub(super) fn cycle_clip(&mut self, places: i32) {
+    fn cycle_clip(&mut self, places: i32) {
         let count = self.content.clip_count();
         if let (Some(clip), true) = (self.actor.clip, count > 0) {
             self.select_clip((clip as i64 + i64::from(places)).rem_euclid(count as i64) as usize);
         }
     }
 
-    pub(super) fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
+    fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
         if let Some(&speed) = pick(&SPEEDS, self.actor.playback.speed()) {
             self.actor.playback.set_speed(speed);
         }

@@ -78,10 +78,19 @@ impl Default for RenderScale {
     }
 }
 
+/// A wish about quality.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum QualityCommand {
+    /// Whether a costly pass is drawn.
+    SetPass(Pass, PassChoice),
+    /// How fine the picture in the window is.
+    SetRenderScale(RenderScale),
+}
+
 /// The passes of a session, and how fine its picture is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Quality {
-    pub(super) render_scale: RenderScale,
+    render_scale: RenderScale,
     choices: [PassChoice; Pass::ALL.len()],
     /// Left out, since frames took too long.
     degraded: Vec<Pass>,
@@ -127,8 +136,15 @@ impl Quality {
         self.render_scale
     }
 
+    pub(super) fn apply(&mut self, command: QualityCommand) {
+        match command {
+            QualityCommand::SetPass(pass, choice) => self.choose(pass, choice),
+            QualityCommand::SetRenderScale(scale) => self.render_scale = scale,
+        }
+    }
+
     /// Chooses. A new choice of [`PassChoice::Auto`] gives the device another try.
-    pub(super) fn choose(&mut self, pass: Pass, choice: PassChoice) {
+    fn choose(&mut self, pass: Pass, choice: PassChoice) {
         self.choices[pass as usize] = choice;
         self.degraded.retain(|&degraded| degraded != pass);
         self.forgive();

@@ -50,6 +50,11 @@ impl Session {
         let view = &mut self.view;
         overlays.line_length = view.look.overlays.line_length;
         view.look.overlays = overlays;
+        let ghosts = state.ghosts.map(|[before, after, step_frames]| GhostPlan {
+            before,
+            after,
+            step_frames,
+        });
         for command in [
             LookCommand::SetLight(state.light),
             LookCommand::SetSplit(state.split),
@@ -59,18 +64,14 @@ impl Session {
             LookCommand::SetEnvironmentTurn(state.environment_turn_radians),
             LookCommand::SetExposure(state.exposure_stops),
             LookCommand::SetNormalGreenFlipped(state.normal_green_flipped),
+            LookCommand::SetGhosts(ghosts),
+            LookCommand::SetBindGhost(state.bind_ghost),
         ] {
             view.look.apply(command);
         }
         view.look.set_book_lights_turn(state.book_lights_turn_radians);
         view.handedness = state.handedness;
         view.up_axis = state.up_axis;
-        view.set_ghosts(state.ghosts.map(|[before, after, step_frames]| GhostPlan {
-            before,
-            after,
-            step_frames,
-        }));
-        view.bind_ghost = state.bind_ghost;
         let trails: Vec<JointIndex> = state
             .trails
             .iter()

@@ -60,9 +60,9 @@ impl Session {
     pub(super) fn select_at(&mut self, pointer: Vec2) {
         let bone = self.selection.joints.bones_visible().then(|| self.joint_at(pointer));
         if let Some(bone) = bone.flatten() {
-            self.perform(JointCommand::Select(Some(bone)).into());
+            self.apply_to_joints(JointCommand::Select(Some(bone)));
         } else if self.selection.joints.skin_view().is_some() {
-            self.perform(JointCommand::SelectVertexAt(pointer).into());
+            self.apply_to_joints(JointCommand::SelectVertexAt(pointer));
         } else {
             self.apply_to_subsets(SubsetCommand::SelectAt(pointer));
             self.selection.joints.clear_selection();
@@ -96,6 +96,9 @@ impl Session {
                 let hit = pointer.and_then(|pointer| self.pick(pointer));
                 self.selection.subsets.hover(hit.map(|hit| hit.submesh));
             }
+        }
+        if self.selection.subsets.selected().is_some() {
+            self.selection.joints.clear_selection();
         }
     }
 
@@ -217,7 +220,11 @@ impl Session {
                 self.selection.joints.apply(command, skeleton);
             }
         }
+        if self.selection.joints.selected().is_some() || self.selection.joints.selected_vertex().is_some() {
+            self.selection.subsets.select(None, None);
+        }
     }
+
     /// The rows of the tree, depth first, in the caller's buffer. With words in `query`: all joints whose name has them,
     /// whatever the case, or whose number in the file they are (`12`, `#12` and `bone 12` alike), and what these hang from,
     /// unfolded.

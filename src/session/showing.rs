@@ -42,7 +42,7 @@ impl Session {
         } = &mut self.caches;
         let model = open.map(|open| &open.model);
         overlays.update_colors(colors_key, model, picker.positions(), skeleton);
-        overlays.update_ghosts(open, actor, &self.view, revisions);
+        overlays.update_ghosts(open, actor, &self.view.look, revisions);
         overlays.update_geometry(open, actor, joints, skeleton, in_world, revisions);
     }
 

@@ -5,7 +5,6 @@ use glam::{Affine3A, Vec3};
 use super::look::Look;
 use super::motion::Motion;
 use super::open_model::OpenModel;
-use crate::anim::GhostPlan;
 use crate::model::{self, Handedness, UpAxis};
 use crate::scene::{Camera, FrameOptions, Insets, Passes, Theme};
 
@@ -25,8 +24,6 @@ pub(super) struct View {
     pub(super) up_axis: Option<UpAxis>,
     pub(super) look: Look,
     pub(super) theme: Theme,
-    pub(super) ghosts: Option<GhostPlan>,
-    pub(super) bind_ghost: bool,
 }
 
 impl Default for View {
@@ -41,8 +38,6 @@ impl Default for View {
             up_axis: None,
             look: Look::default(),
             theme: Theme::default(),
-            ghosts: None,
-            bind_ghost: false,
         }
     }
 }
@@ -61,10 +56,7 @@ impl View {
 
     /// Whether a picture of this view is the same as one of another, if the model stands in the world as it does there.
     pub(super) fn shows_the_same_as(&self, other: &Self) -> bool {
-        self.camera == other.camera
-            && self.look == other.look
-            && self.theme == other.theme
-            && (self.ghosts, self.bind_ghost) == (other.ghosts, other.bind_ghost)
+        self.camera == other.camera && self.look == other.look && self.theme == other.theme
     }
 
     /// The handedness in force: chosen, or else found.
@@ -96,6 +88,7 @@ impl View {
             exposure_stops,
             book_lights_turn_radians,
             normal_green_flipped,
+            ..
         } = self.look;
         FrameOptions {
             theme: self.theme,
@@ -110,11 +103,6 @@ impl View {
             book_lights_turn_radians,
             normal_green_flipped,
         }
-    }
-
-    /// Poses beside that of now. A plan without any is none.
-    pub(super) fn set_ghosts(&mut self, plan: Option<GhostPlan>) {
-        self.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0);
     }
 
     /// Frames points of the world in what the panels leave free.

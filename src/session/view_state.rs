@@ -214,8 +214,8 @@ impl AppearanceState {
             bone_style: joints.bone_style(),
             labels_visible: joints.labels_visible(),
             skin_view: joints.skin_view(),
-            ghosts: view.ghosts.map(|plan| [plan.before, plan.after, plan.step_frames]),
-            bind_ghost: view.bind_ghost,
+            ghosts: look.ghosts.map(|plan| [plan.before, plan.after, plan.step_frames]),
+            bind_ghost: look.bind_ghost,
             trails: trails
                 .filter_map(|joint| file_bones.get(joint.index()).copied())
                 .collect(),

@@ -7,15 +7,15 @@ use super::error_card::show_excerpt;
 use super::panel::scrolled;
 use super::skeleton::state::SidePage;
 use super::state::{ShownFinding, UiState};
-use super::theme::{CONTROL_RADIUS, MARGIN, Tokens};
-use super::widgets::{closable_heading, focus_ring, rule};
+use super::theme::{MARGIN, Tokens};
+use super::widgets::{closable_heading, paint_row_ground, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubsetCommand};
 
 /// The panel's contents.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     let tokens = Tokens::of(ui);
     if closable_heading(ui, "Diagnostics") {
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_heig
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));
         return;
     }
-    scrolled("findings", max_height)
+    scrolled("findings", ui.available_height())
         .auto_shrink([false, true])
         .show(ui, |ui| {
             for notice in session.notices() {
@@ -74,11 +74,7 @@ fn finding(
     job.append(&format!("{place}{}", notice.code), 0.0, plain(11.5, tokens.muted));
     let galley = ui.painter().layout_job(job);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), galley.size().y + 12.0), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if response.hovered() || response.has_focus() || shown {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    paint_row_ground(ui, rect, &response, false, response.contains_pointer() || shown);
     ui.painter().circle_filled(rect.min + vec2(4.0, 14.0), 3.0, color);
     ui.painter().galley(rect.min + vec2(16.0, 6.0), galley, tokens.text);
     let about = goal
@@ -141,7 +137,7 @@ impl Goal {
                 Some(Self {
                     words: format!("Clip {name}"),
                     // The timeline has it.
-                    commands: vec![Command::SelectClip(clip as usize)],
+                    commands: vec![PlayCommand::SelectClip(clip as usize).into()],
                     page: None,
                 })
             }
@@ -199,13 +195,13 @@ impl Goal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::File;
+    use crate::session::{File, FileCommand};
 
     /// No model that can be shown has a finding about a triangle, so no click can lead there yet.
     #[test]
     fn the_way_to_a_triangle_is_that_to_its_first_corner_and_what_is_not_there_has_none() {
         let mut session = Session::new(true);
-        session.apply(Command::AddFiles(vec![File::new(
+        session.apply(FileCommand::Add(vec![File::new(
             "figure.m3d",
             include_bytes!("../../web/sample/figure.m3d").to_vec(),
         )]));

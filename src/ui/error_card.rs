@@ -9,7 +9,7 @@ use super::widgets::{TextButton, control_size, icon_button, rule};
 use super::wording::shortened;
 use crate::diagnostic::codes;
 use crate::format::Excerpt;
-use crate::session::{Command, LoadError, Session};
+use crate::session::{Command, FileCommand, LoadError, Session};
 
 /// The card's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &title));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
-                commands.push(Command::DismissError);
+                commands.push(FileCommand::DismissError.into());
             }
             let copy = TextButton::new("Copy", "Copy the error");
             let copy = copy.width(Rangef::new(control_size(ui), f32::INFINITY));

@@ -1,11 +1,11 @@
 //! What keys, pointer and fingers do.
 
-use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::panel::scrolled;
 use super::state::UiState;
 use super::theme::{self, ROW_HEIGHT, Tokens};
-use super::widgets::{closable_heading, paint_elided, rule};
+use super::widgets::{closable_heading, is_touch, paint_elided, rule};
 use crate::actions::{self, Group};
 use crate::session::Session;
 
@@ -67,21 +67,21 @@ const LIST_BY_TOUCH: &[Part] = &[
 /// Width of a column, and of what is between two.
 const COLUMN_WIDTH: f32 = 280.0;
 const BETWEEN: f32 = 20.0;
-/// Height of the heading.
-const HEADING: f32 = 40.0;
 
-/// The table, of a size of `most`: in two columns where there is room for them, else in one that scrolls.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, most: Vec2, touch: bool) {
-    let in_two = most.x >= 2.0 * COLUMN_WIDTH + BETWEEN;
+/// The table: in two columns where there is room for them, else in one that scrolls.
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
+    let touch = is_touch(ui);
+    let most = ui.available_width();
+    let in_two = most >= 2.0 * COLUMN_WIDTH + BETWEEN;
     ui.set_width(if in_two {
         2.0 * COLUMN_WIDTH + BETWEEN
     } else {
-        COLUMN_WIDTH.min(most.x)
+        COLUMN_WIDTH.min(most)
     });
     if closable_heading(ui, "Keys") {
         state.help_open = false;
     }
-    scrolled("keys", most.y - HEADING).show(ui, |ui| {
+    scrolled("keys", ui.available_height()).show(ui, |ui| {
         if in_two {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = BETWEEN;

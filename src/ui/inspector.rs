@@ -13,7 +13,7 @@ use super::widgets::{
 use super::wording::grouped;
 use crate::model::{Material, Reflectance};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
-use crate::session::{Command, MAX_SPEC_POWER, MapSlot, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, MAX_SPEC_POWER, MapSlot, MaterialCommand, OpenModel, Session, SubsetCommand};
 
 /// Width of the labels of values.
 const LABEL_WIDTH: f32 = 90.0;
@@ -46,13 +46,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     rule(ui, MARGIN);
     let action = session.is_edited(material).then_some("Reset");
     if section_with_action(ui, "Material", action) {
-        commands.push(Command::ResetMaterial(material));
+        commands.push(MaterialCommand::Reset(material).into());
     }
     if let Some(edited) = material_fields(ui, values) {
-        commands.push(Command::EditMaterial {
+        commands.push(Command::Material(MaterialCommand::Edit {
             index: material,
             material: edited,
-        });
+        }));
     }
     if MapSlot::ALL.iter().any(|slot| slot.name_in(values).is_some()) {
         rule(ui, MARGIN);

@@ -5,7 +5,7 @@ use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 use super::state::UiState;
 use super::viewport::FLIGHT_KEYS;
 use crate::actions::{self, Action, Ask};
-use crate::session::{Command, JointCommand, Session, SubsetCommand};
+use crate::session::{Command, FileCommand, JointCommand, Session, SubsetCommand};
 
 /// Reads the keys of a pass in which no field is typed into. `popover_open`: Esc has shut something that hung from a button.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
@@ -112,7 +112,7 @@ fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
 /// Takes away what lies on top.
 fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     match on_top(session, state) {
-        Some(OnTop::Error) => commands.push(Command::DismissError),
+        Some(OnTop::Error) => commands.push(FileCommand::DismissError.into()),
         Some(OnTop::Help) => state.help_open = false,
         Some(OnTop::Diagnostics) => state.diagnostics_open = false,
         Some(OnTop::ChosenKeys) => state.timeline.let_go_of_keys(),
@@ -158,6 +158,7 @@ pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::scene::ViewPreset;
+    use crate::session::{CameraCommand, PlayCommand};
 
     use super::*;
 
@@ -202,18 +203,18 @@ mod tests {
     fn shift_makes_ten_frames_of_one() {
         assert_eq!(
             command_for(Key::ArrowLeft, Modifiers::NONE),
-            Some(Command::StepFrames(-1))
+            Some(PlayCommand::StepFrames(-1).into())
         );
         assert_eq!(
             command_for(Key::ArrowRight, Modifiers::SHIFT),
-            Some(Command::StepFrames(10))
+            Some(PlayCommand::StepFrames(10).into())
         );
     }
 
     #[test]
     fn shift_is_ignored_where_it_means_nothing_of_its_own() {
         // Digits need it on some keyboards.
-        let isometric = Command::Glide(Box::new(Command::LookFrom(ViewPreset::Isometric)));
+        let isometric = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(ViewPreset::Isometric))).into();
         assert_eq!(command_for(Key::Num9, Modifiers::SHIFT), Some(isometric));
         assert!(action_of(Key::R, Modifiers::NONE).is_some());
         for key in [Key::R, Key::O] {
@@ -225,11 +226,11 @@ mod tests {
     fn ctrl_looks_from_the_opposite_side() {
         assert_eq!(
             command_for(Key::Num1, Modifiers::NONE),
-            Some(Command::Glide(Box::new(Command::LookFrom(ViewPreset::Front))))
+            Some(CameraCommand::Glide(Box::new(CameraCommand::LookFrom(ViewPreset::Front))).into())
         );
         assert_eq!(
             command_for(Key::Num1, Modifiers::COMMAND),
-            Some(Command::Glide(Box::new(Command::LookFrom(ViewPreset::Back))))
+            Some(CameraCommand::Glide(Box::new(CameraCommand::LookFrom(ViewPreset::Back))).into())
         );
     }
 }

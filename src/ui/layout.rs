@@ -1,166 +1,243 @@
-//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. Where a window is low, as on a phone
-//! on its side, what was opened stands beside the model instead of below it.
+//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. In a low window, such as a phone on its
+//! side, what was opened stands beside the model instead of below it.
+//!
+//! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
+//! the model is framed.
 
-use egui::{Align2, Margin, Rect, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Margin, Rect, Sides, Ui, Vec2};
 
-use super::free_room::{self, SHEET_MARGIN, page_width, shut_sheet_height};
-use super::panel::{Arrangement, INSPECTOR_WIDTH, PANEL_AROUND, Panel, SIDE_WIDTH, bar_height, scrolled};
+use super::panel::{Free, LEAST_ROOM, Panel, scrolled};
 use super::skeleton::state::{SidePage, has_joints, is_inspected};
+use super::skeleton::{self, LegendShape};
 use super::state::{SheetPage, UiState};
-use super::theme::MARGIN;
+use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
 use super::{
-    diagnostics_panel, inspector, light, model_panel, overlays, picture, skeleton, timeline, toolbar, widgets,
+    diagnostics_panel, error_card, help, inspector, light, model_panel, overlays, picture, timeline, toolbar, widgets,
 };
-use crate::session::{Command, Session};
+use crate::session::{Command, LoadError, Session};
 
+/// Width of the panel on the left.
+const SIDE_WIDTH: f32 = 246.0;
+/// Width of the inspector on the right.
+const INSPECTOR_WIDTH: f32 = 288.0;
+/// Width of the list of findings, where there is room for it.
+const FINDINGS_WIDTH: f32 = 456.0;
+/// Width of the card that tells why a file was not opened, where there is room for it.
+const ERROR_WIDTH: f32 = 562.0;
+/// Height of the middle of that card, as a fraction of the window.
+const ERROR_AT: f32 = 0.38;
 /// Fraction of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
 const PAGE_FRACTION: f32 = 0.47;
-/// Wide windows.
-pub(super) fn wide(ui: &Ui, session: &Session, state: &mut UiState, window: Rect, commands: &mut Vec<Command>) {
-    let left_top = window.min + Vec2::splat(MARGIN);
-    let right_top = window.right_top() + vec2(-MARGIN, MARGIN);
-    let toolbar = Panel::new("toolbar", Align2::RIGHT_TOP, right_top)
-        .margin(Margin::same(3))
-        .show(ui, |ui| {
-            ui.set_height(widgets::control_size(ui));
-            toolbar::show(ui, session, state, commands);
-        });
-    Panel::new("title", Align2::LEFT_TOP, left_top)
-        .margin(Margin::symmetric(12, 6))
-        .show(ui, |ui| {
-            ui.set_height(widgets::control_size(ui) - 6.0);
-            // What the toolbar leaves, without the panel's own margins and border.
-            let most = toolbar.min.x - MARGIN - left_top.x - PANEL_AROUND;
-            toolbar::title(ui, session, most, true);
-        });
-    let covered = timeline::covered_height(ui, session, &state.timeline);
-    let side_top = left_top + vec2(0.0, MARGIN + bar_height(ui));
-    let side_room = window.max.y - covered.max(MARGIN) - side_top.y - PANEL_AROUND;
-    let panel_room = side_room - free_room::covered_by_card(ui, session, state, window);
-    if session.open_model().is_some() {
-        Panel::new("model", Align2::LEFT_TOP, side_top).show(ui, |ui| {
-            ui.set_width(SIDE_WIDTH - PANEL_AROUND);
-            side_panel(ui, "model", session, state, panel_room, commands);
-        });
-    }
-    show_legend(ui, session, state, window, Arrangement::Wide);
-    let inspects_joint = is_inspected(session);
-    let inspects = session.subsets().selected().is_some() || inspects_joint;
-    if state.diagnostics_open {
-        let at = side_top + vec2(SIDE_WIDTH + MARGIN, 0.0);
-        let right = window.max.x - if inspects { MARGIN + INSPECTOR_WIDTH } else { 0.0 };
-        Panel::new("diagnostics", Align2::LEFT_TOP, at).show(ui, |ui| {
-            ui.set_width(430.0_f32.min(right - MARGIN - at.x - PANEL_AROUND));
-            diagnostics_panel::show(ui, session, state, side_room - 50.0, commands);
-        });
-    }
-    if inspects {
-        let at = pos2(window.max.x - MARGIN, side_top.y);
-        Panel::new("inspector", Align2::RIGHT_TOP, at).show(ui, |ui| {
-            ui.set_width(INSPECTOR_WIDTH - PANEL_AROUND);
-            scrolled("inspector", side_room).show(ui, |ui| {
-                if inspects_joint {
-                    skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
-                } else {
-                    inspector::show(ui, session, state, commands);
-                }
-            });
-        });
-    }
-    if session.clip().is_some() {
-        let at = window.left_bottom() + vec2(MARGIN, -MARGIN);
-        Panel::new("timeline", Align2::LEFT_BOTTOM, at)
-            .margin(Margin::same(9))
-            .show(ui, |ui| {
-                ui.set_width(window.width() - 2.0 * MARGIN - 20.0);
-                timeline::wide(ui, session, state, commands);
-            });
+/// Fraction of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
+const BESIDE_FRACTION: f32 = 0.44;
+const TIMELINE_BESIDE_FRACTION: f32 = 0.62;
+const MOST_BESIDE: f32 = 560.0;
+/// In a narrow window a figure in the middle reaches about so far to either side.
+const FIGURE_REACH: f32 = 80.0;
+/// The least width beside the findings in which something of a model is seen.
+const LEAST_BESIDE_FINDINGS: f32 = 200.0;
+/// The least height in which a legend leaves something to see: of the panel above a card, of the view beside a card, of the model
+/// above a strip.
+const LEAST_WITH_CARD: f32 = 220.0;
+const LEAST_BESIDE_CARD: f32 = 80.0;
+const LEAST_WITH_STRIP: f32 = 180.0;
+
+/// How the panels share the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Arrangement {
+    /// Panels around the view.
+    Wide,
+    /// A bar above, below a sheet with the timeline and with what was opened.
+    Narrow,
+    /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
+    Low,
+}
+
+impl Arrangement {
+    fn of(window: Rect) -> Self {
+        if window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH {
+            Self::Low
+        } else if window.width() >= NARROW_WIDTH {
+            Self::Wide
+        } else {
+            Self::Narrow
+        }
     }
 }
 
+/// Shows all panels. Returns what they leave free for the model.
+pub(super) fn show(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) -> Free {
+    let window = ui.max_rect();
+    match Arrangement::of(window) {
+        Arrangement::Wide => wide(ui, session, state, Free::new(window), commands),
+        Arrangement::Narrow => narrow(ui, session, state, Free::new(window), false, commands),
+        Arrangement::Low => narrow(ui, session, state, Free::new(window), true, commands),
+    }
+}
+
+/// Wide windows.
+fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, commands: &mut Vec<Command>) -> Free {
+    let room = free.room();
+    let toolbar = Panel::new("toolbar", Align2::RIGHT_TOP)
+        .margin(Margin::same(3))
+        .show(ui, room, |ui| {
+            ui.set_height(widgets::control_size(ui));
+            toolbar::show(ui, session, state, commands);
+        });
+    let beside = room.with_max_x(toolbar.min.x - MARGIN).with_max_y(toolbar.max.y);
+    Panel::new("title", Align2::LEFT_TOP)
+        .margin(Margin::symmetric(12, 6))
+        .show(ui, beside, |ui| {
+            ui.take_available_height();
+            toolbar::title(ui, session, true);
+        });
+    free.cut_top(toolbar);
+    if session.clip().is_some() {
+        let room = free.room();
+        let timeline = Panel::new("timeline", Align2::LEFT_BOTTOM)
+            .margin(Margin::symmetric(9, 8))
+            .width(room.width())
+            .show(ui, room, |ui| timeline::wide(ui, session, state, commands));
+        free.cut_bottom(timeline);
+    }
+    if session.open_model().is_some() {
+        let mut column = free;
+        let room = free.room();
+        if room.height() >= LEAST_WITH_CARD
+            && let Some(legend) = show_legend(ui, session, room, LegendShape::Card)
+        {
+            column.cut_bottom(legend);
+        }
+        let side = Panel::new("model", Align2::LEFT_TOP)
+            .width(SIDE_WIDTH)
+            .show(ui, column.room(), |ui| {
+                side_panel(ui, "model", session, state, commands);
+            });
+        free.cut_left(side);
+    }
+    show_on_top(ui, session, state, &free, commands);
+
+    let mut beside = free;
+    let inspects_joint = is_inspected(session);
+    if inspects_joint || session.subsets().selected().is_some() {
+        let inspector = Panel::new("inspector", Align2::RIGHT_TOP)
+            .width(INSPECTOR_WIDTH)
+            .show(ui, free.room(), |ui| {
+                scrolled("inspector", ui.available_height()).show(ui, |ui| {
+                    if inspects_joint {
+                        skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
+                    } else {
+                        inspector::show(ui, session, state, commands);
+                    }
+                });
+            });
+        beside.cut_right(inspector);
+    }
+    if state.diagnostics_open {
+        let room = beside.room();
+        let findings = Panel::new("diagnostics", Align2::LEFT_TOP)
+            .width(FINDINGS_WIDTH.min(room.width()))
+            .show(ui, room, |ui| diagnostics_panel::show(ui, session, state, commands));
+        beside.cut_left(findings);
+        // A finding is clicked to see what it is about. Where the list leaves next to nothing, it covers the model.
+        if beside.rect.width() >= LEAST_BESIDE_FINDINGS {
+            return beside;
+        }
+    }
+    // The model stays where it is when an inspector opens.
+    free
+}
+
 /// Facts or the tree of joints; each scrolls by itself.
-fn side_panel(
-    ui: &mut Ui,
-    id: &'static str,
-    session: &Session,
-    state: &mut UiState,
-    room: f32,
-    commands: &mut Vec<Command>,
-) {
-    let top = ui.cursor().min.y;
+fn side_panel(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if has_joints(session) {
         skeleton::show_pages(ui, &mut state.skeleton);
         ui.add_space(8.0);
     }
-    let room = room - (ui.cursor().min.y - top);
     if state.skeleton.page == SidePage::Skeleton {
-        skeleton::show_tree(ui, session, &mut state.skeleton, room, commands);
+        skeleton::show_tree(ui, session, &mut state.skeleton, commands);
     } else {
-        scrolled(id, room).show(ui, |ui| model_panel::show(ui, session, state, commands));
+        scrolled(id, ui.available_height()).show(ui, |ui| model_panel::show(ui, session, state, commands));
     }
 }
 
 /// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them.
-pub(super) fn narrow(
+fn narrow(
     ui: &Ui,
     session: &Session,
     state: &mut UiState,
-    window: Rect,
-    arrangement: Arrangement,
+    mut free: Free,
+    low: bool,
     commands: &mut Vec<Command>,
-) {
-    let low = arrangement == Arrangement::Low;
-    let left_top = window.min + Vec2::splat(MARGIN);
-    Panel::new("title", Align2::LEFT_TOP, left_top)
+) -> Free {
+    let room = free.room();
+    let bar = Panel::new("title", Align2::LEFT_TOP)
         .margin(Margin::same(4))
-        .show(ui, |ui| {
-            ui.set_width(window.width() - 2.0 * MARGIN - 10.0);
-            ui.horizontal(|ui| {
-                ui.set_height(widgets::control_size(ui));
-                ui.add_space(8.0);
-                let most = ui.available_width() - toolbar::narrow_width(ui);
-                toolbar::title(ui, session, most, false);
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    toolbar::show_narrow(ui, session, state, commands);
-                });
-            });
+        .width(room.width())
+        .show(ui, room, |ui| {
+            let bar = Sides::new().height(widgets::control_size(ui)).shrink_left();
+            bar.show(
+                ui,
+                |ui| {
+                    ui.add_space(8.0);
+                    toolbar::title(ui, session, false);
+                },
+                |ui| toolbar::show_narrow(ui, session, &mut *state, commands),
+            );
         });
+    free.cut_top(bar);
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
-        let sheet = sheet(ui, session, state, window, arrangement, commands);
+        let sheet = sheet(ui, session, state, &free, low, commands);
+        free.cut_bottom(sheet);
         if let Some(page) = state.sheet.filter(|_| low) {
-            page_beside(ui, page, session, state, window, sheet.min.y, commands);
+            let room = free.room();
+            let page = Panel::new("page", Align2::RIGHT_TOP)
+                .width(page_width(page, ui.max_rect()))
+                .show(ui, room, |ui| show_page(ui, page, session, state, commands));
+            free.cut_right(page);
         }
     }
-    show_legend(ui, session, state, window, arrangement);
-}
+    show_on_top(ui, session, state, &free, commands);
 
-fn show_legend(ui: &Ui, session: &Session, state: &UiState, window: Rect, arrangement: Arrangement) {
-    if let Some((at, shape)) = free_room::legend_place(ui, session, state, window, arrangement) {
-        skeleton::show_legend(ui, session, at, shape);
+    // A card stands beside a figure. Where there is no room for it, a strip stands below the model.
+    let room = free.room();
+    if room.min.x + SIDE_WIDTH + FIGURE_REACH <= free.rect.center().x {
+        if room.height() >= LEAST_BESIDE_CARD {
+            show_legend(ui, session, room, LegendShape::Card);
+        }
+    } else if room.height() >= LEAST_WITH_STRIP
+        && let Some(strip) = show_legend(ui, session, room, LegendShape::Strip)
+    {
+        free.cut_bottom(strip);
     }
+    free
 }
 
-/// The timeline, and below it what was opened, unless it stands beside the model. Where it came to be.
-fn sheet(
-    ui: &Ui,
-    session: &Session,
-    state: &mut UiState,
-    window: Rect,
-    arrangement: Arrangement,
-    commands: &mut Vec<Command>,
-) -> Rect {
-    let low = arrangement == Arrangement::Low;
-    let margin = Margin {
-        left: SHEET_MARGIN,
-        right: SHEET_MARGIN,
-        top: 0,
-        bottom: SHEET_MARGIN,
+/// What the colours of the skin mean, if they mean something, in the lower left corner of a room.
+fn show_legend(ui: &Ui, session: &Session, room: Rect, shape: LegendShape) -> Option<Rect> {
+    let view = skeleton::colored_view(session)?;
+    let panel = Panel::new("legend", Align2::LEFT_BOTTOM);
+    let panel = match shape {
+        LegendShape::Card => panel.width(SIDE_WIDTH),
+        LegendShape::Strip => panel.margin(skeleton::STRIP_MARGIN),
     };
-    Panel::new("sheet", Align2::LEFT_BOTTOM, window.left_bottom())
+    Some(panel.show(ui, room, |ui| skeleton::show_legend(ui, session, view, shape)))
+}
+
+/// The timeline, and below it what was opened, unless it stands beside the model.
+fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool, commands: &mut Vec<Command>) -> Rect {
+    let window = ui.max_rect();
+    let margin = Margin {
+        left: 14,
+        right: 14,
+        top: 0,
+        bottom: 14,
+    };
+    Panel::new("sheet", Align2::LEFT_BOTTOM)
         .sheet()
         .margin(margin)
-        .show(ui, |ui| {
-            ui.set_width(window.width() - 30.0);
+        .width(window.width())
+        .show(ui, window.with_min_y(free.room().min.y), |ui| {
             if widgets::sheet_handle(ui, state.sheet.is_some()).clicked() {
                 state.sheet = match state.sheet {
                     None => Some(SheetPage::Model),
@@ -172,88 +249,88 @@ fn sheet(
             }
             if let Some(page) = state.sheet.filter(|_| !low) {
                 ui.add_space(10.0);
-                let shut = shut_sheet_height(ui, session, arrangement);
-                let covered = bar_height(ui) + shut + 3.0 * MARGIN;
-                let room = (window.height() * PAGE_FRACTION).min(window.height() - covered);
-                show_page(ui, page, session, state, room, commands);
+                let most = ui.available_height().min(window.height() * PAGE_FRACTION);
+                ui.scope(|ui| {
+                    ui.set_max_height(most);
+                    show_page(ui, page, session, state, commands);
+                });
             }
         })
 }
 
-/// What was opened, beside the model: from the bar to the timeline's upper edge.
-fn page_beside(
-    ui: &Ui,
-    page: SheetPage,
-    session: &Session,
-    state: &mut UiState,
-    window: Rect,
-    bottom: f32,
-    commands: &mut Vec<Command>,
-) {
-    let at = window.right_top() + vec2(-MARGIN, 2.0 * MARGIN + bar_height(ui));
-    Panel::new("page", Align2::RIGHT_TOP, at).show(ui, |ui| {
-        ui.set_width(page_width(page, window) - PANEL_AROUND);
-        show_page(
-            ui,
-            page,
-            session,
-            state,
-            bottom - MARGIN - at.y - PANEL_AROUND,
-            commands,
-        );
-    });
-}
-
-/// A page of the sheet, which scrolls when it is higher than its room.
-fn show_page(
-    ui: &mut Ui,
-    page: SheetPage,
-    session: &Session,
-    state: &mut UiState,
-    room: f32,
-    commands: &mut Vec<Command>,
-) {
-    if page == SheetPage::Model && is_side_page(session, state) {
-        side_panel(ui, "sheet", session, state, room, commands);
+/// Width of a page beside the model.
+fn page_width(page: SheetPage, window: Rect) -> f32 {
+    let fraction = if page == SheetPage::Timeline {
+        TIMELINE_BESIDE_FRACTION
     } else {
-        scrolled("sheet", room).show(ui, |ui| {
-            sheet_page(ui, page, session, state, room, commands);
-        });
-    }
+        BESIDE_FRACTION
+    };
+    (fraction * window.width()).min(MOST_BESIDE)
 }
 
-/// Whether the sheet has room for the side panel: nothing is inspected.
-fn is_side_page(session: &Session, state: &UiState) -> bool {
-    let names = state.skeleton.is_naming();
-    let inspects = session.subsets().selected().is_some() || is_inspected(session);
-    !state.diagnostics_open && (!inspects || names)
-}
-
-fn sheet_page(
-    ui: &mut Ui,
-    page: SheetPage,
-    session: &Session,
-    state: &mut UiState,
-    room: f32,
-    commands: &mut Vec<Command>,
-) {
+/// A page of the sheet, no higher than what is available.
+fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let selects_subset = session.subsets().selected().is_some();
+    let inspects = selects_subset || is_inspected(session);
+    let scroll = scrolled("sheet", ui.available_height());
     match page {
-        SheetPage::Model if state.diagnostics_open => {
-            diagnostics_panel::show(ui, session, state, room - 50.0, commands);
+        SheetPage::Model if state.diagnostics_open => diagnostics_panel::show(ui, session, state, commands),
+        SheetPage::Model if !inspects || state.skeleton.is_naming() => {
+            side_panel(ui, "sheet", session, state, commands);
         }
-        SheetPage::Model if session.subsets().selected().is_some() => inspector::show(ui, session, state, commands),
-        SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
-        SheetPage::ViewMode => {
-            widgets::section_name(ui, "View mode");
-            toolbar::view_mode_items(ui, session, commands);
+        SheetPage::Timeline => timeline::page(ui, session, state, commands),
+        _ => {
+            scroll.show(ui, |ui| match page {
+                SheetPage::Model if selects_subset => inspector::show(ui, session, state, commands),
+                SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
+                SheetPage::ViewMode => {
+                    widgets::section_name(ui, "View mode");
+                    toolbar::view_mode_items(ui, session, commands);
+                }
+                SheetPage::Light => light::show(ui, session, commands),
+                SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
+                SheetPage::ViewFrom => {
+                    widgets::section_name(ui, "View from");
+                    toolbar::view_from_items(ui, session, commands);
+                }
+                SheetPage::Picture => picture::show(ui, state),
+                SheetPage::Timeline => {}
+            });
         }
-        SheetPage::Light => light::show(ui, session, commands),
-        SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
-        SheetPage::ViewFrom => {
-            widgets::section_name(ui, "View from");
-            toolbar::view_from_items(ui, session, commands);
-        }
-        SheetPage::Picture => picture::show(ui, state),
-        SheetPage::Timeline => timeline::page(ui, session, state, room, commands),
     }
+}
+
+/// The table of keys and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
+fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, commands: &mut Vec<Command>) {
+    let window = ui.max_rect();
+    if state.help_open {
+        let room = free.room();
+        // A phone's sheet may leave too little.
+        let room = if room.height() < LEAST_ROOM {
+            room.with_max_y(window.max.y - MARGIN)
+        } else {
+            room
+        };
+        Panel::new("help", Align2::RIGHT_TOP)
+            .on_top()
+            .show(ui, room, |ui| help::show(ui, session, state));
+    }
+    if let Some(error) = session.error() {
+        show_error(ui, session, error, free.room(), commands);
+    }
+}
+
+/// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read.
+fn show_error(ui: &Ui, session: &Session, error: &LoadError, room: Rect, commands: &mut Vec<Command>) {
+    let window = ui.max_rect();
+    let within = window.shrink(MARGIN);
+    let width = ERROR_WIDTH.min(within.width());
+    let x = window.center().x.max(room.min.x + 0.5 * width);
+    let x = x.min(within.max.x - 0.5 * width);
+    let middle = egui::pos2(x, window.min.y + ERROR_AT * window.height());
+    let around = Rect::from_center_size(middle, Vec2::new(width, 2.0 * ERROR_AT * window.height()));
+    Panel::new("error", Align2::CENTER_CENTER)
+        .on_top()
+        .width(width)
+        .show(ui, around, |ui| error_card::show(ui, session, error, commands));
 }

@@ -4,14 +4,16 @@ use egui::{Align2, Color32, FontId, Response, RichText, Role, Sense, Ui, WidgetI
 
 use super::icons::Icon;
 use super::panel::popover_gap;
-use super::theme::{CONTROL_RADIUS, Tokens};
+use super::theme::Tokens;
 use super::widgets::{
-    Slider, color_picker, control_size, focus_ring, icon_button, keyed_section_name, paint_elided, pressed_row_height,
+    Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, paint_ends, pressed_row,
     section_name, segmented, switch_row,
 };
 use crate::actions;
 use crate::scene::{Background, Light, Pass};
-use crate::session::{Command, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, Session};
+use crate::session::{
+    Command, FileCommand, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, Session,
+};
 
 /// Colours that a background of one colour begins with: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
@@ -131,7 +133,7 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         paint_elided(painter, at, name, font, tokens.text, rect.max.x - at.x);
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
         if icon_button(ui, Icon::Close, "Remove the sky", false).clicked() {
-            commands.push(Command::ClearSky);
+            commands.push(FileCommand::ClearSky.into());
         }
     });
 }
@@ -154,7 +156,7 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             PassState::TooSlow => (PassChoice::On, "Draw it however long frames take"),
         };
         if pass_row(ui, pass.label(), words, color).on_hover_text(hint).clicked() {
-            commands.push(Command::SetPass(pass, choice));
+            commands.push(QualityCommand::SetPass(pass, choice).into());
         }
     }
     if let Some(note) = slow_passes(session) {
@@ -182,24 +184,8 @@ fn slow_passes(session: &Session) -> Option<String> {
 }
 
 fn pass_row(ui: &mut Ui, label: &str, words: &str, color: Color32) -> Response {
-    let tokens = Tokens::of(ui);
-    let size = vec2(ui.available_width(), pressed_row_height(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if response.hovered() {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
-    let font = FontId::proportional(13.0);
-    let painter = ui.painter();
-    painter.text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        label,
-        font.clone(),
-        tokens.text,
-    );
-    painter.text(rect.right_center(), Align2::RIGHT_CENTER, words, font, color);
+    let (rect, response) = pressed_row(ui, false);
+    paint_ends(ui, rect, (label, Tokens::of(ui).text), (words, color));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {words}")));
     response
 }

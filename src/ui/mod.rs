@@ -2,7 +2,6 @@
 
 mod diagnostics_panel;
 mod error_card;
-mod free_room;
 mod help;
 mod icons;
 mod input;
@@ -26,21 +25,17 @@ mod viewport;
 mod widgets;
 mod wording;
 
-use egui::{Align2, Popup, Rect, Ui, Vec2, pos2, vec2};
+use egui::{Popup, Rect, Ui};
 
 pub use keys::{escape_shuts, owns_key};
 pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 
-use crate::scene::Theme;
-use crate::session::{Command, LoadError, Session, SubsetCommand};
+use crate::scene::{Insets, Theme};
+use crate::session::{CameraCommand, Command, Session, SubsetCommand};
 use input::{InputOrder, MOST_PASSES};
-use panel::{Arrangement, PANEL_AROUND, Panel, bar_height};
 use state::Framed;
 use theme::MARGIN;
-
-/// Width of the card that tells why a file was not opened, where there is room for it.
-const ERROR_WIDTH: f32 = 562.0;
 
 /// Gives a context what the interface needs: fonts, styles, and input in an order that it can act on.
 pub fn install(ctx: &egui::Context) {
@@ -55,7 +50,6 @@ pub fn install(ctx: &egui::Context) {
 pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Command> {
     let mut commands = Vec::new();
     let window = ui.max_rect();
-    let arrangement = Arrangement::of(window);
     let touch = state.coarse_pointer || ui.input(egui::InputState::has_touch_screen);
     widgets::size_for_touch(ui.ctx(), touch);
     if state.shown_model != session.model_revision() {
@@ -68,35 +62,29 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
-    commands.extend(set_viewport(ui, session, state, window, arrangement));
-    if std::mem::take(&mut state.frames_selection) {
-        commands.push(Command::Glide(Box::new(Command::FrameSelection)));
-    }
+    // Set in the pass before: the panels of what was selected then stand in this one.
+    let frames_selection = std::mem::take(&mut state.frames_selection);
     // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
     skeleton::show_marks(ui, session, &state.skeleton, window);
-    split::show(ui, session, window, &mut commands);
     state.hovered_subset = None;
     state.timeline.update(session);
-
-    match arrangement {
-        Arrangement::Wide => layout::wide(ui, session, state, window, &mut commands),
-        Arrangement::Narrow | Arrangement::Low => {
-            layout::narrow(ui, session, state, window, arrangement, &mut commands);
+    let free = layout::show(ui, session, state, &mut commands).rect;
+    split::show(ui, session, window, free, &mut commands);
+    if ui.ctx().will_discard() {
+        state.frames_selection |= frames_selection;
+    } else {
+        commands.extend(set_viewport(session, state, window, free));
+        if frames_selection {
+            commands.push(CameraCommand::Glide(Box::new(CameraCommand::FrameSelection)).into());
         }
     }
     if session.subsets().hovered() != state.hovered_subset {
         commands.push(SubsetCommand::Hover(state.hovered_subset).into());
     }
     state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
-    if state.help_open {
-        show_help(ui, session, state, arrangement, touch);
-    }
-    if let Some(error) = session.error() {
-        show_error(ui, session, error, arrangement, &mut commands);
-    }
     state.skeleton.settle_naming(ui, &mut commands);
     // Last, since a control that has the keyboard takes its keys first. Keys that were typed into a field are no shortcuts, whether
     // the field had the keyboard when the pass began or has it now.
@@ -110,34 +98,6 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     commands
 }
 
-/// The table of keys, off the panel on the left and the timeline.
-fn show_help(ui: &Ui, session: &Session, state: &mut UiState, arrangement: Arrangement, touch: bool) {
-    let window = ui.max_rect();
-    let at = window.right_top() + vec2(-MARGIN, MARGIN * 2.0 + bar_height(ui));
-    let left = free_room::free_left(window, arrangement);
-    let bottom = window.max.y - free_room::covered_by_timeline(ui, session, state, arrangement).max(MARGIN);
-    let most = vec2(at.x - left, bottom - at.y) - Vec2::splat(PANEL_AROUND);
-    Panel::new("help", Align2::RIGHT_TOP, at).on_top().show(ui, |ui| {
-        help::show(ui, session, state, most, touch);
-    });
-}
-
-/// Why a file was not opened: in the middle, or so far to the right that the panel on the left can be read.
-fn show_error(ui: &Ui, session: &Session, error: &LoadError, arrangement: Arrangement, commands: &mut Vec<Command>) {
-    let window = ui.max_rect();
-    let width = ERROR_WIDTH.min(window.width() - 2.0 * MARGIN);
-    let first = free_room::free_left(window, arrangement) + 0.5 * width;
-    let last = window.max.x - MARGIN - 0.5 * width;
-    let at = pos2(
-        window.center().x.max(first).min(last),
-        window.min.y + window.height() * 0.38,
-    );
-    Panel::new("error", Align2::CENTER_CENTER, at).on_top().show(ui, |ui| {
-        ui.set_width(width - PANEL_AROUND);
-        error_card::show(ui, session, error, commands);
-    });
-}
-
 fn set_theme(ui: &Ui) -> Command {
     Command::SetTheme(if ui.visuals().dark_mode {
         Theme::Dark
@@ -148,14 +108,8 @@ fn set_theme(ui: &Ui) -> Command {
 
 /// What the panels leave free is where the model is framed. A window of another size and another model are framed at once;
 /// where a panel opened or shut the camera goes there.
-fn set_viewport(
-    ui: &Ui,
-    session: &Session,
-    state: &mut UiState,
-    window: Rect,
-    arrangement: Arrangement,
-) -> Option<Command> {
-    let insets = free_room::insets(ui, session, state, window, arrangement);
+fn set_viewport(session: &Session, state: &mut UiState, window: Rect, free: Rect) -> Option<Command> {
+    let insets = insets(window, free);
     let aspect = window.width() / window.height().max(1.0);
     let now = Framed {
         window,
@@ -166,11 +120,23 @@ fn set_viewport(
     if before == Some(now) {
         return None;
     }
-    let command = Command::SetViewport { aspect, insets };
+    let command = CameraCommand::SetViewport { aspect, insets };
     let same_picture = before.is_some_and(|before| (before.window, before.model) == (window, now.model));
-    Some(if same_picture {
-        Command::Glide(Box::new(command))
+    Some(Command::Camera(if same_picture {
+        CameraCommand::Glide(Box::new(command))
     } else {
         command
-    })
+    }))
+}
+
+/// Fractions of the window that are covered. A figure may reach up to the bars.
+fn insets(window: Rect, free: Rect) -> Insets {
+    let [left, bottom] = [free.min.x - window.min.x, window.max.y - free.max.y];
+    let [right, top] = [window.max.x - free.max.x, free.min.y - MARGIN - window.min.y];
+    Insets {
+        left: left / window.width(),
+        right: right / window.width(),
+        top: (top / window.height()).clamp(0.0, 0.3),
+        bottom: (bottom / window.height()).clamp(0.0, 0.75),
+    }
 }

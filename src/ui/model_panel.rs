@@ -1,22 +1,22 @@
 //! What is open: counts, handedness, up axis, size, the count of diagnostics, subsets, textures, other models of the drop.
 
-use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::icons::{self, Icon};
+use super::icons::Icon;
 use super::panel::scrolled;
 use super::skeleton::state::has_joints;
 use super::state::UiState;
 use super::textures;
-use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
+use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    choice_row, focus_ring, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row_height, rule,
-    section_name, section_with_action, value_row,
+    choice_row, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row, pressed_row_height, row_icon,
+    rule, section_name, section_with_action, value_row,
 };
 use super::wording::{counted, dialect_name, grouped, measured, shortened};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, Submesh, UpAxis};
 use crate::scene::display_color;
-use crate::session::{Command, MapSlot, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, FileCommand, MapSlot, OpenModel, Session, SubsetCommand};
 
 /// Subsets listed before the list scrolls.
 const ROWS: f32 = 8.0;
@@ -130,7 +130,7 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 open_path == Some(file.path.as_str()),
             );
             if response.on_hover_text(&file.path).clicked() {
-                commands.push(Command::OpenFile(file.path.clone()));
+                commands.push(FileCommand::Open(file.path.clone()).into());
             }
         }
     });
@@ -138,12 +138,7 @@ fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 
 fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
-    let size = vec2(ui.available_width(), pressed_row_height(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    if response.hovered() || response.has_focus() {
-        ui.painter()
-            .rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);
-    }
+    let (rect, response) = pressed_row(ui, false);
     let font = FontId::proportional(13.0);
     ui.painter().text(
         rect.left_center(),
@@ -234,17 +229,9 @@ impl<'a> Subset<'a> {
     /// Whether the pointer is over it.
     fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) -> bool {
         let tokens = Tokens::of(ui);
-        let size = vec2(ui.available_width(), pressed_row_height(ui));
-        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        let around = rect.expand2(vec2(6.0, 0.0));
+        let (rect, response) = pressed_row(ui, self.selected);
         let touch = is_touch(ui);
         let over = response.contains_pointer() && !touch;
-        if self.selected {
-            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
-        } else if over {
-            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-        }
-        focus_ring(ui, around, &response);
         response.widget_info(|| {
             let label = format!("{}, {} triangles", self.name, self.triangles);
             WidgetInfo::selected(Role::ListItem, true, self.selected, label)
@@ -332,19 +319,4 @@ impl<'a> Subset<'a> {
             .min
             .x
     }
-}
-
-/// A small icon in a row. Whether it was clicked.
-fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
-    let tokens = Tokens::of(ui);
-    let response = ui.interact(place, row.id.with(icon), Sense::click());
-    let color = match (on, response.hovered() || response.has_focus()) {
-        (true, _) => tokens.accent,
-        (false, hovered) => tokens.muted_to_text(hovered),
-    };
-    let box_of = Rect::from_center_size(place.center(), Vec2::splat(16.0));
-    icons::paint(ui.painter(), box_of, icon, color);
-    focus_ring(ui, place, &response);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
-    response.on_hover_text(label).clicked()
 }

@@ -14,7 +14,7 @@ use super::wording::shortened;
 use crate::actions;
 use crate::anim::GhostPlan;
 use crate::scene::{BoneStyle, Overlay, Overlays};
-use crate::session::{Command, JointCommand, LookCommand, MAX_LINE_LENGTH, Session};
+use crate::session::{Command, JointCommand, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 
 /// Ghosts that are shown when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
@@ -63,7 +63,7 @@ fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
 fn any_of_skeleton(session: &Session) -> bool {
     let joints = session.joints();
     let over = joints.bones_visible() || !joints.trails().is_empty();
-    over || session.ghost_plan().is_some() || session.bind_ghost() || session.bind_weight() > 0.0
+    over || session.look().ghosts.is_some() || session.look().bind_ghost || session.bind_weight() > 0.0
 }
 
 /// Bones, names, bind pose, ghosts, trails.
@@ -100,18 +100,18 @@ fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         }
         let text = format!("{:.0} %", weight * 100.0);
         if let Some(weight) = Slider::new("To bind pose", weight, 0.0..=1.0, &text).show(ui) {
-            commands.push(Command::SetBindWeight(weight));
+            commands.push(PlayCommand::SetBindWeight(weight).into());
         }
     }
-    if switch_row(ui, "Bind pose as a ghost", "", session.bind_ghost()).clicked() {
-        commands.push(Command::SetBindGhost(!session.bind_ghost()));
+    if switch_row(ui, "Bind pose as a ghost", "", session.look().bind_ghost).clicked() {
+        commands.push(LookCommand::SetBindGhost(!session.look().bind_ghost).into());
     }
 }
 
 fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let plan = session.ghost_plan();
+    let plan = session.look().ghosts;
     if switch_row(ui, "Ghosts", "", plan.is_some()).clicked() {
-        commands.push(Command::SetGhosts(plan.is_none().then_some(FIRST_GHOSTS)));
+        commands.push(LookCommand::SetGhosts(plan.is_none().then_some(FIRST_GHOSTS)).into());
     }
     let Some(plan) = plan else { return };
     ui.horizontal(|ui| {
@@ -139,7 +139,7 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             step_frames: step.unwrap_or(plan.step_frames),
         };
         if asked != plan {
-            commands.push(Command::SetGhosts(Some(asked)));
+            commands.push(LookCommand::SetGhosts(Some(asked)).into());
         }
     });
     ui.add_space(6.0);

@@ -1,57 +1,49 @@
-//! Panels that float over the view, what hangs from buttons, and how panels share the window.
+//! Panels that float over the view, the room that they leave, and what hangs from buttons.
 
 use egui::{
     Align2, Area, CornerRadius, Frame, Id, LayerId, Margin, Order, Popup, PopupCloseBehavior, Pos2, Rect, RectAlign,
-    Response, ScrollArea, Ui, Vec2, pos2, vec2,
+    Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
 };
 
-use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH, Tokens};
-use super::widgets::{control_size, rule};
+use super::theme::{self, MARGIN, Tokens};
+use super::widgets::rule;
 
-/// Width of the panel on the left.
-pub(super) const SIDE_WIDTH: f32 = 246.0;
-/// Width of the inspector on the right.
-pub(super) const INSPECTOR_WIDTH: f32 = 288.0;
-/// Margin around the controls of the bars at the top.
-const BAR_MARGIN: f32 = 4.0;
-/// Border and margins of the timeline's panel, above and below together.
-pub(super) const STRIP_AROUND: f32 = 2.0 * 9.0;
-
-/// How the panels share the window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Arrangement {
-    /// Panels around the view.
-    Wide,
-    /// A bar above, below a sheet with the timeline and with what was opened.
-    Narrow,
-    /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
-    Low,
+/// The part of the window that no panel covers. Panels are shown one after the other, and each cuts off what it took with a margin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Free {
+    window: Rect,
+    pub(super) rect: Rect,
 }
 
-impl Arrangement {
-    pub(super) fn of(window: Rect) -> Self {
-        if window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH {
-            Self::Low
-        } else if window.width() >= NARROW_WIDTH {
-            Self::Wide
-        } else {
-            Self::Narrow
-        }
+impl Free {
+    /// All of a window.
+    pub(super) fn new(window: Rect) -> Self {
+        Self { window, rect: window }
     }
-}
 
-/// Height of the bars at the top.
-pub(super) fn bar_height(ui: &Ui) -> f32 {
-    control_size(ui) + 2.0 * BAR_MARGIN
-}
+    /// The room for the next panel: the free part, at a margin from the edges of the window.
+    pub(super) fn room(&self) -> Rect {
+        self.rect.intersect(self.window.shrink(MARGIN))
+    }
 
-/// Height of the timeline's strip, without border and margins.
-pub(super) fn strip_height(ui: &Ui, arrangement: Arrangement) -> f32 {
-    let control = control_size(ui);
-    match arrangement {
-        Arrangement::Wide => control.max(34.0),
-        Arrangement::Narrow => 44.0 + 8.0 + control,
-        Arrangement::Low => 44.0,
+    /// Cuts a panel at the top.
+    pub(super) fn cut_top(&mut self, panel: Rect) {
+        self.rect.min.y = panel.max.y + MARGIN;
+    }
+
+    /// Cuts a panel at the bottom.
+    pub(super) fn cut_bottom(&mut self, panel: Rect) {
+        self.rect.max.y = panel.min.y - MARGIN;
+    }
+
+    /// Cuts a panel at the left.
+    pub(super) fn cut_left(&mut self, panel: Rect) {
+        self.rect.min.x = panel.max.x + MARGIN;
+    }
+
+    /// Cuts a panel at the right.
+    pub(super) fn cut_right(&mut self, panel: Rect) {
+        self.rect.max.x = panel.min.x - MARGIN;
     }
 }
 
@@ -64,8 +56,8 @@ pub(super) fn scrolled(id: &'static str, most: f32) -> ScrollArea {
         .min_scrolled_height(most)
 }
 
-/// Where a panel is that was shown in the last pass.
-pub(super) fn shown_rect(ui: &Ui, name: &'static str) -> Option<Rect> {
+/// Where a panel was in the last pass, if it was shown. What is shown before a panel finds its place here.
+fn shown_rect(ui: &Ui, name: &'static str) -> Option<Rect> {
     let layer = LayerId::new(Order::Middle, id_of(name));
     ui.memory(|memory| {
         let shown = memory.areas().visible_last_frame(&layer);
@@ -73,36 +65,44 @@ pub(super) fn shown_rect(ui: &Ui, name: &'static str) -> Option<Rect> {
     })
 }
 
+/// Tells popovers where the controls of the timeline are. They leave these free.
+pub(super) fn mark_transport(ui: &Ui, rect: Rect) {
+    ui.interact(rect, id_of("transport"), Sense::hover());
+}
+
 fn id_of(name: &'static str) -> Id {
     Id::unique(("panel", name))
 }
 
-/// Border and margins of a panel, of two sides together, unless its margins are its own.
-pub(super) const PANEL_AROUND: f32 = 26.0;
-
-/// Where a panel is and what it looks like.
+/// A panel at a corner of its room.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Panel {
     name: &'static str,
-    pivot: Align2,
-    at: Pos2,
+    corner: Align2,
+    width: Option<f32>,
     order: Order,
     margin: Margin,
     corner_radius: CornerRadius,
 }
 
 impl Panel {
-    /// A panel whose `pivot` corner is at a point.
-    pub(super) fn new(name: &'static str, pivot: Align2, at: Pos2) -> Self {
+    /// A panel as large as its contents.
+    pub(super) fn new(name: &'static str, corner: Align2) -> Self {
         let corner_radius = CornerRadius::same(theme::PANEL_RADIUS);
         Self {
             name,
-            pivot,
-            at,
+            corner,
+            width: None,
             order: Order::Middle,
             margin: Margin::same(12),
             corner_radius,
         }
+    }
+
+    /// Its width with border and margins, whatever the contents need.
+    pub(super) fn width(self, width: f32) -> Self {
+        let width = Some(width);
+        Self { width, ..self }
     }
 
     /// Over the other panels.
@@ -131,51 +131,57 @@ impl Panel {
         }
     }
 
-    /// Shows it. Where it came to be.
-    pub(super) fn show(self, ui: &Ui, contents: impl FnOnce(&mut Ui)) -> Rect {
+    /// Shows it and returns the rect that it took. To the contents, what is available is what `room` leaves inside of border and
+    /// margins.
+    pub(super) fn show(self, ui: &Ui, room: Rect, contents: impl FnOnce(&mut Ui)) -> Rect {
         let frame: Frame = theme::panel_frame(&Tokens::of(ui))
             .inner_margin(self.margin)
             .corner_radius(self.corner_radius);
         let before = ui.memory(|memory| memory.area_rect(id_of(self.name)));
         let now = Area::new(id_of(self.name))
             .order(self.order)
-            .pivot(self.pivot)
-            .fixed_pos(self.at)
+            .pivot(self.corner)
+            .fixed_pos(self.corner.pos_in_rect(&room))
             .constrain_to(ui.max_rect())
-            // What a panel may grow to before it is first measured.
-            .default_size(ui.max_rect().size())
+            .default_size(room.size())
             .fade_in(false)
-            .show(ui.ctx(), |ui| frame.show(ui, contents))
+            .show(ui.ctx(), |ui| {
+                ui.set_max_size(vec2(self.width.unwrap_or(room.width()), room.height()));
+                frame.show(ui, |ui| {
+                    if self.width.is_some() {
+                        ui.take_available_width();
+                    }
+                    contents(ui);
+                })
+            })
             .response
             .rect;
-        // A panel stands by the size that it had, and others and the model stand beside it: the next pass puts all right.
+        // egui places an area by the size that it had in the last pass. Another pass of the same frame puts all panels right.
         if before.is_none_or(|before| before.size() != now.size()) {
-            ui.ctx().request_repaint();
+            ui.ctx().request_discard("a panel has another size");
         }
         now
     }
 }
 
 /// Margin inside a popover.
-const POPOVER_MARGIN: f32 = 12.0;
+const POPOVER_MARGIN: f32 = MARGIN;
 /// From a button to its menu: as far from the bar as the panels are.
 const MENU_GAP: f32 = MARGIN + 4.0;
 /// The least height before something scrolls.
 const LEAST_HEIGHT: f32 = 120.0;
 /// With less room than this above the sheet of a phone a popover stands over the sheet, and below the bars over them.
-const LEAST_ROOM: f32 = 180.0;
+pub(super) const LEAST_ROOM: f32 = 180.0;
 
 /// Opens and shuts with the button; a click elsewhere or Esc shuts it.
 pub(super) fn popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
-    let window = ui.ctx().content_rect();
-    let top = window.min.y + 2.0 * MARGIN + bar_height(ui);
-    // Time can be moved while a popover is open: the strip stays free, though not a sheet above it.
-    let strip =
-        shown_rect(ui, "timeline").map(|timeline| timeline.max.y - strip_height(ui, Arrangement::Wide) - STRIP_AROUND);
-    let bottom = strip.unwrap_or(window.max.y) - MARGIN;
-    let room = bottom - top - 2.0 * (POPOVER_MARGIN + 1.0);
-    let corner = (pos2(window.max.x - MARGIN, top), RectAlign::BOTTOM_END);
-    hang(ui, button, corner, vec2(width, room), contents);
+    let window = ui.ctx().content_rect().shrink(MARGIN);
+    let top = below_bars(ui);
+    // Time can be moved while a popover is open. A sheet above these controls may be covered.
+    let transport = ui.ctx().read_response(id_of("transport"));
+    let bottom = transport.map_or(window.max.y, |transport| transport.rect.min.y - 2.0 * MARGIN);
+    let corner = (pos2(window.max.x, top), RectAlign::BOTTOM_END);
+    hang(ui, button, corner, vec2(width, bottom - top - around(ui)), contents);
 }
 
 /// A menu below a button, which a choice shuts. What is higher than the window scrolls.
@@ -187,6 +193,17 @@ pub(super) fn popover_menu(ui: &Ui, button: &Response, align: RectAlign, width: 
         ui.set_width(width);
         scrolled("menu", room.max(LEAST_HEIGHT)).show(ui, contents);
     });
+}
+
+/// Where the room below the bars at the top begins.
+fn below_bars(ui: &Ui) -> f32 {
+    let bar = shown_rect(ui, "title").unwrap_or(Rect::ZERO);
+    bar.max.y + MARGIN
+}
+
+/// Border and margins of a popover, of two sides together.
+fn around(ui: &Ui) -> f32 {
+    popover_frame(&Tokens::of(ui)).total_margin().sum().x
 }
 
 /// Shows the contents, `size` at most, from a corner on.
@@ -227,14 +244,13 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
         .filter(|&bottom| bottom >= least)
         .unwrap_or(above(button.rect.min.y));
     // What is higher scrolls, rather than to lie over the bars at the top.
-    let below_bars = window.min.y + bar_height(ui) + MARGIN;
+    let below_bars = below_bars(ui);
     let top = if bottom - below_bars >= LEAST_ROOM {
         below_bars
     } else {
         window.min.y
     };
-    // Margins and border.
-    let around = 2.0 * (POPOVER_MARGIN + 1.0);
+    let around = around(ui);
     let room = bottom - top - around;
     let width = width.min(window.width() - around);
     let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);

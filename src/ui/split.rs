@@ -2,8 +2,7 @@
 
 use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::panel::{bar_height, shown_rect};
-use super::theme::{MARGIN, Tokens};
+use super::theme::Tokens;
 use super::widgets::{arrow_steps, is_touch, paint_chip};
 use crate::scene::Light;
 use crate::session::{Command, LookCommand, Session};
@@ -15,10 +14,11 @@ const KEY_STEP: f32 = 0.01;
 const HANDLE_RADIUS: f32 = 13.0;
 
 /// Shows the line while the picture is divided.
-pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, commands: &mut Vec<Command>) {
     let Some(fraction) = session.look().split else { return };
     let x = window.min.x + fraction * window.width();
-    let handle = pos2(x, handle_height(ui, window));
+    // The handle stands in the middle of the window, or higher, where panels below leave less.
+    let handle = pos2(x, window.center().y.min(free.center().y));
     let reach = if is_touch(ui) { 22.0 } else { HANDLE_RADIUS };
     let id = ui.scope_id().with("split");
     // The line's target is thin, so that the model beside it can still be touched. Fingers use the handle.
@@ -31,7 +31,14 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<
     if active {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
     }
-    paint(ui, window, handle, session.look().light, active || grip.has_focus());
+    paint(
+        ui,
+        window,
+        free.min.y,
+        handle,
+        session.look().light,
+        active || grip.has_focus(),
+    );
 
     let steps = arrow_steps(ui, &grip);
     let asked = if line.double_clicked() || grip.double_clicked() {
@@ -48,21 +55,12 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, commands: &mut Vec<
     }
 }
 
-/// The handle's y: the middle of the window, or of what a phone's sheet leaves free.
-fn handle_height(ui: &Ui, window: Rect) -> f32 {
-    let bar_bottom = window.min.y + MARGIN + bar_height(ui);
-    match shown_rect(ui, "sheet") {
-        Some(sheet) => window.center().y.min(0.5 * (bar_bottom + sheet.min.y)),
-        None => window.center().y,
-    }
-}
-
 fn dragged_to(part: &Response) -> Option<f32> {
     let pointer = part.interact_pointer_pos().filter(|_| part.dragged())?;
     Some(pointer.x)
 }
 
-fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, light: Light, active: bool) {
+fn paint(ui: &Ui, window: Rect, top: f32, handle: egui::Pos2, light: Light, active: bool) {
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
     // A light line with a dark edge is seen over any picture.
@@ -92,10 +90,9 @@ fn paint(ui: &Ui, window: Rect, handle: egui::Pos2, light: Light, active: bool) 
         painter.add(Shape::line(points, Stroke::new(1.4, arrow)));
     }
 
-    let y = window.min.y + 2.0 * MARGIN + bar_height(ui);
     let sides = [(light.other(), Align2::RIGHT_TOP, -8.0), (light, Align2::LEFT_TOP, 8.0)];
     for (light, anchor, away) in sides {
-        let at = pos2(handle.x + away, y);
+        let at = pos2(handle.x + away, top);
         paint_chip(painter, at, anchor, light.label(), tokens.text, tokens.panel);
     }
 }

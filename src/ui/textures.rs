@@ -8,9 +8,9 @@ use egui::{
 
 use super::panel::scrolled;
 use super::state::UiState;
-use super::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+use super::theme::{ROW_HEIGHT, Tokens};
 use super::thumbnails::Thumbnails;
-use super::widgets::{focus_ring, paint_elided, paint_fold_mark, pressed_row_height, section_name};
+use super::widgets::{paint_elided, paint_ends, paint_fold_mark, pressed_row, section_name};
 use super::wording::{counted, grouped};
 use crate::image::{Channels, Image, ImageKind};
 use crate::session::{Checklist, MapSlot, OpenModel, Session, UnreadableMap, UsedMap};
@@ -43,13 +43,7 @@ fn missing_maps(ui: &mut Ui, open: &OpenModel, missing: &[String], is_open: &mut
         return;
     }
     let tokens = Tokens::of(ui);
-    let size = vec2(ui.available_width(), pressed_row_height(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if response.hovered() {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    let (rect, response) = pressed_row(ui, false);
     paint_fold_mark(
         ui.painter(),
         rect.left_center() + vec2(4.0, 0.0),
@@ -84,15 +78,9 @@ fn count_row(ui: &mut Ui, checklist: &Checklist) {
     let tokens = Tokens::of(ui);
     let found = format!("{} of {} found", checklist.found(), checklist.named);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let font = FontId::proportional(13.0);
-    let (left, right) = (rect.left_center(), rect.right_center());
-    ui.painter()
-        .text(left, Align2::LEFT_CENTER, &found, font.clone(), tokens.text);
     let unreadable = (!checklist.unreadable.is_empty()).then(|| format!("{} unreadable", checklist.unreadable.len()));
-    if let Some(words) = &unreadable {
-        ui.painter()
-            .text(right, Align2::RIGHT_CENTER, words, font, tokens.warning);
-    }
+    let right = (unreadable.as_deref().unwrap_or_default(), tokens.warning);
+    paint_ends(ui, rect, (&found, tokens.text), right);
     let all: Vec<&str> = std::iter::once(found.as_str()).chain(unreadable.as_deref()).collect();
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Textures: {}", all.join(", "))));
 }

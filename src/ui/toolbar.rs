@@ -10,15 +10,14 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, Tokens};
 use super::widgets::{
-    TextButton, action_button, chip, chip_size, control_size, icon_button, keyed_menu_item, menu_item, section_name,
-    valued_menu_item,
+    TextButton, action_button, chip, chip_size, icon_button, keyed_menu_item, menu_item, section_name, valued_menu_item,
 };
 use super::wording::dialect_name;
 use super::{light, overlays, picture};
 use crate::actions;
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
-use crate::session::{Command, JointCommand, LookCommand, Session};
+use crate::session::{CameraCommand, Command, JointCommand, LookCommand, Session};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -65,11 +64,6 @@ pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, c
     if button.clicked() {
         state.sheet = (!shown).then_some(SheetPage::Light);
     }
-}
-
-/// Width of the buttons of a narrow window.
-pub(super) fn narrow_width(ui: &Ui) -> f32 {
-    3.0 * (control_size(ui) + SPACING)
 }
 
 fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -142,7 +136,7 @@ fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
     let before = commands.len();
     for preset in ViewPreset::ALL {
-        let command = Command::Glide(Box::new(Command::LookFrom(preset)));
+        let command = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(preset))).into();
         // A model opens with the camera at three quarters.
         let key = match preset {
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
@@ -223,12 +217,11 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     chosen
 }
 
-/// Name, file, dialect, no wider than `most`. What is too long of the file's name ends in an ellipsis.
-pub(super) fn title(ui: &mut Ui, session: &Session, most: f32, with_dialect: bool) {
+/// Name, file, dialect, no wider than what is available. What is too long of the file's name ends in an ellipsis.
+pub(super) fn title(ui: &mut Ui, session: &Session, with_dialect: bool) {
     let tokens = Tokens::of(ui);
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = TITLE_SPACING;
-        let start = ui.cursor().min.x;
         text(ui, "Bindpose", theme::semibold(13.5), tokens.text, f32::INFINITY);
         let Some(open) = session.open_model() else { return };
         let dialect = dialect_name(open.dialect);
@@ -237,7 +230,7 @@ pub(super) fn title(ui: &mut Ui, session: &Session, most: f32, with_dialect: boo
         } else {
             0.0
         };
-        let room = most - (ui.cursor().min.x - start) - dialect_width;
+        let room = ui.available_width() - dialect_width;
         let font = FontId::proportional(13.0);
         let name = open.file.base_name();
         text(ui, name, font, tokens.muted, room).on_hover_text(&open.file.path);

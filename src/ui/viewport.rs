@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
-use crate::session::{Command, LookCommand};
+use crate::session::{CameraCommand, Command, LookCommand};
 
 /// Radians of orbit for a drag over the height of the view.
 const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
@@ -32,29 +32,34 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
     let down = response.is_pointer_button_down_on();
     if down != hold.held {
         hold.held = down;
-        commands.push(if down { Command::BeginDrag } else { Command::EndDrag });
+        let command = if down {
+            CameraCommand::BeginDrag
+        } else {
+            CameraCommand::EndDrag
+        };
+        commands.push(command.into());
     }
     if let Some(touch) = ui.input(egui::InputState::multi_touch)
         && rect.contains(touch.center_pos)
         && down
     {
         hold.orbit.clear();
-        commands.push(Command::Pan {
+        commands.push(Command::Camera(CameraCommand::Pan {
             drag: fractions(touch.translation_delta),
-        });
+        }));
         if touch.zoom_delta != 1.0 {
             let pointer = fractions(touch.center_pos - rect.center());
-            commands.push(Command::Zoom {
+            commands.push(Command::Camera(CameraCommand::Zoom {
                 factor: 1.0 / touch.zoom_delta,
                 pointer,
-            });
+            }));
         }
         return;
     }
     let flies = hold.flight.update(ui, &response, height, commands);
     drag(ui, &response, &fractions, flies, hold, commands);
     if response.double_clicked() {
-        commands.push(Command::Glide(Box::new(Command::FrameModel)));
+        commands.push(CameraCommand::Glide(Box::new(CameraCommand::FrameModel)).into());
     } else if response.clicked()
         && !popover_open
         && let Some(pointer) = response.interact_pointer_pos()
@@ -65,10 +70,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         let factor = (-wheel * ZOOM_PER_POINT).exp() / pinch;
         if factor != 1.0 {
-            commands.push(Command::Zoom {
+            commands.push(Command::Camera(CameraCommand::Zoom {
                 factor,
                 pointer: fractions(pointer - rect.center()),
-            });
+            }));
         }
     }
 }
@@ -90,10 +95,10 @@ fn drag(
         let turn = moved * ORBIT_PER_HEIGHT;
         hold.orbit.add(now_secs, turn);
         if turn != Vec2::ZERO {
-            commands.push(Command::Orbit {
+            commands.push(Command::Camera(CameraCommand::Orbit {
                 yaw_radians: turn.x,
                 pitch_radians: turn.y,
-            });
+            }));
         }
     } else if alt && response.dragged_by(PointerButton::Primary) {
         let turn = moved.x * ENVIRONMENT_TURN_PER_HEIGHT;
@@ -101,15 +106,15 @@ fn drag(
             commands.push(LookCommand::TurnEnvironment(turn).into());
         }
     } else if response.dragged() && !flies {
-        commands.push(Command::Pan { drag: moved });
+        commands.push(CameraCommand::Pan { drag: moved }.into());
     }
     if response.drag_stopped() {
         let rate = hold.orbit.rate_per_sec(now_secs);
         if rate != Vec2::ZERO && !shift && !alt {
-            commands.push(Command::Fling {
+            commands.push(Command::Camera(CameraCommand::Fling {
                 yaw_radians_per_sec: rate.x,
                 pitch_radians_per_sec: rate.y,
-            });
+            }));
         }
     }
     if !orbits {
@@ -155,14 +160,14 @@ impl Flight {
         if asked != self.asked {
             self.asked = asked;
             let (direction, fast) = asked;
-            commands.push(Command::Fly { direction, fast });
+            commands.push(CameraCommand::Fly { direction, fast }.into());
         }
         let moved = view.drag_delta() / height * LOOK_PER_HEIGHT;
         if self.flying && moved != egui::Vec2::ZERO {
-            commands.push(Command::FlyLook {
+            commands.push(Command::Camera(CameraCommand::FlyLook {
                 yaw_radians: moved.x,
                 pitch_radians: -moved.y,
-            });
+            }));
         }
         self.flying
     }

@@ -49,7 +49,7 @@ fn restore(session: &mut Session) -> Option<()> {
     }
     let text = store()?.get_item(&key(fingerprint)).ok()??;
     let kept = SavedNames::from_text(fingerprint, &text);
-    session.apply(JointCommand::ImportNames(kept).into());
+    session.apply(JointCommand::ImportNames(kept));
     Some(())
 }
 

@@ -12,7 +12,7 @@ use super::run::{self, Shared};
 use super::{field, picture, promise, reduced_motion, state};
 use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
-use crate::session::{Command, File, PassChoice, RenderScale, Session};
+use crate::session::{Command, File, FileCommand, PassChoice, PlayCommand, QualityCommand, RenderScale, Session};
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
 ///
@@ -35,7 +35,7 @@ impl Viewer {
         report_panics();
         let mut session = Session::new(reduced_motion());
         let scale = field(options, "renderScale").as_f64().unwrap_or(1.0);
-        session.apply(Command::SetRenderScale(RenderScale::new(scale as f32)));
+        session.apply(QualityCommand::SetRenderScale(RenderScale::new(scale as f32)));
         Self {
             shared: Rc::new(Shared::new(session, on_event)),
         }
@@ -84,7 +84,7 @@ impl Viewer {
     /// # Errors
     /// When an entry is not of that shape.
     pub fn open(&self, files: &Array) -> Result<JsValue, JsError> {
-        self.shared.apply(Command::AddFiles(files_of(files)?));
+        self.shared.apply(FileCommand::Add(files_of(files)?));
         Ok(self.state())
     }
 
@@ -95,7 +95,7 @@ impl Viewer {
     /// When an entry is not of that shape.
     #[wasm_bindgen(js_name = addClips)]
     pub fn add_clips(&self, files: &Array) -> Result<JsValue, JsError> {
-        self.shared.apply(Command::AddClips(files_of(files)?));
+        self.shared.apply(FileCommand::AddClips(files_of(files)?));
         Ok(self.state())
     }
 
@@ -113,7 +113,7 @@ impl Viewer {
         {
             app.start_over(&running.ctx);
         }
-        self.shared.apply(Command::AddFiles(files));
+        self.shared.apply(FileCommand::Add(files));
         Ok(self.state())
     }
 
@@ -135,17 +135,17 @@ impl Viewer {
 
     /// Goes to a time in seconds, clamped to the clip.
     pub fn seek(&self, secs: f32) {
-        self.shared.apply(Command::Seek { time_secs: secs });
+        self.shared.apply(PlayCommand::Seek { time_secs: secs });
     }
 
     /// Plays on.
     pub fn play(&self) {
-        self.shared.apply(Command::Play);
+        self.shared.apply(PlayCommand::Play);
     }
 
     /// Stops where it is.
     pub fn pause(&self) {
-        self.shared.apply(Command::Pause);
+        self.shared.apply(PlayCommand::Pause);
     }
 
     /// Shows the clip with this name. Returns whether there is one.
@@ -155,13 +155,13 @@ impl Viewer {
             let clips = &open.model.clips;
             clips.iter().position(|clip| clip.name == name)
         });
-        self.shared.apply_named(index, Command::SelectClip)
+        self.shared.apply_named(index, PlayCommand::SelectClip)
     }
 
     /// Pauses and goes some frames on, or back where the number is below 0, to a whole frame.
     #[wasm_bindgen(js_name = stepFrames)]
     pub fn step_frames(&self, frames: i32) {
-        self.shared.apply(Command::StepFrames(frames));
+        self.shared.apply(PlayCommand::StepFrames(frames));
     }
 
     /// Pauses and goes to the next key: of the selected bone, or of any.
@@ -179,49 +179,51 @@ impl Viewer {
     /// Goes to the first frame of what plays.
     #[wasm_bindgen(js_name = seekStart)]
     pub fn seek_start(&self) {
-        self.shared.apply(Command::SeekStart);
+        self.shared.apply(PlayCommand::SeekStart);
     }
 
     /// Goes to the last frame of what plays.
     #[wasm_bindgen(js_name = seekEnd)]
     pub fn seek_end(&self) {
-        self.shared.apply(Command::SeekEnd);
+        self.shared.apply(PlayCommand::SeekEnd);
     }
 
     /// Lets playing begin at a time in seconds, or at the present one.
     #[wasm_bindgen(js_name = setRangeStart)]
     pub fn set_range_start(&self, secs: Option<f32>) {
-        self.shared.apply(Command::SetRangeStart(secs));
+        self.shared.apply(PlayCommand::SetRangeStart(secs));
     }
 
     /// Lets playing end at a time in seconds, or at the present one.
     #[wasm_bindgen(js_name = setRangeEnd)]
     pub fn set_range_end(&self, secs: Option<f32>) {
-        self.shared.apply(Command::SetRangeEnd(secs));
+        self.shared.apply(PlayCommand::SetRangeEnd(secs));
     }
 
     /// Lets the whole clip play.
     #[wasm_bindgen(js_name = clearRange)]
     pub fn clear_range(&self) {
-        self.shared.apply(Command::ClearRange);
+        self.shared.apply(PlayCommand::ClearRange);
     }
 
     /// Sets the speed, 1 as the file has it, within the limits of the viewer.
     #[wasm_bindgen(js_name = setSpeed)]
     pub fn set_speed(&self, speed: f32) {
-        self.shared.apply(Command::SetSpeed(speed));
+        self.shared.apply(PlayCommand::SetSpeed(speed));
     }
 
     /// Sets what happens at the end: `once`, `loop` or `pingpong`. Returns whether the name is one of these.
     #[wasm_bindgen(js_name = setLoop)]
     pub fn set_loop(&self, name: &str) -> bool {
-        self.shared.apply_named(LoopMode::from_name(name), Command::SetLoopMode)
+        self.shared
+            .apply_named(LoopMode::from_name(name), PlayCommand::SetLoopMode)
     }
 
     /// Sets how a loop goes on: `wrap` or `book-demo`. Returns whether the name is one of these.
     #[wasm_bindgen(js_name = setWrap)]
     pub fn set_wrap(&self, name: &str) -> bool {
-        self.shared.apply_named(WrapMode::from_name(name), Command::SetWrapMode)
+        self.shared
+            .apply_named(WrapMode::from_name(name), PlayCommand::SetWrapMode)
     }
 
     /// Draws a pass or leaves it out: `shadow`, `reflections`, `contact` or `ao`. Returns whether the name is one of these.
@@ -229,13 +231,14 @@ impl Viewer {
     pub fn set_pass(&self, name: &str, drawn: bool) -> bool {
         let choice = if drawn { PassChoice::On } else { PassChoice::Off };
         self.shared
-            .apply_named(Pass::from_name(name), |pass| Command::SetPass(pass, choice))
+            .apply_named(Pass::from_name(name), |pass| QualityCommand::SetPass(pass, choice))
     }
 
     /// Draws the view in the window with this fraction of its width and height in pixels, from 0.1 to 1.
     #[wasm_bindgen(js_name = setRenderScale)]
     pub fn set_render_scale(&self, fraction: f32) {
-        self.shared.apply(Command::SetRenderScale(RenderScale::new(fraction)));
+        self.shared
+            .apply(QualityCommand::SetRenderScale(RenderScale::new(fraction)));
     }
 }
 
@@ -248,7 +251,7 @@ impl Drop for Viewer {
 
 impl Shared {
     /// Applies a command and asks for a frame.
-    fn apply(&self, command: Command) {
+    fn apply(&self, command: impl Into<Command>) {
         self.session.borrow_mut().apply(command);
         if let Some(running) = &*self.running.borrow() {
             running.ctx.request_repaint();
@@ -258,11 +261,11 @@ impl Shared {
 
     fn step_key(&self, direction: Direction) {
         let joint = self.session.borrow().joints().selected();
-        self.apply(Command::StepKey { direction, joint });
+        self.apply(PlayCommand::StepKey { direction, joint });
     }
 
     /// Applies a command with the value that has this name. Returns whether there is one.
-    fn apply_named<T>(&self, value: Option<T>, command: impl FnOnce(T) -> Command) -> bool {
+    fn apply_named<T, C: Into<Command>>(&self, value: Option<T>, command: impl FnOnce(T) -> C) -> bool {
         let is_there = value.is_some();
         if let Some(value) = value {
             self.apply(command(value));

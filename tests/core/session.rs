@@ -23,12 +23,12 @@ mod subsets;
 mod transport;
 mod view_state;
 
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{File, FileCommand, Session};
 
 /// A session with one drop in it, its events taken.
 fn opened(file: File) -> Session {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![file]));
+    session.apply(FileCommand::Add(vec![file]));
     assert_eq!(session.error(), None);
     session.take_events();
     session

@@ -6,7 +6,7 @@ use bindpose::render::device::Backend;
 use bindpose::scene::{
     Background, FrameOptions, Insets, Light, Overlay, Passes, Projection, Theme, ViewMode, ViewPreset,
 };
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{CameraCommand, File, FileCommand, PlayCommand, Session};
 
 use crate::gpu::{Gpu, Picture};
 use crate::scenes::{FRONT, Scene, bent_tube, card};
@@ -135,10 +135,10 @@ on_both_backends! {
     fn figure_in_the_middle_of_a_step(gpu) {
         let mut session = Session::new(true);
         let figure = include_bytes!("../../web/sample/figure.m3d").to_vec();
-        session.apply(Command::AddFiles(vec![File::new("figure.m3d", figure)]));
-        session.apply(Command::Seek { time_secs: 0.25 });
-        session.apply(Command::SetViewport { aspect: 0.75, insets: Insets::default() });
-        session.apply(Command::LookFrom(ViewPreset::ThreeQuarter));
+        session.apply(FileCommand::Add(vec![File::new("figure.m3d", figure)]));
+        session.apply(PlayCommand::Seek { time_secs: 0.25 });
+        session.apply(CameraCommand::SetViewport { aspect: 0.75, insets: Insets::default() });
+        session.apply(CameraCommand::LookFrom(ViewPreset::ThreeQuarter));
         let mut renderer = gpu.renderer();
         renderer.set_model(&session.open_model().expect("the sample is sound").model).expect("small");
         let mut target = gpu.target(180, 240);

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use bindpose::app::App;
 use bindpose::render::Picture;
 use bindpose::scene::{Background, FrameOptions, Light, Overlay, Overlays, ViewMode};
-use bindpose::session::{Command, Session};
+use bindpose::session::{FileCommand, PlayCommand, Session};
 use bindpose::ui;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
@@ -39,8 +39,8 @@ fn plain(options: &mut FrameOptions) {
 fn a_native_device_draws_what_browsers_draw() {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
-    session.borrow_mut().apply(Command::AddFiles(sample_with_its_maps()));
-    session.borrow_mut().apply(Command::Seek { time_secs: 0.25 });
+    session.borrow_mut().apply(FileCommand::Add(sample_with_its_maps()));
+    session.borrow_mut().apply(PlayCommand::Seek { time_secs: 0.25 });
     let app: Rc<RefCell<Option<App>>> = Rc::default();
     let (of_window, of_app) = (Rc::clone(&app), gpu.clone());
     let mut harness = Harness::builder()

@@ -1,6 +1,6 @@
 //! What the camera does by itself after the pointer: it runs on, and it flies.
 
-use bindpose::session::{Command, Session};
+use bindpose::session::{FileCommand, PlayCommand, Session};
 use egui::{Event, Modifiers, PointerButton, vec2};
 
 use crate::models::moving;
@@ -12,8 +12,8 @@ fn lively() -> Window {
     let mut window = window(WIDE, vec![]);
     let session = &mut window.harness.state_mut().session;
     *session = Session::new(false);
-    session.apply(Command::AddFiles(vec![moving("a.m3d")]));
-    session.apply(Command::Pause);
+    session.apply(FileCommand::Add(vec![moving("a.m3d")]));
+    session.apply(PlayCommand::Pause);
     window.pass_on();
     window
 }

@@ -1,7 +1,7 @@
 //! The sheet above the strip: rows, keys, boxes, zoom; and how little of it is drawn.
 
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, JointCommand};
+use bindpose::session::{JointCommand, PlayCommand};
 use egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
 };
@@ -102,7 +102,7 @@ fn a_click_on_a_key_goes_there_and_chooses_its_bone() {
     assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
     assert_eq!(window.session().joints().selected(), Some(JointIndex(3)));
     // A clip that plays would leave it at once.
-    window.apply(Command::Play);
+    window.apply(PlayCommand::Play);
     press(&mut window, at);
     assert!(!window.session().playback().is_playing());
     assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
@@ -266,7 +266,7 @@ fn rows_light_up_with_their_bones_and_come_into_sight_when_one_is_selected() {
     window.pass_on();
     assert_eq!(row(&window), None);
     assert!(!rows(&window).contains(&"Bone 299, 31 keys".to_owned()));
-    window.apply(JointCommand::Select(Some(JointIndex(299))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(299))));
     window.wait(0.5);
     assert!(
         rows(&window).contains(&"Bone 299, 31 keys".to_owned()),
@@ -283,7 +283,7 @@ fn bones_go_by_their_names() {
     let mut window = sheet(5, 31);
     let name = "Tail".to_owned();
     let joint = JointIndex(2);
-    window.apply(JointCommand::Rename { joint, name }.into());
+    window.apply(JointCommand::Rename { joint, name });
     window.click("Tail, 31 keys");
     window.click("Sheet: Curves");
     assert!(window.shows("Curves of Tail"));
@@ -333,7 +333,7 @@ fn rigs_of_any_size_have_their_rows() {
         assert_eq!(rows(&window).len(), shown);
         assert_inside(&window, WIDE);
         assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
-        window.apply(Command::SelectClip(1));
+        window.apply(PlayCommand::SelectClip(1));
         assert_eq!(rows(&window).len(), shown, "a clip of one key has rows too");
     }
 }
@@ -485,7 +485,7 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
         found[0].0.clone()
     };
     assert_eq!(legend(&window), "t 0.000 s, x 0.0000, y 0.0000, z 0.0000, w 1.0000");
-    window.apply(Command::Seek { time_secs: 10.0 / 30.0 });
+    window.apply(PlayCommand::Seek { time_secs: 10.0 / 30.0 });
     // Bone 4 of 5 turns by 0.8 sin 1.5 about x, as far as six digits of a file say it.
     let angle = 0.8 * 1.5_f32.sin();
     let x = |window: &Window| {
@@ -504,7 +504,7 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
     window.click("Part: Scale");
     assert!(legend(&window).contains("y 1.0000"));
     window.click("Part: Rotation");
-    window.apply(Command::Seek { time_secs: 0.4 });
+    window.apply(PlayCommand::Seek { time_secs: 0.4 });
     let (whole, over) = (legend(&window), window.rect("Curves of Bone 4"));
     let modifiers = Modifiers::COMMAND | Modifiers::CTRL;
     wheel(

@@ -3,7 +3,7 @@
 use bindpose::diagnostic::Subject;
 use bindpose::format::{Document, Subset};
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, File, JointCommand, SubsetCommand};
+use bindpose::session::{File, JointCommand, PlayCommand, SubsetCommand};
 use egui::{CursorIcon, Key, Modifiers};
 
 use crate::models;
@@ -77,8 +77,8 @@ fn the_file_has_a_finding_of_each_kind() {
 fn a_finding_about_a_bone_leads_to_the_bone_in_view_tree_and_inspector() {
     let mut window = opened();
     // Its row is folded away, and another part is selected.
-    window.apply(JointCommand::SetAllFolded(true).into());
-    window.apply(JointCommand::SelectVertex(Some(0)).into());
+    window.apply(JointCommand::SetAllFolded(true));
+    window.apply(JointCommand::SelectVertex(Some(0)));
     let before = *window.session().camera();
     window.click(OF_BONE);
     let joints = window.session().joints();
@@ -99,7 +99,7 @@ fn a_finding_about_a_bone_leads_to_the_bone_in_view_tree_and_inspector() {
 #[test]
 fn a_finding_about_a_vertex_leads_to_the_vertex() {
     let mut window = opened();
-    window.apply(JointCommand::Select(Some(JointIndex(1))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(1))));
     let before = *window.session().camera();
     window.click(OF_VERTEX);
     let joints = window.session().joints();
@@ -124,7 +124,7 @@ fn a_finding_about_a_subset_leads_to_the_subset_even_when_it_is_hidden() {
     let mut window = opened();
     window.click("Panel: Skeleton");
     let (subset, visible) = (1, false);
-    window.apply(SubsetCommand::SetVisible { subset, visible }.into());
+    window.apply(SubsetCommand::SetVisible { subset, visible });
     let before = *window.session().camera();
     window.click(OF_SUBSET);
     let subsets = window.session().subsets();
@@ -158,7 +158,7 @@ fn a_finding_about_a_clip_shows_the_clip() {
         before,
         "nothing is selected, nothing is framed"
     );
-    window.apply(Command::SelectClip(1));
+    window.apply(PlayCommand::SelectClip(1));
     window.click(OF_CLIP);
     assert_eq!(
         window.session().clip_index(),

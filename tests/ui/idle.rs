@@ -1,7 +1,7 @@
 //! Nothing is drawn while nothing changes.
 
 use bindpose::anim::SkinView;
-use bindpose::session::{Command, File, JointCommand};
+use bindpose::session::{File, JointCommand, PlayCommand};
 
 use crate::models::{moving, still};
 use crate::page::{WIDE, Window, phone, window};
@@ -41,18 +41,18 @@ fn a_window_that_nobody_touches_asks_for_no_pass() {
 #[test]
 fn a_playing_window_asks_for_the_next_pass_and_a_paused_one_stops() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    window.apply(Command::Play);
+    window.apply(PlayCommand::Play);
     window.wait(0.2);
     assert!(window.harness.ctx.has_requested_repaint());
-    window.apply(Command::Pause);
+    window.apply(PlayCommand::Pause);
     assert_settles(&mut window);
 }
 
 #[test]
 fn a_clip_of_no_length_asks_for_no_pass() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    window.apply(Command::SelectClip(2));
-    window.apply(Command::Play);
+    window.apply(PlayCommand::SelectClip(2));
+    window.apply(PlayCommand::Play);
     assert_settles(&mut window);
 }
 
@@ -86,8 +86,8 @@ fn an_explained_vertex_and_a_pointer_that_rests_on_its_bones_settle() {
         if window.shows("Model facts") {
             window.click("Model facts");
         }
-        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
-        window.apply(JointCommand::SelectVertex(Some(4)).into());
+        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
+        window.apply(JointCommand::SelectVertex(Some(4)));
         for row in ["Bone 1: weight", "Unfold the matrices of Bone 0"] {
             if row.starts_with("Unfold") {
                 window.click("Explain this vertex");

@@ -2,7 +2,7 @@
 
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, JointCommand};
+use bindpose::session::{JointCommand, PlayCommand};
 use egui::{Event, Modifiers, OutputCommand, PointerButton, vec2};
 
 use crate::layout::assert_between_sides;
@@ -43,7 +43,7 @@ fn the_inspector_reads_the_joint_and_its_relatives_are_links() {
     }
     let local = window.rect("Position ");
     assert!(window.shows("Position 0.5000 0.0000 0.0000"));
-    window.apply(Command::Seek { time_secs: 0.8 });
+    window.apply(PlayCommand::Seek { time_secs: 0.8 });
     assert_eq!(window.rect("Position "), local, "numbers stand still");
     let tree_row = window.named(|name| name == "Bone 0");
     assert_eq!(tree_row.len(), 1, "the parent");
@@ -77,7 +77,7 @@ fn matrices_numbers_and_keys_are_copied_as_text() {
 fn a_click_on_a_key_goes_there() {
     let mut window = tree(vec2(1440.0, 1300.0), 5);
     window.click("Bone 1, ");
-    window.apply(Command::Play);
+    window.apply(PlayCommand::Play);
     window.click("Key 1, 0.500 s");
     assert_eq!(window.time_secs(), 0.5);
     assert!(!window.session().playback().is_playing());
@@ -93,7 +93,7 @@ fn a_vertex_shows_its_weights_and_explains_its_place() {
         if window.shows("Model facts") {
             window.click("Model facts");
         }
-        window.apply(JointCommand::SelectVertex(Some(4)).into());
+        window.apply(JointCommand::SelectVertex(Some(4)));
         assert!(window.shows("Selected: Vertex 4"));
         assert!(window.shows("Bone 1: weight 0.750") && window.shows("Bone 0: weight 0.250"));
         window.click("Explain this vertex");
@@ -130,14 +130,14 @@ fn line(window: &Window, start: &str) -> [f32; 3] {
 #[test]
 fn the_formula_can_be_followed_through_the_matrices_to_what_is_drawn() {
     let mut window = window(vec2(1440.0, 1200.0), chains(5));
-    window.apply(JointCommand::SelectVertex(Some(4)).into());
+    window.apply(JointCommand::SelectVertex(Some(4)));
     window.click("Explain this vertex");
     assert!(window.shows("v' = w0·v·F0 + w1·v·F1"));
     assert!(!window.shows("Fold the matrices of Bone 0, weight 0.250"));
     window.click("Unfold the matrices of Bone 0, ");
     window.click("Unfold the matrices of Bone 1, ");
     for time_secs in [0.0, 0.3, 0.8] {
-        window.apply(Command::Seek { time_secs });
+        window.apply(PlayCommand::Seek { time_secs });
         let bind = line(&window, "Bind ");
         let mut sum = [0.0; 3];
         for (bone, weight) in [("Bone 0", 0.25), ("Bone 1", 0.75)] {
@@ -175,7 +175,7 @@ fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
         } else {
             window(size, chains(5))
         };
-        window.apply(JointCommand::SelectVertex(Some(4)).into());
+        window.apply(JointCommand::SelectVertex(Some(4)));
         if window.shows("Model facts") {
             window.click("Model facts");
         }
@@ -189,11 +189,11 @@ fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
         let before = places(&window);
         assert!(before.len() >= 10, "{}", before.len());
         for time_secs in [0.2, 0.55, 1.0] {
-            window.apply(Command::Seek { time_secs });
+            window.apply(PlayCommand::Seek { time_secs });
             assert_eq!(places(&window), before, "{time_secs}");
         }
         // The next vertex is looked at in the same way.
-        window.apply(JointCommand::SelectVertex(Some(5)).into());
+        window.apply(JointCommand::SelectVertex(Some(5)));
         assert!(!window.named(|name| name.starts_with("Fold the matrices")).is_empty());
     }
 }
@@ -201,9 +201,9 @@ fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
 #[test]
 fn the_pointer_over_a_bone_shows_its_weights_and_leaves_those_of_the_selected_one() {
     let mut window = window(vec2(1440.0, 1200.0), chains(5));
-    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
-    window.apply(JointCommand::Select(Some(JointIndex(2))).into());
-    window.apply(JointCommand::SelectVertex(Some(4)).into());
+    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
+    window.apply(JointCommand::Select(Some(JointIndex(2))));
+    window.apply(JointCommand::SelectVertex(Some(4)));
     let shown = |window: &Window| (window.session().weighed_joint(), window.session().skin_colors_key());
     let selected = shown(&window);
     assert_eq!(selected.0, Some(JointIndex(2)));

@@ -111,7 +111,7 @@ fn a_search_finds_numbers_and_names_and_escape_takes_it_away() {
     assert_eq!(found.len(), 7, "it and what it hangs from: {found:?}");
     type_text(&mut window, "x");
     assert!(rows(&window).is_empty() && window.shows("No bone has this number or name."));
-    window.apply(JointCommand::Select(Some(JointIndex(5))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(5))));
     window.press(Modifiers::NONE, Key::Escape);
     assert!(rows(&window).len() > 20);
     assert_eq!(selected(&window), Some(5), "Esc left the search alone");
@@ -156,8 +156,8 @@ fn names_of_one_side_propose_those_of_the_other() {
         joint: JointIndex(joint),
         name: name.to_owned(),
     };
-    window.apply(named(1, "L hip").into());
-    window.apply(named(3, "L knee").into());
+    window.apply(named(1, "L hip"));
+    window.apply(named(3, "L knee"));
     window.click("Names and branches");
     window.click("Propose mirrored");
     assert!(window.shows("Bone 2 would be R hip") && window.shows("Bone 4 would be R knee"));
@@ -174,7 +174,7 @@ fn of_thousands_of_joints_only_those_in_view_are_laid_out() {
     let laid_out = rows(&window).len();
     assert!((20..60).contains(&laid_out), "{laid_out}");
     // One that is selected elsewhere is scrolled to.
-    window.apply(JointCommand::Select(Some(JointIndex(1_998))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(1_998))));
     window.wait(1.0);
     let row = window.rect("Bone 1998, ");
     assert!(row.max.y < window.rect("Play").min.y && row.min.y > 50.0, "{row}");
@@ -185,7 +185,7 @@ fn of_thousands_of_joints_only_those_in_view_are_laid_out() {
 fn fingers_name_a_joint_from_its_inspector() {
     let mut window = phone(chains(5));
     window.click("Model facts");
-    window.apply(JointCommand::Select(Some(JointIndex(3))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(3))));
     window.click("Rename");
     assert!(window.shows("Name of the bone"), "the tree stands in its place");
     type_text(&mut window, "knee");

@@ -3,7 +3,7 @@
 use bindpose::actions::{self, Group};
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
-use bindpose::session::{Command, File, SPEEDS, SubsetCommand};
+use bindpose::session::{CameraCommand, File, FileCommand, PlayCommand, SPEEDS, SubsetCommand};
 use bindpose::ui::{Request, escape_shuts};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
 
@@ -143,10 +143,10 @@ fn up_and_down_go_from_key_to_key() {
 fn i_and_o_set_the_range_and_shift_i_clears_it() {
     let mut window = open();
     let range = |window: &Window| window.session().playback().range_secs();
-    window.apply(Command::Seek { time_secs: 0.25 });
+    window.apply(PlayCommand::Seek { time_secs: 0.25 });
     window.press(PLAIN, Key::I);
     assert_eq!(range(&window), Some([0.25, 1.0]));
-    window.apply(Command::Seek { time_secs: 0.75 });
+    window.apply(PlayCommand::Seek { time_secs: 0.75 });
     window.press(PLAIN, Key::O);
     assert_eq!(range(&window), Some([0.25, 0.75]));
     window.press(PLAIN, Key::Home);
@@ -213,7 +213,7 @@ fn digits_look_from_named_sides() {
 fn f_frames_and_g_hides_the_grid() {
     let mut window = open();
     let framed = *window.session().camera();
-    window.apply(Command::Pan { drag: glam::Vec2::ONE });
+    window.apply(CameraCommand::Pan { drag: glam::Vec2::ONE });
     assert_ne!(window.session().camera(), &framed);
     window.press(PLAIN, Key::F);
     assert_eq!(window.session().camera(), &framed);
@@ -263,7 +263,7 @@ fn p_asks_for_a_picture_as_large_as_the_window_and_shift_leaves_the_ground_out()
 #[test]
 fn escape_clears_the_selection_last_of_all() {
     let mut window = open();
-    window.apply(SubsetCommand::Select(Some(0)).into());
+    window.apply(SubsetCommand::Select(Some(0)));
     window.click("Lighting");
     window.press(PLAIN, Key::Escape);
     assert!(!window.shows("Exposure") && window.session().subsets().selected().is_some());
@@ -316,7 +316,7 @@ fn the_table_says_what_is_in_force_now() {
         let shows = |window: &Window, wanted: &str| !window.named(|name| name == wanted).is_empty();
         assert!(shows(&window, off), "{off}");
         if key == Key::I {
-            window.apply(Command::Seek { time_secs: 0.5 });
+            window.apply(PlayCommand::Seek { time_secs: 0.5 });
         }
         window.press(PLAIN, key);
         assert!(shows(&window, on), "{on}");
@@ -328,7 +328,7 @@ fn escape_takes_away_what_lies_on_top() {
     let mut window = open();
     window.click("Diagnostics");
     window.click("Keys (?)");
-    window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
+    window.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
     let lying = |window: &Window| {
         (
             window.shows("b.m3d could not be read"),
@@ -446,7 +446,7 @@ fn a_name_is_the_same_however_its_letters_fall_into_frames() {
     let lay_out = || {
         let mut window = window(WIDE, vec![moving("a.m3d")]);
         window.click("Panel: Skeleton");
-        window.apply(Command::Seek { time_secs: 0.5 });
+        window.apply(PlayCommand::Seek { time_secs: 0.5 });
         window
     };
     let at = lay_out().rect("Bone 1, ").center();
@@ -474,7 +474,7 @@ fn a_name_is_the_same_however_its_letters_fall_into_frames() {
 fn a_name_that_is_typed_at_one_frame_a_second_is_kept_while_the_model_plays() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     window.click("Panel: Skeleton");
-    window.apply(Command::Play);
+    window.apply(PlayCommand::Play);
     let at = window.rect("Bone 1, ").center();
     let mut time_secs = 100.0;
     for events in [clicks(at, 2), typed_name(), pressed(Key::Escape, None)] {
@@ -537,7 +537,9 @@ fn a_letter_under_a_pressed_read_out_is_no_shortcut() {
 #[test]
 fn f2_takes_the_letters_after_it_though_its_row_has_to_be_scrolled_to() {
     let mut window = tree(WIDE, 300);
-    window.apply(bindpose::session::JointCommand::Select(Some(bindpose::model::JointIndex(250))).into());
+    window.apply(bindpose::session::JointCommand::Select(Some(
+        bindpose::model::JointIndex(250),
+    )));
     window.wait(1.0);
     window
         .harness
@@ -636,7 +638,7 @@ fn what_hung_from_a_button_gives_it_the_keyboard_back() {
 #[test]
 fn esc_that_shuts_something_leaves_the_keyboard_where_it_is() {
     let mut window = open();
-    window.apply(SubsetCommand::Select(Some(0)).into());
+    window.apply(SubsetCommand::Select(Some(0)));
     tab_to(&mut window, "Turntable");
     window.press(PLAIN, Key::Escape);
     assert_eq!(window.session().subsets().selected(), None);
@@ -670,7 +672,7 @@ fn esc_is_known_to_shut_something_before_it_is_pressed() {
             window.click("Diagnostics");
         }),
         ("an error", |window| {
-            window.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
+            window.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
         }),
         ("a field", |window| window.click("Search bones")),
     ];

@@ -2,7 +2,7 @@
 
 use bindpose::image::{Image, encode_png};
 use bindpose::scene::{Background, Light, Overlay, Pass, ViewMode};
-use bindpose::session::{Command, LookCommand, PassChoice, PassState};
+use bindpose::session::{FileCommand, LookCommand, PassChoice, PassState};
 use egui::{Key, Modifiers, pos2};
 
 use crate::models::moving;
@@ -194,7 +194,7 @@ fn what_is_left_out_for_speed_is_said_and_can_be_insisted_on() {
 #[test]
 fn numbers_stand_still_while_they_change() {
     let mut window = open();
-    window.apply(LookCommand::SetOverlay(Overlay::Normals, true).into());
+    window.apply(LookCommand::SetOverlay(Overlay::Normals, true));
     window.click("Lighting");
     let places = |window: &Window| {
         let mut widgets = window.widgets();
@@ -208,7 +208,7 @@ fn numbers_stand_still_while_they_change() {
         LookCommand::SetEnvironmentTurn(6.0),
         LookCommand::SetLight(Light::Studio),
     ] {
-        window.apply(Command::Look(command));
+        window.apply(command);
         assert_eq!(places(&window), before, "{command:?}");
     }
 }
@@ -240,7 +240,7 @@ fn a_picture_that_is_no_cube_is_no_sky() {
     let mut window = open();
     let image = Image::from_rgba8(1, 1, vec![0; 4], "PNG").expect("a picture");
     let png = encode_png(image.data(), 1, 1).expect("a PNG");
-    window.apply(Command::AddFiles(vec![bindpose::session::File::new("flat.png", png)]));
+    window.apply(FileCommand::Add(vec![bindpose::session::File::new("flat.png", png)]));
     window.click("Lighting");
     assert!(!window.shows("Remove the sky"));
 }

@@ -1,6 +1,6 @@
 //! A window with the interface in it, its commands applied to a real session, without a GPU.
 
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{Command, File, FileCommand, Session};
 use bindpose::ui::{self, Request, UiState};
 use egui::{Rect, Vec2};
 use egui_kittest::kittest::NodeT as _;
@@ -63,7 +63,7 @@ impl Window {
     fn new(size: Vec2, coarse_pointer: bool, files: Vec<File>) -> Self {
         let mut session = Session::new(true);
         if !files.is_empty() {
-            session.apply(Command::AddFiles(files));
+            session.apply(FileCommand::Add(files));
         }
         let page = Page {
             session,
@@ -90,7 +90,7 @@ impl Window {
     }
 
     /// Applies a command as a program would, and lets the window settle unless something plays.
-    pub(crate) fn apply(&mut self, command: Command) {
+    pub(crate) fn apply(&mut self, command: impl Into<Command>) {
         self.harness.state_mut().session.apply(command);
         self.pass_on();
     }

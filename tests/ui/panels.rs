@@ -3,7 +3,7 @@
 use bindpose::format::{Material, Subset};
 use bindpose::model::{Handedness, UpAxis};
 use bindpose::scene::{Light, Projection, ViewMode, ViewPreset};
-use bindpose::session::{Command, File};
+use bindpose::session::{CameraCommand, File, FileCommand};
 use bindpose::ui::Request;
 use egui::{Key, Modifiers, OutputCommand};
 
@@ -119,7 +119,7 @@ fn a_sound_model_has_no_findings_and_says_so() {
 #[test]
 fn the_error_card_says_what_and_where_and_copies_it() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
-        window.apply(Command::AddFiles(vec![broken("in/bad.m3d")]));
+        window.apply(FileCommand::Add(vec![broken("in/bad.m3d")]));
         let error = window.session().error().cloned().expect("broken");
         let at = error.diagnostic.position.expect("somewhere");
         let place = format!("bad.m3d:{}:{}", at.line, at.column);
@@ -177,7 +177,7 @@ fn copied_text(window: &Window) -> Option<String> {
 fn the_error_card_shows_what_is_no_text_byte_by_byte_on_one_line() {
     for mut window in [window(WIDE, vec![]), phone(vec![])] {
         let png = include_bytes!("../fixtures/bad/png.m3d").to_vec();
-        window.apply(Command::AddFiles(vec![File::new("in/skin.m3d", png)]));
+        window.apply(FileCommand::Add(vec![File::new("in/skin.m3d", png)]));
         let excerpt = window.named(|name| name.starts_with("skin.m3d:1:1"));
         let (text, rect) = &excerpt[0];
         assert!(
@@ -193,13 +193,13 @@ fn the_error_card_shows_what_is_no_text_byte_by_byte_on_one_line() {
 #[test]
 fn the_error_card_goes_with_escape_and_with_the_next_model() {
     let mut window = window(WIDE, vec![]);
-    window.apply(Command::AddFiles(vec![broken("bad.m3d")]));
+    window.apply(FileCommand::Add(vec![broken("bad.m3d")]));
     assert!(window.shows("Nothing is open yet."));
     window.press(Modifiers::NONE, Key::Escape);
     assert!(!window.shows("bad.m3d could not be read"));
-    window.apply(Command::AddFiles(vec![File::new("skin.dds", *b"x")]));
+    window.apply(FileCommand::Add(vec![File::new("skin.dds", *b"x")]));
     assert!(window.shows("Nothing to open"));
-    window.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    window.apply(FileCommand::Add(vec![moving("a.m3d")]));
     assert!(!window.shows("Nothing to open") && window.shows("a.m3d"));
 }
 
@@ -232,8 +232,8 @@ fn the_bar_looks_from_a_side_frames_and_turns() {
     window.click("View from");
     window.click("Orthographic");
     assert_eq!(window.session().camera().projection, Projection::Orthographic);
-    window.apply(Command::ResetCamera);
-    window.apply(Command::Pan { drag: glam::Vec2::ONE });
+    window.apply(CameraCommand::Reset);
+    window.apply(CameraCommand::Pan { drag: glam::Vec2::ONE });
     window.click("Frame the model");
     assert_eq!(window.session().camera(), &framed);
     window.click("Turntable");
@@ -303,7 +303,7 @@ fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
     assert!(panel, "rows are as wide as the panel");
 
     let picture = bindpose::image::encode_png(&[255; 16], 2, 2).expect("two by two pixels");
-    window.apply(Command::AddFiles(vec![File::new("shared.png", picture)]));
+    window.apply(FileCommand::Add(vec![File::new("shared.png", picture)]));
     assert!(window.shows("Textures: 1 of 11 found, 1 unreadable"));
     window.click("9 missing");
     assert!(names(&window).is_empty());

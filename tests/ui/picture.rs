@@ -8,7 +8,7 @@ use std::rc::Rc;
 use bindpose::anim::SkinView;
 use bindpose::app::App;
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, File, JointCommand, LookCommand, Session, SubsetCommand};
+use bindpose::session::{Command, File, FileCommand, JointCommand, LookCommand, PlayCommand, Session, SubsetCommand};
 use bindpose::ui;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
@@ -49,8 +49,8 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
 fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>, clicks: &[&str]) -> RgbaImage {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
-    session.borrow_mut().apply(Command::AddFiles(sample_with_its_maps()));
-    session.borrow_mut().apply(Command::Seek { time_secs: 0.4 });
+    session.borrow_mut().apply(FileCommand::Add(sample_with_its_maps()));
+    session.borrow_mut().apply(PlayCommand::Seek { time_secs: 0.4 });
     for command in then {
         session.borrow_mut().apply(command);
     }
@@ -140,7 +140,7 @@ fn wide_and_light_with_an_error() {
     let bad = File::new("soldier.m3d", text.as_bytes());
     compare(
         "wide-light-error",
-        &draw(WIDE, Theme::Light, false, vec![Command::AddFiles(vec![bad])]),
+        &draw(WIDE, Theme::Light, false, vec![FileCommand::Add(vec![bad]).into()]),
     );
 }
 
@@ -173,14 +173,17 @@ fn maps_that_are_missing_and_one_that_is_damaged() {
     let kept = maps.next().expect("another map").path.clone();
     let damaged = damaged.path.clone();
     files.retain(|file| !file.is_image() || [&kept, &damaged].contains(&&file.path));
-    let then = vec![Command::AddFiles(files), Command::Seek { time_secs: 0.4 }];
+    let then = vec![
+        FileCommand::Add(files).into(),
+        PlayCommand::Seek { time_secs: 0.4 }.into(),
+    ];
     compare("wide-light-maps", &draw(WIDE, Theme::Light, false, then));
 }
 
 #[test]
 fn a_finding_that_leads_to_a_vertex() {
     let clicks = ["Diagnostics: ", "warning weights-not-normalized"];
-    let then = || vec![Command::AddFiles(crate::findings::files())];
+    let then = || vec![FileCommand::Add(crate::findings::files()).into()];
     for (name, size, theme, touch) in [
         ("wide-dark-finding", WIDE, Theme::Dark, false),
         ("phone-light-finding", PHONE, Theme::Light, true),
@@ -193,7 +196,7 @@ fn a_finding_that_leads_to_a_vertex() {
 #[test]
 fn the_bytes_of_a_file_that_is_no_text() {
     let bytes = include_bytes!("../fixtures/bad/png.m3d").to_vec();
-    let then = vec![Command::AddFiles(vec![File::new("soldier.m3d", bytes)])];
+    let then = vec![FileCommand::Add(vec![File::new("soldier.m3d", bytes)]).into()];
     compare("wide-dark-bytes", &draw(WIDE, Theme::Dark, false, then));
 }
 
@@ -237,7 +240,7 @@ fn the_dope_sheet_with_folded_branches() {
         &[5, 15, 20, 25, 60],
         &[3, 33, 47],
     ];
-    let then = || vec![Command::AddFiles(vec![chain(&frames)]), folded.clone().into()];
+    let then = || vec![FileCommand::Add(vec![chain(&frames)]).into(), folded.clone().into()];
     for (name, size, theme, touch) in [
         ("wide-dark-folded", WIDE, Theme::Dark, false),
         ("phone-light-folded", PHONE, Theme::Light, true),
@@ -258,7 +261,10 @@ fn curves_of_a_bone() {
 #[test]
 fn the_dope_sheet_of_a_small_window_with_a_range() {
     let range = [0.3, 0.9].map(Some);
-    let then = vec![Command::SetRangeStart(range[0]), Command::SetRangeEnd(range[1])];
+    let then = vec![
+        PlayCommand::SetRangeStart(range[0]).into(),
+        PlayCommand::SetRangeEnd(range[1]).into(),
+    ];
     let clicks = ["Dope sheet and", "Sort by motion"];
     let size = Vec2::new(900.0, 700.0);
     compare(
@@ -287,7 +293,7 @@ fn curves_on_a_phone() {
 
 #[test]
 fn clips_and_how_they_are_mixed() {
-    let then = vec![Command::SetBlend { clip: 1, weight: 0.5 }];
+    let then = vec![PlayCommand::SetBlend { clip: 1, weight: 0.5 }.into()];
     compare(
         "wide-dark-clips",
         &draw_after(WIDE, Theme::Dark, false, then, &["Clip "]),
@@ -304,7 +310,12 @@ fn how_a_clip_plays_on_a_phone() {
 
 #[test]
 fn the_seam_of_a_range() {
-    let then = || [Command::SetRangeStart(Some(0.3)), Command::SetRangeEnd(Some(0.9))];
+    let then = || {
+        [
+            PlayCommand::SetRangeStart(Some(0.3)).into(),
+            PlayCommand::SetRangeEnd(Some(0.9)).into(),
+        ]
+    };
     let clicks = ["Speed ", "Seam of Bone "];
     for (name, size, theme, touch) in [
         ("wide-dark-seam", WIDE, Theme::Dark, false),

@@ -1,7 +1,7 @@
 //! What the toolbar opens: inside the window, off the panels, large enough for fingers.
 
 use bindpose::scene::ViewMode;
-use bindpose::session::{Command, JointCommand, LookCommand, SubsetCommand};
+use bindpose::session::{JointCommand, LookCommand, PlayCommand, SubsetCommand};
 use egui::{Order, Rect, vec2};
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside, shown_panel};
@@ -26,7 +26,7 @@ fn what_hangs_from_the_toolbar_stays_inside_the_window() {
                 size,
                 vec![moving("a_name_that_needs_all_the_room_that_the_toolbar_leaves.m3d")],
             );
-            window.apply(LookCommand::SetViewMode(ViewMode::TexCoords).into());
+            window.apply(LookCommand::SetViewMode(ViewMode::TexCoords));
             assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
             for (button, item) in POPOVERS {
                 window.click(button);
@@ -61,7 +61,7 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
             assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{inside}: {rect}");
             window.click("Close the sheet");
         }
-        window.apply(SubsetCommand::Select(Some(0)).into());
+        window.apply(SubsetCommand::Select(Some(0)));
         window.click("Model facts");
         assert!(window.shows("Selected: Painted"));
         let last = window.rect("Fresnel R0: blue");
@@ -92,10 +92,10 @@ fn what_hangs_over_the_timeline_leaves_the_transport_free() {
     ] {
         let open = if touch { touch_window } else { window };
         let mut window = open(size, vec![moving("a.m3d")]);
-        window.apply(JointCommand::SetBonesVisible(true).into());
+        window.apply(JointCommand::SetBonesVisible(true));
         // A range whose seam is seen has the longest list.
-        window.apply(Command::SetRangeStart(Some(0.2)));
-        window.apply(Command::SetRangeEnd(Some(0.7)));
+        window.apply(PlayCommand::SetRangeStart(Some(0.2)));
+        window.apply(PlayCommand::SetRangeEnd(Some(0.7)));
         let mut buttons = vec!["Clip ", "Speed "];
         if size.x >= 900.0 {
             buttons.extend(["Lighting", "Lines over the model", "Picture"]);

@@ -8,7 +8,7 @@ use bindpose::app::App;
 use bindpose::diagnostic::codes;
 use bindpose::format::{Document, Vertex};
 use bindpose::render::Picture;
-use bindpose::session::{Command, Session};
+use bindpose::session::{FileCommand, Session};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
@@ -72,7 +72,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
     };
     session
         .borrow_mut()
-        .apply(Command::AddFiles(vec![models::moving("small.m3d")]));
+        .apply(FileCommand::Add(vec![models::moving("small.m3d")]));
     harness.run();
     let (before, triangles) = (
         picture(),
@@ -82,7 +82,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
 
     session
         .borrow_mut()
-        .apply(Command::AddFiles(vec![models::file("large.m3d", &large())]));
+        .apply(FileCommand::Add(vec![models::file("large.m3d", &large())]));
     assert_eq!(session.borrow().error(), None, "it is sound");
     harness.run();
     {
@@ -113,7 +113,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
 
     session
         .borrow_mut()
-        .apply(Command::AddFiles(vec![models::still("next.m3d")]));
+        .apply(FileCommand::Add(vec![models::still("next.m3d")]));
     harness.run();
     assert_eq!(session.borrow().error(), None);
     assert!(picture() != before);

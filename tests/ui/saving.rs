@@ -1,6 +1,6 @@
 //! Pictures as files: their size, their ground and their name.
 
-use bindpose::session::{Command, Session};
+use bindpose::session::{FileCommand, PlayCommand, Session};
 use bindpose::ui::{Request, picture_name};
 use egui::{Event, Key, Modifiers};
 
@@ -66,8 +66,8 @@ fn the_ground_is_left_out_when_asked() {
 fn the_name_says_model_clip_and_frame() {
     let named = |files| {
         let mut session = Session::new(true);
-        session.apply(Command::AddFiles(files));
-        session.apply(Command::Seek { time_secs: 0.5 });
+        session.apply(FileCommand::Add(files));
+        session.apply(PlayCommand::Seek { time_secs: 0.5 });
         picture_name(&session)
     };
     assert_eq!(named(vec![moving("in/soldier.m3d")]), "soldier-Bend-15.png");

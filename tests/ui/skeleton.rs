@@ -122,7 +122,7 @@ fn each_view_of_the_skin_has_a_legend() {
         );
         assert!(window.shows(&format!("View mode: {view}")));
     }
-    window.apply(JointCommand::Select(Some(JointIndex(3))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(3))));
     assert!(window.shows("Legend: Weight of Bone 3"));
     window.click("View mode");
     window.click("Strongest bone");
@@ -135,11 +135,11 @@ fn each_view_of_the_skin_has_a_legend() {
 
 /// The middle of the window where the first triangle of a bone is.
 fn place_of_vertex(window: &mut Window, vertex: u32) -> egui::Pos2 {
-    window.apply(JointCommand::SelectVertex(Some(vertex)).into());
+    window.apply(JointCommand::SelectVertex(Some(vertex)));
     let session = &mut window.harness.state_mut().session;
     let place = session.explain_vertex().expect("it was selected").position;
     let at = session.place_in_picture(place).expect("in view");
-    window.apply(JointCommand::SelectVertex(None).into());
+    window.apply(JointCommand::SelectVertex(None));
     let share = vec2(0.5 * (at.x + 1.0), 0.5 * (1.0 - at.y));
     egui::Pos2::ZERO + share * WIDE
 }
@@ -190,10 +190,10 @@ fn a_click_in_the_view_means_what_is_shown_there() {
 /// Where a joint is in the window: its label says it.
 fn bone_place(window: &mut Window, joint: u32) -> egui::Pos2 {
     let session = &mut window.harness.state_mut().session;
-    session.apply(JointCommand::SetLabelsVisible(true).into());
+    session.apply(JointCommand::SetLabelsVisible(true));
     let mut places = Vec::new();
     session.joint_labels(0.0, &mut places);
-    session.apply(JointCommand::SetLabelsVisible(false).into());
+    session.apply(JointCommand::SetLabelsVisible(false));
     let place = places
         .into_iter()
         .find(|place| place.joint.0 == joint)
@@ -205,7 +205,7 @@ fn bone_place(window: &mut Window, joint: u32) -> egui::Pos2 {
 #[test]
 fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     let mut window = window(WIDE, chains(5));
-    window.apply(JointCommand::Select(Some(JointIndex(3))).into());
+    window.apply(JointCommand::Select(Some(JointIndex(3))));
     window.click("Lines over");
     window.click("Bones");
     window.click("Bones: Axes");
@@ -213,7 +213,7 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     let joints = window.session().joints();
     assert_eq!((joints.bone_style(), joints.labels_visible()), (BoneStyle::Axes, true));
     window.click("Bind pose as a ghost");
-    assert!(window.session().bind_ghost());
+    assert!(window.session().look().bind_ghost);
     window.click("To bind pose");
     let share = window.session().bind_weight();
     assert!((0.4..0.6).contains(&share), "{share}");
@@ -223,7 +223,7 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
         after: 3,
         step_frames: 5,
     };
-    assert_eq!(window.session().ghost_plan(), Some(plan));
+    assert_eq!(window.session().look().ghosts, Some(plan));
     assert!(window.shows("Ghosts every frames"));
     window.click("Trail of Bone 3");
     assert_eq!(window.session().joints().trails(), [JointIndex(3)]);
@@ -235,9 +235,9 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
 fn tree_and_inspector_fit_every_window() {
     for (size, bone_count) in [(WIDE, 300), (SMALL, 300), (SMALL, 1), (vec2(900.0, 600.0), 2_000)] {
         let mut window = tree(size, bone_count);
-        window.apply(JointCommand::Select(Some(JointIndex(0))).into());
-        window.apply(JointCommand::SelectVertex(Some(0)).into());
-        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
+        window.apply(JointCommand::Select(Some(JointIndex(0))));
+        window.apply(JointCommand::SelectVertex(Some(0)));
+        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
         assert_between_sides(&window, size);
         assert_apart(
             &window,
@@ -248,7 +248,7 @@ fn tree_and_inspector_fit_every_window() {
     let mut window = phone(chains(300));
     window.click("Model facts");
     window.click("Panel: Skeleton");
-    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)).into());
+    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
     assert_between_sides(&window, PHONE);
     assert_apart(&window, &["title", "sheet", "legend"]);
     let row = window.rect("Bone 1, ");

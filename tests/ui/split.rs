@@ -1,6 +1,6 @@
 //! The line between both lights.
 
-use bindpose::session::{Command, LookCommand};
+use bindpose::session::LookCommand;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 
 use crate::models::moving;
@@ -8,7 +8,7 @@ use crate::page::{WIDE, Window, phone, window};
 
 fn divided(share: f32) -> Window {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    window.apply(LookCommand::SetSplit(Some(share)).into());
+    window.apply(LookCommand::SetSplit(Some(share)));
     window
 }
 
@@ -40,7 +40,7 @@ fn the_line_and_its_handle_follow_the_pointer_and_the_camera_stays() {
         assert_eq!(window.session().camera(), &camera);
     }
     let mut phone = phone(vec![moving("a.m3d")]);
-    phone.apply(LookCommand::SetSplit(Some(0.5)).into());
+    phone.apply(LookCommand::SetSplit(Some(0.5)));
     // A finger is less exact than a pointer.
     let handle = phone.rect("Split").center();
     drag(&mut phone, handle + vec2(18.0, 0.0), pos2(273.0, handle.y));
@@ -90,6 +90,6 @@ fn the_keyboard_moves_it_too() {
 fn without_a_division_there_is_no_line() {
     let mut window = divided(0.5);
     assert!(window.shows("Split"));
-    window.apply(Command::Look(LookCommand::SetSplit(None)));
+    window.apply(LookCommand::SetSplit(None));
     assert!(!window.shows("Split"));
 }

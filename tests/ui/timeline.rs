@@ -2,7 +2,7 @@
 
 use bindpose::anim::{LoopMode, WrapMode};
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, SPEEDS};
+use bindpose::session::{FileCommand, PlayCommand, SPEEDS};
 use bindpose::ui::Request;
 use egui::{Event, Key, Modifiers, pos2};
 
@@ -12,7 +12,7 @@ use crate::rigs::{growing, rig};
 
 fn playing() -> Window {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    window.apply(Command::Play);
+    window.apply(PlayCommand::Play);
     window
 }
 
@@ -36,9 +36,9 @@ fn time_goes_by_while_it_plays_and_the_read_outs_follow() {
     window.wait(0.5);
     let time_secs = window.time_secs();
     assert!((time_secs - before - 0.5).abs() < 1e-3, "{before} to {time_secs}");
-    window.apply(Command::Seek { time_secs: 0.5 });
-    window.apply(Command::Pause);
-    window.apply(Command::Seek { time_secs: 0.5 });
+    window.apply(PlayCommand::Seek { time_secs: 0.5 });
+    window.apply(PlayCommand::Pause);
+    window.apply(PlayCommand::Seek { time_secs: 0.5 });
     assert!(window.shows("Time 0.500 s") && window.shows("Frame 15 of 30"));
 }
 
@@ -259,20 +259,20 @@ fn a_seam_that_is_seen_is_told() {
 fn of_a_range_the_seam_between_its_ends_is_told_and_its_mark_stands_there() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let whole = window.rect("The loop's seam is seen").center().x;
-    window.apply(Command::SetRangeStart(Some(0.25)));
-    window.apply(Command::SetRangeEnd(Some(0.5)));
+    window.apply(PlayCommand::SetRangeStart(Some(0.25)));
+    window.apply(PlayCommand::SetRangeEnd(Some(0.5)));
     let told = window.named(|name| name.ends_with("from the range's last pose to its first"));
     assert_eq!(told.len(), 1, "{:?}", window.widgets());
     let bar = window.rect("Time in seconds");
     assert!((told[0].1.center().x - bar.center().x).abs() < 1.0 && whole > bar.max.x - 20.0);
     // As far before the turning point of the swing as after it the pose is the same.
     let turning_secs = 0.25 * std::f32::consts::TAU / 0.2 / 30.0;
-    window.apply(Command::ClearRange);
-    window.apply(Command::SetRangeStart(Some(turning_secs - 0.2)));
-    window.apply(Command::SetRangeEnd(Some(turning_secs + 0.2)));
+    window.apply(PlayCommand::ClearRange);
+    window.apply(PlayCommand::SetRangeStart(Some(turning_secs - 0.2)));
+    window.apply(PlayCommand::SetRangeEnd(Some(turning_secs + 0.2)));
     assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
-    window.apply(Command::ClearRange);
-    window.apply(Command::SetLoopMode(LoopMode::PingPong));
+    window.apply(PlayCommand::ClearRange);
+    window.apply(PlayCommand::SetLoopMode(LoopMode::PingPong));
     assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
 }
 
@@ -298,14 +298,14 @@ fn the_seam_of_each_bone_is_listed_and_a_row_selects_its_bone() {
         window.click("Seam of Bone 1");
         assert_eq!(window.session().joints().selected(), Some(JointIndex(1)));
         assert!(window.shows("Seam of the clip"), "it stays open");
-        window.apply(Command::SetRangeEnd(Some(0.5)));
+        window.apply(PlayCommand::SetRangeEnd(Some(0.5)));
         assert!(window.shows("Seam of the range"));
         let angle = (1.2 * 3.0_f32.sin()).abs().to_degrees();
         assert_eq!(
             rows(&window)[0],
             format!("Seam of Bone 1: distance 0, angle {angle:.2}°")
         );
-        window.apply(Command::SetLoopMode(LoopMode::Once));
+        window.apply(PlayCommand::SetLoopMode(LoopMode::Once));
         assert!(rows(&window).is_empty() && !window.shows("Seam of the range"));
     }
 }
@@ -315,17 +315,17 @@ fn where_nothing_jumps_that_is_said() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     window.click("Speed 1×");
     let turning_secs = 0.25 * std::f32::consts::TAU / 0.2 / 30.0;
-    window.apply(Command::SetRangeStart(Some(turning_secs - 0.2)));
-    window.apply(Command::SetRangeEnd(Some(turning_secs + 0.2)));
+    window.apply(PlayCommand::SetRangeStart(Some(turning_secs - 0.2)));
+    window.apply(PlayCommand::SetRangeEnd(Some(turning_secs + 0.2)));
     assert!(window.shows("No jump from the last pose to the first is seen."));
-    window.apply(Command::SelectClip(2));
+    window.apply(PlayCommand::SelectClip(2));
     assert!(
         window.named(|name| name.starts_with("Seam of")).is_empty(),
         "one pose loops nowhere"
     );
-    window.apply(Command::AddFiles(vec![growing()]));
+    window.apply(FileCommand::Add(vec![growing()]));
     assert!(window.shows("Seam of Bone 0: distance 0, angle 0, scales by 50.0 %"));
-    window.apply(Command::AddFiles(vec![rig(1, 31)]));
+    window.apply(FileCommand::Add(vec![rig(1, 31)]));
     assert!(window.shows("The last pose is the first one again."));
     assert!(window.named(|name| name.starts_with("Seam of Bone ")).is_empty());
 }
@@ -386,10 +386,10 @@ fn clips_are_blended_faded_and_added() {
         window.harness.drop_at(at);
         window.pass_on();
         assert!((window.session().crossfade_secs() - 1.0).abs() < 0.05);
-        window.apply(Command::AddClips(vec![moving("more.m3d")]));
+        window.apply(FileCommand::AddClips(vec![moving("more.m3d")]));
         let added = window.named(|name| name.contains("more.m3d"));
         assert_eq!(added.len(), 3, "{added:?}");
-        window.apply(Command::AddClips(vec![moving("more.m3d")]));
+        window.apply(FileCommand::AddClips(vec![moving("more.m3d")]));
         let again = window.named(|name| name.contains("more.m3d") && !name.contains("replace"));
         assert_eq!(again, added, "the same file once more takes their places");
         window.press(Modifiers::NONE, Key::Escape);

@@ -10,7 +10,6 @@ use super::state::SkeletonState;
 use crate::anim::SkinView;
 use crate::scene::{LegendStop, legend};
 use crate::session::Session;
-use crate::ui::panel::{Panel, SIDE_WIDTH};
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{gradient_shape, paint_elided};
 use crate::ui::wording::{shortened, trimmed};
@@ -28,8 +27,6 @@ const HALO: [(f32, f32); 8] = [
     (0.0, 1.2),
     (1.0, 1.0),
 ];
-/// Width of a card's contents: that of the panel on the left.
-const WIDTH: f32 = SIDE_WIDTH - 26.0;
 /// Height of the colours, and of them with their values.
 const BAR_HEIGHT: f32 = 8.0;
 const COLORS_HEIGHT: f32 = BAR_HEIGHT + 22.0;
@@ -41,59 +38,41 @@ const VALUE_GAP: f32 = 6.0;
 /// The greatest width of a strip's contents, and the fraction of it that the colours take.
 const STRIP_MOST: f32 = 336.0;
 const STRIP_FRACTION: f32 = 0.55;
-const STRIP_MARGIN: Margin = Margin {
+pub(in crate::ui) const STRIP_MARGIN: Margin = Margin {
     left: 14,
     right: 14,
     top: 7,
     bottom: 5,
 };
-/// Height of a card without a sentence, with its margins and border.
-pub(in crate::ui) const CARD_HEIGHT: f32 = 17.0 + COLORS_HEIGHT + 26.0;
-/// Height of a strip with its margins and border.
-pub(in crate::ui) const STRIP_HEIGHT: f32 = COLORS_HEIGHT + 14.0;
 
 /// The shape of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::ui) enum LegendShape {
     /// Colours below the title, and a sentence where they do not say all. For a corner where there is room.
     Card,
-    /// Colours beside the title, so wide: a line of its own between the model and what is below.
-    Strip {
-        /// In points, with margins and border.
-        width: f32,
-    },
+    /// Colours beside the title: a line of its own between the model and what is below.
+    Strip,
 }
 
-/// Whether there are colours to explain.
-pub(in crate::ui) fn has_legend(session: &Session) -> bool {
-    view_on_show(session).is_some()
-}
-
-fn view_on_show(session: &Session) -> Option<SkinView> {
+/// What the colours of the skin are about. None while the skin is shown as it is.
+pub(in crate::ui) fn colored_view(session: &Session) -> Option<SkinView> {
     session.joints().skin_view().filter(|_| session.open_model().is_some())
 }
 
-/// A panel whose lower left corner is at a point. Nothing while the skin is shown as it is.
-pub(in crate::ui) fn show_legend(ui: &Ui, session: &Session, at: Pos2, shape: LegendShape) {
-    let Some(view) = view_on_show(session) else { return };
-    let panel = Panel::new("legend", Align2::LEFT_BOTTOM, at);
+/// What the colours mean.
+pub(in crate::ui) fn show_legend(ui: &mut Ui, session: &Session, view: SkinView, shape: LegendShape) {
     let (title, hint) = words(session, view);
     match shape {
-        LegendShape::Card => {
-            panel.show(ui, |ui| card(ui, view, &title, hint));
-        }
-        LegendShape::Strip { width } => {
-            let width = (width - 2.0 * (f32::from(STRIP_MARGIN.left) + 1.0)).min(STRIP_MOST);
-            panel.margin(STRIP_MARGIN).show(ui, |ui| strip(ui, view, &title, width));
-        }
+        LegendShape::Card => card(ui, view, &title, hint),
+        LegendShape::Strip => strip(ui, view, &title),
     }
 }
 
 fn card(ui: &mut Ui, view: SkinView, title: &str, hint: Option<&str>) {
-    ui.set_width(WIDTH);
-    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, 17.0), Sense::hover());
+    let width = ui.available_width();
+    let (rect, _) = ui.allocate_exact_size(vec2(width, 17.0), Sense::hover());
     show_title(ui, rect, title);
-    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, colors_height(view)), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(width, colors_height(view)), Sense::hover());
     show_colors(ui, rect, view);
     if let Some(hint) = hint {
         ui.add_space(2.0);
@@ -101,7 +80,8 @@ fn card(ui: &mut Ui, view: SkinView, title: &str, hint: Option<&str>) {
     }
 }
 
-fn strip(ui: &mut Ui, view: SkinView, title: &str, width: f32) {
+fn strip(ui: &mut Ui, view: SkinView, title: &str) {
+    let width = ui.available_width().min(STRIP_MOST);
     let (rect, _) = ui.allocate_exact_size(vec2(width, COLORS_HEIGHT), Sense::hover());
     let (left, right) = rect.split_left_right_at_fraction(1.0 - STRIP_FRACTION);
     show_title(ui, left, title);

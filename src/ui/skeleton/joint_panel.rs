@@ -8,10 +8,10 @@ use super::vertex_panel;
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, focus_ring, is_touch, paint_elided, pressed_row_height, rule, section_with_action,
+    TextButton, focus_ring, paint_elided, pressed_row, pressed_row_height, rule, section_with_action,
     section_with_labelled_action, segmented, selected_heading, switch_row, value_row,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
@@ -225,7 +225,7 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
                 let in_force = row.key + 1 == now;
                 if key_row(ui, &row, *part, in_force) {
                     let time_secs = row.time_secs;
-                    commands.extend([Command::Pause, Command::Seek { time_secs }]);
+                    commands.extend([PlayCommand::Pause.into(), PlayCommand::Seek { time_secs }.into()]);
                 }
             }
         });
@@ -234,14 +234,7 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
 /// Whether it was clicked.
 fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if in_force {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
-    } else if response.hovered() && !is_touch(ui) {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    let (rect, response) = pressed_row(ui, in_force);
     let numbers = match part {
         KeyPart::Position => row.parts.position.to_array().map(|number| fitted(number, 3)),
         KeyPart::Rotation => row.parts.euler_xyz_degrees.to_array().map(|number| fitted(number, 2)),

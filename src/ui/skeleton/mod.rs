@@ -8,6 +8,6 @@ pub(super) mod state;
 mod tree;
 mod vertex_panel;
 
-pub(super) use in_view::{CARD_HEIGHT, LegendShape, STRIP_HEIGHT, has_legend, show_legend, show_marks};
+pub(super) use in_view::{LegendShape, STRIP_MARGIN, colored_view, show_legend, show_marks};
 pub(super) use joint_panel::show as show_inspector;
 pub(super) use tree::{show as show_tree, show_pages};

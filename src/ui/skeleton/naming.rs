@@ -100,13 +100,10 @@ impl Naming {
     fn take_name(&mut self, commands: &mut Vec<Command>) {
         let naming = std::mem::take(self);
         if let Some(joint) = naming.of {
-            commands.push(
-                JointCommand::Rename {
-                    joint,
-                    name: naming.text,
-                }
-                .into(),
-            );
+            commands.push(Command::Joint(JointCommand::Rename {
+                joint,
+                name: naming.text,
+            }));
         }
     }
 }
@@ -139,14 +136,11 @@ pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands
     }
 }
 
+/// Between the proposed names and the buttons below them.
+const BUTTONS_GAP: f32 = 10.0;
+
 /// The names proposed for mirrored joints, to accept or refuse.
-pub(super) fn show_proposals(
-    ui: &mut Ui,
-    session: &Session,
-    naming: &mut Naming,
-    room: f32,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let proposed = naming.proposed.of(session);
     section_name(ui, "Mirrored names");
@@ -158,8 +152,8 @@ pub(super) fn show_proposals(
         };
         ui.label(egui::RichText::new(words).color(tokens.muted));
     }
-    let buttons = control_size(ui) + 10.0;
-    let list = scrolled("proposed", (room - buttons - 30.0).max(3.0 * ROW_HEIGHT));
+    let most = ui.available_height() - BUTTONS_GAP - control_size(ui);
+    let list = scrolled("proposed", most.max(3.0 * ROW_HEIGHT));
     let rows = list.auto_shrink([false, true]);
     rows.show_rows(ui, ROW_HEIGHT, proposed.len(), |ui, range| {
         for (bone, name) in &proposed[range] {
@@ -173,7 +167,7 @@ pub(super) fn show_proposals(
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Bone {bone} would be {name}")));
         }
     });
-    ui.add_space(10.0);
+    ui.add_space(BUTTONS_GAP);
     ui.horizontal(|ui| {
         let wide = Rangef::new(control_size(ui), f32::INFINITY);
         if !proposed.is_empty() {

@@ -10,10 +10,10 @@ use super::state::{SidePage, SkeletonState};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, Session};
 use crate::ui::icons::Icon;
-use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
+use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
-    control_size, focus_ring, icon_button, is_touch, menu_item, paint_elided, paint_fold_mark, pressed_row_height,
-    segmented,
+    control_size, icon_button, is_touch, menu_item, paint_elided, paint_fold_mark, paint_row_ground,
+    pressed_row_height, segmented,
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
@@ -30,19 +30,12 @@ const LEAST_ROWS: f32 = 4.0;
 /// Between the search and the rows.
 const GAP: f32 = 8.0;
 
-/// The page's contents, `room` high at most.
-pub(in crate::ui) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    room: f32,
-    commands: &mut Vec<Command>,
-) {
+/// The page's contents, no higher than what is available.
+pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     if state.naming.proposing {
-        show_proposals(ui, session, &mut state.naming, room, commands);
+        show_proposals(ui, session, &mut state.naming, commands);
         return;
     }
-    let top = ui.cursor().min.y;
     ui.horizontal(|ui| {
         search(ui, &mut state.tree.query);
         menu(ui, session, state, commands);
@@ -54,7 +47,7 @@ pub(in crate::ui) fn show(
         return;
     }
     let height = pressed_row_height(ui);
-    let most = (room - (ui.cursor().min.y - top)).max(LEAST_ROWS * height);
+    let most = ui.available_height().max(LEAST_ROWS * height);
     let to_show = state.tree.row_to_show(session.joints().selected());
     let rows = std::mem::take(&mut state.tree.rows);
     ScrollArea::vertical()
@@ -191,14 +184,8 @@ impl<'a> TreeRow<'a> {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::hover());
         let joint = self.row.joint;
         let response = ui.interact(rect, row_id(ui, joint), Sense::click());
-        let around = rect.expand2(vec2(6.0, 0.0));
         let over = response.contains_pointer() && !is_touch(ui);
-        if self.selected {
-            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
-        } else if over || self.hovered {
-            ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-        }
-        focus_ring(ui, around, &response);
+        paint_row_ground(ui, rect, &response, self.selected, over || self.hovered);
         if over {
             state.hovered = Some(joint);
         }

@@ -8,10 +8,10 @@ use super::numbers::{Digits, Formula, LINE_HEIGHT, number_column, row, rule_over
 use super::state::SkeletonState;
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
-use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
+use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    focus_ring, is_touch, paint_elided, paint_fold_mark, pressed_row_height, rule, section_name,
-    section_with_labelled_action, selected_heading,
+    is_touch, paint_elided, paint_fold_mark, pressed_row, rule, section_name, section_with_labelled_action,
+    selected_heading,
 };
 use crate::ui::wording::grouped;
 
@@ -73,15 +73,8 @@ fn influence_bar(
     commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
     let selected = session.joints().selected() == Some(influence.joint);
-    if selected {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
-    } else if response.hovered() && !is_touch(ui) {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    let (rect, response) = pressed_row(ui, selected);
     if response.contains_pointer() && !is_touch(ui) {
         state.hovered = Some(influence.joint);
     }
@@ -228,14 +221,11 @@ fn influence_row(
     (slot, influence): (usize, &ExplainedInfluence),
 ) -> bool {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
+    let (rect, response) = pressed_row(ui, false);
     let over = response.contains_pointer() && !is_touch(ui);
     if over {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
         state.hovered = Some(influence.joint);
     }
-    focus_ring(ui, around, &response);
     let center = rect.left_center() + vec2(4.0, 0.0);
     let color = tokens.muted_to_text(over || response.has_focus());
     paint_fold_mark(ui.painter(), center, !unfolded, color);

@@ -8,7 +8,7 @@ use super::seam::SeamReading;
 use super::time_area;
 use crate::actions;
 use crate::model::Clip;
-use crate::session::{Command, Session};
+use crate::session::{Command, PlayCommand, Session};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{arrow_steps, focus_ring, is_touch};
 
@@ -92,12 +92,14 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
     if let Some(frame) = moved_frame {
         let [in_frame, out_frame] = [in_secs, out_secs].map(|secs| clip.frame_at(secs));
         commands.push(match end {
-            End::In => Command::SetRangeStart(Some(clip.time_of_frame(frame.min(out_frame.saturating_sub(1))))),
-            End::Out => Command::SetRangeEnd(Some(clip.time_of_frame(frame.max(in_frame + 1)))),
+            End::In => {
+                PlayCommand::SetRangeStart(Some(clip.time_of_frame(frame.min(out_frame.saturating_sub(1))))).into()
+            }
+            End::Out => PlayCommand::SetRangeEnd(Some(clip.time_of_frame(frame.max(in_frame + 1)))).into(),
         });
     }
     if response.double_clicked() {
-        commands.push(Command::ClearRange);
+        commands.push(PlayCommand::ClearRange.into());
     }
     paint_bracket(ui, session, &response, pos2(x, rect.center().y), sign, rect.height());
     let label = format!("{name} {secs:.3} s");

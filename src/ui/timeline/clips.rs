@@ -3,13 +3,13 @@
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::actions;
-use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, Session};
-use crate::ui::icons::{self, Icon};
+use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand, Session};
+use crate::ui::icons::Icon;
 use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{
-    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, section_name, section_with_action,
+    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, row_icon, section_name, section_with_action,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -57,7 +57,7 @@ fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Com
     list.show_rows(ui, height, count, |ui, seen| {
         for (index, summary) in open.clip_list().enumerate().skip(seen.start).take(seen.len()) {
             if row(ui, session, index, &summary, commands) {
-                commands.push(Command::SelectClip(index));
+                commands.push(PlayCommand::SelectClip(index).into());
                 chosen = true;
             }
         }
@@ -128,29 +128,20 @@ fn blend_icon(
     row: &Response,
     commands: &mut Vec<Command>,
 ) {
-    let tokens = Tokens::of(ui);
     let on = session.blend().is_some_and(|blend| blend.clip == index);
-    let response = ui.interact(place, row.id.with("blend"), Sense::click());
-    let color = match (on, response.hovered() || response.has_focus()) {
-        (true, _) => tokens.accent,
-        (false, hovered) => tokens.muted_to_text(hovered),
-    };
-    icons::paint(ui.painter(), place, Icon::Blend, color);
-    focus_ring(ui, place, &response);
     let label = if on {
         format!("End the blend with {name}")
     } else {
         format!("Blend with {name}")
     };
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, &label));
-    if response.on_hover_text(label).clicked() {
+    if row_icon(ui, place, row, Icon::Blend, &label, on) {
         commands.push(if on {
-            Command::ClearBlend
+            PlayCommand::ClearBlend.into()
         } else {
-            Command::SetBlend {
+            Command::Play(PlayCommand::SetBlend {
                 clip: index,
                 weight: 0.5,
-            }
+            })
         });
     }
 }
@@ -161,7 +152,7 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
     let text = format!("{secs:.2} s");
     let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text).reset_to(DEFAULT_CROSSFADE_SECS);
     if let Some(secs) = fade.show(ui) {
-        commands.push(Command::SetCrossfade(secs));
+        commands.push(PlayCommand::SetCrossfade(secs).into());
     }
     let Some(blend) = session.blend() else { return };
     let names = [session.clip_index(), Some(blend.clip)].map(|clip| {
@@ -170,15 +161,15 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
     });
     popover_gap(ui);
     if section_with_action(ui, "Blend", Some("End")) {
-        commands.push(Command::ClearBlend);
+        commands.push(PlayCommand::ClearBlend.into());
     }
     let text = format!("{:.0} %", blend.weight * 100.0);
     let weight = Slider::new("Weight", blend.weight, 0.0..=1.0, &text).reset_to(0.5);
     if let Some(weight) = weight.show(ui) {
-        commands.push(Command::SetBlend {
+        commands.push(Command::Play(PlayCommand::SetBlend {
             clip: blend.clip,
             weight,
-        });
+        }));
     }
     paint_ends(ui, names);
 }

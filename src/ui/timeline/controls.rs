@@ -5,7 +5,7 @@ use egui::{Align, FontId, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 use crate::actions;
 use crate::anim::Direction;
 use crate::model::Clip;
-use crate::session::{Command, Session};
+use crate::session::{Command, PlayCommand, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{TypedValue, action_button, control_size, icon_button, typed_number};
@@ -137,7 +137,7 @@ pub(super) fn time_readout(ui: &mut Ui, session: &Session, width: f32, commands:
     let (entered, response) = TypedValue::new(ui, "Time", &text, &typed).width(width).show(ui);
     response.on_hover_text("Click to type a time in seconds");
     if let Some(secs) = entered.and_then(|typed| typed_number(&typed)) {
-        commands.push(Command::Seek { time_secs: secs as f32 });
+        commands.push(PlayCommand::Seek { time_secs: secs as f32 }.into());
     }
 }
 
@@ -153,6 +153,6 @@ pub(super) fn frame_readout(ui: &mut Ui, session: &Session, clip: &Clip, width: 
     let rate = trimmed(clip.keys_per_sec);
     response.on_hover_text(format!("Frame at {rate} keys a second\nClick to type one"));
     if let Some(frame) = entered.and_then(|typed| typed_number(&typed)) {
-        commands.push(Command::SeekFrame(frame));
+        commands.push(PlayCommand::SeekFrame(frame).into());
     }
 }

@@ -12,7 +12,7 @@ use super::state::{KeyBox, TimelineState};
 use super::time_area::{self, RULER_HEIGHT, split_x};
 use crate::anim::JointActivity;
 use crate::model::{Clip, JointIndex};
-use crate::session::{Command, JointCommand, OpenModel, Session};
+use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{by_finger, is_touch, pressed_row_height};
 use crate::ui::wording::counted;
@@ -201,8 +201,8 @@ impl Sheet<'_> {
                 state.revealed = Some(joint);
                 commands.push(JointCommand::Select(Some(joint)).into());
                 // If it played on, it would leave the key at once.
-                commands.push(Command::Pause);
-                commands.push(Command::Seek { time_secs });
+                commands.push(PlayCommand::Pause.into());
+                commands.push(PlayCommand::Seek { time_secs }.into());
             }
         }
         if response.clicked() {

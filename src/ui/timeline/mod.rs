@@ -18,4 +18,4 @@ mod time_area;
 mod transport;
 
 pub(super) use sheet::page;
-pub(super) use transport::{covered_height, narrow, wide};
+pub(super) use transport::{narrow, wide};

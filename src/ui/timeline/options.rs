@@ -8,7 +8,7 @@ use super::state::TimelineState;
 use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, SPEEDS, Session};
+use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
 use crate::ui::panel::{popover_gap, scrolled};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
@@ -60,14 +60,14 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     section_name(ui, "Speed");
     let text = speed_label(speed);
     if let Some(speed) = typed_row(ui, "Times as fast", &text, &trimmed(speed)) {
-        commands.push(Command::SetSpeed(speed as f32));
+        commands.push(PlayCommand::SetSpeed(speed as f32).into());
     }
     let labels = SPEEDS.map(speed_label);
     let choices: Vec<(f32, &str)> = SPEEDS.into_iter().zip(labels.iter().map(String::as_str)).collect();
     let in_force = SPEEDS.into_iter().find(|choice| (choice - speed).abs() < 1e-4);
     for row in choices.chunks(IN_A_ROW) {
         if let Some(speed) = segmented(ui, "Speed", row, in_force) {
-            commands.push(Command::SetSpeed(speed));
+            commands.push(PlayCommand::SetSpeed(speed).into());
         }
     }
 }
@@ -77,12 +77,12 @@ fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     section_name(ui, "At the end");
     let modes = LoopMode::ALL.map(|mode| (mode, mode.label()));
     if let Some(mode) = segmented(ui, "At the end", &modes, Some(playback.loop_mode())) {
-        commands.push(Command::SetLoopMode(mode));
+        commands.push(PlayCommand::SetLoopMode(mode).into());
     }
     if playback.loop_mode() == LoopMode::Loop {
         let modes = WrapMode::ALL.map(|mode| (mode, mode.label()));
         if let Some(mode) = segmented(ui, "Loop", &modes, Some(playback.wrap_mode())) {
-            commands.push(Command::SetWrapMode(mode));
+            commands.push(PlayCommand::SetWrapMode(mode).into());
         }
     }
 }
@@ -91,7 +91,7 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let playback = session.playback();
     let action = playback.range_secs().map(|_| "Clear");
     if section_with_action(ui, "Range", action) {
-        commands.push(Command::ClearRange);
+        commands.push(PlayCommand::ClearRange.into());
     }
     let [start_secs, end_secs] = playback.played_secs();
     for (name, secs) in [("In", start_secs), ("Out", end_secs)] {
@@ -99,9 +99,9 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         if let Some(secs) = typed_row(ui, name, &format!("{typed} s"), &typed) {
             let secs = Some(secs as f32);
             commands.push(if name == "In" {
-                Command::SetRangeStart(secs)
+                PlayCommand::SetRangeStart(secs).into()
             } else {
-                Command::SetRangeEnd(secs)
+                PlayCommand::SetRangeEnd(secs).into()
             });
         }
     }

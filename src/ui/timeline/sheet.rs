@@ -5,7 +5,7 @@ use egui::{CursorIcon, FontId, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, vec
 use super::state::{SheetTab, TimelineState};
 use super::time_area::segmented_of_width;
 use super::{controls, curve_plot, dope_sheet};
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
@@ -30,11 +30,11 @@ pub(super) fn show(
     contents(&mut child, session, state, commands);
 }
 
-/// The sheet as a page of a narrow window, with `room` for its height.
-pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, room: f32, commands: &mut Vec<Command>) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), room), Sense::hover());
+/// The sheet as a page of a narrow window, as high as what is available.
+pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
-    if room >= WITH_TRANSPORT {
+    if rect.height() >= WITH_TRANSPORT {
         controls::all_steps(&mut child, session, commands);
         child.add_space(GAP);
     }
@@ -91,9 +91,9 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     ui.painter().galley(at, galley, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
     if start_secs < end_secs && TextButton::new("As range", "As range").show(ui).clicked() {
-        commands.push(Command::ClearRange);
-        commands.push(Command::SetRangeStart(Some(start_secs)));
-        commands.push(Command::SetRangeEnd(Some(end_secs)));
+        commands.push(PlayCommand::ClearRange.into());
+        commands.push(PlayCommand::SetRangeStart(Some(start_secs)).into());
+        commands.push(PlayCommand::SetRangeEnd(Some(end_secs)).into());
     }
 }
 
@@ -111,11 +111,14 @@ pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
         state.dragged_height = Some(0.0);
     }
     if response.dragged() {
-        let height = state.dragged_height.or(state.sheet_height(ui)).unwrap_or(0.0);
+        let height = state
+            .dragged_height
+            .or(state.sheet_height(ui.available_height()))
+            .unwrap_or(0.0);
         state.drag_height(height - response.drag_delta().y);
     }
     if response.drag_stopped() {
-        state.settle_height(ui);
+        state.settle_height(ui.available_height());
     }
     if response.double_clicked() {
         state.open = !state.open;

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use egui::Ui;
-
 use super::axis::TimeWindow;
 use super::curves::Curves;
 use super::rows::Rows;
@@ -13,14 +11,14 @@ use crate::session::Session;
 
 /// Height of the sheet until its edge is dragged …
 const FIRST_HEIGHT: f32 = 264.0;
-/// … or less, so that what is between the bars above and the strip below keeps the better half of a small window.
-const FIRST_FRACTION: f32 = 0.45;
-/// Height of the bars above and of the strip below, with the room around them.
-const BARS_HEIGHT: f32 = 132.0;
+/// … or less: in a small window the model keeps this much of the room for the panel …
+const KEPT_HEIGHT: f32 = 150.0;
+/// … and the sheet has this fraction of the rest.
+const FIRST_FRACTION: f32 = 0.4;
 /// Below this height a sheet shows nothing.
 const LEAST_HEIGHT: f32 = 132.0;
-/// The view keeps the rest of the window.
-const MOST_FRACTION: f32 = 0.6;
+/// The most that it can be dragged to, as a fraction of the room for the panel. The view keeps the rest.
+const MOST_FRACTION: f32 = 0.54;
 
 /// What the sheet shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,12 +102,12 @@ impl TimelineState {
         self.key_box = None;
     }
 
-    /// Height of the sheet in a wide window, while it is open.
-    pub(super) fn sheet_height(&self, ui: &Ui) -> Option<f32> {
-        let window_height = ui.ctx().content_rect().height();
-        let most = (window_height * MOST_FRACTION - 100.0).max(LEAST_HEIGHT);
-        let first = || FIRST_HEIGHT.min(window_height * FIRST_FRACTION - BARS_HEIGHT);
-        let height = self.dragged_height.unwrap_or_else(first);
+    /// Height of the sheet in a wide window, while it is open. `room`: the most that its panel can have.
+    pub(super) fn sheet_height(&self, room: f32) -> Option<f32> {
+        let most = (MOST_FRACTION * room).max(LEAST_HEIGHT);
+        let height = self
+            .dragged_height
+            .unwrap_or(FIRST_HEIGHT.min(FIRST_FRACTION * (room - KEPT_HEIGHT)));
         self.open.then(|| height.clamp(LEAST_HEIGHT, most))
     }
 
@@ -120,8 +118,8 @@ impl TimelineState {
     }
 
     /// After a drag, clamps the height.
-    pub(super) fn settle_height(&mut self, ui: &Ui) {
-        self.dragged_height = self.sheet_height(ui);
+    pub(super) fn settle_height(&mut self, room: f32) {
+        self.dragged_height = self.sheet_height(room);
     }
 }
 

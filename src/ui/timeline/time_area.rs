@@ -7,7 +7,7 @@ use egui::{
 use super::axis::TimeAxis;
 use super::state::TimelineState;
 use crate::model::Clip;
-use crate::session::{Command, Session};
+use crate::session::{Command, PlayCommand, Session};
 use crate::ui::theme::Tokens;
 use crate::ui::widgets::{by_finger, control_size, is_touch, segmented};
 
@@ -21,7 +21,7 @@ const TICK_SPACING: f32 = 5.0;
 /// A drag moves the time. Two fingers pan and zoom instead.
 pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Command>) {
     if response.drag_started_by(PointerButton::Primary) {
-        commands.push(Command::BeginScrub);
+        commands.push(PlayCommand::BeginScrub.into());
     }
     let two_fingers = response.ctx.input(egui::InputState::multi_touch).is_some();
     if let Some(pointer) = response.interact_pointer_pos()
@@ -29,10 +29,10 @@ pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Com
         && (response.dragged_by(PointerButton::Primary) || response.clicked())
     {
         let time_secs = axis.seen_time_at(pointer.x);
-        commands.push(Command::Seek { time_secs });
+        commands.push(PlayCommand::Seek { time_secs }.into());
     }
     if response.drag_stopped_by(PointerButton::Primary) {
-        commands.push(Command::EndScrub);
+        commands.push(PlayCommand::EndScrub.into());
     }
 }
 

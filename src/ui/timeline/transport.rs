@@ -10,11 +10,13 @@ use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
 use crate::session::{Command, Session};
 use crate::ui::icons::Icon;
-use crate::ui::panel::{Arrangement, STRIP_AROUND, popover_above, strip_height};
+use crate::ui::panel::{mark_transport, popover_above};
 use crate::ui::state::{SheetPage, UiState};
-use crate::ui::theme::{CONTROL_RADIUS, MARGIN, Tokens};
+use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{control_size, icon_button};
 
+/// Side of the button that plays, in a wide window.
+const PLAY_SIZE: f32 = 34.0;
 /// Room between sheet and transport.
 const SHEET_GAP: f32 = 8.0;
 /// The least width of the clip's name on a phone.
@@ -31,28 +33,18 @@ const KEY_BUTTONS_WIDTH: f32 = 1060.0;
 /// The panel's contents in a wide window.
 pub(in crate::ui) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     sheet::show_edge(ui, &mut state.timeline);
-    if let Some(height) = state.timeline.sheet_height(ui) {
+    if let Some(height) = state.timeline.sheet_height(ui.available_height()) {
         sheet::show(ui, session, &mut state.timeline, height, commands);
         ui.add_space(SHEET_GAP);
     }
     strip(ui, session, state, commands);
 }
 
-/// Room that the panel takes from a wide window's lower edge, with margins.
-pub(in crate::ui) fn covered_height(ui: &Ui, session: &Session, state: &TimelineState) -> f32 {
-    if session.clip().is_none() {
-        return 0.0;
-    }
-    let sheet = state.sheet_height(ui);
-    strip_height(ui, Arrangement::Wide) + sheet.map_or(0.0, |height| height + SHEET_GAP) + STRIP_AROUND + MARGIN * 2.0
-}
-
 /// The strip in one row, for wide windows.
 fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(clip) = session.clip() else { return };
-    let height = strip_height(ui, Arrangement::Wide);
-    let row = vec2(ui.available_width(), height);
-    ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+    let row = vec2(ui.available_width(), control_size(ui).max(PLAY_SIZE));
+    let row = ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
         ui.spacing_mut().item_spacing.x = 2.0;
         controls::end_button(ui, session, Direction::Backward, commands);
@@ -62,7 +54,7 @@ fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec
         controls::frame_button(ui, session, Direction::Backward, commands);
         controls::backward_button(ui, session, commands);
         ui.add_space(3.0);
-        controls::play_button(ui, session, 34.0, commands);
+        controls::play_button(ui, session, PLAY_SIZE, commands);
         ui.add_space(3.0);
         controls::frame_button(ui, session, Direction::Forward, commands);
         if with_keys {
@@ -86,6 +78,7 @@ fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec
             state.timeline.open = !state.timeline.open;
         }
     });
+    mark_transport(ui, row.response.rect);
 }
 
 /// The strip for phones, with large targets: in two rows, the bar above, or in one where a window is `low`.

@@ -6,6 +6,7 @@ use egui::{
 };
 
 use super::control::{MOUSE_CONTROL, TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
+use super::row::paint_row_ground;
 use crate::actions::Action;
 use crate::session::{Command, Session};
 use crate::ui::icons::{self, Icon};
@@ -205,11 +206,7 @@ pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Respo
     let tokens = Tokens::of(ui);
     let height = control_size(ui).max(MOUSE_CONTROL);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if response.hovered() {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, &response);
+    paint_row_ground(ui, rect, &response, false, response.contains_pointer());
     let font = FontId::proportional(13.0);
     ui.painter()
         .text(rect.left_center(), Align2::LEFT_CENTER, label, font, tokens.text);

@@ -17,6 +17,6 @@ pub(super) use control::{
 };
 pub(super) use number::{Slider, TypedValue, number_field, typed_number};
 pub(super) use row::{
-    SHEET_HANDLE_HEIGHT, choice_row, closable_heading, keyed_section_name, rule, section_name, section_with_action,
-    section_with_labelled_action, selected_heading, sheet_handle, value_row,
+    choice_row, closable_heading, keyed_section_name, paint_ends, paint_row_ground, pressed_row, row_icon, rule,
+    section_name, section_with_action, section_with_labelled_action, selected_heading, sheet_handle, value_row,
 };

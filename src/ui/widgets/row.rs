@@ -4,7 +4,7 @@ use egui::{Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec
 
 use super::button::icon_button;
 use super::color::paint_swatch;
-use super::control::{MOUSE_CONTROL, control_size, is_touch, key_hint, paint_elided, pressed_row_height};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring, is_touch, key_hint, paint_elided, pressed_row_height};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
@@ -13,20 +13,59 @@ const SELECTED_HEIGHT: f32 = 22.0;
 /// Height of the name of a part.
 const SECTION_HEIGHT: f32 = 21.0;
 
+/// A row that can be pressed, over the whole width; its ground says whether the pointer is over it, and whether it is `selected`.
+pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
+    let size = vec2(ui.available_width(), pressed_row_height(ui));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let over = response.contains_pointer();
+    paint_row_ground(ui, rect, &response, selected, over);
+    (rect, response)
+}
+
+/// The ground of a row, a little wider than the words in it, and the ring of the keyboard.
+pub(crate) fn paint_row_ground(ui: &Ui, rect: Rect, response: &Response, selected: bool, over: bool) {
+    let tokens = Tokens::of(ui);
+    let around = rect.expand2(vec2(6.0, 0.0));
+    if selected {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
+    } else if over {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+    }
+    focus_ring(ui, around, response);
+}
+
+/// A small icon at a place in a row; `on` marks a switch that is on. Whether it was clicked.
+pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
+    let tokens = Tokens::of(ui);
+    let response = ui.interact(place, row.id.with(icon), Sense::click());
+    let color = match (on, response.hovered() || response.has_focus()) {
+        (true, _) => tokens.accent,
+        (false, hovered) => tokens.muted_to_text(hovered),
+    };
+    icons::paint(ui.painter(), place, icon, color);
+    focus_ring(ui, place, &response);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
+    response.on_hover_text(label).clicked()
+}
+
+/// Draws words at both ends of a row, each in its colour.
+pub(crate) fn paint_ends(
+    ui: &Ui,
+    row: Rect,
+    (left, left_color): (&str, Color32),
+    (right, right_color): (&str, Color32),
+) {
+    let font = FontId::proportional(13.0);
+    let painter = ui.painter();
+    painter.text(row.left_center(), Align2::LEFT_CENTER, left, font.clone(), left_color);
+    painter.text(row.right_center(), Align2::RIGHT_CENTER, right, font, right_color);
+}
+
 /// A row of a panel: a quiet label and a value at the right edge.
 pub(crate) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let font = FontId::proportional(13.0);
-    ui.painter().text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        label,
-        font.clone(),
-        tokens.muted,
-    );
-    ui.painter()
-        .text(rect.right_center(), Align2::RIGHT_CENTER, value, font, tokens.text);
+    paint_ends(ui, rect, (label, tokens.muted), (value, tokens.text));
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {value}")));
     response
 }
@@ -34,12 +73,7 @@ pub(crate) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
 /// A row of a panel whose value opens a menu.
 pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let height = pressed_row_height(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
-    if response.hovered() || response.has_focus() {
-        ui.painter()
-            .rect_filled(rect.expand2(vec2(6.0, 0.0)), CONTROL_RADIUS, tokens.field);
-    }
+    let (rect, response) = pressed_row(ui, false);
     let font = FontId::proportional(13.0);
     ui.painter().text(
         rect.left_center(),
@@ -172,7 +206,7 @@ pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
 }
 
 /// Height of the handle of a sheet.
-pub(crate) const SHEET_HANDLE_HEIGHT: f32 = 24.0;
+const SHEET_HANDLE_HEIGHT: f32 = 24.0;
 
 /// The grip of the bottom sheet.
 pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {

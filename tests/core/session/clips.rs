@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use bindpose::anim::{CompiledClip, LoopMode, WrapMode, seam};
 use bindpose::format::Document;
 use bindpose::model::JointIndex;
-use bindpose::session::Command;
+use bindpose::session::PlayCommand;
 
 use super::{models, opened};
 use crate::rigs;
@@ -89,19 +89,19 @@ fn the_seam_is_that_of_what_loops() {
     };
     assert!(matches!(session.loop_seam(), Some(Cow::Borrowed(_))), "found once");
     assert_eq!(session.loop_seam().as_deref(), Some(&between([-1.0, 1.0])));
-    session.apply(Command::SetRangeStart(Some(-0.3)));
-    session.apply(Command::SetRangeEnd(Some(0.6)));
+    session.apply(PlayCommand::SetRangeStart(Some(-0.3)));
+    session.apply(PlayCommand::SetRangeEnd(Some(0.6)));
     assert_eq!(session.loop_seam().as_deref(), Some(&between([-0.3, 0.6])));
     // The demo begins again at 0, and backward at the end.
-    session.apply(Command::SetWrapMode(WrapMode::BookDemo));
+    session.apply(PlayCommand::SetWrapMode(WrapMode::BookDemo));
     assert_eq!(session.playback().seam_secs(), Some([0.0, 0.6]));
-    session.apply(Command::TogglePlayBackward);
+    session.apply(PlayCommand::ToggleBackward);
     assert_eq!(session.playback().seam_secs(), Some([-0.3, 0.6]));
     for mode in [LoopMode::Once, LoopMode::PingPong] {
-        session.apply(Command::SetLoopMode(mode));
+        session.apply(PlayCommand::SetLoopMode(mode));
         assert_eq!(session.loop_seam(), None, "{mode:?} never jumps");
     }
-    session.apply(Command::SetLoopMode(LoopMode::Loop));
-    session.apply(Command::SelectClip(1));
+    session.apply(PlayCommand::SetLoopMode(LoopMode::Loop));
+    session.apply(PlayCommand::SelectClip(1));
     assert_eq!(session.loop_seam(), None, "one pose loops nowhere");
 }

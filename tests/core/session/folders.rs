@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use bindpose::format::Document;
 use bindpose::image::encode_png;
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{File, FileCommand, Session};
 
 use super::models;
 
@@ -49,19 +49,19 @@ fn a_folder_of_twenty_thousand_pictures_opens_soon_and_decodes_what_the_model_na
     let mut files: Vec<File> = pictures(FILES).collect();
     files.push(mapped(50));
     let mut session = Session::new(false);
-    soon("a folder", || session.apply(Command::AddFiles(files.clone())));
+    soon("a folder", || session.apply(FileCommand::Add(files.clone())));
     let count = |session: &Session| (session.maps().pictures().len(), session.maps().used().count());
     assert_eq!(count(&session), (FILES, 100));
-    soon("the same folder again", || session.apply(Command::AddFiles(files)));
+    soon("the same folder again", || session.apply(FileCommand::Add(files)));
     assert_eq!(count(&session), (FILES, 100));
 }
 
 #[test]
 fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![mapped(50)]));
+    session.apply(FileCommand::Add(vec![mapped(50)]));
     soon("named and strange", || {
-        session.apply(Command::AddFiles(pictures(FILES).collect()))
+        session.apply(FileCommand::Add(pictures(FILES).collect()))
     });
     assert_eq!(session.maps().checklist().found(), 100);
 
@@ -72,7 +72,7 @@ fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
         )
     };
     soon("strange alone", || {
-        session.apply(Command::AddFiles((0..FILES).map(strange).collect()))
+        session.apply(FileCommand::Add((0..FILES).map(strange).collect()))
     });
     let unused = session
         .notices()
@@ -85,7 +85,7 @@ fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
 
     let damaged = |index: usize| File::new(&format!("damaged_{index}.png"), *b"\x89PNG\r\n\x1a\n");
     soon("damaged", || {
-        session.apply(Command::AddFiles((0..FILES).map(damaged).collect()))
+        session.apply(FileCommand::Add((0..FILES).map(damaged).collect()))
     });
     let unreadable = session.notices().filter(|notice| notice.code.starts_with("image-"));
     assert_eq!(unreadable.count(), FILES);
@@ -96,7 +96,7 @@ fn a_model_of_many_materials_finds_its_maps_soon() {
     let mut files: Vec<File> = pictures(FILES).collect();
     files.push(mapped(FILES / 20));
     let mut session = Session::new(false);
-    soon("many materials", || session.apply(Command::AddFiles(files)));
+    soon("many materials", || session.apply(FileCommand::Add(files)));
     assert_eq!(session.maps().checklist().found(), FILES / 10);
 }
 
@@ -110,7 +110,7 @@ fn one_name_in_twenty_thousand_folders_is_found_soon_and_the_note_spells_out_a_f
     let copies = (0..FILES).map(|index| File::new(&format!("{index:05}/skin.png"), Arc::clone(&png)));
     let files: Vec<File> = copies.chain([models::file("box.m3d", &document)]).collect();
     let mut session = Session::new(false);
-    soon("rivals", || session.apply(Command::AddFiles(files)));
+    soon("rivals", || session.apply(FileCommand::Add(files)));
     assert_eq!(session.maps().used().count(), 1);
     let ambiguous = session
         .notices()
@@ -131,11 +131,11 @@ fn twenty_thousand_models_of_one_drop_are_listed_soon() {
     let bytes: Arc<[u8]> = models::still("a.m3d").bytes;
     let files = (0..FILES).map(|index| File::new(&format!("{index}/a.m3d"), Arc::clone(&bytes)));
     let mut session = Session::new(false);
-    soon("models", || session.apply(Command::AddFiles(files.collect())));
+    soon("models", || session.apply(FileCommand::Add(files.collect())));
     assert_eq!(session.files().models().len(), FILES);
     soon("opening each of a hundred", || {
         for index in 0..100 {
-            session.apply(Command::OpenFile(format!("{}/a.m3d", FILES - index - 1)));
+            session.apply(FileCommand::Open(format!("{}/a.m3d", FILES - index - 1)));
         }
     });
 }

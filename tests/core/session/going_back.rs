@@ -2,7 +2,7 @@
 
 use bindpose::diagnostic::codes;
 use bindpose::image::encode_png;
-use bindpose::session::{Command, Event, File, MapSlot, Session};
+use bindpose::session::{Event, File, FileCommand, MapSlot, PlayCommand, Session};
 
 use super::{models, opened};
 
@@ -13,14 +13,14 @@ fn name(session: &Session) -> Option<&str> {
 #[test]
 fn a_model_that_is_refused_leaves_the_one_before_as_it_was() {
     let mut session = opened(models::moving("first.m3d"));
-    session.apply(Command::SelectClip(1));
-    session.apply(Command::Seek { time_secs: 1.0 });
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(PlayCommand::Seek { time_secs: 1.0 });
     session.confirm_uploads();
     let (camera, before) = (*session.camera(), session.model_revision());
     let palette = session.frame().palette.0.clone();
     session.take_events();
 
-    session.apply(Command::AddFiles(vec![models::still("second.m3d")]));
+    session.apply(FileCommand::Add(vec![models::still("second.m3d")]));
     assert_eq!((name(&session), session.error()), (Some("second.m3d"), None));
     let refused = session.model_revision();
     session.go_back("the model is too large");
@@ -47,15 +47,15 @@ fn a_model_that_is_refused_leaves_the_one_before_as_it_was() {
 fn of_two_that_came_at_once_none_is_left_and_what_was_confirmed_stays() {
     let mut session = opened(models::moving("first.m3d"));
     session.confirm_uploads();
-    session.apply(Command::AddFiles(vec![models::still("second.m3d")]));
-    session.apply(Command::AddFiles(vec![models::still("third.m3d")]));
+    session.apply(FileCommand::Add(vec![models::still("second.m3d")]));
+    session.apply(FileCommand::Add(vec![models::still("third.m3d")]));
     session.go_back("no");
     assert_eq!(name(&session), Some("first.m3d"));
     // On a weaker device the one that was open may be refused too.
     session.go_back("no again");
     assert_eq!((name(&session), session.files().files().len()), (None, 0));
     assert_eq!(session.error().expect("shown").file_name, "first.m3d");
-    session.apply(Command::AddFiles(vec![models::still("fourth.m3d")]));
+    session.apply(FileCommand::Add(vec![models::still("fourth.m3d")]));
     assert_eq!((name(&session), session.error()), (Some("fourth.m3d"), None));
 }
 
@@ -66,10 +66,10 @@ fn maps_that_are_refused_leave_the_maps_before() {
     let mut session = opened(models::file("box.m3d", &document));
     let picture = |red| File::new("a.png", encode_png(&[red, 0, 0, 255], 1, 1).expect("one pixel"));
     let red = |session: &Session| Some(session.maps().image(0, MapSlot::Diffuse)?.to_rgba8(0, 0)?[0]);
-    session.apply(Command::AddFiles(vec![picture(1)]));
+    session.apply(FileCommand::Add(vec![picture(1)]));
     session.confirm_uploads();
     let maps = session.maps_revision();
-    session.apply(Command::AddFiles(vec![picture(2)]));
+    session.apply(FileCommand::Add(vec![picture(2)]));
     assert_eq!(red(&session), Some(2));
     session.go_back("no memory");
     assert_eq!((red(&session), name(&session)), (Some(1), Some("box.m3d")));

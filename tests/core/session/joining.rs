@@ -2,7 +2,7 @@
 
 use bindpose::diagnostic::{Severity, Subject};
 use bindpose::format::Document;
-use bindpose::session::{Command, Event, File, Session};
+use bindpose::session::{Event, File, FileCommand, PlayCommand, Session};
 
 use super::{models, opened};
 use crate::documents::{key, shared_bytes};
@@ -36,7 +36,7 @@ fn pairs(list: &[(&str, &str)]) -> Vec<(String, String)> {
 #[track_caller]
 fn assert_refused(session: &mut Session, refused: &File, code: &str, message: &str) {
     let before = (session.model_revision(), session.picture_revision(), list(session));
-    session.apply(Command::AddClips(vec![refused.clone()]));
+    session.apply(FileCommand::AddClips(vec![refused.clone()]));
     let error = session.error().expect("it is refused");
     assert_eq!(
         (error.diagnostic.code, error.diagnostic.message.as_str()),
@@ -61,7 +61,7 @@ fn clips_join_with_free_names_and_their_files_and_nothing_is_uploaded_again() {
         session.playback().time_secs(),
     );
     let clips = |names: &[&str]| names.iter().map(|name| rigs::ragged(name, 12)).collect::<Vec<_>>();
-    let changes = session.apply(Command::AddClips(vec![
+    let changes = session.apply(FileCommand::AddClips(vec![
         file("more/walk.m3d", &rigs::rig(12, clips(&["walk", "idle"]))),
         file("run.m3d", &rigs::rig(12, clips(&["run", "walk"]))),
     ]));
@@ -83,7 +83,7 @@ fn clips_join_with_free_names_and_their_files_and_nothing_is_uploaded_again() {
     );
     assert_eq!(session.take_events(), [Event::PlaybackChange]);
     for clip in 1..5 {
-        session.apply(Command::SelectClip(clip));
+        session.apply(PlayCommand::SelectClip(clip));
         session.advance(0.1);
         assert!(session.is_animating() && session.frame().palette.0.len() == 12);
         let open = session.open_model().expect("open");
@@ -139,13 +139,13 @@ fn the_first_difference_is_named() {
 fn files_that_are_no_models_are_refused_as_ever_and_the_others_join() {
     let mut session = hero();
     let sound = file("run.m3d", &rigs::rig(12, vec![rigs::single("run", 12)]));
-    session.apply(Command::AddClips(vec![models::broken("bad.m3d"), sound]));
+    session.apply(FileCommand::AddClips(vec![models::broken("bad.m3d"), sound]));
     assert_eq!(session.error().map(|error| error.file_name.as_str()), Some("bad.m3d"));
     assert_eq!(list(&session).len(), 2);
-    session.apply(Command::AddClips(vec![File::new("skin.dds", *b"not looked at")]));
+    session.apply(FileCommand::AddClips(vec![File::new("skin.dds", *b"not looked at")]));
     assert_eq!(session.error().map(|error| error.diagnostic.code), Some("no-model"));
     let sound = file("jump.m3d", &rigs::rig(12, vec![rigs::single("jump", 12)]));
-    session.apply(Command::AddClips(vec![sound]));
+    session.apply(FileCommand::AddClips(vec![sound]));
     assert_eq!(session.error(), None, "the next success takes the error away");
 }
 
@@ -156,7 +156,7 @@ fn other_proportions_are_noted() {
     for (bone, nudge) in [(2, 1e-4), (5, 0.3), (11, 0.3)] {
         taller.bone_offsets[bone][13] -= nudge;
     }
-    session.apply(Command::AddClips(vec![file("tall.m3d", &taller)]));
+    session.apply(FileCommand::AddClips(vec![file("tall.m3d", &taller)]));
     assert_eq!((session.error(), list(&session).len()), (None, 2));
     let notice = session
         .notices()
@@ -171,7 +171,7 @@ fn other_proportions_are_noted() {
         "2 of the 12 bone offsets of tall.m3d differ from those of hero.m3d, the first that of bone 5: its clips were made for \
          other proportions."
     );
-    session.apply(Command::AddClips(vec![file(
+    session.apply(FileCommand::AddClips(vec![file(
         "same.m3d",
         &rigs::rig(12, vec![rigs::single("s", 12)]),
     )]));
@@ -184,7 +184,7 @@ fn what_was_mended_in_a_clip_is_noted_under_its_new_number() {
     let mut session = hero();
     let mut clips = vec![rigs::even("walk", 12, 0.0, 5, 4.0)];
     clips[0].bones[3].keyframes.push(key(0.1, [0.0; 3]));
-    session.apply(Command::AddClips(vec![file("walk.m3d", &rigs::rig(12, clips))]));
+    session.apply(FileCommand::AddClips(vec![file("walk.m3d", &rigs::rig(12, clips))]));
     let notice = session
         .notices()
         .find(|notice| notice.code == "keys-not-sorted")
@@ -201,7 +201,7 @@ fn what_was_mended_in_a_clip_is_noted_under_its_new_number() {
 fn clips_come_to_a_model_that_had_none_and_play() {
     let mut session = opened(file("still.m3d", &rigs::rig(12, vec![])));
     assert_eq!(session.clip_index(), None);
-    session.apply(Command::AddClips(vec![file(
+    session.apply(FileCommand::AddClips(vec![file(
         "walk.m3d",
         &rigs::rig(12, vec![rigs::even("walk", 12, 3.0, 5, 4.0)]),
     )]));
@@ -216,27 +216,31 @@ fn clips_come_to_a_model_that_had_none_and_play() {
 #[test]
 fn with_nothing_open_they_are_opened() {
     let mut session = Session::new(false);
-    assert!(session.apply(Command::AddClips(vec![models::moving("a.m3d")])).model);
+    assert!(
+        session
+            .apply(FileCommand::AddClips(vec![models::moving("a.m3d")]))
+            .model
+    );
     assert_eq!(session.error(), None);
 }
 
 #[test]
 fn when_the_file_comes_again_its_guests_stay_if_they_still_fit() {
     let mut session = hero();
-    session.apply(Command::AddClips(vec![file(
+    session.apply(FileCommand::AddClips(vec![file(
         "walk.m3d",
         &rigs::rig(12, vec![rigs::even("walk", 12, 0.0, 9, 4.0)]),
     )]));
-    session.apply(Command::SelectClip(1));
-    session.apply(Command::Seek { time_secs: 1.5 });
-    session.apply(Command::AddFiles(vec![file(
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(PlayCommand::Seek { time_secs: 1.5 });
+    session.apply(FileCommand::Add(vec![file(
         "hero.m3d",
         &rigs::rig(12, vec![rigs::even("idle", 12, 0.0, 5, 4.0)]),
     )]));
     assert_eq!(list(&session), pairs(&[("idle", "hero.m3d"), ("walk", "walk.m3d")]));
     assert_eq!((session.clip_index(), session.playback().time_secs()), (Some(1), 1.5));
 
-    session.apply(Command::AddFiles(vec![file(
+    session.apply(FileCommand::Add(vec![file(
         "hero.m3d",
         &rigs::rig(11, vec![rigs::even("idle", 11, 0.0, 5, 4.0)]),
     )]));
@@ -247,7 +251,7 @@ fn when_the_file_comes_again_its_guests_stay_if_they_still_fit() {
         .expect("told");
     assert_eq!(notice.severity, Severity::Warning);
     // Another file has no guests.
-    session.apply(Command::AddFiles(vec![models::moving("b.m3d")]));
+    session.apply(FileCommand::Add(vec![models::moving("b.m3d")]));
     assert_eq!(list(&session).len(), models::CLIPS.len());
 }
 
@@ -255,7 +259,7 @@ fn when_the_file_comes_again_its_guests_stay_if_they_still_fit() {
 fn skeletons_of_every_size_are_compared() {
     for bones in JOINT_COUNTS {
         let mut session = opened(file("a.m3d", &rigs::rig(bones, vec![rigs::ragged("a", bones)])));
-        session.apply(Command::AddClips(vec![file(
+        session.apply(FileCommand::AddClips(vec![file(
             "b.m3d",
             &rigs::rig(bones, vec![rigs::single("b", bones)]),
         )]));
@@ -270,10 +274,10 @@ fn a_real_file_joins_itself() {
     };
     let mut session = opened(File::new("soldier.m3d", bytes.clone()));
     let clips = list(&session).len();
-    session.apply(Command::AddClips(vec![File::new("again.m3d", bytes)]));
+    session.apply(FileCommand::AddClips(vec![File::new("again.m3d", bytes)]));
     assert_eq!((session.error(), list(&session).len()), (None, 2 * clips));
     assert!(session.notices().all(|notice| notice.code != "clips-offsets-differ"));
-    session.apply(Command::AddClips(vec![models::moving("box.m3d")]));
+    session.apply(FileCommand::AddClips(vec![models::moving("box.m3d")]));
     assert!(session.error().is_some_and(|error| {
         error
             .diagnostic
@@ -293,13 +297,13 @@ fn guest(path: &str, names: &[&str], keys: u32) -> File {
 #[test]
 fn a_file_that_is_added_again_replaces_its_clips_where_they_stood() {
     let mut session = hero();
-    let add = |session: &mut Session, file| session.apply(Command::AddClips(vec![file]));
+    let add = |session: &mut Session, file| session.apply(FileCommand::AddClips(vec![file]));
     add(&mut session, guest("walk.m3d", &["walk", "idle"], 5));
     add(&mut session, guest("run.m3d", &["run"], 5));
     let model = (session.model_revision(), session.clips_revision());
-    session.apply(Command::SelectClip(3));
-    session.apply(Command::SetBlend { clip: 1, weight: 0.25 });
-    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(PlayCommand::SelectClip(3));
+    session.apply(PlayCommand::SetBlend { clip: 1, weight: 0.25 });
+    session.apply(PlayCommand::Seek { time_secs: 0.5 });
     session.take_events();
     let picture = session.picture_revision();
     add(&mut session, guest("elsewhere/walk.m3d", &["walk", "trot", "idle"], 9));
@@ -344,7 +348,7 @@ fn a_file_that_is_added_again_replaces_its_clips_where_they_stood() {
     // They come back in their order with the model.
     let joined = list(&session);
     let own = session.open_model().expect("open").file.clone();
-    session.apply(Command::AddFiles(vec![own]));
+    session.apply(FileCommand::Add(vec![own]));
     assert_eq!(list(&session), joined);
 }
 
@@ -361,14 +365,14 @@ fn the_clip_on_show_goes_on_as_far_as_its_replacement_has_it() {
         (&["trot"], 9, 1, 0.0, None),
     ] {
         let mut session = hero();
-        session.apply(Command::AddClips(vec![guest("walk.m3d", &["walk"], 9)]));
-        session.apply(Command::SelectClip(1));
-        session.apply(Command::SetRangeStart(Some(0.5)));
-        session.apply(Command::SetRangeEnd(Some(1.75)));
-        session.apply(Command::Seek { time_secs: 1.5 });
-        session.apply(Command::Pause);
+        session.apply(FileCommand::AddClips(vec![guest("walk.m3d", &["walk"], 9)]));
+        session.apply(PlayCommand::SelectClip(1));
+        session.apply(PlayCommand::SetRangeStart(Some(0.5)));
+        session.apply(PlayCommand::SetRangeEnd(Some(1.75)));
+        session.apply(PlayCommand::Seek { time_secs: 1.5 });
+        session.apply(PlayCommand::Pause);
         let before = session.frame().palette.0.clone();
-        session.apply(Command::AddClips(vec![guest("walk.m3d", names, keys)]));
+        session.apply(FileCommand::AddClips(vec![guest("walk.m3d", names, keys)]));
         assert_eq!(session.clip_index(), Some(shown), "{names:?}");
         assert_eq!(session.playback().time_secs(), time_secs, "{names:?}");
         assert_eq!(session.playback().range_secs(), range_secs, "{names:?}");
@@ -393,9 +397,9 @@ fn findings_follow_the_clips_that_they_are_about() {
         document.bone_offsets[5][13] -= 0.3;
         file(path, &document)
     };
-    session.apply(Command::AddClips(vec![unsorted("a.m3d", "a")]));
-    session.apply(Command::AddClips(vec![unsorted("b.m3d", "b")]));
-    session.apply(Command::AddClips(vec![guest("a.m3d", &["one", "two", "three"], 5)]));
+    session.apply(FileCommand::AddClips(vec![unsorted("a.m3d", "a")]));
+    session.apply(FileCommand::AddClips(vec![unsorted("b.m3d", "b")]));
+    session.apply(FileCommand::AddClips(vec![guest("a.m3d", &["one", "two", "three"], 5)]));
     let subjects = |code: &str| {
         let notices = session.notices().filter(|notice| notice.code == code);
         notices
@@ -423,13 +427,13 @@ fn what_is_noted_of_a_file_goes_with_it_and_with_no_other() {
     };
     // The name of one begins like that of the other.
     let (short, long) = ("walk.m3d", "walk.m3d, copied.m3d");
-    session.apply(Command::AddClips(vec![taller(short, "a"), taller(long, "b")]));
+    session.apply(FileCommand::AddClips(vec![taller(short, "a"), taller(long, "b")]));
     let noted_of = |session: &Session| {
         let of_offsets = session.notices().filter(|notice| notice.code == "clips-offsets-differ");
         of_offsets.map(|notice| notice.message.clone()).collect::<Vec<_>>()
     };
     assert_eq!(noted_of(&session).len(), 2);
-    session.apply(Command::AddClips(vec![guest(short, &["one"], 5)]));
+    session.apply(FileCommand::AddClips(vec![guest(short, &["one"], 5)]));
     let left = noted_of(&session);
     assert_eq!(left.len(), 1, "{left:?}");
     assert!(left[0].contains(&format!("bone offsets of {long} differ")), "{left:?}");
@@ -439,12 +443,12 @@ fn what_is_noted_of_a_file_goes_with_it_and_with_no_other() {
 fn files_of_one_name_in_one_drop_all_join() {
     let mut session = hero();
     let both = || vec![guest("walk/clip.m3d", &["walk"], 5), guest("run/clip.m3d", &["run"], 5)];
-    session.apply(Command::AddClips(both()));
+    session.apply(FileCommand::AddClips(both()));
     let listed = pairs(&[("idle", "hero.m3d"), ("walk", "clip.m3d"), ("run", "clip.m3d")]);
     assert_eq!(list(&session), listed);
-    session.apply(Command::AddClips(both()));
+    session.apply(FileCommand::AddClips(both()));
     assert_eq!(list(&session).len(), 3, "and both are replaced");
     // What cannot be read replaces nothing.
-    session.apply(Command::AddClips(vec![models::broken("clip.m3d")]));
+    session.apply(FileCommand::AddClips(vec![models::broken("clip.m3d")]));
     assert!(session.error().is_some() && list(&session).len() == 3);
 }

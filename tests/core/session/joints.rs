@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use bindpose::anim::{SkinView, skin_positions};
 use bindpose::model::{JointIndex, SavedNames};
 use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
-use bindpose::session::{Command, File, JointCommand, JointRow, Session, SubsetCommand};
+use bindpose::session::{
+    CameraCommand, Command, File, FileCommand, JointCommand, JointRow, PlayCommand, Session, SubsetCommand,
+};
 use glam::{Affine3A, Vec2, Vec3};
 
 use super::models::{self, jointed, moving, still};
@@ -28,10 +30,10 @@ fn joint(command: JointCommand) -> Command {
 }
 
 fn rename(session: &mut Session, joint: u32, name: &str) {
-    session.apply(Command::Joint(Rename {
+    session.apply(Rename {
         joint: JointIndex(joint),
         name: name.to_owned(),
-    }));
+    });
 }
 
 fn rows(session: &Session, query: &str) -> Vec<JointRow> {
@@ -65,8 +67,8 @@ fn on_screen(session: &mut Session, point: Vec3) -> Vec2 {
 #[test]
 fn a_bone_is_selected_and_hovered_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::LookFrom(ViewPreset::Front));
-    session.apply(Command::Seek { time_secs: 0.0 });
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(PlayCommand::Seek { time_secs: 0.0 });
     let points: Vec<Vec3> = session
         .bones()
         .bones()
@@ -113,7 +115,7 @@ fn up_and_down_the_chain() {
 #[test]
 fn the_picture_is_another_one_exactly_when_what_stands_out_or_is_shown_changed() {
     let mut session = chains(5);
-    session.apply(Command::Pause);
+    session.apply(PlayCommand::Pause);
     let mut changes = |command: JointCommand| {
         let before = session.picture_revision();
         session.apply(joint(command));
@@ -170,14 +172,14 @@ fn what_the_model_has_not_is_left_alone() {
 #[test]
 fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_is() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::LookFrom(ViewPreset::Front));
-    session.apply(Command::Seek { time_secs: 0.0 });
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(PlayCommand::Seek { time_secs: 0.0 });
     session.apply(joint(SelectVertexAt(Vec2::new(0.02, 0.05))));
     let selected = *session.joints().selected_vertex().expect("the front is there");
     assert_eq!(selected.hit.map(|hit| hit.vertex), Some(selected.vertex));
     let mut places = Vec::new();
     for time_secs in [0.0, 0.3, 0.9] {
-        session.apply(Command::Seek { time_secs });
+        session.apply(PlayCommand::Seek { time_secs });
         assert_eq!(session.joints().selected_vertex(), Some(&selected), "the same vertex");
         let explained = session.explain_vertex().expect("selected");
         let palette = session.frame().palette.clone();
@@ -293,9 +295,9 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
     ] {
         session.apply(joint(command));
     }
-    session.apply(Command::SetBindWeight(0.5));
+    session.apply(PlayCommand::SetBindWeight(0.5));
     let again = |session: &mut Session, path: &str, count| {
-        session.apply(Command::AddFiles(vec![models::file(path, &mirrored(count))]));
+        session.apply(FileCommand::Add(vec![models::file(path, &mirrored(count))]));
     };
     again(&mut session, "chains.m3d", 5);
     assert_eq!(session.joint_names().get(1), Some("arm"));
@@ -322,44 +324,44 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
 #[test]
 fn the_bind_weight_goes_from_the_clip_to_the_bind_pose_and_back() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Pause);
-    session.apply(Command::Seek { time_secs: 0.3 });
+    session.apply(PlayCommand::Pause);
+    session.apply(PlayCommand::Seek { time_secs: 0.3 });
     let animated = session.frame().palette.0.clone();
     let revision = session.picture_revision();
-    session.apply(Command::SetBindWeight(0.25));
+    session.apply(PlayCommand::SetBindWeight(0.25));
     assert!(session.picture_revision() > revision);
     assert_ne!(session.frame().palette.0, animated);
-    session.apply(Command::SetBindWeight(f32::NAN));
+    session.apply(PlayCommand::SetBindWeight(f32::NAN));
     assert_eq!(session.bind_weight(), 0.25);
-    session.apply(Command::ToggleBindPose);
+    session.apply(PlayCommand::ToggleBindPose);
     assert_eq!(session.bind_weight(), 1.0);
     assert_eq!(session.frame().palette.0, [Affine3A::IDENTITY; 2]);
     let hit = session.pick(Vec2::ZERO).expect("the model is in the middle");
-    session.apply(Command::ToggleBindPose);
+    session.apply(PlayCommand::ToggleBindPose);
     assert_eq!(session.frame().palette.0, animated);
     assert_ne!(session.pick(Vec2::ZERO), Some(hit), "what is picked is what is seen");
-    session.apply(Command::SetBindWeight(7.0));
+    session.apply(PlayCommand::SetBindWeight(7.0));
     assert_eq!(session.bind_weight(), 1.0);
 }
 
 #[test]
 fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Seek { time_secs: 0.0 });
+    session.apply(PlayCommand::Seek { time_secs: 0.0 });
     assert_eq!(over_model(&mut session), OverlayGeometry::default(), "hidden");
     session.apply(joint(SetBonesVisible(true)));
     let mut drawn = Vec::new();
     for command in [
         joint(SetBoneStyle(BoneStyle::Lines)),
         joint(SetBoneStyle(BoneStyle::Axes)),
-        Command::Seek { time_secs: 0.3 },
+        PlayCommand::Seek { time_secs: 0.3 }.into(),
         joint(Select(Some(JointIndex(1)))),
         joint(Hover(Some(JointIndex(0)))),
         Command::SetHandedness(Some(bindpose::model::Handedness::Right)),
         Command::SetUpAxis(Some(bindpose::model::UpAxis::Z)),
         Command::SetTheme(bindpose::scene::Theme::Light),
-        Command::AddFiles(vec![jointed("b.m3d")]),
-        Command::AddFiles(vec![still("c.m3d")]),
+        FileCommand::Add(vec![jointed("b.m3d")]).into(),
+        FileCommand::Add(vec![still("c.m3d")]).into(),
     ] {
         session.apply(command.clone());
         let out = over_model(&mut session);
@@ -428,7 +430,7 @@ fn names_stand_only_where_bones_are_drawn_and_bring_them() {
 #[test]
 fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Pause);
+    session.apply(PlayCommand::Pause);
     let vertices = session.open_model().expect("open").model.mesh.vertex_count();
     assert!(
         skin_colors(&mut session).is_empty() && session.skin_colors_key().is_none(),
@@ -442,7 +444,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
         let key = session.skin_colors_key().expect("shown");
         assert!(!seen.contains(&key));
         seen.push(key);
-        session.apply(Command::Seek {
+        session.apply(PlayCommand::Seek {
             time_secs: 0.1 + seen.len() as f32 * 0.2,
         });
         assert_eq!(
@@ -494,7 +496,7 @@ fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
     assert_eq!(steps(&mut session), 0);
     session.apply(joint(ToggleTrail(JointIndex(1))));
     assert_eq!(steps(&mut session), 30);
-    session.apply(Command::SelectClip(1));
+    session.apply(PlayCommand::SelectClip(1));
     assert_eq!(steps(&mut session), 60);
     session.apply(joint(ToggleTrail(JointIndex(0))));
     assert_eq!(steps(&mut session), 120);
@@ -510,7 +512,7 @@ fn the_soldier_is_inspected_explained_and_coloured() {
         return;
     };
     let mut session = opened(File::new("soldier.m3d", bytes));
-    session.apply(Command::Seek { time_secs: 0.517 });
+    session.apply(PlayCommand::Seek { time_secs: 0.517 });
     session.apply(joint(SelectVertexAt(Vec2::ZERO)));
     assert!(
         session
@@ -530,8 +532,8 @@ fn the_soldier_is_inspected_explained_and_coloured() {
 #[test]
 fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::LookFrom(ViewPreset::Front));
-    session.apply(Command::Seek { time_secs: 0.0 });
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(PlayCommand::Seek { time_secs: 0.0 });
     let inside = |session: &mut Session| on_screen(session, Vec3::new(0.7, 2.9, 0.5));
     let bone = |session: &mut Session| {
         let bone = session.bones().bones()[0];
@@ -563,7 +565,7 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
     session.apply(Command::SelectAt(nowhere));
     assert_eq!(selected(&session), (None, false, None));
     session.apply(joint(Select(Some(JointIndex(1)))));
-    session.apply(SubsetCommand::Select(Some(0)).into());
+    session.apply(SubsetCommand::Select(Some(0)));
     assert_eq!(selected(&session), (Some(0), false, None));
 }
 
@@ -571,13 +573,13 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
 fn a_selected_vertex_is_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
     session.apply(joint(SelectVertex(Some(0))));
-    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(PlayCommand::Seek { time_secs: 0.5 });
     let place = session.explain_vertex().expect("it is there").position;
     let world = session.frame().world_from_model.transform_point3(place);
     let expected = on_screen(&mut session, world);
     let at = session.place_in_picture(place).expect("in view");
     assert!(at.distance(expected) < 1e-5, "{at} {expected}");
-    session.apply(Command::Zoom {
+    session.apply(CameraCommand::Zoom {
         factor: 0.05,
         pointer: Vec2::ZERO,
     });
@@ -587,14 +589,14 @@ fn a_selected_vertex_is_where_it_is_drawn() {
 #[test]
 fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     let mut session = chains(40);
-    session.apply(Command::FrameModel);
+    session.apply(CameraCommand::FrameModel);
     let whole = *session.camera();
-    session.apply(Command::FrameSelection);
+    session.apply(CameraCommand::FrameSelection);
     assert_eq!(*session.camera(), whole, "nothing is selected");
 
     let chosen = JointIndex(31);
     session.apply(joint(Select(Some(chosen))));
-    session.apply(Command::FrameSelection);
+    session.apply(CameraCommand::FrameSelection);
     let near = *session.camera();
     assert!(
         near.distance < 0.5 * whole.distance,
@@ -611,7 +613,7 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     // A vertex comes with what is around it.
     session.apply(joint(Select(None)));
     session.apply(joint(SelectVertex(Some(60))));
-    session.apply(Command::FrameSelection);
+    session.apply(CameraCommand::FrameSelection);
     let (at_vertex, place) = (*session.camera(), session.explain_vertex().expect("selected").position);
     let world = session.frame().world_from_model.transform_point3(place);
     assert!(
@@ -625,26 +627,26 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     );
     session.apply(joint(SelectVertex(None)));
     session.apply(joint(Select(Some(chosen))));
-    session.apply(Command::FrameSelection);
+    session.apply(CameraCommand::FrameSelection);
     assert_eq!(*session.camera(), near);
 
     // It stays there when the window changes, which would frame all of the model otherwise.
-    session.apply(Command::SetViewport {
+    session.apply(CameraCommand::SetViewport {
         aspect: 1.3,
         insets: Default::default(),
     });
     assert_eq!(session.camera().distance, near.distance);
 
-    session.apply(Command::FrameModel);
+    session.apply(CameraCommand::FrameModel);
     assert!(session.camera().distance > 1.5 * near.distance);
     session.apply(joint(Select(None)));
-    session.apply(SubsetCommand::Select(Some(0)).into());
-    session.apply(Command::Zoom {
+    session.apply(SubsetCommand::Select(Some(0)));
+    session.apply(CameraCommand::Zoom {
         factor: 8.0,
         pointer: Vec2::ZERO,
     });
     let far = session.camera().distance;
-    session.apply(Command::FrameSelection);
+    session.apply(CameraCommand::FrameSelection);
     // The subset is all of the mesh.
     let distance = session.camera().distance;
     assert!(

@@ -3,7 +3,7 @@
 use bindpose::anim::{self, CompiledClip, LoopMode, PoseBuffers};
 use bindpose::model::{Handedness, UpAxis, world_from_model};
 use bindpose::scene::{Camera, Insets, Overlay, Projection, Theme, ViewPreset};
-use bindpose::session::{Command, File, LookCommand, Session};
+use bindpose::session::{CameraCommand, Command, File, FileCommand, LookCommand, PlayCommand, Session};
 use glam::{Vec2, Vec3};
 
 use super::models::{self, moving, still};
@@ -66,15 +66,15 @@ fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
         let mut session = opened(file);
         for projection in [Camera::default().projection, Projection::Orthographic] {
             if session.camera().projection != projection {
-                session.apply(Command::ToggleProjection);
+                session.apply(CameraCommand::ToggleProjection);
             }
             for (aspect, insets) in [0.46, 1.0, 1.6, 3.5]
                 .into_iter()
                 .flat_map(|aspect| all_insets.map(|i| (aspect, i)))
             {
-                session.apply(Command::SetViewport { aspect, insets });
+                session.apply(CameraCommand::SetViewport { aspect, insets });
                 for preset in ViewPreset::ALL {
-                    session.apply(Command::LookFrom(preset));
+                    session.apply(CameraCommand::LookFrom(preset));
                     let what = format!("{preset:?} {projection:?} {aspect} {insets:?}");
                     let points = reached_in_picture(&mut session, aspect);
                     let (mut least, mut greatest) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -105,11 +105,11 @@ fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
 
 #[test]
 fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
-    let narrow = Command::SetViewport {
+    let narrow = CameraCommand::SetViewport {
         aspect: 0.25,
         insets: FREE,
     };
-    let wide = Command::SetViewport {
+    let wide = CameraCommand::SetViewport {
         aspect: 2.0,
         insets: FREE,
     };
@@ -121,7 +121,7 @@ fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
     session.apply(wide.clone());
     assert!((session.camera().distance / in_wide - 1.0).abs() < 1e-3);
 
-    session.apply(Command::Orbit {
+    session.apply(CameraCommand::Orbit {
         yaw_radians: 0.4,
         pitch_radians: 0.1,
     });
@@ -129,22 +129,22 @@ fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
     assert!(session.camera().distance > in_wide * 1.2, "turning leaves it framed");
 
     for command in [
-        Command::Pan {
+        CameraCommand::Pan {
             drag: Vec2::new(0.1, 0.0),
         },
-        Command::Zoom {
+        CameraCommand::Zoom {
             factor: 0.9,
             pointer: Vec2::ZERO,
         },
     ] {
-        session.apply(Command::FrameModel);
+        session.apply(CameraCommand::FrameModel);
         session.apply(command);
         let chosen = *session.camera();
         session.apply(wide.clone());
         session.apply(narrow.clone());
         assert_eq!(session.camera(), &chosen);
     }
-    session.apply(Command::FrameModel);
+    session.apply(CameraCommand::FrameModel);
     session.apply(wide);
     assert!(session.camera().distance < in_wide * 1.2, "framed again");
 }
@@ -160,11 +160,11 @@ fn a_window_without_a_shape_is_left_out() {
         (-1.0, 0.0),
         (1.0, f32::NAN),
     ] {
-        session.apply(Command::SetViewport {
+        session.apply(CameraCommand::SetViewport {
             aspect,
             insets: Insets { left, ..FREE },
         });
-        session.apply(Command::FrameModel);
+        session.apply(CameraCommand::FrameModel);
         assert_eq!(session.camera(), &before);
     }
 }
@@ -180,7 +180,7 @@ fn zooming_ends_before_the_model_is_passed_or_a_dot() {
         (f32::INFINITY, radius * 100.0),
     ] {
         for _ in 0..64 {
-            session.apply(Command::Zoom {
+            session.apply(CameraCommand::Zoom {
                 factor,
                 pointer: Vec2::new(0.2, -0.3),
             });
@@ -199,29 +199,29 @@ fn what_is_no_number_leaves_the_camera_alone() {
     let mut session = opened(moving("a.m3d"));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let before = *session.camera();
-        session.apply(Command::Orbit {
+        session.apply(CameraCommand::Orbit {
             yaw_radians: bad,
             pitch_radians: 0.1,
         });
-        session.apply(Command::Orbit {
+        session.apply(CameraCommand::Orbit {
             yaw_radians: 0.1,
             pitch_radians: bad,
         });
-        session.apply(Command::Pan {
+        session.apply(CameraCommand::Pan {
             drag: Vec2::new(bad, 0.0),
         });
-        session.apply(Command::Pan {
+        session.apply(CameraCommand::Pan {
             drag: Vec2::new(0.0, bad),
         });
         assert_eq!(session.camera(), &before);
-        session.apply(Command::Zoom {
+        session.apply(CameraCommand::Zoom {
             factor: 0.9,
             pointer: Vec2::new(bad, 0.1),
         });
         assert!(session.camera().target.is_finite());
     }
     let before = *session.camera();
-    session.apply(Command::Zoom {
+    session.apply(CameraCommand::Zoom {
         factor: f32::NAN,
         pointer: Vec2::ZERO,
     });
@@ -237,12 +237,12 @@ fn a_model_of_absurd_size_leaves_the_camera_finite() {
         }
         let mut session = opened(models::file("a.m3d", &document));
         for preset in ViewPreset::ALL {
-            session.apply(Command::LookFrom(preset));
-            session.apply(Command::Zoom {
+            session.apply(CameraCommand::LookFrom(preset));
+            session.apply(CameraCommand::Zoom {
                 factor: 0.8,
                 pointer: Vec2::ONE,
             });
-            session.apply(Command::Pan { drag: Vec2::ONE });
+            session.apply(CameraCommand::Pan { drag: Vec2::ONE });
             let camera = session.camera();
             assert!(
                 camera.target.is_finite() && camera.distance.is_finite() && camera.distance > 0.0,
@@ -256,11 +256,11 @@ fn a_model_of_absurd_size_leaves_the_camera_finite() {
 fn the_projection_changes_and_back_and_a_reset_is_the_first_view() {
     let mut session = opened(still("a.m3d"));
     let first = *session.camera();
-    session.apply(Command::ToggleProjection);
+    session.apply(CameraCommand::ToggleProjection);
     assert_eq!(session.camera().projection, Projection::Orthographic);
-    session.apply(Command::LookFrom(ViewPreset::Back));
-    session.apply(Command::Pan { drag: Vec2::ONE });
-    session.apply(Command::ResetCamera);
+    session.apply(CameraCommand::LookFrom(ViewPreset::Back));
+    session.apply(CameraCommand::Pan { drag: Vec2::ONE });
+    session.apply(CameraCommand::Reset);
     assert_eq!(session.camera(), &first);
 }
 
@@ -300,8 +300,8 @@ fn the_box_of_the_world_holds_all_that_the_clip_reaches() {
     let bent = session.world_bounds();
     assert!(bent.min.x < models::BOX[0].x - 1.0 && bent.max.y > models::BOX[1].y - 1e-3);
     // While a clip that plays fades, both are in the box.
-    session.apply(Command::Pause);
-    session.apply(Command::SelectClip(2));
+    session.apply(PlayCommand::Pause);
+    session.apply(PlayCommand::SelectClip(2));
     let unbent = session.world_bounds();
     assert!(
         unbent.min.abs_diff_eq(models::BOX[0], 1e-4) && unbent.max.abs_diff_eq(models::BOX[1], 1e-4),
@@ -319,75 +319,75 @@ fn changes(session: &mut Session, command: Command) -> bool {
 #[test]
 fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Pause);
+    session.apply(PlayCommand::Pause);
     let revision = session.picture_revision();
     session.advance(1.0);
     assert_eq!(session.picture_revision(), revision, "paused");
 
-    let changing = [
-        Command::Seek { time_secs: 0.5 },
-        Command::StepFrames(1),
-        Command::SeekEnd,
-        Command::SelectClip(1),
-        Command::CycleClip(1),
-        Command::Orbit {
+    let changing: Vec<Command> = vec![
+        PlayCommand::Seek { time_secs: 0.5 }.into(),
+        PlayCommand::StepFrames(1).into(),
+        PlayCommand::SeekEnd.into(),
+        PlayCommand::SelectClip(1).into(),
+        PlayCommand::CycleClip(1).into(),
+        Command::Camera(CameraCommand::Orbit {
             yaw_radians: 0.1,
             pitch_radians: 0.0,
-        },
-        Command::Pan { drag: Vec2::X },
-        Command::Zoom {
+        }),
+        CameraCommand::Pan { drag: Vec2::X }.into(),
+        Command::Camera(CameraCommand::Zoom {
             factor: 0.5,
             pointer: Vec2::ZERO,
-        },
-        Command::FrameModel,
-        Command::LookFrom(ViewPreset::Left),
-        Command::ToggleProjection,
-        Command::ResetCamera,
+        }),
+        CameraCommand::FrameModel.into(),
+        CameraCommand::LookFrom(ViewPreset::Left).into(),
+        CameraCommand::ToggleProjection.into(),
+        CameraCommand::Reset.into(),
         Command::SetHandedness(Some(Handedness::Right)),
         Command::SetUpAxis(Some(UpAxis::Z)),
         Command::Look(LookCommand::SetOverlay(Overlay::Grid, false)),
         Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)),
         Command::SetTheme(Theme::Light),
-        Command::SetViewport {
+        Command::Camera(CameraCommand::SetViewport {
             aspect: 0.5,
             insets: FREE,
-        },
-        Command::AddFiles(vec![moving("a.m3d")]),
-        Command::AddFiles(vec![moving("b.m3d")]),
+        }),
+        FileCommand::Add(vec![moving("a.m3d")]).into(),
+        FileCommand::Add(vec![moving("b.m3d")]).into(),
     ];
     for command in changing {
         assert!(changes(&mut session, command.clone()), "{command:?}");
     }
-    session.apply(Command::Pause);
-    let idle = [
-        Command::Pause,
-        Command::Play,
-        Command::Pause,
-        Command::BeginScrub,
-        Command::EndScrub,
-        Command::Seek { time_secs: 0.0 },
-        Command::SeekStart,
-        Command::StepFrames(-1),
-        Command::SelectClip(0),
-        Command::CycleClip(0),
-        Command::SetSpeed(2.0),
-        Command::Slower,
-        Command::SetLoopMode(LoopMode::Once),
-        Command::CycleLoopMode,
-        Command::Pan { drag: Vec2::ZERO },
+    session.apply(PlayCommand::Pause);
+    let idle: Vec<Command> = vec![
+        PlayCommand::Pause.into(),
+        PlayCommand::Play.into(),
+        PlayCommand::Pause.into(),
+        PlayCommand::BeginScrub.into(),
+        PlayCommand::EndScrub.into(),
+        PlayCommand::Seek { time_secs: 0.0 }.into(),
+        PlayCommand::SeekStart.into(),
+        PlayCommand::StepFrames(-1).into(),
+        PlayCommand::SelectClip(0).into(),
+        PlayCommand::CycleClip(0).into(),
+        PlayCommand::SetSpeed(2.0).into(),
+        PlayCommand::Slower.into(),
+        PlayCommand::SetLoopMode(LoopMode::Once).into(),
+        PlayCommand::CycleLoopMode.into(),
+        CameraCommand::Pan { drag: Vec2::ZERO }.into(),
         Command::Look(LookCommand::SetOverlay(Overlay::Grid, true)),
         Command::SetTheme(Theme::Light),
-        Command::SetViewport {
+        Command::Camera(CameraCommand::SetViewport {
             aspect: 0.5,
             insets: FREE,
-        },
+        }),
         Command::SetHandedness(None),
         Command::SetUpAxis(Some(UpAxis::Y)),
-        Command::OpenFile("nowhere".to_owned()),
-        Command::AddFiles(vec![File::new("c.m3d", *b"")]),
-        Command::DismissError,
+        FileCommand::Open("nowhere".to_owned()).into(),
+        FileCommand::Add(vec![File::new("c.m3d", *b"")]).into(),
+        FileCommand::DismissError.into(),
     ];
-    session.apply(Command::FrameModel);
+    session.apply(CameraCommand::FrameModel);
     for command in idle {
         assert!(!changes(&mut session, command.clone()), "{command:?}");
     }
@@ -397,7 +397,7 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
 fn the_grid_and_the_theme_are_in_the_frame() {
     let mut session = opened(still("a.m3d"));
     assert!(session.frame().options.overlays.has(Overlay::Grid));
-    session.apply(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)));
+    session.apply(LookCommand::ToggleOverlay(Overlay::Grid));
     session.apply(Command::SetTheme(Theme::Light));
     let options = session.frame().options;
     assert!(!options.overlays.has(Overlay::Grid));
@@ -408,14 +408,14 @@ fn the_grid_and_the_theme_are_in_the_frame() {
 fn with_nothing_open_everything_is_in_order() {
     let mut session = Session::new(false);
     for command in [
-        Command::Play,
-        Command::FrameModel,
-        Command::Zoom {
+        Command::from(PlayCommand::Play),
+        CameraCommand::FrameModel.into(),
+        Command::Camera(CameraCommand::Zoom {
             factor: 0.5,
             pointer: Vec2::ZERO,
-        },
-        Command::SelectClip(0),
-        Command::OpenFile("a.m3d".to_owned()),
+        }),
+        PlayCommand::SelectClip(0).into(),
+        FileCommand::Open("a.m3d".to_owned()).into(),
     ] {
         assert!(!session.apply(command).model);
     }

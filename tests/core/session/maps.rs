@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bindpose::format::Document;
 use bindpose::image::encode_png;
-use bindpose::session::{Command, File, MapSlot, Session};
+use bindpose::session::{File, FileCommand, MapSlot, Session};
 
 use super::models;
 use crate::documents::shared_bytes;
@@ -26,7 +26,7 @@ pub(super) fn mapped(path: &str, diffuse: &str, normal: &str) -> File {
 
 fn opened(files: Vec<File>) -> Session {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(files));
+    session.apply(FileCommand::Add(files));
     assert!(session.error().is_none(), "{:?}", session.error());
     session
 }
@@ -66,20 +66,20 @@ fn pictures_dropped_later_join_the_open_model() {
         session.maps_revision(),
         session.picture_revision(),
     );
-    session.apply(Command::AddFiles(vec![picture("b.png", [128, 128, 255, 255])]));
+    session.apply(FileCommand::Add(vec![picture("b.png", [128, 128, 255, 255])]));
     assert!(session.error().is_none());
     assert_eq!(session.model_revision(), model, "the model is not opened again");
     assert!(session.maps_revision() > maps && session.picture_revision() > picture_before);
     assert_eq!(session.maps().checklist().missing, ["a.png"]);
 
     let maps = session.maps_revision();
-    session.apply(Command::AddFiles(vec![picture("unrelated.png", [0; 4])]));
+    session.apply(FileCommand::Add(vec![picture("unrelated.png", [0; 4])]));
     assert_eq!(
         session.maps_revision(),
         maps,
         "a picture that nobody names changes nothing"
     );
-    session.apply(Command::AddFiles(vec![picture("b.png", [1, 2, 3, 255])]));
+    session.apply(FileCommand::Add(vec![picture("b.png", [1, 2, 3, 255])]));
     assert!(
         session.maps_revision() > maps,
         "a picture with other contents is another map"
@@ -91,7 +91,7 @@ fn pictures_dropped_later_join_the_open_model() {
 fn pictures_join_whatever_notes_come_with_them() {
     let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
     let model = session.model_revision();
-    session.apply(Command::AddFiles(vec![
+    session.apply(FileCommand::Add(vec![
         File::new("readme.txt", *b"Maps by somebody."),
         File::new("source.psd", *b"8BPS and layers"),
         picture("a.png", [1, 2, 3, 255]),
@@ -99,7 +99,7 @@ fn pictures_join_whatever_notes_come_with_them() {
     assert_eq!((session.error(), session.model_revision()), (None, model));
     assert_eq!(first_pixel(&session, MapSlot::Diffuse), Some(vec![1, 2, 3, 255]));
 
-    session.apply(Command::AddFiles(vec![File::new("readme.txt", *b"Maps by somebody.")]));
+    session.apply(FileCommand::Add(vec![File::new("readme.txt", *b"Maps by somebody.")]));
     let error = session.error().expect("alone it is told what it is");
     assert_eq!(
         (error.diagnostic.code, error.file_name.as_str()),
@@ -107,7 +107,7 @@ fn pictures_join_whatever_notes_come_with_them() {
     );
 
     let renamed = models::still("model.txt");
-    session.apply(Command::AddFiles(vec![renamed, picture("a.png", [1, 2, 3, 255])]));
+    session.apply(FileCommand::Add(vec![renamed, picture("a.png", [1, 2, 3, 255])]));
     assert_eq!(session.error(), None);
     assert!(session.model_revision() > model, "a renamed model opens with its maps");
 }
@@ -131,9 +131,9 @@ fn the_model_alone_dropped_again_keeps_its_maps_and_another_model_does_not() {
         mapped("box.m3d", "a.png", "b.png"),
         picture("a.png", [7, 7, 7, 255]),
     ]);
-    session.apply(Command::AddFiles(vec![mapped("box.m3d", "a.png", "b.png")]));
+    session.apply(FileCommand::Add(vec![mapped("box.m3d", "a.png", "b.png")]));
     assert!(session.maps().image(0, MapSlot::Diffuse).is_some());
-    session.apply(Command::AddFiles(vec![mapped("other.m3d", "a.png", "b.png")]));
+    session.apply(FileCommand::Add(vec![mapped("other.m3d", "a.png", "b.png")]));
     assert!(session.maps().image(0, MapSlot::Diffuse).is_none());
     assert_eq!(session.maps().checklist().missing.len(), 2);
 }
@@ -144,7 +144,7 @@ fn messages(session: &Session, code: &str) -> Vec<String> {
 }
 
 fn drop_pictures(session: &mut Session, pictures: Vec<File>) {
-    session.apply(Command::AddFiles(pictures));
+    session.apply(FileCommand::Add(pictures));
     assert_eq!(session.error(), None);
 }
 
@@ -162,7 +162,7 @@ fn a_map_that_comes_later_wins_whatever_its_folder_and_still_does_when_all_is_re
     assert!(session.maps_revision() > maps);
     assert!(messages(&session, "map-ambiguous").is_empty(), "it was meant to win");
 
-    session.apply(Command::AddFiles(vec![model(), first.clone(), later]));
+    session.apply(FileCommand::Add(vec![model(), first.clone(), later]));
     assert_eq!(first_pixel(&session, MapSlot::Diffuse), Some(vec![2, 2, 2, 255]));
     drop_pictures(&mut session, vec![first]);
     assert_eq!(
@@ -295,6 +295,6 @@ fn a_map_that_comes_later_is_decoded_alone_and_the_others_stay() {
     drop_pictures(&mut session, vec![picture("b.png", [128, 128, 255, 255])]);
     let is_same = |session: &Session| Arc::ptr_eq(&first, &image(session, MapSlot::Diffuse).expect("there"));
     assert!(is_same(&session) && image(&session, MapSlot::Normal).is_some());
-    session.apply(Command::AddFiles(vec![mapped("box.m3d", "a.png", "b.png")]));
+    session.apply(FileCommand::Add(vec![mapped("box.m3d", "a.png", "b.png")]));
     assert!(is_same(&session), "the model again");
 }

@@ -2,7 +2,7 @@
 
 use bindpose::format;
 use bindpose::model::{Material, Reflectance};
-use bindpose::session::{Command, File, Session};
+use bindpose::session::{File, FileCommand, MaterialCommand, Session};
 
 use super::models::{self, document};
 use super::opened;
@@ -15,7 +15,7 @@ fn three_materials(path: &str) -> File {
 fn edit(session: &mut Session, index: usize, change: impl FnOnce(&mut Material)) {
     let mut material = session.materials()[index].clone();
     change(&mut material);
-    session.apply(Command::EditMaterial { index, material });
+    session.apply(MaterialCommand::Edit { index, material });
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn an_edited_material_is_drawn_and_the_files_stays_known() {
     assert!(session.materials_revision() > revision && session.picture_revision() > picture);
     assert_eq!(session.open_model().expect("open").model.materials, of_file);
 
-    session.apply(Command::ResetMaterial(1));
+    session.apply(MaterialCommand::Reset(1));
     assert_eq!(session.materials(), of_file);
     assert!(!session.is_edited(1));
 }
@@ -61,10 +61,10 @@ fn nothing_is_drawn_anew_for_what_changes_nothing() {
     let (revision, picture) = (session.materials_revision(), session.picture_revision());
     edit(&mut session, 0, |_| {});
     edit(&mut session, 0, |material| material.diffuse[0] = f32::INFINITY);
-    session.apply(Command::ResetMaterial(0));
-    session.apply(Command::ResetMaterial(7));
+    session.apply(MaterialCommand::Reset(0));
+    session.apply(MaterialCommand::Reset(7));
     let material = session.materials()[0].clone();
-    session.apply(Command::EditMaterial { index: 7, material });
+    session.apply(MaterialCommand::Edit { index: 7, material });
     assert_eq!(
         (session.materials_revision(), session.picture_revision()),
         (revision, picture)
@@ -115,7 +115,7 @@ fn the_same_file_again_keeps_edits_by_name_and_takes_up_the_rest() {
     for material in &mut document.materials {
         material.diffuse = [0.125; 3];
     }
-    session.apply(Command::AddFiles(vec![models::file("a.m3d", &document)]));
+    session.apply(FileCommand::Add(vec![models::file("a.m3d", &document)]));
     let drawn: Vec<_> = session
         .materials()
         .iter()
@@ -130,7 +130,7 @@ fn another_model_comes_with_its_own() {
     let mut session = opened(three_materials("a.m3d"));
     edit(&mut session, 2, |material| material.diffuse = [0.9; 3]);
     let revision = session.materials_revision();
-    session.apply(Command::AddFiles(vec![three_materials("b.m3d")]));
+    session.apply(FileCommand::Add(vec![three_materials("b.m3d")]));
     assert_eq!(session.materials(), session.open_model().expect("open").model.materials);
     assert!(session.materials_revision() > revision && !session.is_edited(2));
     assert!(Session::new(false).materials().is_empty());

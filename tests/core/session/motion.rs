@@ -3,31 +3,31 @@
 use std::f32::consts::{PI, TAU};
 
 use bindpose::scene::{Camera, Insets, ViewPreset};
-use bindpose::session::{Command, Session};
+use bindpose::session::{CameraCommand, FileCommand, Session};
 use glam::{Vec2, Vec3};
 
-use super::models::{moving, still};
+use super::models::still;
 use super::opened;
 
 const STEP_SECS: f32 = 1.0 / 60.0;
 
-fn fling(yaw_radians_per_sec: f32, pitch_radians_per_sec: f32) -> Command {
-    Command::Fling {
+fn fling(yaw_radians_per_sec: f32, pitch_radians_per_sec: f32) -> CameraCommand {
+    CameraCommand::Fling {
         yaw_radians_per_sec,
         pitch_radians_per_sec,
     }
 }
 
-fn glide(command: Command) -> Command {
-    Command::Glide(Box::new(command))
+fn glide(command: CameraCommand) -> CameraCommand {
+    CameraCommand::Glide(Box::new(command))
 }
 
-fn fly(direction: Vec3) -> Command {
-    Command::Fly { direction, fast: false }
+fn fly(direction: Vec3) -> CameraCommand {
+    CameraCommand::Fly { direction, fast: false }
 }
 
-fn orbit(yaw_radians: f32) -> Command {
-    Command::Orbit {
+fn orbit(yaw_radians: f32) -> CameraCommand {
+    CameraCommand::Orbit {
         yaw_radians,
         pitch_radians: 0.0,
     }
@@ -74,19 +74,19 @@ fn a_turn_that_is_let_go_runs_on_and_out_in_as_many_steps_as_one_likes() {
 
 #[test]
 fn whatever_a_person_does_next_ends_a_fling_and_a_glide() {
-    for start in [fling(3.0, 0.0), glide(Command::LookFrom(ViewPreset::Back))] {
+    for start in [fling(3.0, 0.0), glide(CameraCommand::LookFrom(ViewPreset::Back))] {
         for stop in [
             orbit(0.1),
-            Command::Pan { drag: Vec2::X },
-            Command::Zoom {
+            CameraCommand::Pan { drag: Vec2::X },
+            CameraCommand::Zoom {
                 factor: 0.9,
                 pointer: Vec2::ZERO,
             },
-            Command::FrameModel,
-            Command::LookFrom(ViewPreset::Top),
-            Command::ResetCamera,
-            Command::BeginDrag,
-            Command::FlyLook {
+            CameraCommand::FrameModel,
+            CameraCommand::LookFrom(ViewPreset::Top),
+            CameraCommand::Reset,
+            CameraCommand::BeginDrag,
+            CameraCommand::FlyLook {
                 yaw_radians: 0.1,
                 pitch_radians: 0.0,
             },
@@ -122,20 +122,20 @@ fn rates_that_are_none_or_next_to_none_move_nothing() {
 #[test]
 fn a_glide_goes_the_short_way_and_ends_where_a_jump_would() {
     for (start, command) in [
-        (ViewPreset::Front, Command::LookFrom(ViewPreset::Left)),
-        (ViewPreset::Left, Command::LookFrom(ViewPreset::Front)),
-        (ViewPreset::Front, Command::LookFrom(ViewPreset::Isometric)),
-        (ViewPreset::Right, Command::ResetCamera),
-        (ViewPreset::Right, Command::FrameModel),
+        (ViewPreset::Front, CameraCommand::LookFrom(ViewPreset::Left)),
+        (ViewPreset::Left, CameraCommand::LookFrom(ViewPreset::Front)),
+        (ViewPreset::Front, CameraCommand::LookFrom(ViewPreset::Isometric)),
+        (ViewPreset::Right, CameraCommand::Reset),
+        (ViewPreset::Right, CameraCommand::FrameModel),
     ] {
         let mut session = opened(still("a.m3d"));
-        session.apply(Command::LookFrom(start));
-        session.apply(Command::Pan { drag: Vec2::splat(0.3) });
+        session.apply(CameraCommand::LookFrom(start));
+        session.apply(CameraCommand::Pan { drag: Vec2::splat(0.3) });
         let from = *session.camera();
         session.apply(command.clone());
         let there = *session.camera();
-        session.apply(Command::LookFrom(start));
-        session.apply(Command::Pan { drag: Vec2::splat(0.3) });
+        session.apply(CameraCommand::LookFrom(start));
+        session.apply(CameraCommand::Pan { drag: Vec2::splat(0.3) });
         assert_eq!(session.camera(), &from);
 
         session.apply(glide(command.clone()));
@@ -161,9 +161,9 @@ fn a_glide_goes_the_short_way_and_ends_where_a_jump_would() {
 #[test]
 fn a_glide_is_quick_at_first_and_slow_at_the_end() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::LookFrom(ViewPreset::Front));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     let from = *session.camera();
-    session.apply(glide(Command::LookFrom(ViewPreset::Right)));
+    session.apply(glide(CameraCommand::LookFrom(ViewPreset::Right)));
     session.advance(0.125);
     let half = turned(&from, session.camera());
     assert!((half / (PI / 2.0) - 0.875).abs() < 1e-3, "{half}");
@@ -172,14 +172,14 @@ fn a_glide_is_quick_at_first_and_slow_at_the_end() {
 #[test]
 fn sent_again_on_its_way_it_goes_on_from_there() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::LookFrom(ViewPreset::Right));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Right));
     let right = *session.camera();
-    session.apply(Command::LookFrom(ViewPreset::Front));
-    session.apply(Command::Pan { drag: Vec2::X });
-    session.apply(glide(Command::LookFrom(ViewPreset::Right)));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(CameraCommand::Pan { drag: Vec2::X });
+    session.apply(glide(CameraCommand::LookFrom(ViewPreset::Right)));
     session.advance(0.1);
     let here = *session.camera();
-    session.apply(glide(Command::FrameModel));
+    session.apply(glide(CameraCommand::FrameModel));
     assert_eq!(session.camera(), &here);
     run_out(&mut session, STEP_SECS);
     assert!(close(session.camera(), &right), "the turn to the right is not lost");
@@ -187,17 +187,17 @@ fn sent_again_on_its_way_it_goes_on_from_there() {
 
 #[test]
 fn a_window_that_changes_on_the_way_changes_the_goal() {
-    let narrow = Command::SetViewport {
+    let narrow = CameraCommand::SetViewport {
         aspect: 0.3,
         insets: Insets::default(),
     };
     let mut session = opened(still("a.m3d"));
     session.apply(narrow.clone());
-    session.apply(Command::LookFrom(ViewPreset::Back));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Back));
     let there = *session.camera();
 
     let mut session = opened(still("a.m3d"));
-    session.apply(glide(Command::LookFrom(ViewPreset::Back)));
+    session.apply(glide(CameraCommand::LookFrom(ViewPreset::Back)));
     session.advance(STEP_SECS);
     let here = *session.camera();
     session.apply(narrow);
@@ -208,7 +208,7 @@ fn a_window_that_changes_on_the_way_changes_the_goal() {
 
 #[test]
 fn the_camera_glides_out_of_the_way_of_a_panel_and_turns_round_on_its_way() {
-    let covered = |bottom| Command::SetViewport {
+    let covered = |bottom| CameraCommand::SetViewport {
         aspect: 1.0,
         insets: Insets {
             bottom,
@@ -233,7 +233,7 @@ fn the_camera_glides_out_of_the_way_of_a_panel_and_turns_round_on_its_way() {
     run_out(&mut session, STEP_SECS);
     assert!(close(session.camera(), there.camera()));
     // Who went elsewhere is left there.
-    session.apply(Command::Pan { drag: Vec2::ONE });
+    session.apply(CameraCommand::Pan { drag: Vec2::ONE });
     session.apply(glide(covered(0.0)));
     assert!(!session.is_moving());
 }
@@ -241,41 +241,39 @@ fn the_camera_glides_out_of_the_way_of_a_panel_and_turns_round_on_its_way() {
 #[test]
 fn a_projection_that_changes_on_the_way_stays_changed() {
     let mut session = opened(still("a.m3d"));
-    session.apply(glide(Command::LookFrom(ViewPreset::Back)));
+    session.apply(glide(CameraCommand::LookFrom(ViewPreset::Back)));
     session.advance(STEP_SECS);
-    session.apply(Command::ToggleProjection);
+    session.apply(CameraCommand::ToggleProjection);
     assert!(session.is_moving());
     run_out(&mut session, STEP_SECS);
     assert_eq!(session.camera().projection, bindpose::scene::Projection::Orthographic);
 }
 
 #[test]
-fn neither_loading_nor_another_window_glides_and_what_is_no_way_for_the_camera_is_just_done() {
+fn neither_loading_nor_another_window_glides_and_what_sends_the_camera_nowhere_is_just_done() {
     let mut session = opened(still("a.m3d"));
     assert!(!session.is_moving());
-    session.apply(Command::SetViewport {
+    session.apply(CameraCommand::SetViewport {
         aspect: 0.3,
         insets: Insets::default(),
     });
     assert!(!session.is_moving());
-    session.apply(glide(Command::FrameModel));
+    session.apply(glide(CameraCommand::FrameModel));
     assert!(!session.is_moving(), "it is there already");
-    let changes = session.apply(glide(Command::AddFiles(vec![moving("b.m3d")])));
-    assert!(changes.model);
-    session.apply(glide(Command::Pause));
-    assert!(!session.is_moving() && !session.playback().is_playing());
+    session.apply(glide(CameraCommand::SetTurntable(true)));
+    assert!(session.turntable());
 }
 
 #[test]
 fn under_reduced_motion_nothing_runs_on_and_glides_jump() {
     let mut session = Session::new(true);
-    session.apply(Command::AddFiles(vec![still("a.m3d")]));
+    session.apply(FileCommand::Add(vec![still("a.m3d")]));
     session.apply(fling(5.0, 5.0));
     assert!(!session.is_moving());
-    session.apply(Command::LookFrom(ViewPreset::Back));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Back));
     let back = *session.camera();
-    session.apply(Command::LookFrom(ViewPreset::Front));
-    session.apply(glide(Command::LookFrom(ViewPreset::Back)));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(glide(CameraCommand::LookFrom(ViewPreset::Back)));
     assert!(!session.is_moving());
     assert_eq!(session.camera(), &back);
 }
@@ -284,7 +282,7 @@ fn under_reduced_motion_nothing_runs_on_and_glides_jump() {
 fn the_turntable_turns_once_in_twelve_seconds_and_waits_while_the_camera_is_held() {
     let mut session = opened(still("a.m3d"));
     let from = *session.camera();
-    session.apply(Command::SetTurntable(true));
+    session.apply(CameraCommand::SetTurntable(true));
     assert!(session.turntable() && session.is_moving());
     for _ in 0..30 {
         session.advance(0.1);
@@ -294,21 +292,21 @@ fn the_turntable_turns_once_in_twelve_seconds_and_waits_while_the_camera_is_held
         "a quarter in three seconds"
     );
 
-    session.apply(Command::BeginDrag);
+    session.apply(CameraCommand::BeginDrag);
     assert!(!session.is_moving());
     session.apply(orbit(0.5));
     let held = *session.camera();
     session.advance(1.0);
     assert_eq!(session.camera(), &held);
-    session.apply(Command::EndDrag);
+    session.apply(CameraCommand::EndDrag);
     assert!(session.is_moving());
-    session.apply(Command::AddFiles(vec![still("b.m3d")]));
+    session.apply(FileCommand::Add(vec![still("b.m3d")]));
     assert!(session.turntable(), "it is chosen for the viewer, not for the model");
-    session.apply(Command::ToggleTurntable);
+    session.apply(CameraCommand::ToggleTurntable);
     assert!(!session.is_moving() && !session.turntable());
 
     let mut empty = Session::new(false);
-    empty.apply(Command::SetTurntable(true));
+    empty.apply(CameraCommand::SetTurntable(true));
     empty.apply(fly(Vec3::Z));
     assert!(!empty.is_moving(), "there is nothing to turn about or to fly through");
 }
@@ -316,8 +314,8 @@ fn the_turntable_turns_once_in_twelve_seconds_and_waits_while_the_camera_is_held
 #[test]
 fn a_glide_on_the_turntable_arrives_before_it_turns_on() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::SetTurntable(true));
-    session.apply(glide(Command::LookFrom(ViewPreset::Front)));
+    session.apply(CameraCommand::SetTurntable(true));
+    session.apply(glide(CameraCommand::LookFrom(ViewPreset::Front)));
     for _ in 0..16 {
         session.advance(STEP_SECS);
     }
@@ -340,7 +338,7 @@ fn flight_covers_a_radius_a_second_or_four_and_no_more_across() {
         let mut session = opened(still("a.m3d"));
         let radius = session.world_bounds().radius();
         let from = *session.camera();
-        session.apply(Command::Fly { direction, fast });
+        session.apply(CameraCommand::Fly { direction, fast });
         assert!(session.is_moving());
         for _ in 0..60 {
             session.advance(STEP_SECS);
@@ -367,7 +365,7 @@ fn flight_ends_far_outside_and_a_flown_camera_stays_put_in_another_window() {
     let off = session.camera().eye().distance(bounds.center()) / bounds.radius();
     assert!((99.0..101.0).contains(&off), "{off}");
     // Who panned farther out is not pulled back.
-    session.apply(Command::Pan {
+    session.apply(CameraCommand::Pan {
         drag: Vec2::splat(50.0),
     });
     let outside = session.camera().eye();
@@ -376,7 +374,7 @@ fn flight_ends_far_outside_and_a_flown_camera_stays_put_in_another_window() {
     session.apply(fly(Vec3::NAN));
     assert!(!session.is_moving());
     let here = *session.camera();
-    session.apply(Command::SetViewport {
+    session.apply(CameraCommand::SetViewport {
         aspect: 0.3,
         insets: Insets::default(),
     });
@@ -387,7 +385,7 @@ fn flight_ends_far_outside_and_a_flown_camera_stays_put_in_another_window() {
 fn looking_around_turns_on_the_spot() {
     let mut session = opened(still("a.m3d"));
     let from = *session.camera();
-    session.apply(Command::FlyLook {
+    session.apply(CameraCommand::FlyLook {
         yaw_radians: 0.4,
         pitch_radians: 0.1,
     });
@@ -401,7 +399,7 @@ fn looking_around_turns_on_the_spot() {
 fn no_plane_cuts_what_is_ahead_while_one_flies_through_the_model() {
     let mut session = opened(still("a.m3d"));
     let radius = session.world_bounds().radius();
-    session.apply(Command::LookFrom(ViewPreset::Isometric));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Isometric));
     session.apply(fly(Vec3::Z));
     let mut was_inside = false;
     for _ in 0..600 {
@@ -431,7 +429,7 @@ fn no_plane_cuts_what_is_ahead_while_one_flies_through_the_model() {
 #[test]
 fn time_that_is_none_moves_no_camera() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::SetTurntable(true));
+    session.apply(CameraCommand::SetTurntable(true));
     let here = *session.camera();
     for dt_secs in [f32::NAN, f32::INFINITY, -1.0, 0.0] {
         session.advance(dt_secs);

@@ -3,7 +3,9 @@
 use bindpose::anim::LoopMode;
 use bindpose::model::Handedness;
 use bindpose::scene::{Pass, ViewPreset};
-use bindpose::session::{Command, Event, File, PassChoice, Session};
+use bindpose::session::{
+    CameraCommand, Command, Event, File, FileCommand, PassChoice, PlayCommand, QualityCommand, Session,
+};
 use glam::Vec2;
 
 use super::models::{self, broken, jointed, moving, still};
@@ -20,7 +22,7 @@ fn open_path(session: &Session) -> Option<&str> {
 #[test]
 fn a_new_model_plays_its_first_clip_around_and_around() {
     let mut session = Session::new(false);
-    let changes = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    let changes = session.apply(FileCommand::Add(vec![moving("a.m3d")]));
     assert!(changes.model);
     assert_eq!(session.take_events(), [Event::Load, Event::Play, Event::TimeUpdate]);
     let playback = session.playback();
@@ -35,12 +37,12 @@ fn a_new_model_plays_its_first_clip_around_and_around() {
 #[test]
 fn under_reduced_motion_it_waits_on_the_first_frame() {
     let mut session = Session::new(true);
-    session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+    session.apply(FileCommand::Add(vec![moving("a.m3d")]));
     assert_eq!(session.take_events(), [Event::Load, Event::TimeUpdate]);
     session.advance(0.5);
     assert!(!session.is_animating());
     assert_eq!(session.playback().time_secs(), 0.0);
-    session.apply(Command::Play);
+    session.apply(PlayCommand::Play);
     session.advance(0.5);
     assert_eq!(session.playback().time_secs(), 0.5);
 }
@@ -49,25 +51,25 @@ fn under_reduced_motion_it_waits_on_the_first_frame() {
 fn the_same_file_again_keeps_camera_clip_time_and_playing() {
     for playing in [false, true] {
         let mut session = opened(moving("drop/a.m3d"));
-        session.apply(Command::SelectClip(1));
-        session.apply(Command::Seek { time_secs: 1.25 });
-        session.apply(Command::SetSpeed(0.5));
-        session.apply(Command::SetLoopMode(LoopMode::PingPong));
+        session.apply(PlayCommand::SelectClip(1));
+        session.apply(PlayCommand::Seek { time_secs: 1.25 });
+        session.apply(PlayCommand::SetSpeed(0.5));
+        session.apply(PlayCommand::SetLoopMode(LoopMode::PingPong));
         session.apply(Command::SetHandedness(Some(Handedness::Right)));
-        session.apply(Command::Orbit {
+        session.apply(CameraCommand::Orbit {
             yaw_radians: 1.0,
             pitch_radians: 0.2,
         });
-        session.apply(Command::Pan {
+        session.apply(CameraCommand::Pan {
             drag: Vec2::new(0.1, 0.2),
         });
-        session.apply(if playing { Command::Play } else { Command::Pause });
+        session.apply(if playing { PlayCommand::Play } else { PlayCommand::Pause });
         session.take_events();
         let (camera, playback) = (*session.camera(), session.playback().clone());
         let revision = session.model_revision();
 
         // Found by its name: the folder may be another one.
-        let changes = session.apply(Command::AddFiles(vec![moving("a.m3d")]));
+        let changes = session.apply(FileCommand::Add(vec![moving("a.m3d")]));
         assert!(changes.model && session.model_revision() > revision);
         assert_eq!(session.camera(), &camera);
         assert_eq!(session.playback(), &playback);
@@ -80,20 +82,17 @@ fn the_same_file_again_keeps_camera_clip_time_and_playing() {
 #[test]
 fn the_same_file_with_its_clips_in_another_order_keeps_the_clip_by_name() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::SelectClip(1));
+    session.apply(PlayCommand::SelectClip(1));
     let turned: Vec<_> = models::CLIPS.iter().rev().copied().collect();
-    session.apply(Command::AddFiles(vec![models::file(
-        "a.m3d",
-        &models::skinned(&turned),
-    )]));
+    session.apply(FileCommand::Add(vec![models::file("a.m3d", &models::skinned(&turned))]));
     assert_eq!(session.clip().map(|clip| clip.name.as_str()), Some("Turn"));
 }
 
 #[test]
 fn the_same_file_with_a_shorter_clip_keeps_the_time_inside_it() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Seek { time_secs: 0.9 });
-    session.apply(Command::AddFiles(vec![models::file(
+    session.apply(PlayCommand::Seek { time_secs: 0.9 });
+    session.apply(FileCommand::Add(vec![models::file(
         "a.m3d",
         &models::skinned(&[("Bend", 0.0, 16)]),
     )]));
@@ -103,7 +102,7 @@ fn the_same_file_with_a_shorter_clip_keeps_the_time_inside_it() {
 #[test]
 fn the_same_file_without_its_clips_stops() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::AddFiles(vec![jointed("a.m3d")]));
+    session.apply(FileCommand::Add(vec![jointed("a.m3d")]));
     assert_eq!((session.clip_index(), session.playback().is_playing()), (None, false));
     assert_eq!(session.playback().time_secs(), 0.0);
     assert_eq!(session.take_events(), [Event::Load, Event::Pause, Event::TimeUpdate]);
@@ -113,14 +112,14 @@ fn the_same_file_without_its_clips_stops() {
 fn another_file_starts_anew() {
     let mut session = opened(moving("a.m3d"));
     let framed = *session.camera();
-    session.apply(Command::SelectClip(1));
-    session.apply(Command::SetSpeed(4.0));
-    session.apply(Command::SetLoopMode(LoopMode::Once));
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(PlayCommand::SetSpeed(4.0));
+    session.apply(PlayCommand::SetLoopMode(LoopMode::Once));
     session.apply(Command::SetHandedness(Some(Handedness::Right)));
-    session.apply(Command::LookFrom(ViewPreset::Top));
-    session.apply(Command::Pause);
+    session.apply(CameraCommand::LookFrom(ViewPreset::Top));
+    session.apply(PlayCommand::Pause);
     session.take_events();
-    session.apply(Command::AddFiles(vec![moving("b.m3d")]));
+    session.apply(FileCommand::Add(vec![moving("b.m3d")]));
     assert_eq!(session.camera(), &framed);
     assert_eq!((session.clip_index(), session.handedness_override()), (Some(0), None));
     let playback = session.playback();
@@ -134,10 +133,10 @@ fn another_file_starts_anew() {
 #[test]
 fn a_failed_load_keeps_the_model_and_says_why() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(PlayCommand::Seek { time_secs: 0.5 });
     session.take_events();
     let (revision, picture) = (session.model_revision(), session.picture_revision());
-    let changes = session.apply(Command::AddFiles(vec![broken("in/b.m3d")]));
+    let changes = session.apply(FileCommand::Add(vec![broken("in/b.m3d")]));
     assert!(!changes.model);
     assert_eq!(session.take_events(), [Event::Error]);
     assert_eq!(
@@ -158,17 +157,17 @@ fn a_failed_load_keeps_the_model_and_says_why() {
 
     session.advance(3.0);
     assert!(session.error().is_some(), "it waits until somebody has read it");
-    session.apply(Command::DismissError);
+    session.apply(FileCommand::DismissError);
     assert_eq!(session.error(), None);
 }
 
 #[test]
 fn the_next_success_takes_the_error_away_and_the_next_failure_replaces_it() {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![broken("a.m3d")]));
-    session.apply(Command::AddFiles(vec![File::new("b.m3d", *b"")]));
+    session.apply(FileCommand::Add(vec![broken("a.m3d")]));
+    session.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
     assert_eq!(session.error().map(|error| error.diagnostic.code), Some("empty-file"));
-    session.apply(Command::AddFiles(vec![still("c.m3d")]));
+    session.apply(FileCommand::Add(vec![still("c.m3d")]));
     assert_eq!(session.error(), None);
 }
 
@@ -181,7 +180,7 @@ fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
         picture("x/skin.dds"),
         jointed("x/middle.m3d"),
     ];
-    session.apply(Command::AddFiles(files));
+    session.apply(FileCommand::Add(files));
     assert_eq!(open_path(&session), Some("x/large.m3d"));
     let listed = |session: &Session| {
         session
@@ -193,12 +192,12 @@ fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
     };
     assert_eq!(listed(&session), ["x/large.m3d", "x/middle.m3d", "x/small.m3d"]);
 
-    assert!(session.apply(Command::OpenFile("x/small.m3d".to_owned())).model);
+    assert!(session.apply(FileCommand::Open("x/small.m3d".to_owned())).model);
     assert_eq!(open_path(&session), Some("x/small.m3d"));
     assert_eq!(listed(&session).len(), 3);
 
     let revision = session.model_revision();
-    assert!(!session.apply(Command::OpenFile("x/none.m3d".to_owned())).model);
+    assert!(!session.apply(FileCommand::Open("x/none.m3d".to_owned())).model);
     assert_eq!((session.model_revision(), session.error()), (revision, None));
 }
 
@@ -206,46 +205,46 @@ fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
 fn the_same_drop_again_opens_the_model_that_was_chosen_of_it() {
     let drop = || vec![still("x/small.m3d"), moving("x/large.m3d")];
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(drop()));
-    session.apply(Command::OpenFile("x/small.m3d".to_owned()));
+    session.apply(FileCommand::Add(drop()));
+    session.apply(FileCommand::Open("x/small.m3d".to_owned()));
     let mut with_a_map = drop();
     with_a_map.push(picture("skin.png"));
-    session.apply(Command::AddFiles(with_a_map));
+    session.apply(FileCommand::Add(with_a_map));
     assert_eq!(open_path(&session), Some("x/small.m3d"));
 
     let mut others = drop();
     others.push(still("x/third.m3d"));
-    session.apply(Command::AddFiles(others));
+    session.apply(FileCommand::Add(others));
     assert_eq!(open_path(&session), Some("x/large.m3d"), "another drop");
-    session.apply(Command::OpenFile("x/small.m3d".to_owned()));
-    session.apply(Command::AddFiles(vec![still("y/small.m3d"), moving("y/large.m3d")]));
+    session.apply(FileCommand::Open("x/small.m3d".to_owned()));
+    session.apply(FileCommand::Add(vec![still("y/small.m3d"), moving("y/large.m3d")]));
     assert_eq!(open_path(&session), Some("y/large.m3d"), "of another folder");
 }
 
 #[test]
 fn what_was_too_slow_for_one_model_is_tried_again_with_the_next() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::SetPass(Pass::Shadow, PassChoice::Off));
+    session.apply(QualityCommand::SetPass(Pass::Shadow, PassChoice::Off));
     let wanted = session.quality().passes();
     for _ in 0..20 {
         session.note_frame(1.0);
     }
     let degraded = session.quality().passes();
     assert_ne!(degraded, wanted);
-    session.apply(Command::AddFiles(vec![still("a.m3d")]));
+    session.apply(FileCommand::Add(vec![still("a.m3d")]));
     assert_eq!(session.quality().passes(), degraded, "the same again is as slow");
-    session.apply(Command::AddFiles(vec![still("b.m3d")]));
+    session.apply(FileCommand::Add(vec![still("b.m3d")]));
     assert_eq!(session.quality().passes(), wanted, "what was chosen stays chosen");
 }
 
 #[test]
 fn the_list_of_a_drop_outlives_a_drop_that_failed() {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![still("small.m3d"), moving("large.m3d")]));
-    session.apply(Command::AddFiles(vec![broken("bad.m3d")]));
+    session.apply(FileCommand::Add(vec![still("small.m3d"), moving("large.m3d")]));
+    session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
     assert_eq!(session.files().models().len(), 2);
-    session.apply(Command::AddFiles(vec![picture("a.png")]));
-    assert!(session.apply(Command::OpenFile("small.m3d".to_owned())).model);
+    session.apply(FileCommand::Add(vec![picture("a.png")]));
+    assert!(session.apply(FileCommand::Open("small.m3d".to_owned())).model);
 }
 
 #[test]
@@ -259,7 +258,7 @@ fn a_drop_of_pictures_has_no_model_to_join() {
         ),
     ] {
         let mut session = Session::new(false);
-        assert!(!session.apply(Command::AddFiles(files)).model);
+        assert!(!session.apply(FileCommand::Add(files)).model);
         let error = session.error().expect("nothing to open");
         assert_eq!((error.diagnostic.code, error.file_name.as_str()), ("no-model", ""));
         assert!(
@@ -274,7 +273,7 @@ fn a_drop_of_pictures_has_no_model_to_join() {
 #[test]
 fn a_drop_of_nothing_changes_nothing_but_says_so() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::AddFiles(Vec::new()));
+    session.apply(FileCommand::Add(Vec::new()));
     let error = session.error().expect("nothing came");
     assert_eq!(error.diagnostic.code, "no-model");
     assert!(

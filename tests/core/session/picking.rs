@@ -4,7 +4,7 @@ use bindpose::anim;
 use bindpose::image::encode_png;
 use bindpose::model::Mesh;
 use bindpose::scene::{Hit, ViewPreset};
-use bindpose::session::{Command, File, Session, SubsetCommand};
+use bindpose::session::{CameraCommand, File, FileCommand, MaterialCommand, PlayCommand, Session, SubsetCommand};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::models::{self, document, moving};
@@ -126,20 +126,20 @@ fn the_first_triangle_of_the_pose_on_show_is_met_from_every_side() {
     for toggled in [false, true] {
         let mut session = opened(moving("a.m3d"));
         let aspect = 1.6;
-        session.apply(Command::SetViewport {
+        session.apply(CameraCommand::SetViewport {
             aspect,
             insets: bindpose::scene::Insets::default(),
         });
         if toggled {
-            session.apply(Command::ToggleProjection);
+            session.apply(CameraCommand::ToggleProjection);
         }
         for (time_secs, preset) in
             [0.0, 0.26, 0.7]
                 .into_iter()
                 .zip([ViewPreset::ThreeQuarter, ViewPreset::Back, ViewPreset::Isometric])
         {
-            session.apply(Command::Seek { time_secs });
-            session.apply(Command::LookFrom(preset));
+            session.apply(PlayCommand::Seek { time_secs });
+            session.apply(CameraCommand::LookFrom(preset));
             let met = check_picks(&mut session, aspect, 24, 1e-4);
             assert!(met > 20, "{preset:?}: {met}");
         }
@@ -149,7 +149,7 @@ fn the_first_triangle_of_the_pose_on_show_is_met_from_every_side() {
 #[test]
 fn a_corner_that_is_seen_is_met_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Seek { time_secs: 0.26 });
+    session.apply(PlayCommand::Seek { time_secs: 0.26 });
     let world = posed(&mut session);
     let frame = session.frame();
     let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
@@ -172,7 +172,7 @@ fn a_corner_that_is_seen_is_met_where_it_is_drawn() {
 #[test]
 fn no_ray_slips_through_the_edges_between_triangles() {
     let mut session = opened(models::still("a.m3d"));
-    session.apply(Command::LookFrom(ViewPreset::Front));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     // Along the edge that divides the front, in steps of no round number.
     let [from, to] = [Vec3::new(-0.5, 0.0, -1.0), Vec3::new(1.5, 4.0, -1.0)].map(|corner| {
         let frame = session.frame();
@@ -189,12 +189,12 @@ fn no_ray_slips_through_the_edges_between_triangles() {
 #[test]
 fn what_is_hidden_is_looked_through() {
     let mut session = opened(models::file("a.m3d", &parted(document())));
-    session.apply(Command::LookFrom(ViewPreset::Front));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     let front = session.pick(Vec2::ZERO).expect("the front");
     assert_eq!(front.submesh, 2);
     assert!((front.position.z + 1.0).abs() < 1e-4);
     let visible = false;
-    session.apply(Command::Subset(SubsetCommand::SetVisible { subset: 2, visible }));
+    session.apply(SubsetCommand::SetVisible { subset: 2, visible });
     assert_eq!(session.pick(Vec2::ZERO), None, "front and back are one subset");
 }
 
@@ -209,8 +209,8 @@ fn what_alpha_cuts_is_looked_through_only_where_the_material_cuts() {
         document.materials[0].alpha_clip = alpha_clip;
         document.materials[0].diffuse_map = Some("leaf.dds".to_owned());
         let mut session = Session::new(false);
-        session.apply(Command::AddFiles(vec![models::file("a.m3d", &document), map.clone()]));
-        session.apply(Command::LookFrom(ViewPreset::Front));
+        session.apply(FileCommand::Add(vec![models::file("a.m3d", &document), map.clone()]));
+        session.apply(CameraCommand::LookFrom(ViewPreset::Front));
         // On the front, z = −1, u runs along x and v along y: v > 0.5 is the upper part, and the lower rows of the map.
         let world = |session: &mut Session, y: f32| {
             let point = Vec3::new(0.5, y, -1.0);
@@ -228,7 +228,7 @@ fn what_alpha_cuts_is_looked_through_only_where_the_material_cuts() {
             alpha_clip: true,
             ..session.materials()[0].clone()
         };
-        session.apply(Command::EditMaterial { index: 0, material });
+        session.apply(MaterialCommand::Edit { index: 0, material });
         assert_ne!(world(&mut session, 1.0), Some(true), "edited to be cut");
     }
 }
@@ -248,7 +248,7 @@ fn the_running_soldier_is_met_where_it_is_drawn() {
         return;
     };
     let mut session = opened(File::new("soldier.m3d", bytes));
-    session.apply(Command::Seek { time_secs: 0.517 });
+    session.apply(PlayCommand::Seek { time_secs: 0.517 });
     let met = check_picks(&mut session, 1.0, 9, 2e-3);
     assert!(met > 10, "{met}");
 }

@@ -1,7 +1,7 @@
 //! Time: playing, seeking, stepping, scrubbing, clips, speeds, loop modes, and what listeners hear of it.
 
 use bindpose::anim::{LoopMode, WrapMode};
-use bindpose::session::{Command, Event, SPEEDS, Session};
+use bindpose::session::{CameraCommand, Command, Event, FileCommand, PlayCommand, SPEEDS, Session};
 
 use super::models::{self, KEYS_PER_SEC, jointed, moving, still};
 use super::opened;
@@ -9,7 +9,7 @@ use super::opened;
 /// Paused at the start of `Bend`, a second long.
 fn paused() -> Session {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::Pause);
+    session.apply(PlayCommand::Pause);
     session.take_events();
     session
 }
@@ -26,14 +26,14 @@ fn assert_near(actual: f32, expected: f32) {
 #[test]
 fn playing_and_pausing_say_so_once() {
     let mut session = paused();
-    session.apply(Command::Pause);
+    session.apply(PlayCommand::Pause);
     assert_eq!(session.take_events(), []);
-    session.apply(Command::Play);
-    session.apply(Command::Play);
+    session.apply(PlayCommand::Play);
+    session.apply(PlayCommand::Play);
     session.advance(0.1);
     session.advance(0.1);
     assert_eq!(session.take_events(), [Event::Play, Event::TimeUpdate]);
-    session.apply(Command::TogglePlay);
+    session.apply(PlayCommand::Toggle);
     assert_eq!(session.take_events(), [Event::Pause]);
     session.advance(0.1);
     assert_near(time_secs(&session), 0.2);
@@ -45,12 +45,12 @@ fn playing_and_pausing_say_so_once() {
 fn toggling_backward_turns_a_forward_clip_and_pauses_a_backward_one() {
     let mut session = opened(moving("a.m3d"));
     session.advance(0.5);
-    session.apply(Command::TogglePlayBackward);
+    session.apply(PlayCommand::ToggleBackward);
     session.advance(0.2);
     assert_near(time_secs(&session), 0.3);
-    session.apply(Command::TogglePlayBackward);
+    session.apply(PlayCommand::ToggleBackward);
     assert!(!session.is_animating());
-    session.apply(Command::TogglePlay);
+    session.apply(PlayCommand::Toggle);
     session.advance(0.1);
     assert_near(time_secs(&session), 0.4);
 }
@@ -58,7 +58,7 @@ fn toggling_backward_turns_a_forward_clip_and_pauses_a_backward_one() {
 #[test]
 fn seeking_stays_inside_the_clip() {
     let mut session = paused();
-    session.apply(Command::SelectClip(1));
+    session.apply(PlayCommand::SelectClip(1));
     for (wish, time) in [
         (1.0, 1.0),
         (-3.0, 0.5),
@@ -66,14 +66,14 @@ fn seeking_stays_inside_the_clip() {
         (f32::INFINITY, 2.5),
         (f32::NEG_INFINITY, 0.5),
     ] {
-        session.apply(Command::Seek { time_secs: wish });
+        session.apply(PlayCommand::Seek { time_secs: wish });
         assert_near(time_secs(&session), time);
     }
-    session.apply(Command::SeekStart);
+    session.apply(PlayCommand::SeekStart);
     assert_near(time_secs(&session), 0.5);
-    session.apply(Command::SeekEnd);
+    session.apply(PlayCommand::SeekEnd);
     assert_near(time_secs(&session), 2.5);
-    session.apply(Command::Seek { time_secs: f32::NAN });
+    session.apply(PlayCommand::Seek { time_secs: f32::NAN });
     assert_near(time_secs(&session), 2.5);
 }
 
@@ -82,13 +82,13 @@ fn steps_pause_and_reach_whole_frames_and_stop_at_the_ends() {
     let mut session = opened(moving("a.m3d"));
     session.advance(0.51);
     session.take_events();
-    session.apply(Command::StepFrames(1));
+    session.apply(PlayCommand::StepFrames(1));
     assert_eq!(session.take_events(), [Event::Pause, Event::TimeUpdate]);
     assert_near(time_secs(&session), 16.0 / KEYS_PER_SEC);
-    session.apply(Command::StepFrames(-10));
+    session.apply(PlayCommand::StepFrames(-10));
     assert_near(time_secs(&session), 6.0 / KEYS_PER_SEC);
     for (frames, end) in [(i32::MIN, 0.0), (-1, 0.0), (i32::MAX, 1.0), (1, 1.0)] {
-        session.apply(Command::StepFrames(frames));
+        session.apply(PlayCommand::StepFrames(frames));
         assert_near(time_secs(&session), end);
     }
 }
@@ -100,8 +100,8 @@ fn the_books_lights_turn_while_a_clip_plays() {
     let mut session = paused();
     session.advance(0.2);
     assert_eq!(turn(&session), 0.0, "paused");
-    session.apply(Command::Play);
-    session.apply(Command::SetSpeed(2.0));
+    session.apply(PlayCommand::Play);
+    session.apply(PlayCommand::SetSpeed(2.0));
     for seconds in 1..=3 {
         for _ in 0..10 {
             session.advance(0.1);
@@ -123,19 +123,19 @@ fn the_books_lights_turn_while_a_clip_plays() {
 #[test]
 fn scrubbing_holds_the_time_and_playing_goes_on_from_there() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::BeginScrub);
-    session.apply(Command::Seek { time_secs: 0.5 });
+    session.apply(PlayCommand::BeginScrub);
+    session.apply(PlayCommand::Seek { time_secs: 0.5 });
     session.advance(0.3);
     assert_near(time_secs(&session), 0.5);
     assert!(session.playback().is_playing() && !session.is_animating() && session.is_scrubbing());
-    session.apply(Command::EndScrub);
+    session.apply(PlayCommand::EndScrub);
     session.advance(0.3);
     assert_near(time_secs(&session), 0.8);
 
-    session.apply(Command::Pause);
-    session.apply(Command::BeginScrub);
-    session.apply(Command::Seek { time_secs: 0.1 });
-    session.apply(Command::EndScrub);
+    session.apply(PlayCommand::Pause);
+    session.apply(PlayCommand::BeginScrub);
+    session.apply(PlayCommand::Seek { time_secs: 0.1 });
+    session.apply(PlayCommand::EndScrub);
     session.advance(0.3);
     assert_near(time_secs(&session), 0.1);
 }
@@ -143,8 +143,8 @@ fn scrubbing_holds_the_time_and_playing_goes_on_from_there() {
 #[test]
 fn a_model_that_comes_while_the_time_is_held_plays() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::BeginScrub);
-    session.apply(Command::AddFiles(vec![moving("b.m3d")]));
+    session.apply(PlayCommand::BeginScrub);
+    session.apply(FileCommand::Add(vec![moving("b.m3d")]));
     assert!(session.is_animating());
 }
 
@@ -153,23 +153,26 @@ fn listeners_hear_of_another_clip_range_speed_or_way_to_end_and_of_nothing_that_
     let mut session = opened(moving("a.m3d"));
     let other_clip = vec![Event::TimeUpdate, Event::PlaybackChange];
     for (command, heard) in [
-        (Command::SetSpeed(2.0), vec![Event::PlaybackChange]),
-        (Command::SetSpeed(2.0), vec![]),
-        (Command::Slower, vec![Event::PlaybackChange]),
-        (Command::CycleLoopMode, vec![Event::PlaybackChange]),
-        (Command::SetLoopMode(LoopMode::PingPong), vec![]),
-        (Command::SetWrapMode(WrapMode::BookDemo), vec![Event::PlaybackChange]),
-        (Command::SetRangeEnd(Some(0.5)), vec![Event::PlaybackChange]),
-        (Command::SetRangeEnd(Some(0.5)), vec![]),
-        (Command::ClearRange, vec![Event::PlaybackChange]),
-        (Command::SelectClip(1), other_clip),
-        (Command::SelectClip(1), vec![]),
-        (Command::ResetCamera, vec![]),
+        (Command::from(PlayCommand::SetSpeed(2.0)), vec![Event::PlaybackChange]),
+        (PlayCommand::SetSpeed(2.0).into(), vec![]),
+        (PlayCommand::Slower.into(), vec![Event::PlaybackChange]),
+        (PlayCommand::CycleLoopMode.into(), vec![Event::PlaybackChange]),
+        (PlayCommand::SetLoopMode(LoopMode::PingPong).into(), vec![]),
+        (
+            PlayCommand::SetWrapMode(WrapMode::BookDemo).into(),
+            vec![Event::PlaybackChange],
+        ),
+        (PlayCommand::SetRangeEnd(Some(0.5)).into(), vec![Event::PlaybackChange]),
+        (PlayCommand::SetRangeEnd(Some(0.5)).into(), vec![]),
+        (PlayCommand::ClearRange.into(), vec![Event::PlaybackChange]),
+        (PlayCommand::SelectClip(1).into(), other_clip),
+        (PlayCommand::SelectClip(1).into(), vec![]),
+        (CameraCommand::Reset.into(), vec![]),
     ] {
         session.apply(command.clone());
         assert_eq!(session.take_events(), heard, "{command:?}");
     }
-    session.apply(Command::AddFiles(vec![moving("b.m3d")]));
+    session.apply(FileCommand::Add(vec![moving("b.m3d")]));
     assert!(
         !session.take_events().contains(&Event::PlaybackChange),
         "that is a load"
@@ -185,7 +188,7 @@ fn each_loop_mode_ends_in_its_way() {
         (LoopMode::PingPong, 2.25, 0.25, true),
     ] {
         let mut session = opened(moving("a.m3d"));
-        session.apply(Command::SetLoopMode(mode));
+        session.apply(PlayCommand::SetLoopMode(mode));
         session.take_events();
         session.advance(after_secs);
         assert_near(time_secs(&session), time);
@@ -202,15 +205,15 @@ fn each_loop_mode_ends_in_its_way() {
 #[test]
 fn a_pause_on_the_way_back_goes_on_back() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::SetLoopMode(LoopMode::PingPong));
+    session.apply(PlayCommand::SetLoopMode(LoopMode::PingPong));
     session.advance(1.25);
-    for command in [Command::TogglePlay, Command::TogglePlay] {
+    for command in [PlayCommand::Toggle, PlayCommand::Toggle] {
         session.apply(command);
     }
     session.advance(0.25);
     assert_near(time_secs(&session), 0.5);
     // Backward it turns around.
-    session.apply(Command::TogglePlayBackward);
+    session.apply(PlayCommand::ToggleBackward);
     session.advance(0.25);
     assert_near(time_secs(&session), 0.25);
     assert!(session.playback().is_backward());
@@ -219,11 +222,11 @@ fn a_pause_on_the_way_back_goes_on_back() {
 #[test]
 fn what_stopped_at_its_end_starts_over() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::SetLoopMode(LoopMode::Once));
+    session.apply(PlayCommand::SetLoopMode(LoopMode::Once));
     session.advance(9.0);
     session.take_events();
     let picture = session.picture_revision();
-    session.apply(Command::Play);
+    session.apply(PlayCommand::Play);
     assert_eq!(time_secs(&session), 0.0);
     assert!(session.picture_revision() > picture);
     assert_eq!(session.take_events(), [Event::Play, Event::TimeUpdate]);
@@ -233,7 +236,7 @@ fn what_stopped_at_its_end_starts_over() {
 fn loop_modes_come_in_turn() {
     let mut session = paused();
     for mode in [LoopMode::PingPong, LoopMode::Once, LoopMode::Loop] {
-        session.apply(Command::CycleLoopMode);
+        session.apply(PlayCommand::CycleLoopMode);
         assert_eq!(session.playback().loop_mode(), mode);
     }
 }
@@ -243,24 +246,24 @@ fn speeds_go_up_and_down_by_steps_and_end_at_the_ends() {
     let mut session = paused();
     let speed = |session: &Session| session.playback().speed();
     for expected in [1.25, 1.5, 2.0, 4.0, 4.0] {
-        session.apply(Command::Faster);
+        session.apply(PlayCommand::Faster);
         assert_eq!(speed(&session), expected);
     }
     for expected in SPEEDS.iter().rev().skip(1).chain([&SPEEDS[0]]) {
-        session.apply(Command::Slower);
+        session.apply(PlayCommand::Slower);
         assert_eq!(speed(&session), *expected);
     }
-    session.apply(Command::SetSpeed(0.6));
-    session.apply(Command::Faster);
+    session.apply(PlayCommand::SetSpeed(0.6));
+    session.apply(PlayCommand::Faster);
     assert_eq!(speed(&session), 0.75);
-    session.apply(Command::SetSpeed(0.6));
-    session.apply(Command::Slower);
+    session.apply(PlayCommand::SetSpeed(0.6));
+    session.apply(PlayCommand::Slower);
     assert_eq!(speed(&session), 0.5);
     for odd in [f32::NAN, f32::INFINITY, 0.0, -1.0] {
-        session.apply(Command::SetSpeed(odd));
+        session.apply(PlayCommand::SetSpeed(odd));
         assert_eq!(speed(&session), 0.5, "{odd}");
     }
-    session.apply(Command::Play);
+    session.apply(PlayCommand::Play);
     session.advance(0.5);
     assert_near(time_secs(&session), 0.25);
 }
@@ -277,22 +280,22 @@ fn clips_come_in_turn_around_both_ends_and_begin_at_their_start() {
         (-2, 0, 0.0),
         (7, 1, 0.5),
     ] {
-        session.apply(Command::CycleClip(places));
+        session.apply(PlayCommand::CycleClip(places));
         assert_eq!(session.clip_index(), Some(clip));
         assert_near(time_secs(&session), start_secs);
         assert!(session.playback().is_playing());
     }
-    session.apply(Command::CycleClip(i32::MIN));
-    session.apply(Command::SelectClip(99));
+    session.apply(PlayCommand::CycleClip(i32::MIN));
+    session.apply(PlayCommand::SelectClip(99));
     assert!(session.clip_index().is_some_and(|clip| clip < models::CLIPS.len()));
 }
 
 #[test]
 fn the_clip_on_show_is_not_begun_again() {
     let mut session = paused();
-    session.apply(Command::Seek { time_secs: 0.4 });
+    session.apply(PlayCommand::Seek { time_secs: 0.4 });
     session.take_events();
-    session.apply(Command::SelectClip(0));
+    session.apply(PlayCommand::SelectClip(0));
     assert_near(time_secs(&session), 0.4);
     assert_eq!(session.take_events(), []);
 }
@@ -303,14 +306,14 @@ fn without_clips_there_is_no_time() {
         let mut session = opened(file);
         let picture = session.picture_revision();
         for command in [
-            Command::Play,
-            Command::TogglePlay,
-            Command::TogglePlayBackward,
-            Command::Seek { time_secs: 1.0 },
-            Command::StepFrames(1),
-            Command::SeekEnd,
-            Command::CycleClip(1),
-            Command::SelectClip(0),
+            PlayCommand::Play,
+            PlayCommand::Toggle,
+            PlayCommand::ToggleBackward,
+            PlayCommand::Seek { time_secs: 1.0 },
+            PlayCommand::StepFrames(1),
+            PlayCommand::SeekEnd,
+            PlayCommand::CycleClip(1),
+            PlayCommand::SelectClip(0),
         ] {
             session.apply(command);
             session.advance(0.1);
@@ -333,15 +336,15 @@ fn bones_that_never_move_leave_the_bind_pose() {
 #[test]
 fn a_clip_of_one_key_stands_still() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::SelectClip(2));
+    session.apply(PlayCommand::SelectClip(2));
     assert!(!session.is_animating(), "nothing would move");
     session.advance(5.0);
     assert_near(time_secs(&session), 0.25);
-    session.apply(Command::SetLoopMode(LoopMode::Once));
+    session.apply(PlayCommand::SetLoopMode(LoopMode::Once));
     session.take_events();
     session.advance(0.1);
     assert_eq!(session.take_events(), [Event::Pause]);
-    session.apply(Command::SeekEnd);
+    session.apply(PlayCommand::SeekEnd);
     assert_near(time_secs(&session), 0.25);
     assert_eq!(session.clip().map(bindpose::model::Clip::last_frame), Some(0));
 }
@@ -360,7 +363,7 @@ fn time_stands_still_for_odd_steps() {
 fn the_palette_follows_the_time() {
     let mut session = paused();
     let mut upper_at = |time_secs: f32| {
-        session.apply(Command::Seek { time_secs });
+        session.apply(PlayCommand::Seek { time_secs });
         session.frame().palette.0[1]
     };
     let (start, later) = (upper_at(0.0), upper_at(0.2));

@@ -5,7 +5,10 @@ use std::collections::BTreeSet;
 use bindpose::anim::{Direction, GhostPlan, LoopMode, MAX_SPEED, MIN_SPEED, SkinView, WrapMode};
 use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
 use bindpose::scene::{BoneStyle, Insets, Overlay, Theme, ViewPreset};
-use bindpose::session::{Command, Event, File, JointCommand, LookCommand, Session, SubsetCommand};
+use bindpose::session::{
+    CameraCommand, Command, Event, File, FileCommand, JointCommand, LookCommand, MaterialCommand, PlayCommand, Session,
+    SubsetCommand,
+};
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
@@ -42,22 +45,22 @@ fn files() -> impl Strategy<Value = Vec<File>> {
     prop::collection::vec(one, 0..3)
 }
 
-fn moving_camera() -> impl Strategy<Value = Command> {
+fn moving_camera() -> impl Strategy<Value = CameraCommand> {
     let pair = || (number(), number());
     prop_oneof![
-        Just(Command::BeginDrag),
-        Just(Command::EndDrag),
-        pair().prop_map(|(yaw_radians_per_sec, pitch_radians_per_sec)| Command::Fling {
+        Just(CameraCommand::BeginDrag),
+        Just(CameraCommand::EndDrag),
+        pair().prop_map(|(yaw_radians_per_sec, pitch_radians_per_sec)| CameraCommand::Fling {
             yaw_radians_per_sec,
             pitch_radians_per_sec
         }),
-        any::<bool>().prop_map(Command::SetTurntable),
-        Just(Command::ToggleTurntable),
-        (pair(), number(), any::<bool>()).prop_map(|((x, y), z, fast)| Command::Fly {
+        any::<bool>().prop_map(CameraCommand::SetTurntable),
+        Just(CameraCommand::ToggleTurntable),
+        (pair(), number(), any::<bool>()).prop_map(|((x, y), z, fast)| CameraCommand::Fly {
             direction: Vec3::new(x, y, z),
             fast
         }),
-        pair().prop_map(|(yaw_radians, pitch_radians)| Command::FlyLook {
+        pair().prop_map(|(yaw_radians, pitch_radians)| CameraCommand::FlyLook {
             yaw_radians,
             pitch_radians
         }),
@@ -109,7 +112,7 @@ fn joint_command() -> impl Strategy<Value = JointCommand> {
     ]
 }
 
-fn material_command() -> impl Strategy<Value = Command> {
+fn material_command() -> impl Strategy<Value = MaterialCommand> {
     let color = || (number(), number(), number()).prop_map(<[f32; 3]>::from);
     let reflectance = prop_oneof![
         3 => (color(), number()).prop_map(|(fresnel0, roughness)| Reflectance::Fresnel { fresnel0, roughness }),
@@ -129,70 +132,68 @@ fn material_command() -> impl Strategy<Value = Command> {
         normal_map: None,
     });
     prop_oneof![
-        2 => (0usize..4, material).prop_map(|(index, material)| Command::EditMaterial { index, material }),
-        1 => (0usize..4).prop_map(Command::ResetMaterial),
+        2 => (0usize..4, material).prop_map(|(index, material)| MaterialCommand::Edit { index, material }),
+        1 => (0usize..4).prop_map(MaterialCommand::Reset),
     ]
 }
 
-fn timeline() -> impl Strategy<Value = Command> {
+fn timeline() -> impl Strategy<Value = PlayCommand> {
     let direction = prop::sample::select(vec![Direction::Forward, Direction::Backward]);
     let joint = prop::option::of((0u32..4).prop_map(JointIndex));
     prop_oneof![
-        (-20.0f64..90.0).prop_map(Command::SeekFrame),
-        prop::sample::select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300]).prop_map(Command::SeekFrame),
-        (direction, joint).prop_map(|(direction, joint)| Command::StepKey { direction, joint }),
-        prop::option::of(number()).prop_map(Command::SetRangeStart),
-        prop::option::of(number()).prop_map(Command::SetRangeEnd),
-        Just(Command::ClearRange),
-        prop::sample::select(vec![WrapMode::Wrap, WrapMode::BookDemo]).prop_map(Command::SetWrapMode),
-        number().prop_map(Command::SetCrossfade),
-        (0usize..5, number()).prop_map(|(clip, weight)| Command::SetBlend { clip, weight }),
-        Just(Command::ClearBlend),
+        (-20.0f64..90.0).prop_map(PlayCommand::SeekFrame),
+        prop::sample::select(vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300]).prop_map(PlayCommand::SeekFrame),
+        (direction, joint).prop_map(|(direction, joint)| PlayCommand::StepKey { direction, joint }),
+        prop::option::of(number()).prop_map(PlayCommand::SetRangeStart),
+        prop::option::of(number()).prop_map(PlayCommand::SetRangeEnd),
+        Just(PlayCommand::ClearRange),
+        prop::sample::select(vec![WrapMode::Wrap, WrapMode::BookDemo]).prop_map(PlayCommand::SetWrapMode),
+        number().prop_map(PlayCommand::SetCrossfade),
+        (0usize..5, number()).prop_map(|(clip, weight)| PlayCommand::SetBlend { clip, weight }),
+        Just(PlayCommand::ClearBlend),
     ]
 }
 
-/// Any command, and any as a glide.
+/// Any command, and any of the camera as a glide too.
 pub(super) fn command() -> impl Strategy<Value = Command> {
-    (plain_command(), prop::bool::weighted(0.2)).prop_map(|(command, glides)| match glides {
-        true => Command::Glide(Box::new(command)),
-        false => command,
-    })
-}
-
-fn plain_command() -> impl Strategy<Value = Command> {
     let playing = prop_oneof![
-        Just(Command::Play),
-        Just(Command::Pause),
-        Just(Command::TogglePlay),
-        Just(Command::TogglePlayBackward),
-        number().prop_map(|time_secs| Command::Seek { time_secs }),
-        any::<i32>().prop_map(Command::StepFrames),
-        (-40..40).prop_map(Command::StepFrames),
-        Just(Command::SeekStart),
-        Just(Command::SeekEnd),
-        Just(Command::BeginScrub),
-        Just(Command::EndScrub),
-        (0usize..5).prop_map(Command::SelectClip),
-        any::<i32>().prop_map(Command::CycleClip),
-        number().prop_map(Command::SetSpeed),
-        Just(Command::Slower),
-        Just(Command::Faster),
-        prop::sample::select(vec![LoopMode::Once, LoopMode::Loop, LoopMode::PingPong]).prop_map(Command::SetLoopMode),
-        Just(Command::CycleLoopMode),
+        Just(PlayCommand::Play),
+        Just(PlayCommand::Pause),
+        Just(PlayCommand::Toggle),
+        Just(PlayCommand::ToggleBackward),
+        number().prop_map(|time_secs| PlayCommand::Seek { time_secs }),
+        any::<i32>().prop_map(PlayCommand::StepFrames),
+        (-40..40).prop_map(PlayCommand::StepFrames),
+        Just(PlayCommand::SeekStart),
+        Just(PlayCommand::SeekEnd),
+        Just(PlayCommand::BeginScrub),
+        Just(PlayCommand::EndScrub),
+        (0usize..5).prop_map(PlayCommand::SelectClip),
+        any::<i32>().prop_map(PlayCommand::CycleClip),
+        number().prop_map(PlayCommand::SetSpeed),
+        Just(PlayCommand::Slower),
+        Just(PlayCommand::Faster),
+        prop::sample::select(vec![LoopMode::Once, LoopMode::Loop, LoopMode::PingPong])
+            .prop_map(PlayCommand::SetLoopMode),
+        Just(PlayCommand::CycleLoopMode),
     ];
-    let looking = prop_oneof![
-        (number(), number()).prop_map(|(yaw_radians, pitch_radians)| Command::Orbit {
+    let pose = prop_oneof![
+        number().prop_map(PlayCommand::SetBindWeight),
+        Just(PlayCommand::ToggleBindPose),
+    ];
+    let sent_camera = prop_oneof![
+        (number(), number()).prop_map(|(yaw_radians, pitch_radians)| CameraCommand::Orbit {
             yaw_radians,
             pitch_radians
         }),
-        vector().prop_map(|drag| Command::Pan { drag }),
-        (number(), vector()).prop_map(|(factor, pointer)| Command::Zoom { factor, pointer }),
-        Just(Command::FrameModel),
-        Just(Command::FrameSelection),
-        prop::sample::select(ViewPreset::ALL.to_vec()).prop_map(Command::LookFrom),
-        Just(Command::ToggleProjection),
-        Just(Command::ResetCamera),
-        (number(), number(), number()).prop_map(|(aspect, left, bottom)| Command::SetViewport {
+        vector().prop_map(|drag| CameraCommand::Pan { drag }),
+        (number(), vector()).prop_map(|(factor, pointer)| CameraCommand::Zoom { factor, pointer }),
+        Just(CameraCommand::FrameModel),
+        Just(CameraCommand::FrameSelection),
+        prop::sample::select(ViewPreset::ALL.to_vec()).prop_map(CameraCommand::LookFrom),
+        Just(CameraCommand::ToggleProjection),
+        Just(CameraCommand::Reset),
+        (number(), number(), number()).prop_map(|(aspect, left, bottom)| CameraCommand::SetViewport {
             aspect,
             insets: Insets {
                 left,
@@ -200,32 +201,49 @@ fn plain_command() -> impl Strategy<Value = Command> {
                 ..Insets::default()
             },
         }),
+    ];
+    let camera = prop_oneof![5 => sent_camera, 4 => moving_camera()];
+    let camera = (camera, prop::bool::weighted(0.2)).prop_map(|(command, glides)| match glides {
+        true => CameraCommand::Glide(Box::new(command)),
+        false => command,
+    });
+    let look = prop_oneof![
+        any::<bool>().prop_map(|on| LookCommand::SetOverlay(Overlay::Grid, on)),
+        Just(LookCommand::ToggleOverlay(Overlay::Grid)),
+        any::<bool>().prop_map(LookCommand::SetBindGhost),
+        prop::option::of((0u32..40, 0u32..40, 0u32..3)).prop_map(|plan| {
+            LookCommand::SetGhosts(plan.map(|(before, after, step_frames)| GhostPlan {
+                before,
+                after,
+                step_frames,
+            }))
+        }),
+    ];
+    let files = prop_oneof![
+        Just(FileCommand::ClearSky),
+        files().prop_map(FileCommand::Add),
+        files().prop_map(FileCommand::AddClips),
+        prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| FileCommand::Open(path.to_owned())),
+        Just(FileCommand::DismissError),
+    ];
+    let alone = prop_oneof![
         prop::sample::select(vec![None, Some(Handedness::Left), Some(Handedness::Right)])
             .prop_map(Command::SetHandedness),
         prop::sample::select(vec![None, Some(UpAxis::Y), Some(UpAxis::Z)]).prop_map(Command::SetUpAxis),
-        any::<bool>().prop_map(|on| Command::Look(LookCommand::SetOverlay(Overlay::Grid, on))),
-        Just(Command::Look(LookCommand::ToggleOverlay(Overlay::Grid))),
         prop::sample::select(vec![Theme::Dark, Theme::Light]).prop_map(Command::SetTheme),
+        vector().prop_map(Command::SelectAt),
     ];
     prop_oneof![
-        6 => playing,
-        4 => timeline(),
-        6 => looking,
-        4 => moving_camera(),
+        6 => playing.prop_map(Command::Play),
+        4 => timeline().prop_map(Command::Play),
+        2 => pose.prop_map(Command::Play),
+        8 => camera.prop_map(Command::Camera),
+        3 => alone,
         4 => subset_command().prop_map(Command::Subset),
         5 => joint_command().prop_map(Command::Joint),
-        1 => number().prop_map(Command::SetBindWeight),
-        1 => Just(Command::ToggleBindPose),
-        1 => any::<bool>().prop_map(Command::SetBindGhost),
-        1 => prop::option::of((0u32..40, 0u32..40, 0u32..3)).prop_map(|plan| {
-            Command::SetGhosts(plan.map(|(before, after, step_frames)| GhostPlan { before, after, step_frames }))
-        }),
-        2 => material_command(),
-        1 => Just(Command::ClearSky),
-        1 => files().prop_map(Command::AddFiles),
-        1 => files().prop_map(Command::AddClips),
-        1 => prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| Command::OpenFile(path.to_owned())),
-        1 => Just(Command::DismissError),
+        3 => look.prop_map(Command::Look),
+        2 => material_command().prop_map(Command::Material),
+        5 => files.prop_map(Command::File),
     ]
 }
 
@@ -355,7 +373,7 @@ proptest! {
         steps in prop::collection::vec((command(), prop::option::of(number())), 1..60),
     ) {
         let mut session = Session::new(false);
-        session.apply(Command::AddFiles(vec![moving("a.m3d"), still("c.m3d")]));
+        session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
         session.take_events();
         let mut playing = session.playback().is_playing();
         for (command, dt_secs) in steps {

@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::scene::RenderFrame;
-use bindpose::session::{Changes, Command, File, Session};
+use bindpose::session::{Changes, Command, File, FileCommand, PlayCommand, Session};
 use proptest::prelude::*;
 
 use super::models::{moving, still};
@@ -51,8 +51,8 @@ fn snapshot(session: &mut Session) -> String {
     let skeleton = (
         session.joints(),
         session.weighed_joint(),
-        session.ghost_plan(),
-        session.bind_ghost(),
+        session.look().ghosts,
+        session.look().bind_ghost,
         session.bind_weight(),
     );
     let look = (session.look(), session.sky_file().map(|file| &file.path));
@@ -74,7 +74,7 @@ fn snapshot(session: &mut Session) -> String {
 
 fn run(start: &[File], steps: &[Step]) -> Vec<String> {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(start.to_vec()));
+    session.apply(FileCommand::Add(start.to_vec()));
     steps
         .iter()
         .map(|step| {
@@ -138,7 +138,7 @@ proptest! {
     #[test]
     fn a_frame_that_differs_is_told_as_a_change_of_the_picture(steps in steps(40)) {
         let mut session = Session::new(false);
-        session.apply(Command::AddFiles(vec![moving("a.m3d"), still("c.m3d")]));
+        session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
         let mut before = (told_to_renderer(&mut session), session.picture_revision());
         for step in steps {
             let changes = take(&mut session, step.clone());
@@ -157,15 +157,15 @@ fn a_session_with_a_real_file_plays_again() {
     };
     let soldier = File::new("soldier.m3d", bytes);
     let mut steps = vec![
-        Step::Apply(Command::AddClips(vec![soldier.clone()])),
-        Step::Apply(Command::SetCrossfade(0.2)),
-        Step::Apply(Command::SetSpeed(0.37)),
-        Step::Apply(Command::SetRangeStart(Some(0.3))),
+        Step::Apply(FileCommand::AddClips(vec![soldier.clone()]).into()),
+        Step::Apply(PlayCommand::SetCrossfade(0.2).into()),
+        Step::Apply(PlayCommand::SetSpeed(0.37).into()),
+        Step::Apply(PlayCommand::SetRangeStart(Some(0.3)).into()),
     ];
     for turn in 0..60 {
         steps.push(Step::Advance(0.016_683_351));
         if turn % 10 == 9 {
-            steps.push(Step::Apply(Command::CycleClip(1)));
+            steps.push(Step::Apply(PlayCommand::CycleClip(1).into()));
         }
     }
     let (first, again) = (

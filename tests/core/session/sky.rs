@@ -2,7 +2,7 @@
 
 use bindpose::image::ImageKind;
 use bindpose::scene::Background;
-use bindpose::session::{Command, File, LookCommand, Session};
+use bindpose::session::{File, FileCommand, LookCommand, Session};
 
 use super::models::{self, still};
 use super::opened;
@@ -53,7 +53,7 @@ fn a_cube_dropped_later_becomes_the_sky_and_is_shown() {
         session.maps_revision(),
         session.picture_revision(),
     );
-    session.apply(Command::AddFiles(vec![cube("skies/Dusk.dds", 4, [250, 120, 30, 255])]));
+    session.apply(FileCommand::Add(vec![cube("skies/Dusk.dds", 4, [250, 120, 30, 255])]));
     assert_eq!((session.error(), sky_name(&session)), (None, Some("Dusk.dds")));
     assert_eq!(first_texel(&session), Some(vec![250, 120, 30, 255]));
     assert_eq!(session.sky().map(|image| image.kind()), Some(ImageKind::Cube));
@@ -67,22 +67,22 @@ fn a_cube_dropped_later_becomes_the_sky_and_is_shown() {
 fn taking_the_sky_away_brings_back_what_was_behind() {
     let white = Background::Color([255; 3]);
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::Look(LookCommand::SetBackground(white)));
-    session.apply(Command::AddFiles(vec![cube("a.dds", 4, [1; 4])]));
-    session.apply(Command::AddFiles(vec![cube("b.dds", 4, [2; 4])]));
+    session.apply(LookCommand::SetBackground(white));
+    session.apply(FileCommand::Add(vec![cube("a.dds", 4, [1; 4])]));
+    session.apply(FileCommand::Add(vec![cube("b.dds", 4, [2; 4])]));
     let revision = session.sky_revision();
-    session.apply(Command::ClearSky);
+    session.apply(FileCommand::ClearSky);
     assert!(session.sky().is_none() && session.sky_revision() > revision);
     assert_eq!(session.look().background, white);
 
-    session.apply(Command::AddFiles(vec![cube("a.dds", 4, [1; 4])]));
-    session.apply(Command::Look(LookCommand::SetBackground(Background::None)));
+    session.apply(FileCommand::Add(vec![cube("a.dds", 4, [1; 4])]));
+    session.apply(LookCommand::SetBackground(Background::None));
     let picture = session.picture_revision();
-    session.apply(Command::ClearSky);
+    session.apply(FileCommand::ClearSky);
     assert_eq!(session.look().background, Background::None, "chosen since");
     assert!(session.picture_revision() > picture, "it lit the model");
     let (revision, picture) = (session.sky_revision(), session.picture_revision());
-    session.apply(Command::ClearSky);
+    session.apply(FileCommand::ClearSky);
     assert_eq!(
         (session.sky_revision(), session.picture_revision()),
         (revision, picture)
@@ -92,25 +92,25 @@ fn taking_the_sky_away_brings_back_what_was_behind() {
 #[test]
 fn a_cube_beside_a_model_is_the_sky_and_stays_for_the_next_model() {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![still("a.m3d"), cube("sky.dds", 4, [9; 4])]));
+    session.apply(FileCommand::Add(vec![still("a.m3d"), cube("sky.dds", 4, [9; 4])]));
     assert!(session.open_model().is_some());
     assert_eq!(sky_name(&session), Some("sky.dds"));
     assert!(session.maps().pictures().is_empty());
     let revision = session.sky_revision();
-    session.apply(Command::Look(LookCommand::SetBackground(Background::Backdrop)));
-    session.apply(Command::AddFiles(vec![still("a.m3d"), cube("sky.dds", 4, [9; 4])]));
+    session.apply(LookCommand::SetBackground(Background::Backdrop));
+    session.apply(FileCommand::Add(vec![still("a.m3d"), cube("sky.dds", 4, [9; 4])]));
     assert_eq!(
         session.look().background,
         Background::Backdrop,
         "the same again changes nothing"
     );
-    session.apply(Command::AddFiles(vec![still("b.m3d")]));
+    session.apply(FileCommand::Add(vec![still("b.m3d")]));
     assert_eq!(
         (sky_name(&session), session.sky_revision()),
         (Some("sky.dds"), revision)
     );
 
-    session.apply(Command::AddFiles(vec![
+    session.apply(FileCommand::Add(vec![
         models::broken("c.m3d"),
         cube("other.dds", 4, [8; 4]),
     ]));
@@ -121,9 +121,9 @@ fn a_cube_beside_a_model_is_the_sky_and_stays_for_the_next_model() {
 #[test]
 fn a_cube_needs_no_model_and_flat_pictures_do() {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![cube("sky.dds", 4, [9; 4])]));
+    session.apply(FileCommand::Add(vec![cube("sky.dds", 4, [9; 4])]));
     assert_eq!((session.error(), sky_name(&session)), (None, Some("sky.dds")));
-    session.apply(Command::AddFiles(vec![
+    session.apply(FileCommand::Add(vec![
         File::new("flat.png", *b"not looked at"),
         cube("other.dds", 4, [9; 4]),
     ]));
@@ -134,7 +134,7 @@ fn a_cube_needs_no_model_and_flat_pictures_do() {
 #[test]
 fn of_several_cubes_the_largest_that_can_be_read_is_taken() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::AddFiles(vec![
+    session.apply(FileCommand::Add(vec![
         cube("small.dds", 2, [1; 4]),
         cube("large.dds", 8, [2; 4]),
         cut(cube("broken.dds", 16, [3; 4])),
@@ -156,15 +156,15 @@ fn of_several_cubes_the_largest_that_can_be_read_is_taken() {
 #[test]
 fn a_cube_that_cannot_be_read_is_a_finding_and_the_old_sky_stays() {
     let mut session = opened(still("a.m3d"));
-    session.apply(Command::AddFiles(vec![cube("sky.dds", 4, [9; 4])]));
+    session.apply(FileCommand::Add(vec![cube("sky.dds", 4, [9; 4])]));
     let revision = session.sky_revision();
-    session.apply(Command::AddFiles(vec![cut(cube("broken.dds", 16, [3; 4]))]));
+    session.apply(FileCommand::Add(vec![cut(cube("broken.dds", 16, [3; 4]))]));
     assert_eq!(
         (sky_name(&session), session.sky_revision()),
         (Some("sky.dds"), revision)
     );
     assert_eq!((session.error(), codes(&session)), (None, vec!["image-cut"]));
-    session.apply(Command::AddFiles(vec![cube("sky.dds", 4, [9; 4])]));
+    session.apply(FileCommand::Add(vec![cube("sky.dds", 4, [9; 4])]));
     assert!(codes(&session).is_empty(), "and goes with the next sky");
 }
 
@@ -182,11 +182,11 @@ fn real_cube_maps_become_the_sky_the_largest_first() {
     let Some(files) = files else { return };
     let mut session = opened(still("a.m3d"));
     for file in &files {
-        session.apply(Command::AddFiles(vec![file.clone()]));
+        session.apply(FileCommand::Add(vec![file.clone()]));
         assert_eq!(sky_name(&session), Some(file.base_name()));
         assert!(codes(&session).is_empty());
     }
-    session.apply(Command::AddFiles(files));
+    session.apply(FileCommand::Add(files));
     assert_eq!(
         sky_name(&session),
         Some(names[1]),

@@ -1,7 +1,7 @@
 //! What a device that is too slow is spared, with a clock made up.
 
 use bindpose::scene::{Background, Light, Pass, Passes};
-use bindpose::session::{Command, LookCommand, Session};
+use bindpose::session::{CameraCommand, Command, LookCommand, Session};
 
 use super::models::{moving, still};
 use super::opened;
@@ -56,11 +56,11 @@ impl Window {
 
     /// Holds the camera and moves it in each of some passes that follow each other.
     fn drag(&mut self, moves: u32) {
-        self.pass(0.0, &[Command::BeginDrag]);
+        self.pass(0.0, &[CameraCommand::BeginDrag.into()]);
         for _ in 0..moves {
             self.pass(0.0, &[orbit()]);
         }
-        self.event(0.0, &[Command::EndDrag]);
+        self.event(0.0, &[CameraCommand::EndDrag.into()]);
     }
 
     fn degraded(&self) -> Vec<Pass> {
@@ -70,10 +70,10 @@ impl Window {
 }
 
 fn orbit() -> Command {
-    Command::Orbit {
+    Command::Camera(CameraCommand::Orbit {
         yaw_radians: 0.01,
         pitch_radians: 0.0,
-    }
+    })
 }
 
 #[test]
@@ -100,11 +100,11 @@ fn a_quick_device_keeps_everything_however_long_the_pointer_rests() {
     for _ in 0..10 {
         window.drag(3);
         // Between two drags, and in one.
-        window.event(5.0, &[Command::BeginDrag]);
+        window.event(5.0, &[CameraCommand::BeginDrag.into()]);
         for _ in 0..5 {
             window.event(2.0, &[orbit()]);
         }
-        window.event(2.0, &[Command::EndDrag]);
+        window.event(2.0, &[CameraCommand::EndDrag.into()]);
     }
     assert_eq!(window.session.quality().passes(), Passes::all());
 }
@@ -151,7 +151,7 @@ fn a_clip_that_plays_is_measured() {
 fn only_what_the_picture_has_is_left_out() {
     let contact = |look: LookCommand| {
         let mut session = opened(still("a.m3d"));
-        session.apply(look.into());
+        session.apply(look);
         for _ in 0..60 {
             session.note_frame(SLOW);
         }

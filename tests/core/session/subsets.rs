@@ -2,7 +2,7 @@
 
 use bindpose::format::{Document, Material, Subset};
 use bindpose::scene::ViewPreset;
-use bindpose::session::{Command, Session, SubsetCommand};
+use bindpose::session::{CameraCommand, FileCommand, Session, SubsetCommand};
 use glam::Vec2;
 
 use super::models::{self, document};
@@ -35,7 +35,7 @@ fn three_parts() -> Session {
 
 fn hide(session: &mut Session, subset: usize) {
     let visible = false;
-    session.apply(Command::Subset(SetVisible { subset, visible }));
+    session.apply(SetVisible { subset, visible });
 }
 
 fn left_out(session: &mut Session) -> Vec<bool> {
@@ -49,7 +49,7 @@ fn what_is_hidden_is_left_out_of_the_frame_until_all_is_shown() {
     hide(&mut session, 1);
     assert_eq!(left_out(&mut session), [false, true, false]);
     assert!(!session.subsets().is_visible(1) && session.subsets().is_visible(2));
-    session.apply(Command::Subset(ShowAll));
+    session.apply(ShowAll);
     assert_eq!(left_out(&mut session), [false; 3]);
 }
 
@@ -57,14 +57,14 @@ fn what_is_hidden_is_left_out_of_the_frame_until_all_is_shown() {
 fn one_alone_and_again_brings_back_what_was_hidden_before() {
     let mut session = three_parts();
     hide(&mut session, 0);
-    session.apply(Command::Subset(Solo(0)));
+    session.apply(Solo(0));
     assert_eq!(left_out(&mut session), [false, true, true], "a hidden one is shown too");
-    session.apply(Command::Subset(Solo(2)));
+    session.apply(Solo(2));
     assert_eq!(
         (left_out(&mut session), session.subsets().solo()),
         (vec![true, true, false], Some(2))
     );
-    session.apply(Command::Subset(Solo(2)));
+    session.apply(Solo(2));
     assert_eq!(
         (left_out(&mut session), session.subsets().solo()),
         (vec![true, false, false], None)
@@ -74,11 +74,11 @@ fn one_alone_and_again_brings_back_what_was_hidden_before() {
 #[test]
 fn showing_another_beside_the_one_alone_keeps_the_rest_out() {
     let mut session = three_parts();
-    session.apply(Command::Subset(Solo(0)));
-    session.apply(Command::Subset(SetVisible {
+    session.apply(Solo(0));
+    session.apply(SetVisible {
         subset: 1,
         visible: true,
-    }));
+    });
     assert_eq!(
         (left_out(&mut session), session.subsets().solo()),
         (vec![false, false, true], None)
@@ -88,20 +88,20 @@ fn showing_another_beside_the_one_alone_keeps_the_rest_out() {
 #[test]
 fn the_hovered_one_stands_out_unless_it_is_hidden_and_the_selected_one_does_not() {
     let mut session = three_parts();
-    session.apply(Command::Subset(Select(Some(2))));
+    session.apply(Select(Some(2)));
     assert_eq!(
         (session.subsets().selected(), session.frame().highlighted_submesh),
         (Some(2), None)
     );
-    session.apply(Command::Subset(Hover(Some(1))));
+    session.apply(Hover(Some(1)));
     assert_eq!(session.frame().highlighted_submesh, Some(1));
     hide(&mut session, 1);
     assert_eq!(
         (session.subsets().hovered(), session.frame().highlighted_submesh),
         (Some(1), None)
     );
-    session.apply(Command::Subset(Select(None)));
-    session.apply(Command::Subset(Hover(None)));
+    session.apply(Select(None));
+    session.apply(Hover(None));
     assert_eq!(
         (session.subsets().selected(), session.subsets().hovered()),
         (None, None)
@@ -111,23 +111,23 @@ fn the_hovered_one_stands_out_unless_it_is_hidden_and_the_selected_one_does_not(
 #[test]
 fn the_pointer_selects_and_hovers_what_is_drawn_under_it() {
     let mut session = three_parts();
-    session.apply(Command::LookFrom(ViewPreset::Front));
-    session.apply(Command::Subset(HoverAt(Some(Vec2::ZERO))));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(HoverAt(Some(Vec2::ZERO)));
     assert_eq!(session.subsets().hovered(), Some(2), "the front");
-    session.apply(Command::LookFrom(ViewPreset::Top));
-    session.apply(Command::Subset(SelectAt(Vec2::ZERO)));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Top));
+    session.apply(SelectAt(Vec2::ZERO));
     assert_eq!(session.subsets().selected(), Some(1), "the top");
     let hit = session.subsets().selected_at().expect("met there");
     assert!((hit.position.y - 4.0).abs() < 1e-4, "{hit:?}");
     // From above the sides are only seen from within.
     hide(&mut session, 1);
-    session.apply(Command::Subset(SelectAt(Vec2::ZERO)));
+    session.apply(SelectAt(Vec2::ZERO));
     assert_eq!(session.subsets().selected(), None, "neither top nor bottom");
 
-    session.apply(Command::Subset(HoverAt(Some(Vec2::splat(0.999)))));
+    session.apply(HoverAt(Some(Vec2::splat(0.999))));
     assert_eq!(session.subsets().hovered(), None, "beside the model");
-    session.apply(Command::Subset(HoverAt(None)));
-    session.apply(Command::Subset(SelectAt(Vec2::NAN)));
+    session.apply(HoverAt(None));
+    session.apply(SelectAt(Vec2::NAN));
     assert_eq!(
         (session.subsets().selected(), session.subsets().hovered()),
         (None, None)
@@ -147,7 +147,7 @@ fn what_the_model_has_not_is_left_alone() {
         Select(Some(3)),
         Hover(Some(usize::MAX)),
     ] {
-        session.apply(Command::Subset(command));
+        session.apply(command);
         assert_eq!(session.subsets(), &before, "{command:?}");
     }
 }
@@ -157,7 +157,7 @@ fn the_picture_is_another_one_exactly_when_what_is_drawn_changed() {
     let mut session = three_parts();
     let mut changes = |command| {
         let before = session.picture_revision();
-        session.apply(Command::Subset(command));
+        session.apply(command);
         session.picture_revision() != before
     };
     let visible = |visible| SetVisible { subset: 0, visible };
@@ -170,18 +170,18 @@ fn the_picture_is_another_one_exactly_when_what_is_drawn_changed() {
 fn the_same_file_again_keeps_what_was_hidden_and_another_one_shows_all() {
     let mut session = three_parts();
     hide(&mut session, 1);
-    session.apply(Command::Subset(Select(Some(2))));
-    session.apply(Command::AddFiles(vec![models::file("a.m3d", &parted(document()))]));
+    session.apply(Select(Some(2)));
+    session.apply(FileCommand::Add(vec![models::file("a.m3d", &parted(document()))]));
     assert_eq!(left_out(&mut session), [false, true, false]);
     assert_eq!(session.subsets().selected(), Some(2));
 
-    session.apply(Command::AddFiles(vec![models::file("b.m3d", &parted(document()))]));
+    session.apply(FileCommand::Add(vec![models::file("b.m3d", &parted(document()))]));
     assert_eq!(
         (left_out(&mut session), session.subsets().selected()),
         (vec![false; 3], None)
     );
 
     hide(&mut session, 0);
-    session.apply(Command::AddFiles(vec![models::still("b.m3d")]));
+    session.apply(FileCommand::Add(vec![models::still("b.m3d")]));
     assert_eq!(left_out(&mut session), [false], "another number of subsets");
 }

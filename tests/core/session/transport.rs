@@ -2,7 +2,7 @@
 
 use bindpose::anim::{Direction, LoopMode, WrapMode};
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, Event, Session};
+use bindpose::session::{Event, FileCommand, PlayCommand, Session};
 
 use super::{models, opened};
 use crate::rigs::{self, JOINT_COUNTS};
@@ -13,7 +13,7 @@ use Direction::{Backward, Forward};
 fn paused() -> Session {
     let clips = vec![rigs::even("four", 3, 0.0, 17, 4.0), rigs::even("late", 3, 3.0, 9, 4.0)];
     let mut session = opened(models::file("rig.m3d", &rigs::rig(3, clips)));
-    session.apply(Command::Pause);
+    session.apply(PlayCommand::Pause);
     session.take_events();
     session
 }
@@ -28,11 +28,11 @@ const DEMO: (LoopMode, WrapMode) = (LoopMode::Loop, WrapMode::BookDemo);
 const PING: (LoopMode, WrapMode) = (LoopMode::PingPong, WrapMode::Wrap);
 const ALL: [f32; 2] = [0.0, 4.0];
 const PART: [f32; 2] = [1.0, 3.0];
-const ON: Command = Command::TogglePlay;
-const BACK: Command = Command::TogglePlayBackward;
+const ON: PlayCommand = PlayCommand::Toggle;
+const BACK: PlayCommand = PlayCommand::ToggleBackward;
 
 /// Modes, range, speed and direction; the time after each of six steps of ¾ s from the clip's start; whether it plays then.
-type Row = ((LoopMode, WrapMode), [f32; 2], f32, Command, [f32; 6], bool);
+type Row = ((LoopMode, WrapMode), [f32; 2], f32, PlayCommand, [f32; 6], bool);
 
 #[rustfmt::skip]
 const TABLE: [Row; 48] = [
@@ -90,13 +90,13 @@ const TABLE: [Row; 48] = [
 fn every_mode_range_speed_and_direction_goes_its_way() {
     for ((loop_mode, wrap_mode), range, speed, play, times_secs, plays) in TABLE {
         let mut session = paused();
-        session.apply(Command::SetLoopMode(loop_mode));
-        session.apply(Command::SetWrapMode(wrap_mode));
-        session.apply(Command::SetSpeed(speed));
-        session.apply(Command::SetRangeStart(Some(range[0])));
-        session.apply(Command::SetRangeEnd(Some(range[1])));
+        session.apply(PlayCommand::SetLoopMode(loop_mode));
+        session.apply(PlayCommand::SetWrapMode(wrap_mode));
+        session.apply(PlayCommand::SetSpeed(speed));
+        session.apply(PlayCommand::SetRangeStart(Some(range[0])));
+        session.apply(PlayCommand::SetRangeEnd(Some(range[1])));
         assert_eq!(session.playback().played_secs(), range);
-        session.apply(play.clone());
+        session.apply(play);
         let row = format!("{loop_mode:?} {wrap_mode:?} {range:?} {speed} {play:?}");
         for (step, expected) in times_secs.into_iter().enumerate() {
             session.advance(0.75);
@@ -122,13 +122,13 @@ fn frames_are_sought_whole_and_between() {
         (16.0, 4.0),
         (f64::INFINITY, 4.0),
     ] {
-        session.apply(Command::SeekFrame(frame));
+        session.apply(PlayCommand::SeekFrame(frame));
         assert_eq!(time_secs(&session), time, "{frame}");
     }
-    session.apply(Command::SeekFrame(f64::NAN));
+    session.apply(PlayCommand::SeekFrame(f64::NAN));
     assert_eq!(time_secs(&session), 4.0);
-    session.apply(Command::SelectClip(1));
-    session.apply(Command::SeekFrame(1.0));
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(PlayCommand::SeekFrame(1.0));
     assert_eq!((time_secs(&session), session.frame_place()), (3.25, Some(1.0)));
 }
 
@@ -138,20 +138,20 @@ fn a_frame_is_its_key_however_it_was_reached() {
         let clips = vec![rigs::even("thirds", bones, 0.1, 31, 30.0)];
         let keys_secs: Vec<f32> = clips[0].bones[0].keyframes.iter().map(|key| key.time_secs).collect();
         let mut session = opened(models::file("rig.m3d", &rigs::rig(bones, clips)));
-        session.apply(Command::SeekStart);
+        session.apply(PlayCommand::SeekStart);
         for (frame, key_secs) in keys_secs.iter().enumerate() {
             assert_eq!(time_secs(&session).to_bits(), key_secs.to_bits(), "{frame} by steps");
-            session.apply(Command::SeekFrame(frame as f64));
+            session.apply(PlayCommand::SeekFrame(frame as f64));
             assert_eq!(
                 time_secs(&session).to_bits(),
                 key_secs.to_bits(),
                 "{frame} by its number"
             );
-            session.apply(Command::StepFrames(1));
+            session.apply(PlayCommand::StepFrames(1));
         }
         for key_secs in keys_secs.iter().rev() {
             assert_eq!(time_secs(&session).to_bits(), key_secs.to_bits());
-            session.apply(Command::StepKey {
+            session.apply(PlayCommand::StepKey {
                 direction: Backward,
                 joint: None,
             });
@@ -167,7 +167,7 @@ fn keys_of_a_joint_or_of_any_are_stepped_to_and_playing_pauses() {
     let mut session = opened(models::file("rig.m3d", &rigs::rig(3, clips)));
     session.advance(1.5);
     session.take_events();
-    session.apply(Command::StepKey {
+    session.apply(PlayCommand::StepKey {
         direction: Forward,
         joint: None,
     });
@@ -184,7 +184,7 @@ fn keys_of_a_joint_or_of_any_are_stepped_to_and_playing_pauses() {
         (None, Forward, 4.0),
         (None, Forward, 4.0),
     ] {
-        session.apply(Command::StepKey {
+        session.apply(PlayCommand::StepKey {
             direction,
             joint: joint.map(JointIndex),
         });
@@ -197,53 +197,53 @@ fn keys_of_a_joint_or_of_any_are_stepped_to_and_playing_pauses() {
 #[test]
 fn a_range_is_set_here_or_there_and_home_and_end_are_its_ends() {
     let mut session = paused();
-    session.apply(Command::SeekFrame(3.0));
-    session.apply(Command::SetRangeStart(None));
-    session.apply(Command::SetRangeEnd(Some(2.0)));
+    session.apply(PlayCommand::SeekFrame(3.0));
+    session.apply(PlayCommand::SetRangeStart(None));
+    session.apply(PlayCommand::SetRangeEnd(Some(2.0)));
     assert_eq!(session.playback().range_secs(), Some([0.75, 2.0]));
-    session.apply(Command::SeekEnd);
+    session.apply(PlayCommand::SeekEnd);
     assert_eq!(time_secs(&session), 2.0);
-    session.apply(Command::SeekStart);
+    session.apply(PlayCommand::SeekStart);
     assert_eq!(time_secs(&session), 0.75);
     // Steps and seeks go beyond, so that the range can be made wider.
-    session.apply(Command::StepFrames(10));
+    session.apply(PlayCommand::StepFrames(10));
     assert_eq!(time_secs(&session), 3.25);
-    session.apply(Command::SetRangeEnd(None));
+    session.apply(PlayCommand::SetRangeEnd(None));
     assert_eq!(session.playback().range_secs(), Some([0.75, 3.25]));
-    session.apply(Command::ClearRange);
-    session.apply(Command::SeekEnd);
+    session.apply(PlayCommand::ClearRange);
+    session.apply(PlayCommand::SeekEnd);
     assert_eq!((session.playback().range_secs(), time_secs(&session)), (None, 4.0));
 }
 
 #[test]
 fn a_range_is_forgotten_with_its_clip_and_kept_when_the_file_comes_again() {
     let mut session = paused();
-    session.apply(Command::SetRangeStart(Some(1.0)));
-    session.apply(Command::SetRangeEnd(Some(3.0)));
-    session.apply(Command::Seek { time_secs: 3.5 });
+    session.apply(PlayCommand::SetRangeStart(Some(1.0)));
+    session.apply(PlayCommand::SetRangeEnd(Some(3.0)));
+    session.apply(PlayCommand::Seek { time_secs: 3.5 });
     let file = session.open_model().expect("open").file.clone();
-    session.apply(Command::AddFiles(vec![file]));
+    session.apply(FileCommand::Add(vec![file]));
     assert_eq!(
         (session.playback().range_secs(), time_secs(&session)),
         (Some([1.0, 3.0]), 3.5)
     );
-    session.apply(Command::SelectClip(1));
+    session.apply(PlayCommand::SelectClip(1));
     assert_eq!(session.playback().played_secs(), [3.0, 5.0]);
-    session.apply(Command::SelectClip(0));
+    session.apply(PlayCommand::SelectClip(0));
     assert_eq!(session.playback().range_secs(), None);
 }
 
 #[test]
 fn scrubbing_out_of_the_range_goes_on_inside_it() {
     let mut session = paused();
-    session.apply(Command::SetRangeStart(Some(1.0)));
-    session.apply(Command::SetRangeEnd(Some(3.0)));
-    session.apply(Command::Play);
-    session.apply(Command::BeginScrub);
-    session.apply(Command::Seek { time_secs: 3.75 });
+    session.apply(PlayCommand::SetRangeStart(Some(1.0)));
+    session.apply(PlayCommand::SetRangeEnd(Some(3.0)));
+    session.apply(PlayCommand::Play);
+    session.apply(PlayCommand::BeginScrub);
+    session.apply(PlayCommand::Seek { time_secs: 3.75 });
     session.advance(0.5);
     assert_eq!(time_secs(&session), 3.75);
-    session.apply(Command::EndScrub);
+    session.apply(PlayCommand::EndScrub);
     session.advance(0.5);
     assert_eq!(time_secs(&session), 1.5);
 }
@@ -252,14 +252,14 @@ fn scrubbing_out_of_the_range_goes_on_inside_it() {
 fn without_a_clip_there_is_nothing_to_go_to() {
     let mut session = opened(models::still("a.m3d"));
     for command in [
-        Command::SeekFrame(1.0),
-        Command::StepKey {
+        PlayCommand::SeekFrame(1.0),
+        (PlayCommand::StepKey {
             direction: Forward,
             joint: None,
-        },
-        Command::SetRangeStart(None),
-        Command::SetRangeEnd(Some(1.0)),
-        Command::ClearRange,
+        }),
+        PlayCommand::SetRangeStart(None),
+        PlayCommand::SetRangeEnd(Some(1.0)),
+        PlayCommand::ClearRange,
     ] {
         session.apply(command);
     }

@@ -1,6 +1,6 @@
 //! What is looked at, as plain data that brings the same view back.
 
-use bindpose::session::{Command, JointCommand, Session, SubsetCommand, ViewState};
+use bindpose::session::{Command, FileCommand, JointCommand, PlayCommand, Session, SubsetCommand, ViewState};
 use proptest::prelude::*;
 
 use super::models::{moving, still};
@@ -9,20 +9,17 @@ use super::random::{command, number};
 
 /// Commands that change how a model is looked at, and not which one.
 fn looking() -> impl Strategy<Value = Command> {
-    command().prop_filter("it opens another model", |command| !opens(command))
-}
-
-fn opens(command: &Command) -> bool {
-    match command {
-        Command::AddFiles(_) | Command::AddClips(_) | Command::OpenFile(_) => true,
-        Command::Glide(command) => opens(command),
-        _ => false,
-    }
+    command().prop_filter("it opens another model", |command| {
+        !matches!(
+            command,
+            Command::File(FileCommand::Add(_) | FileCommand::AddClips(_) | FileCommand::Open(_))
+        )
+    })
 }
 
 fn start() -> Session {
     let mut session = Session::new(false);
-    session.apply(Command::AddFiles(vec![moving("a.m3d"), still("c.m3d")]));
+    session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
     session
 }
 
@@ -84,14 +81,12 @@ fn a_state_that_says_little_is_the_default_and_one_that_says_nonsense_is_brought
 #[test]
 fn clips_and_bones_go_by_what_a_person_calls_them() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(Command::SelectClip(1));
-    session.apply(Command::Joint(JointCommand::Select(Some(bindpose::model::JointIndex(
-        1,
-    )))));
-    session.apply(Command::Subset(SubsetCommand::SetVisible {
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(JointCommand::Select(Some(bindpose::model::JointIndex(1))));
+    session.apply(SubsetCommand::SetVisible {
         subset: 0,
         visible: false,
-    }));
+    });
     let state = session.view_state();
     assert_eq!(state.playback.clip.as_deref(), Some("Turn"));
     assert_eq!(

@@ -1,0 +1,88 @@
+//! The camera frames the model, or what of it is selected, in what the panels leave free.
+
+use glam::Vec3;
+
+use super::Session;
+use crate::scene::Insets;
+
+/// What is framed around a vertex, as a part of the model's radius: its neighbourhood, and where on the model that is.
+const VERTEX_ROOM: f32 = 0.15;
+
+impl Session {
+    pub(super) fn frame_model(&mut self) {
+        let world_from_model = self.world_from_model();
+        if let Some(open) = &self.content.open {
+            let (_, points) = open.extent(self.actor.clip);
+            let points: Vec<_> = points
+                .iter()
+                .map(|&point| world_from_model.transform_point3(point))
+                .collect();
+            self.view.frame_points(&points);
+        }
+        self.view.framed = true;
+    }
+
+    pub(super) fn frame_selection(&mut self) {
+        let points = self.selected_points();
+        if points.is_empty() {
+            self.frame_model();
+        } else {
+            self.view.frame_points(&points);
+            self.view.framed = false;
+        }
+    }
+
+    /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex with a little
+    /// around it; or those of the selected subset. World space, as they are posed now.
+    fn selected_points(&mut self) -> Vec<Vec3> {
+        self.pose_vertices();
+        let around_vertex = VERTEX_ROOM * self.world_bounds().radius();
+        let world_from_model = self.world_from_model();
+        let joints = &self.selection.joints;
+        let (joint, vertex) = (joints.selected(), joints.selected_vertex().copied());
+        let mut points = Vec::new();
+        if let Some(joint) = joint {
+            let bones = self.bones().bones().iter().filter(|bone| bone.joint == joint);
+            points.extend(bones.flat_map(|bone| [bone.from, bone.to]));
+        }
+        let Some(open) = &self.content.open else { return points };
+        let mesh = &open.model.mesh;
+        let positions = self.caches.picker.positions();
+        let in_world = |vertex: usize| Some(world_from_model.transform_point3(*positions.get(vertex)?));
+        let submesh = self.selection.subsets.selected();
+        if let Some(joint) = joint {
+            let moved = mesh.influences.iter().enumerate().filter(|(_, influences)| {
+                let slots = influences.joints.into_iter().zip(influences.weights);
+                let of_joint = slots.filter(|&(of, _)| of == joint.0);
+                of_joint.map(|(_, weight)| weight).sum::<f32>() >= 0.5
+            });
+            points.extend(moved.filter_map(|(vertex, _)| in_world(vertex)));
+        } else if let Some(place) = vertex.and_then(|vertex| in_world(vertex.vertex as usize)) {
+            let sides = Vec3::AXES.map(|axis| axis * around_vertex);
+            points.extend(sides.into_iter().flat_map(|side| [place - side, place + side]));
+        } else if let Some(submesh) = submesh.and_then(|submesh| mesh.submeshes.get(submesh)) {
+            let start = submesh.triangle_start as usize * 3;
+            let corners = &mesh.indices[start..start + submesh.triangle_count as usize * 3];
+            points.extend(corners.iter().filter_map(|&vertex| in_world(vertex as usize)));
+        }
+        points
+    }
+
+    /// A model that nobody panned or zoomed stays framed in a picture of another shape. An aspect or insets that are not finite
+    /// are ignored.
+    pub(super) fn set_viewport(&mut self, aspect: f32, insets: Insets) {
+        let Insets {
+            left,
+            right,
+            top,
+            bottom,
+        } = insets;
+        if !(aspect.is_finite() && aspect > 0.0 && [left, right, top, bottom].into_iter().all(f32::is_finite)) {
+            return;
+        }
+        (self.view.aspect, self.view.insets) = (aspect, insets);
+        if self.view.framed {
+            self.frame_model();
+        }
+    }
+}
