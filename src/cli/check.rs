@@ -12,7 +12,7 @@ use crate::anim::CompiledClip;
 use crate::check;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::format::{self, LineIndex};
-use crate::model::Model;
+use crate::import::m3d;
 use crate::session::summary::Finding;
 
 /// List what is wrong with files, or was mended while reading them.
@@ -108,7 +108,7 @@ fn findings(bytes: &[u8]) -> Vec<Diagnostic> {
         Ok(parsed) => parsed,
         Err(error) => return vec![error.diagnostic()],
     };
-    let of_model = match Model::from_document(&parsed.document, &parsed.lines) {
+    let of_model = match m3d::from_document(&parsed.document, &parsed.lines) {
         Ok((model, mut findings)) => {
             let compiled = CompiledClip::all(&model.clips);
             findings.extend(check::motion(&model, &compiled, &parsed.lines.clip_lines()));
