@@ -11,6 +11,11 @@ pub fn all() -> impl Iterator<Item = &'static Code> {
     GROUPS.iter().flat_map(|group| group.iter())
 }
 
+/// The code with this name.
+pub fn named(name: &str) -> Option<&'static Code> {
+    all().find(|code| code.name == name)
+}
+
 /// A constant for each row, and a list for each group.
 macro_rules! table {
     ($(
