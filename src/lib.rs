@@ -19,11 +19,11 @@
 //! ```
 //! use bindpose::anim::{CompiledClip, PoseBuffers};
 //! use bindpose::format;
-//! use bindpose::model::Model;
+//! use bindpose::import::m3d;
 //!
 //! let bytes = std::fs::read("web/sample/figure.m3d")?;
 //! let parsed = format::parse(&bytes)?;
-//! let (model, notices) = Model::from_document(&parsed.document, &parsed.lines)?;
+//! let (model, notices) = m3d::from_document(&parsed.document, &parsed.lines)?;
 //! assert!(notices.is_empty());
 //!
 //! let mut pose = PoseBuffers::for_skeleton(&model.skeleton);

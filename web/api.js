@@ -49,7 +49,7 @@ export function createApi() {
       const records = await Promise.all(copied.map(readBytes));
       const running = await unlessStopped(ready);
       const before = running.state();
-      const after = running[how](records);
+      const after = await running[how](records);
       then(before, after);
       return after;
     });

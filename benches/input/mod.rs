@@ -1,6 +1,7 @@
 //! What the benchmarks of `anim` work on: the soldier where it is at hand, otherwise a model of its size.
 
 use bindpose::format::{AnimationClip, BoneAnimation, Document, Keyframe, LineMap, Subset, Vertex, parse};
+use bindpose::import::m3d;
 use bindpose::model::Model;
 
 /// As many as the soldier has.
@@ -15,7 +16,7 @@ pub(crate) fn input() -> (&'static str, Document, Model) {
         Ok(bytes) => ("soldier", parse(&bytes).expect("the soldier is sound").document),
         Err(_) => ("generated", soldier_sized()),
     };
-    let (model, _) = Model::from_document(&document, &LineMap::default()).expect("the input is sound");
+    let (model, _) = m3d::from_document(&document, &LineMap::default()).expect("the input is sound");
     (name, document, model)
 }
 

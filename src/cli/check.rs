@@ -10,9 +10,9 @@ use super::finding::write_finding;
 use super::input;
 use crate::anim::CompiledClip;
 use crate::check;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::{self, LineIndex};
-use crate::model::Model;
+use crate::import::m3d;
 use crate::session::summary::Finding;
 
 /// List what is wrong with files, or was mended while reading them.
@@ -22,11 +22,14 @@ use crate::session::summary::Finding;
 #[command(after_long_help = JSON)]
 pub(super) struct Arguments {
     /// Files to read.
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "explain", value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print JSON; see below for its keys.
     #[arg(long)]
     json: bool,
+    /// Say what a code means, instead of reading files.
+    #[arg(long, value_name = "CODE", conflicts_with_all = ["files", "json"])]
+    explain: Option<String>,
 }
 
 const JSON: &str = "\
@@ -34,6 +37,7 @@ Output:
   FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
+  --explain CODE tells what a finding of this code means for the model, or what can be done.
 
 JSON: an array with one object for each file that could be read
   file                the path as given
@@ -47,22 +51,44 @@ JSON: an array with one object for each file that could be read
                       \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
+    help              what --explain tells of the code
 
 A file that cannot be read is named on standard error; the others are still checked.
 
 Exit codes:
   0  no errors; notes and warnings are fine
   1  a file has errors
-  2  wrong use, or a file cannot be read";
+  2  wrong use, an unknown code, or a file cannot be read";
 
 /// What is known of one file.
 #[derive(Debug, Serialize)]
 struct Checked<'a> {
     file: String,
-    findings: Vec<Finding<'a>>,
+    findings: Vec<Explained<'a>>,
+}
+
+/// A finding and what its code means.
+#[derive(Debug, Serialize)]
+struct Explained<'a> {
+    #[serde(flatten)]
+    finding: Finding<'a>,
+    help: Option<&'static str>,
+}
+
+impl<'a> From<&'a Diagnostic> for Explained<'a> {
+    fn from(diagnostic: &'a Diagnostic) -> Self {
+        Self {
+            finding: diagnostic.into(),
+            help: codes::named(diagnostic.code).map(|code| code.explanation),
+        }
+    }
 }
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
+    if let Some(name) = &arguments.explain {
+        explain(name, out)?;
+        return Ok(Outcome::Fine);
+    }
     let mut outcome = Outcome::Fine;
     let mut all = Vec::new();
     for path in &arguments.files {
@@ -93,7 +119,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
             .iter()
             .map(|(path, findings)| Checked {
                 file: path.display().to_string(),
-                findings: findings.iter().map(Finding::from).collect(),
+                findings: findings.iter().map(Explained::from).collect(),
             })
             .collect();
         serde_json::to_writer_pretty(&mut *out, &checked)?;
@@ -102,13 +128,43 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     Ok(outcome)
 }
 
+/// Prints the row of the table of codes.
+fn explain(name: &str, out: &mut dyn Write) -> Result<(), Failure> {
+    let code = codes::named(name).ok_or_else(|| Failure::UnknownCode {
+        asked: name.to_owned(),
+        nearest: codes::all()
+            .map(|code| code.name)
+            .min_by_key(|known| edits(name, known))
+            .unwrap_or_default(),
+    })?;
+    writeln!(out, "{}[{}]: {}", code.severity, code.name, code.sentence)?;
+    writeln!(out, "{}", code.explanation)?;
+    Ok(())
+}
+
+/// How many letters must be put in, left out or changed to make one word of another (Levenshtein's distance).
+fn edits(from: &str, to: &str) -> usize {
+    let to: Vec<char> = to.chars().collect();
+    // Of each beginning of `to`, from as much of `from` as was read.
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (read, letter) in from.chars().enumerate() {
+        let mut before = std::mem::replace(&mut row[0], read + 1);
+        for (place, &other) in to.iter().enumerate() {
+            let changed = before + usize::from(letter != other);
+            before = row[place + 1];
+            row[place + 1] = changed.min(before + 1).min(row[place] + 1);
+        }
+    }
+    row[to.len()]
+}
+
 /// All findings of both stages, in the order of the file; those without a place come first.
 fn findings(bytes: &[u8]) -> Vec<Diagnostic> {
     let parsed = match format::parse(bytes) {
         Ok(parsed) => parsed,
         Err(error) => return vec![error.diagnostic()],
     };
-    let of_model = match Model::from_document(&parsed.document, &parsed.lines) {
+    let of_model = match m3d::from_document(&parsed.document, &parsed.lines) {
         Ok((model, mut findings)) => {
             let compiled = CompiledClip::all(&model.clips);
             findings.extend(check::motion(&model, &compiled, &parsed.lines.clip_lines()));
@@ -120,4 +176,24 @@ fn findings(bytes: &[u8]) -> Vec<Diagnostic> {
     findings.extend(of_model);
     findings.sort_by_key(|finding| finding.position);
     findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edits_are_counted_one_by_one() {
+        for (from, to, count) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("abc", "", 3),
+            ("same", "same", 0),
+            ("weights-not-normalised", "weights-not-normalized", 1),
+            ("empy-file", "empty-file", 1),
+            ("kitten", "sitting", 3),
+        ] {
+            assert_eq!(edits(from, to), count, "{from} {to}");
+        }
+    }
 }

@@ -46,6 +46,8 @@ pub(super) enum Failure {
         asked: String,
         known: Vec<String>,
     },
+    #[error("there is no code \"{asked}\"; the nearest is \"{nearest}\"")]
+    UnknownCode { asked: String, nearest: &'static str },
     /// A pose that cannot be said in numbers.
     #[error(
         "{}: at {time_secs} s of \"{clip}\" {what} {number} is taken beyond what numbers hold",

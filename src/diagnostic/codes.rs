@@ -11,6 +11,11 @@ pub fn all() -> impl Iterator<Item = &'static Code> {
     GROUPS.iter().flat_map(|group| group.iter())
 }
 
+/// The code with this name.
+pub fn named(name: &str) -> Option<&'static Code> {
+    all().find(|code| code.name == name)
+}
+
 /// A constant for each row, and a list for each group.
 macro_rules! table {
     ($(
@@ -160,7 +165,7 @@ table! {
             "A disk or a transfer padded the file. The text before them is whole.";
     }
 
-    /// What making a model of a document gives ([`Model::from_document`](crate::model::Model::from_document)).
+    /// What making a model of a document gives ([`import::m3d`](crate::import::m3d)).
     OF_MODEL {
         PARENT_OUT_OF_RANGE = "parent-out-of-range", Error,
             "A bone's parent is neither −1 nor a bone.",
@@ -285,9 +290,21 @@ table! {
             "Scales multiply along a chain of bones, so a few great ones are enough.";
     }
 
-    /// What [`Skeleton::new`](crate::model::Skeleton::new) and [`Track::new`](crate::model::Track::new) refuse. No file
-    /// leads to these.
+    /// What [`Skeleton::new`](crate::model::Skeleton::new), [`Track::new`](crate::model::Track::new) and
+    /// [`Model::checked`](crate::model::Model::checked) refuse. No file leads to these.
     OF_CONSTRUCTORS {
+        STREAM_LENGTH = "stream-length", Error,
+            "A stream of the mesh has not one entry for each vertex.",
+            "Every vertex has a normal, a tangent and texture coordinates, and influences if there are joints.";
+        JOINT_OUT_OF_RANGE = "joint-out-of-range", Error,
+            "A vertex names a joint that is not there.",
+            "A slot without weight names joint 0.";
+        SUBMESH_OUT_OF_RANGE = "submesh-out-of-range", Error,
+            "A submesh names triangles or a material that are not there.",
+            "Its range lies inside the mesh, and its material in the list of materials.";
+        TRACK_COUNT = "track-count", Error,
+            "A clip has not one track for each joint.",
+            "A joint without keys has a track at rest.";
         PARENT_NOT_BEFORE = "parent-not-before", Error,
             "A joint stands before its parent.",
             "Sort the joints so that parents come first.";

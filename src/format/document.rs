@@ -1,4 +1,4 @@
-//! What a `.m3d` file says, in the file's own words. No meaning is added here; `model` translates.
+//! What a `.m3d` file says, in the file's own words. No meaning is added here; [`import`](crate::import) translates.
 
 /// Which of the known spellings of the format a file uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -31,7 +31,7 @@
 //! # Three kinds of answer
 //!
 //! What a token says is settled here: it is read, or mended with a diagnostic, or it is an error. What the values mean together
-//! (sums of weights, order of keys, subsets against triangles) is for [`model`](crate::model); only indices are held against
+//! (sums of weights, order of keys, subsets against triangles) is for [`import`](crate::import); only indices are held against
 //! their counts here, since only here the column is known.
 //!
 //! The codes of errors and diagnostics are [`codes::OF_PARSER`](crate::diagnostic::codes::OF_PARSER).

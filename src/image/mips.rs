@@ -39,7 +39,12 @@ impl Image {
             return None;
         }
         let coding = Coding::of(self, map_kind);
-        let mut data = Vec::new();
+        let level_len = |level| {
+            let (width, height) = self.level_size(level);
+            coding.format().level_len(width, height) as usize
+        };
+        let face_len: usize = (0..level_count).map(level_len).sum();
+        let mut data = Vec::with_capacity(face_len * self.face_count() as usize);
         for face in 0..self.face_count() {
             coding.append_chain(&mut data, self, face, level_count);
         }

@@ -82,6 +82,11 @@ impl Image {
         self.level_count
     }
 
+    /// How many of them the file has.
+    pub fn file_level_count(&self) -> u32 {
+        if self.mips_generated { 1 } else { self.level_count }
+    }
+
     /// Its kind.
     pub fn kind(&self) -> ImageKind {
         self.kind

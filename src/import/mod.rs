@@ -1,8 +1,15 @@
-//! Files of other programs become models: one file here for each format, all with the same result.
+//! Files of other programs become models: one module here for each format, all with the same result.
+//!
+//! A format decides what its files mean, mends what can be mended and notes it with its place; what has no place is
+//! [`Model`](crate::model::Model)'s to prove. Normals and tangents are computed for any format.
 
+mod error;
 mod imported;
-mod m3d;
+pub mod m3d;
+mod normals;
+mod tangents;
 
+pub use error::{ImportError, ImportErrorKind};
 pub use imported::Imported;
 
 use crate::diagnostic::Diagnostic;

@@ -28,19 +28,21 @@ pub struct Clip {
     /// Number of keys the file has for it.
     pub key_count: usize,
     /// The track with the most keys, whose keys are the frames; `None` without tracks.
-    pub(super) densest: Option<usize>,
+    densest: Option<usize>,
 }
 
 impl Clip {
-    /// A clip of one track per joint; span, key rate and key count are those of its tracks.
+    /// A clip of one track per joint; span, key rate and key count are those of its tracks. A joint that rests at every time
+    /// takes no part in them.
     pub fn new(name: impl Into<String>, tracks: Vec<Track>) -> Self {
-        let (start_secs, end_secs) = span(&tracks);
+        let keyed = || tracks.iter().filter(|track| track.has_keys());
+        let (start_secs, end_secs) = span(keyed());
         Self {
             name: name.into(),
             start_secs,
             end_secs,
-            keys_per_sec: keys_per_sec(&tracks),
-            key_count: tracks.iter().map(Track::key_count).sum(),
+            keys_per_sec: keys_per_sec(keyed()),
+            key_count: keyed().map(Track::key_count).sum(),
             densest: densest(&tracks),
             tracks,
         }
@@ -132,7 +134,7 @@ impl Clip {
 }
 
 /// Least and greatest key time; 0 and 0 without tracks.
-pub(super) fn span<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> (f32, f32) {
+fn span<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> (f32, f32) {
     let (start_secs, end_secs) = tracks
         .into_iter()
         .fold((f32::INFINITY, f32::NEG_INFINITY), |(start_secs, end_secs), track| {
@@ -146,7 +148,7 @@ pub(super) fn span<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> (f32, f32
 }
 
 /// The first of the tracks with the most keys.
-pub(super) fn densest<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> Option<usize> {
+fn densest<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> Option<usize> {
     let tracks = tracks.into_iter().enumerate();
     // Of equal ones `max_by_key` gives the last.
     tracks
@@ -156,7 +158,7 @@ pub(super) fn densest<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> Option
 
 /// Keys a second of the track with the most keys: the middle one of its steps, so that a gap or a jump does not count.
 /// Files round their times, so a rate within 0.1 % of a whole number is that number.
-pub(super) fn keys_per_sec<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> f32 {
+fn keys_per_sec<'a>(tracks: impl IntoIterator<Item = &'a Track>) -> f32 {
     let Some(densest) = tracks
         .into_iter()
         .reduce(|a, b| if b.key_count() > a.key_count() { b } else { a })

@@ -2,6 +2,8 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::ModelError;
+
 /// Up to four joints that move a vertex. Weights are normalised: they sum to 1, or all are zero and the vertex stays where
 /// bind space has it. Unused slots have joint 0 and weight 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,5 +55,35 @@ impl Mesh {
     /// Number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.indices.len() / 3
+    }
+
+    /// Proves that the streams of the vertices have one length, and that the triangles name vertices that are there.
+    ///
+    /// # Errors
+    /// When one of them does not hold.
+    pub fn check(&self) -> Result<(), ModelError> {
+        let vertex_count = self.vertex_count();
+        let streams = [
+            ("normals", self.normals.len()),
+            ("tangents", self.tangents.len()),
+            ("texture coordinates", self.tex_coords.len()),
+        ];
+        for (stream, length) in streams {
+            if length != vertex_count {
+                return Err(ModelError::StreamLength {
+                    stream,
+                    length,
+                    vertex_count,
+                });
+            }
+        }
+        let out_of_range = self.indices.iter().position(|&vertex| vertex as usize >= vertex_count);
+        out_of_range.map_or(Ok(()), |place| {
+            Err(ModelError::VertexOutOfRange {
+                triangle: (place / 3) as u32,
+                vertex: self.indices[place],
+                vertex_count: vertex_count as u32,
+            })
+        })
     }
 }

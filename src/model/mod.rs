@@ -1,35 +1,25 @@
 //! A model in our words, every index and order proved.
 //!
-//! [`Model::from_document`] translates what a file says: bones become joints with parents first, weights sum to 1, keys
-//! are sorted and finite, missing normals and tangents are computed, ranges lie inside the mesh. What was mended comes
-//! back as diagnostics; what names something that does not exist is a [`ModelError`].
-//!
-//! The codes of both are [`codes::OF_MODEL`](crate::diagnostic::codes::OF_MODEL).
+//! A model knows no format: [`import`](crate::import) makes its parts of what a file says. [`Skeleton::new`], [`Track::new`] and
+//! [`Model::checked`] prove them, or give a [`ModelError`]. What is proved here no later stage looks at again.
 
 mod bounds;
 mod clip;
 mod error;
-mod geometry;
-mod hierarchy;
-mod influences;
 mod joint_names;
 mod local_joint;
 mod material;
 mod mesh;
 mod mirror;
-mod motion;
 mod names;
-mod normals;
 mod skeleton;
 mod space;
-mod surfaces;
-mod tangents;
 mod track;
 mod tree;
 
 pub use bounds::Aabb;
 pub use clip::Clip;
-pub use error::{ModelError, ModelErrorKind};
+pub use error::ModelError;
 pub use joint_names::{JointNames, SavedNames, hierarchy_fingerprint};
 pub use local_joint::LocalJoint;
 pub use material::{Material, Reflectance};
@@ -39,13 +29,10 @@ pub(crate) use names::unique as unique_names;
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Handedness, UpAxis, world_from_model};
 pub use track::Track;
+pub(crate) use track::unit as unit_rotation;
 pub use tree::{JointTree, VertexCounts};
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::collect::Diagnostics;
-use crate::format::{Dialect, Document, LineMap, Parsed};
-
-/// A model that can be animated and drawn: after it exists no later stage can fail.
+/// A model that can be animated and drawn. After [`Model::checked`] no later stage can fail.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     /// At least as many as the submeshes name; may be empty when there are no submeshes.
@@ -58,46 +45,63 @@ pub struct Model {
     pub clips: Vec<Clip>,
     /// The handedness of the file's space, found by the winding test.
     pub handedness: Handedness,
-    /// The up axis of the file's space, as the dialect suggests.
+    /// The up axis of the file's space.
     pub up_axis: UpAxis,
 }
 
 impl Model {
-    /// What a document means, and what had to be mended for it. `lines` gives the diagnostics their places; it may be empty.
+    /// Proves that the parts fit each other: see [`Mesh::check`]; a skinned model has influences for every vertex, and they name
+    /// joints that are there; submeshes lie inside the mesh and have a material; clips have a track for each joint.
     ///
     /// # Errors
-    /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
-    pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Self, Vec<Diagnostic>), ModelError> {
-        let mut diagnostics = Diagnostics::default();
-        let mut materials = surfaces::materials_from_document(document, lines, &mut diagnostics);
-        let submeshes = surfaces::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
-        let skeleton = hierarchy::skeleton_from_document(document, lines, &mut diagnostics)?;
-        let (mut mesh, handedness) = geometry::mesh_from_document(document, lines, &skeleton, &mut diagnostics)?;
-        mesh.submeshes = submeshes;
-        let clips = motion::clips_from_document(document, lines, &skeleton, &mut diagnostics)?;
-        let up_axis = match document.dialect {
-            Dialect::Imm => UpAxis::Z,
-            Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
-        };
-        let model = Self {
-            materials,
-            mesh,
-            skeleton,
-            clips,
-            handedness,
-            up_axis,
-        };
-        Ok((model, diagnostics.into_vec()))
+    /// When one of these does not hold.
+    pub fn checked(self) -> Result<Self, ModelError> {
+        self.mesh.check()?;
+        self.check_influences()?;
+        self.check_submeshes()?;
+        let joint_count = self.skeleton.joint_count();
+        match self.clips.iter().position(|clip| clip.tracks.len() != joint_count) {
+            None => Ok(self),
+            Some(clip) => Err(ModelError::TrackCount {
+                clip,
+                tracks: self.clips[clip].tracks.len(),
+                joint_count,
+            }),
+        }
     }
 
-    /// The model of a parsed file, and the diagnostics of both stages, the parser's first.
-    ///
-    /// # Errors
-    /// As [`Model::from_document`].
-    pub fn from_parsed(parsed: &Parsed) -> Result<(Self, Vec<Diagnostic>), ModelError> {
-        let (model, diagnostics) = Self::from_document(&parsed.document, &parsed.lines)?;
-        let all = parsed.diagnostics.iter().cloned().chain(diagnostics).collect();
-        Ok((model, all))
+    fn check_influences(&self) -> Result<(), ModelError> {
+        let influences = &self.mesh.influences;
+        let joint_count = self.skeleton.joint_count();
+        let vertex_count = self.mesh.vertex_count();
+        if joint_count == 0 && influences.is_empty() {
+            return Ok(());
+        }
+        if influences.len() != vertex_count {
+            return Err(ModelError::StreamLength {
+                stream: "influences",
+                length: influences.len(),
+                vertex_count,
+            });
+        }
+        for (vertex, influences) in influences.iter().enumerate() {
+            if let Some(&joint) = influences.joints.iter().find(|&&joint| joint as usize >= joint_count) {
+                return Err(ModelError::JointOutOfRange {
+                    vertex,
+                    joint,
+                    joint_count,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_submeshes(&self) -> Result<(), ModelError> {
+        let outside = self.mesh.submeshes.iter().position(|submesh| {
+            let end = u64::from(submesh.triangle_start) + u64::from(submesh.triangle_count);
+            end > self.mesh.triangle_count() as u64 || submesh.material as usize >= self.materials.len()
+        });
+        outside.map_or(Ok(()), |submesh| Err(ModelError::SubmeshOutOfRange { submesh }))
     }
 
     /// Box of all vertices in bind space, also those that no triangle uses.

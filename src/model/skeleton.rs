@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, DAffine3};
 
-use super::{LocalJoint, ModelError, ModelErrorKind};
+use super::{LocalJoint, ModelError};
 
 /// Index of a joint in its skeleton (parents-first order).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -40,22 +40,21 @@ impl Skeleton {
     ) -> Result<Self, ModelError> {
         let joint_count = parents.len();
         if joint_from_bind.len() != joint_count || file_bones.len() != joint_count {
-            return Err(ModelErrorKind::JointCountMismatch {
+            return Err(ModelError::JointCountMismatch {
                 parents: joint_count,
                 matrices: joint_from_bind.len(),
                 file_bones: file_bones.len(),
-            }
-            .into());
+            });
         }
         for (joint, parent) in (0u32..).zip(&parents) {
             if let &Some(JointIndex(parent)) = parent
                 && parent >= joint
             {
-                return Err(ModelErrorKind::ParentNotBefore { joint, parent }.into());
+                return Err(ModelError::ParentNotBefore { joint, parent });
             }
         }
         if let Some(joint) = (0u32..).zip(&joint_from_bind).find(|(_, matrix)| !matrix.is_finite()) {
-            return Err(ModelErrorKind::MatrixNotFinite { joint: joint.0 }.into());
+            return Err(ModelError::MatrixNotFinite { joint: joint.0 });
         }
         let joint_of_bone = inverse_order(&file_bones)?;
         let (model_from_joint, rest) = rest_pose(&parents, &joint_from_bind);
@@ -111,7 +110,7 @@ fn inverse_order(file_bones: &[u32]) -> Result<Vec<JointIndex>, ModelError> {
     for (joint, &bone) in (0u32..).zip(file_bones) {
         match joint_of_bone.get_mut(bone as usize) {
             Some(place @ None) => *place = Some(JointIndex(joint)),
-            _ => return Err(ModelErrorKind::FileBoneNotUnique { joint, bone }.into()),
+            _ => return Err(ModelError::FileBoneNotUnique { joint, bone }),
         }
     }
     // As many distinct numbers in range as there are places: none is left empty.

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::{LocalJoint, ModelError, ModelErrorKind};
+use super::{LocalJoint, ModelError};
 
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
 /// all streams have one length. Outside its range a track holds its first or last value, since the tracks of a clip may
@@ -33,24 +33,24 @@ impl Track {
         let mut track = Self::with_capacity(keys.size_hint().0);
         for (key, (time_secs, joint)) in keys.enumerate() {
             if track.times_secs.last().is_some_and(|&before| time_secs <= before) {
-                return Err(ModelErrorKind::KeyNotAfter { key }.into());
+                return Err(ModelError::KeyNotAfter { key });
             }
             let Some(rotation) = unit(joint.rotation) else {
-                return Err(ModelErrorKind::KeyNotFinite { key }.into());
+                return Err(ModelError::KeyNotFinite { key });
             };
             if !time_secs.is_finite() || !joint.is_finite() {
-                return Err(ModelErrorKind::KeyNotFinite { key }.into());
+                return Err(ModelError::KeyNotFinite { key });
             }
             track.push(time_secs, LocalJoint { rotation, ..joint });
         }
         if track.times_secs.is_empty() {
-            return Err(ModelErrorKind::NoKeys.into());
+            return Err(ModelError::NoKeys);
         }
         Ok(track)
     }
 
     /// The track of a joint that a clip has no keys for: one key at time 0 stands in, which holds at every time.
-    pub(super) fn at_rest(joint: LocalJoint) -> Self {
+    pub fn at_rest(joint: LocalJoint) -> Self {
         let mut track = Self::with_capacity(1);
         track.push(0.0, joint);
         track.at_rest = true;
@@ -131,7 +131,7 @@ impl Track {
 }
 
 /// The rotation at unit length; `None` when it has no direction.
-pub(super) fn unit(rotation: Quat) -> Option<Quat> {
+pub(crate) fn unit(rotation: Quat) -> Option<Quat> {
     let exact = rotation.as_dquat();
     let length = exact.length();
     (length.is_finite() && length > 1e-12).then(|| (exact / length).as_quat())

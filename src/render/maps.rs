@@ -6,7 +6,7 @@ use std::sync::{Arc, Weak};
 
 use crate::image::{Image, ImageFormat, MapKind};
 
-/// The images of one material's maps, as far as they are there. The same `Arc` is the same image.
+/// The images of one material's maps, as far as they are there, with their mips. The same `Arc` is the same image.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MaterialImages<'a> {
     /// Colours, sRGB; alpha cuts where the material says so.
@@ -99,7 +99,7 @@ pub(super) fn one_texel(device: &wgpu::Device, queue: &wgpu::Queue, label: &str,
 }
 
 /// Uploads a map with all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
-/// An image without levels gets them. Levels too large for the device are left out.
+/// Levels too large for the device are left out.
 fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
     let limit = device.limits().max_texture_dimension_2d;
     let image = fitting(image, kind, limit);
@@ -179,17 +179,14 @@ fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::Texture
     }
 }
 
-/// The image with levels, of which at least one has no side above `limit`.
+/// The image with at least one level that has no side above `limit`.
 fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
     let last = image.level_count() - 1;
     let (width, height) = image.level_size(last);
-    if last > 0 && width.max(height) <= limit {
+    if width.max(height) <= limit {
         return Cow::Borrowed(image);
     }
-    if last == 0 {
-        return image.mipped(kind).map_or(Cow::Borrowed(image), Cow::Owned);
-    }
-    // The file has levels, but all are too large: the missing ones are made from the smallest.
+    // All levels of the file are too large: smaller ones are made from the smallest.
     let smallest = image.reduced(last, kind, limit);
     smallest.map_or(Cow::Borrowed(image), |smallest| Cow::Owned(smallest.with_mips(kind)))
 }
@@ -213,7 +210,7 @@ mod tests {
 
     #[test]
     fn an_image_larger_than_the_device_starts_at_a_smaller_level() {
-        let image = grey(64, 8);
+        let image = grey(64, 8).with_mips(MapKind::Diffuse);
         for (limit, first) in [(64, 0), (63, 1), (32, 1), (16, 2), (1, 6)] {
             let fitting = fitting(&image, MapKind::Diffuse, limit);
             assert_eq!(first_fitting_level(&fitting, limit), first, "limit {limit}");
@@ -221,9 +218,16 @@ mod tests {
     }
 
     #[test]
-    fn an_image_with_all_its_levels_is_not_copied() {
-        for image in [grey(64, 8).with_mips(MapKind::Normal), grey(1, 1)] {
+    fn an_image_that_fits_is_not_copied() {
+        for image in [grey(64, 8).with_mips(MapKind::Normal), grey(64, 8), grey(1, 1)] {
             assert!(matches!(fitting(&image, MapKind::Normal, 64), Cow::Borrowed(_)));
         }
+    }
+
+    #[test]
+    fn an_image_whose_levels_are_all_too_large_gets_smaller_ones() {
+        let image = grey(64, 8);
+        let fitting = fitting(&image, MapKind::Diffuse, 32);
+        assert_eq!((fitting.width(), fitting.height(), fitting.level_count()), (32, 4, 6));
     }
 }

@@ -93,6 +93,8 @@ pub(super) struct Revisions {
     pub(super) names: u64,
     pub(super) pose: u64,
     pub(super) picture: u64,
+    /// Models that were asked for.
+    pub(super) openings: u64,
 }
 
 impl Revisions {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, codes};
-use crate::image::{self, Image};
+use crate::image::{self, Image, MapKind};
 use crate::model::Material;
 
 use super::files::File;
@@ -37,9 +37,13 @@ enum Decoded {
     New,
     /// No material names it.
     Unused,
-    Image(Arc<Image>),
+    Images(ForSlots),
     Failed(Diagnostic),
 }
+
+/// A picture with its mips for each slot that it is used in, in the order of [`MapSlot::ALL`]: mips of colours and of directions
+/// are made in different ways. A picture that needs none made is one for both.
+type ForSlots = [Option<Arc<Image>>; MapSlot::ALL.len()];
 
 impl Maps {
     /// Adds pictures that came with the model of these materials, which may be another one than before. Those that are there
@@ -119,12 +123,19 @@ impl Maps {
             let decoded = &mut self.decoded[index];
             match decoded {
                 Decoded::Unused if is_used => *decoded = Decoded::New,
-                Decoded::Image(_) if !is_used => *decoded = Decoded::Unused,
+                Decoded::Images(_) if !is_used => *decoded = Decoded::Unused,
                 _ => {}
             }
         }
-        let is_new = |&index: &usize| matches!(self.decoded[index], Decoded::New);
-        self.waiting = (0..self.pictures.len()).filter(is_new).rev().collect();
+        let is_waiting = |&index: &usize| match &self.decoded[index] {
+            Decoded::New => true,
+            Decoded::Images(images) => MapSlot::ALL
+                .iter()
+                .zip(images)
+                .any(|(&slot, image)| image.is_none() && self.is_used_as(index, slot)),
+            Decoded::Unused | Decoded::Failed(_) => false,
+        };
+        self.waiting = (0..self.pictures.len()).filter(is_waiting).rev().collect();
         before != self.of_materials
     }
 
@@ -138,8 +149,8 @@ impl Maps {
         self.waiting.len()
     }
 
-    /// Decodes one picture that a material names, or looks whether one could be decoded that nobody names. False when none is
-    /// left.
+    /// Decodes one picture that a material names and makes its mips, or looks whether one could be decoded that nobody names.
+    /// False when none is left.
     pub(super) fn decode_next(&mut self) -> bool {
         let Some(index) = self.waiting.pop() else {
             return false;
@@ -147,7 +158,7 @@ impl Maps {
         let picture = &self.pictures[index];
         let name = picture.base_name();
         let looked_at = if self.is_used(index) {
-            image::decode(&picture.bytes, name).map(|image| Decoded::Image(Arc::new(image)))
+            image::decode(&picture.bytes, name).map(|image| Decoded::Images(self.for_slots(index, image)))
         } else {
             image::check(&picture.bytes, name).map(|()| Decoded::Unused)
         };
@@ -155,9 +166,25 @@ impl Maps {
         true
     }
 
+    /// A picture that was just decoded, for its slots. What is there of it stays.
+    fn for_slots(&self, index: usize, image: Image) -> ForSlots {
+        let before = match &self.decoded[index] {
+            Decoded::Images(images) => images.clone(),
+            _ => ForSlots::default(),
+        };
+        let image = Arc::new(image);
+        let with_mips = |kind| image.mipped(kind).map_or_else(|| Arc::clone(&image), Arc::new);
+        let [diffuse, normal] = before;
+        let is_used = |slot| self.is_used_as(index, slot);
+        [
+            diffuse.or_else(|| is_used(MapSlot::Diffuse).then(|| with_mips(MapKind::Diffuse))),
+            normal.or_else(|| is_used(MapSlot::Normal).then(|| with_mips(MapKind::Normal))),
+        ]
+    }
+
     /// Says what is missing and what could not be read, when all are decoded.
     pub(super) fn conclude(&mut self, materials: &[Material]) {
-        let could_be_read = |index: usize| matches!(self.decoded[index], Decoded::Image(_));
+        let could_be_read = |index: usize| matches!(self.decoded[index], Decoded::Images(_));
         self.checklist = Checklist::new(materials, &self.of_materials, could_be_read);
         // What is missing stands in the checklist; a list of findings that repeats it would hide the others.
         let ambiguous = map_notices(materials, &self.pictures, &self.of_materials);
@@ -185,6 +212,11 @@ impl Maps {
         self.users.contains_key(&index)
     }
 
+    fn is_used_as(&self, index: usize, slot: MapSlot) -> bool {
+        let users = self.users.get(&index);
+        users.is_some_and(|users| users.iter().any(|&(_, used_as)| used_as == slot))
+    }
+
     /// All pictures, used or not.
     pub fn pictures(&self) -> &[File] {
         &self.pictures
@@ -200,15 +232,15 @@ impl Maps {
         let file = self.of_materials.get(material)?.slot(slot).file()?;
         match self.decoded.get(file)? {
             Decoded::Failed(finding) => Some(finding),
-            Decoded::New | Decoded::Unused | Decoded::Image(_) => None,
+            Decoded::New | Decoded::Unused | Decoded::Images(_) => None,
         }
     }
 
-    /// The decoded picture of a material's map, when it is there and could be read.
+    /// The decoded picture of a material's map with its mips, when it is there and could be read.
     pub fn image(&self, material: usize, slot: MapSlot) -> Option<&Arc<Image>> {
         let file = self.of_materials.get(material)?.slot(slot).file()?;
         match self.decoded.get(file)? {
-            Decoded::Image(image) => Some(image),
+            Decoded::Images(images) => images.get(slot as usize)?.as_ref(),
             Decoded::New | Decoded::Unused | Decoded::Failed(_) => None,
         }
     }
@@ -223,9 +255,9 @@ impl Maps {
         self.users
             .iter()
             .filter_map(|(&index, users)| match &self.decoded[index] {
-                Decoded::Image(image) => Some(UsedMap {
+                Decoded::Images(images) => Some(UsedMap {
                     file: &self.pictures[index],
-                    image,
+                    image: images.iter().flatten().next()?,
                     users,
                 }),
                 _ => None,

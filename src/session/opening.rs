@@ -55,23 +55,57 @@ impl Session {
     }
 
     fn add_files(&mut self, files: Vec<File>) {
-        self.content.maps.forget_unused();
         let files = Arc::new(FileSet::new(files));
-        match self.wanted_model(&files).and_then(|path| files.get(&path).cloned()) {
-            // The old set stays while the new model is not there: its other models can still be opened.
-            Some(file) => self.load(LoadJob::new(files, file).keeping_sky(self.sky_file().cloned())),
-            None => self.add_pictures(&files),
+        match self.job(&files) {
+            Some(job) => self.show(job.run()),
+            None => {
+                self.content.maps.forget_unused();
+                self.add_pictures(&files);
+            }
         }
+    }
+
+    /// Begins to open a drop in steps: the caller does them, and then calls [`Session::end_opening`]. Until then all stays as it
+    /// is. `None` for a drop without a model, which [`FileCommand::Add`] takes at once.
+    pub fn begin_opening(&mut self, files: Vec<File>) -> Option<LoadJob> {
+        self.job(&Arc::new(FileSet::new(files)))
+    }
+
+    /// Counts models that were asked for. A job whose number is no longer this one came too late: drop it.
+    pub fn openings(&self) -> u64 {
+        self.revisions.openings
+    }
+
+    /// Shows what became of the job of [`Session::begin_opening`].
+    pub fn end_opening(&mut self, outcome: Result<Box<Loaded>, Box<LoadError>>) -> Changes {
+        let to_go_back_to = self.to_go_back_to();
+        let changes = self.track(|session| session.show(outcome));
+        if changes.need_upload() && to_go_back_to.is_some() {
+            self.before = to_go_back_to;
+        }
+        changes
+    }
+
+    /// The job that opens a drop's model; none without one. The old set stays while the new model is not there: its other models
+    /// can still be opened.
+    fn job(&mut self, files: &Arc<FileSet>) -> Option<LoadJob> {
+        self.revisions.openings += 1;
+        let file = files.get(&self.wanted_model(files)?).cloned()?;
+        let job = LoadJob::new(Arc::clone(files), file).keeping_sky(self.sky_file().cloned());
+        Some(self.reuse(job))
     }
 
     fn open_file(&mut self, path: &str) {
         if let Some(file) = self.content.files.get(path).cloned() {
-            self.load(LoadJob::new(Arc::clone(&self.content.files), file).without_sky());
+            self.revisions.openings += 1;
+            let job = LoadJob::new(Arc::clone(&self.content.files), file).without_sky();
+            self.show(self.reuse(job).run());
         }
     }
 
-    fn load(&mut self, job: LoadJob) {
-        match self.reuse(job).run() {
+    fn show(&mut self, outcome: Result<Box<Loaded>, Box<LoadError>>) {
+        self.content.maps.forget_unused();
+        match outcome {
             Ok(loaded) => self.replace_model(*loaded),
             Err(error) => self.fail(*error),
         }

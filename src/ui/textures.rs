@@ -176,7 +176,7 @@ pub(super) fn holds(image: &Image) -> String {
         ImageKind::Cube => " cube".to_owned(),
         ImageKind::Array { slices } => format!(", 1 of {slices}"),
     };
-    let mips = counted(image.level_count() as usize, "mip");
+    let mips = counted(image.file_level_count() as usize, "mip");
     let channels = match image.channels() {
         Channels::Grey => "grey",
         Channels::GreyAlpha => "grey, alpha",

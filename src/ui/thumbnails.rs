@@ -54,7 +54,7 @@ fn small_picture(image: &Image) -> Option<ColorImage> {
         let (width, height) = image.level_size(level);
         width.max(height) <= MOST_TEXELS
     };
-    let last = image.level_count().checked_sub(1)?;
+    let last = image.file_level_count().checked_sub(1)?;
     let level = (0..last).find(small).unwrap_or(last);
     let (width, height) = image.level_size(level);
     let texels = image.to_rgba8(0, level)?;

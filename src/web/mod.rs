@@ -58,6 +58,22 @@ fn matches_media(query: &str) -> bool {
     query.is_some_and(|query| query.matches())
 }
 
+/// Waits for a task of its own, so that input and frames that are due come first. A message is used since timers wait longer, and
+/// up to a minute in a hidden tab.
+async fn next_task() {
+    let Ok(channel) = web_sys::MessageChannel::new() else {
+        return sleep(0).await;
+    };
+    let promise = Promise::new(&mut |resolve, _| {
+        channel.port1().set_onmessage(Some(&resolve));
+        if channel.port2().post_message(&JsValue::NULL).is_err() {
+            let _ = resolve.call0(&JsValue::NULL);
+        }
+    });
+    let _ = wasm_bindgen_futures::JsFuture::from(promise).await;
+    channel.port1().close();
+}
+
 /// Waits without holding the page up.
 async fn sleep(milliseconds: i32) {
     let promise = Promise::new(&mut |resolve, _| {

@@ -98,6 +98,11 @@ impl Shared {
         self.listener.take();
     }
 
+    /// Whether the viewer was dropped.
+    pub(super) fn is_silenced(&self) -> bool {
+        self.listener.borrow().is_none()
+    }
+
     /// Gives the canvas back, also one on which a start is under way.
     pub(super) fn stop(&self) {
         self.starts.set(self.starts.get() + 1);

@@ -9,10 +9,15 @@ use web_sys::HtmlCanvasElement;
 
 use super::backend::Preference;
 use super::run::{self, Shared};
-use super::{field, picture, promise, reduced_motion, state};
+use super::{field, next_task, picture, promise, reduced_motion, state};
 use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
-use crate::session::{Command, File, FileCommand, PassChoice, PlayCommand, QualityCommand, RenderScale, Session};
+use crate::session::{
+    Command, File, FileCommand, LoadStep, PassChoice, PlayCommand, QualityCommand, RenderScale, Session,
+};
+
+/// Why an opening came to nothing that was followed by another one, or by the viewer's end.
+const OVERTAKEN: &str = "another opening came after this one";
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
 ///
@@ -58,14 +63,7 @@ impl Viewer {
 
     /// The session and what runs it, as one plain object.
     pub fn state(&self) -> JsValue {
-        let running = self.shared.running.borrow();
-        let running = running.as_ref();
-        state::to_js(&state::State::new(
-            &self.shared.session.borrow(),
-            running.map(|running| running.backend),
-            running.map(|running| running.adapter.as_str()),
-            running.map_or(0, |running| running.frames_rendered.get()),
-        ))
+        self.shared.state()
     }
 
     /// Whether Esc would shut something in the viewer, end what is being typed or let go of a selection. Then it does not mean that
@@ -78,18 +76,23 @@ impl Viewer {
         })
     }
 
-    /// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens; a failure is in the
-    /// state's `error`. Returns the state.
+    /// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens, in steps between which the
+    /// page goes on; what was open stays until then. Resolves with the state, which has a failure in its `error`. Rejects when
+    /// something else was opened meanwhile, or the viewer was freed.
     ///
     /// # Errors
     /// When an entry is not of that shape.
-    pub fn open(&self, files: &Array) -> Result<JsValue, JsError> {
-        self.shared.apply(FileCommand::Add(files_of(files)?));
-        Ok(self.state())
+    pub fn open(&self, files: &Array) -> Result<Promise, JsError> {
+        let files = files_of(files)?;
+        let shared = Rc::clone(&self.shared);
+        Ok(promise(async move {
+            shared.open(files).await?;
+            Ok(shared.state())
+        }))
     }
 
     /// Adds the clips of models with the same bones to the open one: an array as [`Viewer::open`] takes it. Without an open model it
-    /// opens them; a failure is in the state's `error`. Returns the state.
+    /// opens them. A failure is in the state's `error`. Returns the state.
     ///
     /// # Errors
     /// When an entry is not of that shape.
@@ -250,9 +253,48 @@ impl Drop for Viewer {
 }
 
 impl Shared {
-    /// Applies a command and asks for a frame.
+    /// See [`Viewer::state`].
+    fn state(&self) -> JsValue {
+        let running = self.running.borrow();
+        let running = running.as_ref();
+        state::to_js(&state::State::new(
+            &self.session.borrow(),
+            running.map(|running| running.backend),
+            running.map(|running| running.adapter.as_str()),
+            running.map_or(0, |running| running.frames_rendered.get()),
+        ))
+    }
+
+    /// See [`Viewer::open`]. The session is borrowed only for a moment, never across a step.
+    async fn open(&self, files: Vec<File>) -> Result<(), JsError> {
+        let begun = self.session.borrow_mut().begin_opening(files.clone());
+        let Some(mut job) = begun else {
+            self.apply(FileCommand::Add(files));
+            return Ok(());
+        };
+        let mine = self.session.borrow().openings();
+        let outcome = loop {
+            match job.step() {
+                LoadStep::Working(next) => job = *next,
+                LoadStep::Ended(outcome) => break outcome,
+            }
+            next_task().await;
+            if self.is_silenced() || self.session.borrow().openings() != mine {
+                return Err(JsError::new(OVERTAKEN));
+            }
+        };
+        self.session.borrow_mut().end_opening(outcome);
+        self.tell_of_changes();
+        Ok(())
+    }
+
+    /// Applies a command, asks for a frame and tells of what happened.
     fn apply(&self, command: impl Into<Command>) {
         self.session.borrow_mut().apply(command);
+        self.tell_of_changes();
+    }
+
+    fn tell_of_changes(&self) {
         if let Some(running) = &*self.running.borrow() {
             running.ctx.request_repaint();
         }

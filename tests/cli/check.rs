@@ -64,9 +64,36 @@ fn json_has_an_object_for_each_file() {
             "subject": null,
             "count": 1,
             "places": [{"line": 34, "column": 17}],
+            "help": "An index must name a row that is there; a count must not be negative.",
         }]},
     ]);
     assert_eq!(run.json(), expected);
+}
+
+#[test]
+fn a_code_is_explained() {
+    let run = run(["check", "--explain", "weights-not-normalized"]);
+    let expected = "warning[weights-not-normalized]: The blend weights of a vertex do not sum to 1; normalised.\n\
+                    The books' shaders give the fourth bone whatever is left to 1, so the vertex may stand elsewhere there.\n";
+    assert_eq!((run.code, run.out.as_str(), run.err.as_str()), (Some(0), expected, ""));
+}
+
+#[test]
+fn an_unknown_code_is_wrong_use_and_the_nearest_is_named() {
+    for (asked, nearest) in [
+        ("weights-not-normalised", "weights-not-normalized"),
+        ("Empty-File", "empty-file"),
+    ] {
+        let run = run(["check", "--explain", asked]);
+        let expected = format!("error: there is no code \"{asked}\"; the nearest is \"{nearest}\"\n");
+        assert_eq!((run.code, run.out.as_str(), run.err), (Some(2), "", expected));
+    }
+    assert_eq!(
+        run(["check", "--explain", "comment", "a.m3d"]).code,
+        Some(2),
+        "a code or files"
+    );
+    assert_eq!(run(["check"]).code, Some(2), "neither");
 }
 
 /// `severity[code] line:column: message` stands beside each file.

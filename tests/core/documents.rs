@@ -6,6 +6,7 @@ use bindpose::diagnostic::Diagnostic;
 use bindpose::format::{
     AnimationClip, BoneAnimation, Document, Keyframe, LineMap, Material, Parsed, Reflectance, Subset, Vertex, parse,
 };
+use bindpose::import::m3d;
 use bindpose::model::Model;
 
 use crate::shared::shared;
@@ -38,7 +39,7 @@ pub(crate) fn shared_bytes(path: &str) -> Option<Vec<u8>> {
 
 /// The model of a document, and all that is found about it.
 pub(crate) fn read(document: &Document, lines: &LineMap) -> (Model, Vec<Diagnostic>) {
-    let (model, mut findings) = Model::from_document(document, lines).expect("the document is sound");
+    let (model, mut findings) = m3d::from_document(document, lines).expect("the document is sound");
     findings.extend(check::motion(
         &model,
         &CompiledClip::all(&model.clips),

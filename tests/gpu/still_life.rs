@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 
 use crate::scenes::{Scene, material};
 use crate::sets::{Plate, floor, plates};
-use crate::textures::square;
+use crate::textures::{directions, square};
 
 /// Rings and sides of a ball.
 const RINGS: u32 = 16;
@@ -92,7 +92,7 @@ impl StillLifeMaps {
                 let is_hole = x % 8 > 2 && y % 16 > 4;
                 [230, 230, 230, if is_hole { 0 } else { 255 }]
             }),
-            ripples: square(64, |x, y| {
+            ripples: directions(64, |x, y| {
                 let slope = |place: u32| 0.45 * (place as f32 / 64.0 * std::f32::consts::TAU * 4.0).sin();
                 let normal = Vec3::new(slope(x), slope(y), 1.0).normalize();
                 [byte(normal.x), byte(normal.y), byte(normal.z), 255]

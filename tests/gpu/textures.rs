@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bindpose::image::{Image, decode};
+use bindpose::image::{Image, MapKind, decode};
 use bindpose::model::{Mesh, Model, Submesh};
 use bindpose::render::MaterialImages;
 use bindpose::scene::{Projection, linear_from_srgb8};
@@ -16,15 +16,24 @@ pub(crate) const WHITE: [f32; 3] = [1.0; 3];
 pub(crate) const WIDTH: u32 = 160;
 pub(crate) const HEIGHT: u32 = 100;
 
-/// A square picture, texel by texel.
+/// A square picture of colours with its mips, texel by texel.
 pub(crate) fn square(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Image> {
-    let texels = (0..side * side).flat_map(|index| texel(index % side, index / side));
-    Arc::new(Image::from_rgba8(side, side, texels.collect(), "test").expect("a small picture"))
+    Arc::new(texels(side, texel).with_mips(MapKind::Diffuse))
 }
 
-/// The same texel everywhere.
+/// The same of directions.
+pub(crate) fn directions(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Image> {
+    Arc::new(texels(side, texel).with_mips(MapKind::Normal))
+}
+
+/// The same texel everywhere, which needs no mips.
 pub(crate) fn plain(texel: [u8; 4]) -> Arc<Image> {
-    square(4, |_, _| texel)
+    Arc::new(texels(4, |_, _| texel))
+}
+
+fn texels(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
+    let texels = (0..side * side).flat_map(|index| texel(index % side, index / side));
+    Image::from_rgba8(side, side, texels.collect(), "test").expect("a small picture")
 }
 
 /// A DDS file with a four-character code or, for `DX10`, a DXGI format and alpha mode, and all its levels.

@@ -2,6 +2,7 @@
 
 use bindpose::anim::activity;
 use bindpose::format::Keyframe;
+use bindpose::import::m3d;
 use bindpose::model::Model;
 
 use crate::documents::{REAL_FILES, arm, key, model_of, real_file, track, turned};
@@ -74,7 +75,7 @@ fn fractions_are_fractions_in_every_clip() {
     let mut models: Vec<Model> = JOINT_COUNTS.map(rigs::model).into();
     models.extend(REAL_FILES.iter().filter_map(|name| {
         let parsed = real_file(name)?;
-        Some(Model::from_parsed(&parsed).expect("sound").0)
+        Some(m3d::from_parsed(&parsed).expect("sound").0)
     }));
     for model in &models {
         for clip in &model.clips {

@@ -1,6 +1,7 @@
 //! From the animated pose to the bind pose.
 
 use bindpose::anim::{CompiledClip, PoseBuffers, blend_to_rest, sample};
+use bindpose::import::m3d;
 use bindpose::model::Model;
 use glam::Affine3A;
 
@@ -99,6 +100,6 @@ fn the_soldier_comes_to_its_bind_pose_without_a_jump() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check_ends(&model, 2e-3);
 }

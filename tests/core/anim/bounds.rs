@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use bindpose::anim::{CompiledClip, PoseBuffers, animated_bounds, skin_positions};
-use bindpose::model::{Aabb, Clip, Model};
+use bindpose::import::m3d;
+use bindpose::model::{Aabb, Clip};
 use glam::Vec3;
 
 use crate::documents::{arm, model_of, quad, real_file};
@@ -112,7 +113,7 @@ fn the_soldier_needs_the_box_of_the_textbook() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let begun = Instant::now();
     let bounds = animated_bounds(&model, &CompiledClip::new(&model.clips[0]));
     eprintln!("animated bounds of the soldier in {:?}", begun.elapsed());

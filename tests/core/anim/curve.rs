@@ -1,6 +1,7 @@
 //! Curves of one joint.
 
 use bindpose::anim::{CompiledClip, Curve, CurvePoint, CurveSpace, LocalPose, PoseBuffers, sample};
+use bindpose::import::m3d;
 use bindpose::model::{JointIndex, Model};
 use glam::{EulerRot, Quat, Vec3};
 
@@ -60,7 +61,7 @@ fn in_model_space_a_joint_is_where_its_chain_takes_it() {
     let mut models: Vec<_> = JOINT_COUNTS.map(rigs::model).into();
     models.extend(REAL_FILES.iter().filter_map(|name| {
         let parsed = real_file(name)?;
-        Some(Model::from_parsed(&parsed).expect("sound").0)
+        Some(m3d::from_parsed(&parsed).expect("sound").0)
     }));
     for model in models.iter().filter(|model| !model.clips.is_empty()) {
         let last = model.skeleton.joint_count() as u32 - 1;

@@ -2,6 +2,7 @@
 
 use bindpose::anim::{CompiledClip, PoseBuffers, RowMatrix, explain_vertex, skin_positions};
 use bindpose::format::Document;
+use bindpose::import::m3d;
 use bindpose::model::Model;
 
 use crate::chains::mirrored;
@@ -80,7 +81,7 @@ fn the_soldiers_vertices_come_where_skinning_brings_them() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check(&parsed.document, &model, 41, 3e-4);
 }
 

@@ -1,7 +1,8 @@
 //! Read-outs of a joint: put together again, its parts are the matrix.
 
 use bindpose::anim::{CompiledClip, JointReadout, PoseBuffers, RowMatrix, TransformParts, key_rows, key_table};
-use bindpose::model::{JointIndex, JointTree, LocalJoint, Model};
+use bindpose::import::m3d;
+use bindpose::model::{JointIndex, JointTree, LocalJoint};
 use glam::{Affine3A, DMat3, DQuat, DVec3, Mat3, Quat, Vec3};
 use proptest::prelude::*;
 
@@ -245,7 +246,7 @@ fn the_soldiers_joints_are_rigid_and_put_together_again() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let tree = JointTree::new(&model.skeleton);
     let mut pose = PoseBuffers::default();
     pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.517);

@@ -1,6 +1,7 @@
 //! Key times: rows of marks, and steps from key to key.
 
 use bindpose::anim::{key_times, merged_key_times, merged_key_times_of, next_key, previous_key};
+use bindpose::import::m3d;
 use bindpose::model::JointIndex;
 
 use crate::documents::{REAL_FILES, arm, key, model_of, real_file, track};
@@ -69,7 +70,7 @@ fn frames_are_keys_and_steps_reach_them_all() {
     let mut models: Vec<_> = JOINT_COUNTS.map(rigs::model).into();
     models.extend(REAL_FILES.iter().filter_map(|name| {
         let parsed = real_file(name)?;
-        Some(bindpose::model::Model::from_parsed(&parsed).expect("sound").0)
+        Some(m3d::from_parsed(&parsed).expect("sound").0)
     }));
     for clip in models.iter().flat_map(|model| &model.clips) {
         let densest = clip

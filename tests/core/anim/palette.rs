@@ -2,6 +2,7 @@
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::format::{Document, Keyframe};
+use bindpose::import::m3d;
 use bindpose::model::Model;
 use glam::{Affine3A, Mat4};
 
@@ -66,7 +67,7 @@ pub(super) fn times_of(document: &Document, clip: usize, steps: u16) -> Vec<f32>
 fn real_files_pose_as_in_the_textbook() {
     for file in REAL_FILES {
         let Some(parsed) = real_file(file) else { continue };
-        let (model, _) = Model::from_parsed(&parsed).expect("sound");
+        let (model, _) = m3d::from_parsed(&parsed).expect("sound");
         for clip in 0..model.clips.len() {
             let times_secs = times_of(&parsed.document, clip, 500);
             let error = greatest_error(&parsed.document, &model, clip, times_secs.into_iter());
@@ -210,7 +211,7 @@ fn the_soldier_s_root_begins_where_it_was_skinned() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let mut buffers = PoseBuffers::default();
     buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.0);
     assert!(

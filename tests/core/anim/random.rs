@@ -2,7 +2,8 @@
 
 use bindpose::anim::{CompiledClip, PoseBuffers, SkinnedVertices, animated_bounds, skin};
 use bindpose::format::{AnimationClip, Document, Keyframe, LineMap, Vertex};
-use bindpose::model::{Model, Track};
+use bindpose::import::m3d;
+use bindpose::model::Track;
 use glam::{Affine3A, Mat4};
 use proptest::prelude::*;
 
@@ -177,7 +178,7 @@ proptest! {
                 key.rotation = std::array::from_fn(|_| take());
             }
         }
-        let (model, _) = Model::from_document(&document, &LineMap::default()).expect("all references hold");
+        let (model, _) = m3d::from_document(&document, &LineMap::default()).expect("all references hold");
         let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
         buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
         prop_assert!(buffers.palette.0.iter().all(Affine3A::is_finite));

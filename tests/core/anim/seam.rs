@@ -1,6 +1,7 @@
 //! Where a loop begins again.
 
 use bindpose::anim::{CompiledClip, PoseBuffers, Seam, VISIBLE_FRACTION, seam};
+use bindpose::import::m3d;
 use bindpose::model::{JointIndex, Model};
 
 use crate::documents::{REAL_FILES, arm, figure, key, model_of, offset, real_file, track, turned};
@@ -169,7 +170,7 @@ fn the_figure_loops_without_a_seam_that_is_seen() {
 fn seams_of_real_files_are_those_of_their_poses() {
     for name in REAL_FILES {
         let Some(parsed) = real_file(name) else { continue };
-        let (model, _) = Model::from_parsed(&parsed).expect("sound");
+        let (model, _) = m3d::from_parsed(&parsed).expect("sound");
         let bounds = model.bind_bounds();
         for (index, clip) in model.clips.iter().enumerate() {
             let seam = whole_seam(&model, index, bounds.min.distance(bounds.max));

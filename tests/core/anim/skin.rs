@@ -1,6 +1,7 @@
 //! CPU skinning against a plain loop in f64.
 
 use bindpose::anim::{CompiledClip, Palette, PoseBuffers, SkinnedVertices, skin, skin_positions};
+use bindpose::import::m3d;
 use bindpose::model::Model;
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3, Quat, Vec3};
 
@@ -86,7 +87,7 @@ fn the_soldier_runs_as_in_the_textbook() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     for time_secs in [-1.0_f32, 0.0, 0.2083, 0.517, 1.2083, 1.24, 1.25, 7.0] {
         buffers.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);

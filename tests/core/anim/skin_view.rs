@@ -3,6 +3,7 @@
 use bindpose::anim::{
     CompiledClip, PoseBuffers, Stretch, dominant_joints, influence_counts, joint_weights, skin_positions,
 };
+use bindpose::import::m3d;
 use bindpose::model::{JointIndex, Model};
 use glam::Vec3;
 
@@ -160,7 +161,7 @@ fn the_soldier_has_four_joints_a_vertex_at_most_and_stretches_where_it_bends() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check_weights(&model);
     let stretch = Stretch::new(&model.mesh);
     let (mut pose, mut positions, mut ratios) = (PoseBuffers::default(), Vec::new(), Vec::new());

@@ -1,7 +1,8 @@
 //! Clips: keys in any state become tracks that can be sampled.
 
 use bindpose::format::{AnimationClip, ClipLines, Document, Keyframe, LineMap, parse};
-use bindpose::model::{Clip, LocalJoint, Model, Track};
+use bindpose::import::m3d;
+use bindpose::model::{Clip, LocalJoint, Track};
 use glam::{Quat, Vec3};
 
 use crate::documents::{arm, key, message_of, model_of, track, turned};
@@ -192,7 +193,7 @@ fn findings_point_at_the_bone_and_its_line() {
         ],
         ..LineMap::default()
     };
-    let (model, findings) = Model::from_document(&document, &lines).expect("mended");
+    let (model, findings) = m3d::from_document(&document, &lines).expect("mended");
     let told: Vec<(&str, Option<u32>)> = findings
         .iter()
         .map(|finding| (finding.code, finding.position.map(|at| at.line)))
@@ -345,7 +346,7 @@ fn a_clip_that_scales_the_whole_is_not_torn() {
 fn keys_at_times_that_are_no_numbers_are_left_out() {
     let parsed =
         parse(include_bytes!("../../fixtures/good/key_times_not_finite.m3d")).expect("the fixture can be read");
-    let (model, findings) = Model::from_parsed(&parsed).expect("the fixture makes a model");
+    let (model, findings) = m3d::from_parsed(&parsed).expect("the fixture makes a model");
     assert_eq!(model.clips[0].tracks[1].times_secs(), [0.0, 0.5]);
     let [finding] = findings.as_slice() else {
         panic!("{findings:?}")

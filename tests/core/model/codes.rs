@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use bindpose::diagnostic::{Diagnostic, Severity, codes};
 use bindpose::format::{Document, LineMap, Subset};
-use bindpose::model::Model;
+use bindpose::import::m3d;
 
 use crate::documents::{arm, is_sentence, key, material, offset, read, reordered, subset, track};
 
@@ -66,7 +66,7 @@ const CHANGES: &[fn(&mut Document)] = &[
 ];
 
 fn findings_of(document: &Document) -> Vec<Diagnostic> {
-    match Model::from_document(document, &LineMap::default()) {
+    match m3d::from_document(document, &LineMap::default()) {
         Ok(_) => read(document, &LineMap::default()).1,
         Err(error) => vec![error.diagnostic()],
     }

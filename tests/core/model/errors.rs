@@ -1,12 +1,13 @@
 //! What cannot become a model, in its exact words.
 
 use bindpose::format::{Document, LineMap};
-use bindpose::model::{JointIndex, LocalJoint, Model, ModelError, Skeleton, Track};
+use bindpose::import::{ImportError, m3d};
+use bindpose::model::{JointIndex, LocalJoint, Model, Skeleton, Track};
 use glam::{Affine3A, Quat, Vec3};
 
 use crate::documents::{arm, quad};
 
-fn error_of(change: impl FnOnce(&mut Document)) -> ModelError {
+fn error_of(change: impl FnOnce(&mut Document)) -> ImportError {
     let mut document = arm();
     change(&mut document);
     let lines = LineMap {
@@ -16,7 +17,7 @@ fn error_of(change: impl FnOnce(&mut Document)) -> ModelError {
         bone_parents: vec![400, 401, 402],
         ..LineMap::default()
     };
-    Model::from_document(&document, &lines).expect_err("the document is broken")
+    m3d::from_document(&document, &lines).expect_err("the document is broken")
 }
 
 #[test]
@@ -70,13 +71,12 @@ fn words_code_and_place_of_each_broken_rule() {
             // Vertex 5 gives its second bone no weight: what stands there does not matter.
             let mut document = arm();
             change(&mut document);
-            assert!(Model::from_document(&document, &LineMap::default()).is_ok());
+            assert!(m3d::from_document(&document, &LineMap::default()).is_ok());
             continue;
         }
         let error = error_of(change);
-        assert_eq!((error.code().name, error.to_string().as_str()), (code, words));
         let finding = error.diagnostic();
-        assert_eq!(finding.code, code);
+        assert_eq!((finding.code, error.to_string().as_str()), (code, words));
         assert_eq!(finding.position, error.position);
         assert!(
             words.ends_with(&finding.message),
@@ -90,7 +90,7 @@ fn words_code_and_place_of_each_broken_rule() {
 fn a_document_without_lines_has_errors_without_a_place() {
     let mut document = quad();
     document.triangles[1] = [0, 1, 4];
-    let error = Model::from_document(&document, &LineMap::default()).expect_err("vertex 4 does not exist");
+    let error = m3d::from_document(&document, &LineMap::default()).expect_err("vertex 4 does not exist");
     assert_eq!(
         error.to_string(),
         "Triangle 1 names vertex 4, but there are 4 vertices."
@@ -102,7 +102,7 @@ fn a_long_circle_names_its_first_bones() {
     let mut document = arm();
     document.bone_offsets = vec![document.bone_offsets[0]; 20];
     document.bone_parents = (0..20).map(|bone| (bone + 1) % 20).collect();
-    let error = Model::from_document(&document, &LineMap::default()).expect_err("a circle");
+    let error = m3d::from_document(&document, &LineMap::default()).expect_err("a circle");
     assert_eq!(
         error.to_string(),
         "Bones form a circle: 0 → 1 → 2 → 3 → 4 → 5 → 6 → 7 → … (12 more) → 0; each lists the next as its parent."
@@ -167,5 +167,59 @@ fn constructors_refuse_what_later_stages_rely_on() {
     ];
     for (track, words) in tracks {
         assert_eq!(track.expect_err("unsound").to_string(), words);
+    }
+}
+
+#[test]
+fn parts_that_do_not_fit_make_no_model() {
+    type Change = fn(&mut Model);
+    let cases: [(Change, &str, &str); 8] = [
+        (
+            |model| model.mesh.indices[4] = 14,
+            "vertex-out-of-range",
+            "Triangle 1 names vertex 14, but there are 14 vertices.",
+        ),
+        (
+            |model| model.mesh.normals.truncate(13),
+            "stream-length",
+            "There are 13 normals for 14 vertices; every vertex has one.",
+        ),
+        (
+            |model| model.mesh.influences.clear(),
+            "stream-length",
+            "There are 0 influences for 14 vertices; every vertex has one.",
+        ),
+        (
+            |model| model.skeleton = Skeleton::default(),
+            "joint-out-of-range",
+            "Vertex 0 names joint 0, but there are 0 joints.",
+        ),
+        (
+            |model| model.mesh.influences[5].joints[3] = 3,
+            "joint-out-of-range",
+            "Vertex 5 names joint 3, but there are 3 joints.",
+        ),
+        (
+            |model| model.mesh.submeshes[0].triangle_count = u32::MAX,
+            "submesh-out-of-range",
+            "Submesh 0 names triangles or a material that are not there.",
+        ),
+        (
+            |model| model.materials.clear(),
+            "submesh-out-of-range",
+            "Submesh 0 names triangles or a material that are not there.",
+        ),
+        (
+            |model| model.clips[0].tracks.truncate(2),
+            "track-count",
+            "Clip 0 has 2 tracks for 3 joints; every joint has one.",
+        ),
+    ];
+    let (sound, _) = m3d::from_document(&arm(), &LineMap::default()).expect("the arm is sound");
+    for (change, code, words) in cases {
+        let mut model = sound.clone();
+        change(&mut model);
+        let error = model.checked().expect_err("unsound");
+        assert_eq!((error.code().name, error.to_string().as_str()), (code, words));
     }
 }

@@ -2,7 +2,7 @@
 
 use bindpose::diagnostic::{Diagnostic, Position, Subject};
 use bindpose::format::{AnimationClip, ClipLines, Document, LineMap, Subset};
-use bindpose::model::Model;
+use bindpose::import::m3d;
 
 use crate::documents::{arm, key, material, quad, read, subset, track};
 
@@ -89,7 +89,7 @@ fn many_names_alike_are_shown_as_different_ones() {
         subsets: vec![subset(0, 2)],
         ..quad()
     };
-    let (model, _) = Model::from_document(&document, &LineMap::default()).expect("the document is sound");
+    let (model, _) = m3d::from_document(&document, &LineMap::default()).expect("the document is sound");
     let names: std::collections::HashSet<_> = model.materials.iter().map(|material| &material.name).collect();
     assert_eq!(names.len(), count);
     assert_eq!(

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use bindpose::format::Document;
+use bindpose::import::m3d;
 use bindpose::model::{
     Handedness, JointIndex, JointNames, JointTree, MirrorPair, Model, SavedNames, UpAxis, hierarchy_fingerprint,
     mirror_pairs, world_from_model,
@@ -189,7 +190,7 @@ fn twenty_thousand_siblings_are_paired_as_quickly_as_they_are_read() {
 
 #[test]
 fn the_figure_is_paired_limb_by_limb() {
-    let (model, _) = Model::from_parsed(&figure()).expect("sound");
+    let (model, _) = m3d::from_parsed(&figure()).expect("sound");
     let pairs = pairs(&model);
     // Seven joints of the middle, then 16 of the left and 16 of the right.
     let expected: Vec<_> = (7..23).map(|left| (left, left + 16)).collect();
@@ -218,7 +219,7 @@ fn the_soldiers_limbs_are_pairs() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let pairs = pairs(&model);
     let world = world_from_model(model.handedness, model.up_axis);
     let x = |joint: JointIndex| {

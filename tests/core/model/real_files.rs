@@ -1,6 +1,7 @@
 //! Facts of real files, measured with other programs.
 
-use bindpose::model::{Handedness, Model, Track, UpAxis};
+use bindpose::import::m3d;
+use bindpose::model::{Handedness, Track, UpAxis};
 use glam::Vec3;
 
 use crate::documents::{REAL_FILES, read_parsed, real_file};
@@ -99,7 +100,7 @@ fn the_soldier() {
 fn computed_directions_agree_with_stored_ones() {
     for file in REAL_FILES {
         let Some(parsed) = real_file(file) else { continue };
-        let (model, _) = Model::from_parsed(&parsed).expect("sound");
+        let (model, _) = m3d::from_parsed(&parsed).expect("sound");
         let mut document = parsed.document.clone();
         document
             .vertices
@@ -111,7 +112,7 @@ fn computed_directions_agree_with_stored_ones() {
             .iter_mut()
             .step_by(2)
             .for_each(|vertex| vertex.normal = [0.0; 3]);
-        let (computed, _) = Model::from_document(&document, &parsed.lines).expect("sound");
+        let (computed, _) = m3d::from_document(&document, &parsed.lines).expect("sound");
         assert_eq!(computed.handedness, model.handedness);
 
         let vertices = model.mesh.vertex_count() as f32;

@@ -1,7 +1,8 @@
 //! Order of joints, offsets and the pose at rest.
 
 use bindpose::format::LineMap;
-use bindpose::model::{JointIndex, LocalJoint, Model};
+use bindpose::import::m3d;
+use bindpose::model::{JointIndex, LocalJoint};
 use glam::{Affine3A, Vec3};
 
 use crate::documents::{arm, message_of, model_of, offset, reordered, track};
@@ -123,7 +124,7 @@ fn a_thousand_bones_in_falling_order_are_sorted_and_told() {
         bone_parents: (5_000..).take(count as usize).collect(),
         ..LineMap::default()
     };
-    let (model, findings) = Model::from_document(&document, &lines).expect("a chain has an order");
+    let (model, findings) = m3d::from_document(&document, &lines).expect("a chain has an order");
     assert!(model.skeleton.file_bones().iter().copied().eq((0..1_000).rev()));
     assert!(
         model

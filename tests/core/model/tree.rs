@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use bindpose::import::m3d;
 use bindpose::model::{JointIndex, JointTree, Model, Skeleton};
 use glam::Affine3A;
 use proptest::prelude::*;
@@ -116,7 +117,7 @@ fn the_soldiers_counts_are_those_of_a_walk_over_all_parents() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let (model, _) = Model::from_parsed(&parsed).expect("sound");
+    let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check_tree(&model.skeleton);
     check_counts(&model);
 }

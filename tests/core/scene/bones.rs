@@ -1,6 +1,7 @@
 //! Bones placed, drawn, picked and named.
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
+use bindpose::import::m3d;
 use bindpose::model::{Handedness, JointIndex, Model, UpAxis, world_from_model};
 use bindpose::scene::{
     Aabb, BoneColors, BoneStyle, Bones, Camera, MarkedJoints, OverlayGeometry, OverlayVertex, Projection, Screen,
@@ -354,6 +355,6 @@ fn the_soldiers_joints_are_picked_where_they_are_drawn() {
     let Some(parsed) = real_file("d3d12/soldier") else {
         return;
     };
-    let bones = placed(&Model::from_parsed(&parsed).expect("sound").0);
+    let bones = placed(&m3d::from_parsed(&parsed).expect("sound").0);
     check_pick(&bones, &screen(&bones, Camera::default().projection));
 }

@@ -1,6 +1,7 @@
 //! Colours of skins and their legends.
 
 use bindpose::anim::SkinView;
+use bindpose::import::m3d;
 use bindpose::model::{JointIndex, Skeleton};
 use bindpose::scene::{colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend, linear_from_srgb8};
 use glam::{Affine3A, Vec3};
@@ -101,7 +102,7 @@ fn neighbouring_joints_are_clearly_different() {
         check_neighbours(&skeleton);
     }
     if let Some(parsed) = real_file("d3d12/soldier") {
-        check_neighbours(&bindpose::model::Model::from_parsed(&parsed).expect("sound").0.skeleton);
+        check_neighbours(&m3d::from_parsed(&parsed).expect("sound").0.skeleton);
     }
 }
 

@@ -298,3 +298,30 @@ fn a_map_that_comes_later_is_decoded_alone_and_the_others_stay() {
     session.apply(FileCommand::Add(vec![mapped("box.m3d", "a.png", "b.png")]));
     assert!(is_same(&session), "the model again");
 }
+
+#[test]
+fn maps_come_with_the_mips_of_what_they_are_used_for() {
+    // Two texels that lie opposite each other as directions, and are far apart as colours.
+    let texels = [[255, 128, 128, 255], [0, 127, 127, 255]].concat();
+    let png = || File::new("a.png", encode_png(&texels, 2, 1).expect("two by one"));
+    let levels = |session: &Session, slot| {
+        let image = session.maps().image(0, slot)?;
+        let counts = [image.level_count(), image.file_level_count()];
+        Some((counts, image.to_rgba8(0, 1)?))
+    };
+    let as_colour = Some(([2, 1], vec![188, 128, 128, 255]));
+    let as_direction = Some(([2, 1], vec![128, 128, 255, 255]));
+
+    let both = opened(vec![mapped("box.m3d", "a.png", "a.png"), png()]);
+    assert_eq!(levels(&both, MapSlot::Diffuse), as_colour);
+    assert_eq!(levels(&both, MapSlot::Normal), as_direction);
+
+    // When the model comes again and names it for more, what is there stays.
+    let mut session = opened(vec![mapped("box.m3d", "a.png", "none.png"), png()]);
+    assert_eq!(levels(&session, MapSlot::Normal), None);
+    let before = Arc::clone(session.maps().image(0, MapSlot::Diffuse).expect("it is there"));
+    session.apply(FileCommand::Add(vec![mapped("box.m3d", "a.png", "a.png")]));
+    assert_eq!(levels(&session, MapSlot::Normal), as_direction);
+    let after = session.maps().image(0, MapSlot::Diffuse).expect("it is there");
+    assert!(Arc::ptr_eq(&before, after));
+}

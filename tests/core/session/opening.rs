@@ -282,3 +282,41 @@ fn a_drop_of_nothing_changes_nothing_but_says_so() {
         error.diagnostic.message
     );
 }
+
+#[test]
+fn a_drop_can_be_opened_in_steps_and_one_that_is_overtaken_is_known_by_its_number() {
+    let mut session = opened(still("small.m3d"));
+    session.confirm_uploads();
+    session.take_events();
+    let job = session.begin_opening(vec![moving("a.m3d")]).expect("there is a model");
+    let mine = session.openings();
+    session.apply(PlayCommand::SetSpeed(0.5));
+    assert_eq!(open_path(&session), Some("small.m3d"), "until then all stays as it is");
+    assert_eq!(session.openings(), mine);
+    let changes = session.end_opening(job.run());
+    assert!(changes.model);
+    assert_eq!(open_path(&session), Some("a.m3d"));
+    assert!(session.take_events().contains(&Event::Load));
+    session.go_back("no memory");
+    assert_eq!(open_path(&session), Some("small.m3d"));
+    assert_eq!(session.openings(), mine, "nobody asked for this one");
+
+    let failed = session.begin_opening(vec![broken("b.m3d")]).expect("it looks like one");
+    assert!(!session.end_opening(failed.run()).model);
+    assert_eq!(session.error().map(|error| error.file_name.as_str()), Some("b.m3d"));
+
+    for overtake in [
+        FileCommand::Add(vec![still("c.m3d")]),
+        FileCommand::Open("c.m3d".to_owned()),
+        FileCommand::Add(vec![broken("c.m3d")]),
+    ] {
+        assert!(session.begin_opening(vec![moving("a.m3d")]).is_some());
+        let mine = session.openings();
+        session.apply(overtake);
+        assert_ne!(session.openings(), mine);
+    }
+    assert!(
+        session.begin_opening(vec![picture("a.png")]).is_none(),
+        "no model in it"
+    );
+}

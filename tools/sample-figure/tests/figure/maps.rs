@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use bindpose::format::LineMap;
-use bindpose::model::Model;
+use bindpose::import::m3d;
 use bindpose::{image, scene};
 use sample_figure::SampleMap;
 
@@ -56,7 +56,7 @@ fn the_materials_and_the_page_name_every_map() {
 
 #[test]
 fn without_its_maps_each_material_keeps_its_colour() {
-    let (model, _) = Model::from_document(&FIGURE, &LineMap::default()).expect("the figure is sound");
+    let (model, _) = m3d::from_document(&FIGURE, &LineMap::default()).expect("the figure is sound");
     for (index, material) in model.materials.iter().enumerate() {
         assert_eq!(
             scene::display_color(index, material),

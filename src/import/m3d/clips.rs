@@ -2,13 +2,10 @@
 
 use glam::{Quat, Vec3};
 
-use super::clip::{densest, keys_per_sec, span};
-use super::names::unique;
-use super::track::unit;
-use super::{Clip, LocalJoint, ModelError, Skeleton, Track};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
-use crate::format::{BoneAnimation, ClipLines, Document, LineMap};
+use crate::format::{BoneAnimation, ClipLines, Document, Keyframe, LineMap};
+use crate::model::{Clip, LocalJoint, ModelError, Skeleton, Track, unique_names, unit_rotation};
 
 /// A rotation whose length is off by more than this was not meant to be rounded.
 const UNIT_TOLERANCE: f32 = 1e-3;
@@ -24,7 +21,7 @@ pub(super) fn clips_from_document(
     diagnostics: &mut Diagnostics,
 ) -> Result<Vec<Clip>, ModelError> {
     let clip_lines = lines.clip_lines();
-    let names = unique(
+    let names = unique_names(
         document.clips.iter().map(|clip| clip.name.as_str()),
         "clip",
         |index, name| {
@@ -94,19 +91,9 @@ impl ClipReader<'_> {
         }
         self.note(&mended, bones.len(), diagnostics);
 
-        // A bone without keys rests at every time: it takes no part in the span.
-        let keyed = || tracks.iter().filter(|track| track.has_keys());
-        let (start_secs, end_secs) = span(keyed());
-        let keys_per_sec = keys_per_sec(keyed());
-        Ok(Clip {
-            name,
-            start_secs,
-            end_secs,
-            keys_per_sec,
-            key_count: bones.iter().map(|bone| bone.keyframes.len()).sum(),
-            densest: densest(&tracks),
-            tracks,
-        })
+        let mut clip = Clip::new(name, tracks);
+        clip.key_count = bones.iter().map(|bone| bone.keyframes.len()).sum();
+        Ok(clip)
     }
 
     fn note(&self, mended: &Mended, bone_count: usize, diagnostics: &mut Diagnostics) {
@@ -183,7 +170,7 @@ impl ClipReader<'_> {
 }
 
 /// The keys of a bone: finite, in strictly increasing time.
-fn mended_keys(bone: u32, keys: &[crate::format::Keyframe], mended: &mut Mended) -> Vec<(f32, LocalJoint)> {
+fn mended_keys(bone: u32, keys: &[Keyframe], mended: &mut Mended) -> Vec<(f32, LocalJoint)> {
     let mut sound = Vec::with_capacity(keys.len());
     for key in keys {
         let stored = Quat::from_array(key.rotation);
@@ -196,7 +183,7 @@ fn mended_keys(bone: u32, keys: &[crate::format::Keyframe], mended: &mut Mended)
             mended.not_finite.add(bone);
             continue;
         }
-        let rotation = unit(stored).unwrap_or_else(|| {
+        let rotation = unit_rotation(stored).unwrap_or_else(|| {
             mended.zero_rotation.add(bone);
             Quat::IDENTITY
         });

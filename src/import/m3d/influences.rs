@@ -1,9 +1,10 @@
 //! From the file's blend weights and bone numbers to influences.
 
-use super::{Influences, ModelError, ModelErrorKind, Skeleton};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex};
+use crate::import::{ImportError, ImportErrorKind};
+use crate::model::{Influences, Skeleton};
 
 /// A sum of weights that is off by more than this was not meant to be rounded.
 const SUM_TOLERANCE: f32 = 1e-3;
@@ -26,7 +27,7 @@ pub(super) fn influences_from_document(
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
-) -> Result<Vec<Influences>, ModelError> {
+) -> Result<Vec<Influences>, ImportError> {
     if skeleton.joint_count() == 0 {
         return Ok(Vec::new());
     }
@@ -68,14 +69,14 @@ fn joined(
     weights: [f32; 4],
     skeleton: &Skeleton,
     mended: &mut Mended,
-) -> Result<Influences, ModelErrorKind> {
+) -> Result<Influences, ImportErrorKind> {
     let mut joints = [0; 4];
     for ((joint, &bone), &weight) in joints.iter_mut().zip(&vertex.blend_indices).zip(&weights) {
         if weight == 0.0 {
             continue;
         }
         let Some(named) = skeleton.joint_of_bone().get(bone as usize) else {
-            return Err(ModelErrorKind::InfluenceOutOfRange {
+            return Err(ImportErrorKind::InfluenceOutOfRange {
                 vertex: index,
                 bone,
                 bone_count: skeleton.joint_count() as u32,

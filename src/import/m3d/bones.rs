@@ -5,10 +5,11 @@ use std::collections::BinaryHeap;
 
 use glam::{Affine3A, Mat4};
 
-use super::{JointIndex, ModelError, ModelErrorKind, Skeleton};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{Document, LineMap};
+use crate::import::{ImportError, ImportErrorKind};
+use crate::model::{JointIndex, Skeleton};
 
 /// Bones that the loaders of both books can hold in their constant buffer.
 const BOOK_BONE_LIMIT: usize = 96;
@@ -19,10 +20,10 @@ pub(super) fn skeleton_from_document(
     document: &Document,
     lines: &LineMap,
     diagnostics: &mut Diagnostics,
-) -> Result<Skeleton, ModelError> {
+) -> Result<Skeleton, ImportError> {
     let bone_count = document.bone_parents.len();
     if document.bone_offsets.len() != bone_count {
-        return Err(ModelErrorKind::BoneCountMismatch {
+        return Err(ImportErrorKind::BoneCountMismatch {
             offsets: document.bone_offsets.len(),
             parents: bone_count,
         }
@@ -49,18 +50,18 @@ pub(super) fn skeleton_from_document(
         .collect();
     let offsets = offsets(&document.bone_offsets, lines, diagnostics);
     let joint_from_bind = file_bones.iter().map(|&bone| offsets[bone as usize]).collect();
-    Skeleton::new(parents, joint_from_bind, file_bones)
+    Ok(Skeleton::new(parents, joint_from_bind, file_bones)?)
 }
 
 /// The file's parents: −1 is a root, anything else must be a bone.
-fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>, ModelError> {
+fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>, ImportError> {
     let bone_count = parents.len() as u32;
     (0u32..)
         .zip(parents)
         .map(|(bone, &parent)| match u32::try_from(parent) {
             _ if parent == -1 => Ok(None),
             Ok(number) if number < bone_count => Ok(Some(number)),
-            _ => Err(ModelErrorKind::ParentOutOfRange {
+            _ => Err(ImportErrorKind::ParentOutOfRange {
                 bone,
                 parent,
                 bone_count,
@@ -71,7 +72,7 @@ fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>
 }
 
 /// File bones in an order in which parents come first: of the bones that may stand next, always the lowest number.
-fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, ModelError> {
+fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, ImportError> {
     let mut children = vec![Vec::new(); parents.len()];
     let mut ready = BinaryHeap::new();
     for (bone, parent) in (0u32..).zip(parents) {
@@ -91,7 +92,7 @@ fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, M
     let bones = circle_of(parents, &order);
     let line = bones.first().and_then(|&bone| lines.bone_parents.get(bone as usize));
     let line = line.copied();
-    Err(ModelErrorKind::ParentCycle { bones }.on_line(line))
+    Err(ImportErrorKind::ParentCycle { bones }.on_line(line))
 }
 
 /// A circle among the bones that no root reaches, from its lowest number on.

@@ -2,23 +2,17 @@
 
 use glam::{DVec2, DVec3, Vec3, Vec4};
 
-use super::Mesh;
 use super::normals::is_direction;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
-use crate::format::LineMap;
+use crate::model::Mesh;
 
-/// Unit tangents for a mesh that has its other streams. Those that are zero or not finite follow the u axis of the
-/// triangles around, or stand anyhow square to the normal where the texture coordinates give no direction.
-pub(super) fn mended_tangents(
-    stored: impl Iterator<Item = [f32; 4]>,
-    mesh: &Mesh,
-    lines: &LineMap,
-    diagnostics: &mut Diagnostics,
-) -> Vec<Vec4> {
-    let mut tangents: Vec<Vec4> = stored.map(Vec4::from_array).collect();
+/// Makes the tangents of a mesh unit vectors with a sign of ±1. The normals are unit vectors already. Tangents that are zero or
+/// not finite follow the u axis of the triangles around; where the texture coordinates give no direction, they are any vector
+/// square to the normal. `vertex_lines` has the line of each vertex in the file; it may be empty.
+pub(super) fn mend_tangents(mesh: &mut Mesh, vertex_lines: &[u32], diagnostics: &mut Diagnostics) {
     let (mut missing, mut signs) = (Tally::default(), Tally::default());
-    for (index, tangent) in (0u32..).zip(&tangents) {
+    for (index, tangent) in (0u32..).zip(&mesh.tangents) {
         if !is_direction(tangent.truncate()) {
             missing.add(index);
         } else if tangent.w.abs() != 1.0 {
@@ -30,7 +24,7 @@ pub(super) fn mended_tangents(
     } else {
         Vec::new()
     };
-    for (index, tangent) in tangents.iter_mut().enumerate() {
+    for (index, tangent) in mesh.tangents.iter_mut().enumerate() {
         let direction = tangent.truncate();
         *tangent = if is_direction(direction) {
             let sign = if tangent.w < 0.0 { -1.0 } else { 1.0 };
@@ -41,7 +35,7 @@ pub(super) fn mended_tangents(
     }
     let mut warn = |code: &Code, tally: Tally, rule: &str| {
         if tally.count > 0 {
-            let place = Place::of_rows(&tally, Subject::Vertex, &lines.vertices);
+            let place = Place::of_rows(&tally, Subject::Vertex, vertex_lines);
             diagnostics.add(
                 code,
                 place,
@@ -56,7 +50,6 @@ pub(super) fn mended_tangents(
         signs,
         "a tangent whose fourth number is not 1 or −1; its sign is kept.",
     );
-    tangents
 }
 
 /// Where u and v grow on the surface around a vertex.

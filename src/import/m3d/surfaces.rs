@@ -1,10 +1,9 @@
 //! From the file's materials and subsets to ours: what is drawn with what.
 
-use super::names::unique;
-use super::{Material, Reflectance, Submesh};
 use crate::diagnostic::collect::{Diagnostics, Place, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{self, Document, LineMap, Subset};
+use crate::model::{Material, Reflectance, Submesh, unique_names};
 
 /// The ranges to draw. May add one default material for subsets that have none.
 pub(super) fn submeshes_from_document(
@@ -195,7 +194,7 @@ impl HighestIndices {
 /// What a subset without a material is drawn with: a mid grey that reads as no colour of the file.
 pub(super) fn default_material(others: &[Material]) -> Material {
     let names = others.iter().map(|material| material.name.as_str()).chain(["default"]);
-    let name = unique(names, "material", |_, _| ()).pop().unwrap_or_default();
+    let name = unique_names(names, "material", |_, _| ()).pop().unwrap_or_default();
     Material {
         name,
         diffuse: [0.8; 3],
@@ -215,7 +214,7 @@ pub(super) fn materials_from_document(
     lines: &LineMap,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Material> {
-    let names = unique(
+    let names = unique_names(
         document.materials.iter().map(|material| material.name.as_str()),
         "material",
         |index, name| {

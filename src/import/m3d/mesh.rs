@@ -1,14 +1,15 @@
 //! From the file's vertices and triangles to streams: finite, unit where they must be, every index in range.
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 use super::influences::influences_from_document;
-use super::normals::{handedness_of, mended_normals};
-use super::tangents::mended_tangents;
-use super::{Handedness, Mesh, ModelError, ModelErrorKind, Skeleton};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex};
+use crate::import::normals::{handedness_of, mend_normals};
+use crate::import::tangents::mend_tangents;
+use crate::import::{ImportError, ImportErrorKind};
+use crate::model::{Handedness, Mesh, ModelError, Skeleton};
 
 /// Vertices that the books' 16-bit indices can name.
 const BOOK_VERTEX_LIMIT: usize = 65_535;
@@ -19,9 +20,8 @@ pub(super) fn mesh_from_document(
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
-) -> Result<(Mesh, Handedness), ModelError> {
+) -> Result<(Mesh, Handedness), ImportError> {
     let vertices = &document.vertices;
-    let indices = indices(&document.triangles, vertices.len(), lines)?;
     if vertices.len() > BOOK_VERTEX_LIMIT {
         let count = vertices.len();
         let message = format!("There are {count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}.");
@@ -31,38 +31,27 @@ pub(super) fn mesh_from_document(
     let tex_coords = finite_stream(vertices, lines, diagnostics, "texture coordinate", |vertex| {
         vertex.tex_coords
     });
-    let positions: Vec<Vec3> = positions.into_iter().map(Vec3::from_array).collect();
-    let tex_coords: Vec<Vec2> = tex_coords.into_iter().map(Vec2::from_array).collect();
-    let stored_normals: Vec<Vec3> = vertices.iter().map(|vertex| Vec3::from_array(vertex.normal)).collect();
-
-    let handedness = handedness_of(&positions, &stored_normals, &indices, diagnostics);
-    let normals = mended_normals(stored_normals, &positions, &indices, handedness, lines, diagnostics);
     let mut mesh = Mesh {
-        positions,
-        normals,
-        tangents: Vec::new(),
-        tex_coords,
-        influences: influences_from_document(document, lines, skeleton, diagnostics)?,
-        indices,
+        positions: positions.into_iter().map(Vec3::from_array).collect(),
+        normals: vertices.iter().map(|vertex| Vec3::from_array(vertex.normal)).collect(),
+        tangents: vertices.iter().map(|vertex| Vec4::from_array(vertex.tangent)).collect(),
+        tex_coords: tex_coords.into_iter().map(Vec2::from_array).collect(),
+        influences: Vec::new(),
+        indices: document.triangles.as_flattened().to_vec(),
         submeshes: Vec::new(),
     };
-    mesh.tangents = mended_tangents(vertices.iter().map(|vertex| vertex.tangent), &mesh, lines, diagnostics);
+    mesh.check().map_err(|rule| {
+        let line = match rule {
+            ModelError::VertexOutOfRange { triangle, .. } => lines.triangles.get(triangle as usize).copied(),
+            _ => None,
+        };
+        ImportErrorKind::from(rule).on_line(line)
+    })?;
+    let handedness = handedness_of(&mesh, diagnostics);
+    mend_normals(&mut mesh, handedness, &lines.vertices, diagnostics);
+    mesh.influences = influences_from_document(document, lines, skeleton, diagnostics)?;
+    mend_tangents(&mut mesh, &lines.vertices, diagnostics);
     Ok((mesh, handedness))
-}
-
-/// Triangles as one list, each index a vertex.
-fn indices(triangles: &[[u32; 3]], vertex_count: usize, lines: &LineMap) -> Result<Vec<u32>, ModelError> {
-    for (triangle, corners) in (0u32..).zip(triangles) {
-        if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertex_count) {
-            return Err(ModelErrorKind::VertexOutOfRange {
-                triangle,
-                vertex,
-                vertex_count: vertex_count as u32,
-            }
-            .on_line(lines.triangles.get(triangle as usize).copied()));
-        }
-    }
-    Ok(triangles.as_flattened().to_vec())
 }
 
 /// One field of all vertices, with 0 for what is not a number.

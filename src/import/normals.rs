@@ -2,10 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::Handedness;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::format::LineMap;
+use crate::model::{Handedness, Mesh};
 
 /// Shorter than this is no direction.
 const LEAST_LENGTH: f64 = 1e-6;
@@ -15,18 +14,17 @@ pub(super) fn is_direction(vector: Vec3) -> bool {
     vector.is_finite() && vector.as_dvec3().length() > LEAST_LENGTH
 }
 
-/// Unit normals. Those that are zero or not finite become the mean of the triangles around, weighted by their area; a
-/// vertex without such triangles gets +y.
-pub(super) fn mended_normals(
-    mut normals: Vec<Vec3>,
-    positions: &[Vec3],
-    indices: &[u32],
+/// Makes the normals of a mesh unit vectors. Those that are zero or not finite become the mean of the triangles around, weighted
+/// by their area; a vertex without such triangles gets +y. `vertex_lines` has the line of each vertex in the file; it may be
+/// empty.
+pub(super) fn mend_normals(
+    mesh: &mut Mesh,
     handedness: Handedness,
-    lines: &LineMap,
+    vertex_lines: &[u32],
     diagnostics: &mut Diagnostics,
-) -> Vec<Vec3> {
+) {
     let mut missing = Tally::default();
-    for (index, normal) in (0u32..).zip(&normals) {
+    for (index, normal) in (0u32..).zip(&mesh.normals) {
         if !is_direction(*normal) {
             missing.add(index);
         }
@@ -34,17 +32,17 @@ pub(super) fn mended_normals(
     let computed = if missing.count > 0 {
         diagnostics.add(
             &codes::NORMALS_MISSING,
-            Place::of_rows(&missing, Subject::Vertex, &lines.vertices),
+            Place::of_rows(&missing, Subject::Vertex, vertex_lines),
             format!(
                 "{} a normal that is zero or not finite; computed from the triangles.",
                 counted(missing.count, "vertex has", "vertices have")
             ),
         );
-        area_weighted(positions, indices, handedness)
+        area_weighted(mesh, handedness)
     } else {
         Vec::new()
     };
-    for (index, normal) in normals.iter_mut().enumerate() {
+    for (index, normal) in mesh.normals.iter_mut().enumerate() {
         let direction = if is_direction(*normal) {
             normal.as_dvec3()
         } else {
@@ -52,19 +50,18 @@ pub(super) fn mended_normals(
         };
         *normal = direction.try_normalize().unwrap_or(DVec3::Y).as_vec3();
     }
-    normals
 }
 
 /// Sum of the facing sides of the triangles around each vertex, as long as twice their area.
-fn area_weighted(positions: &[Vec3], indices: &[u32], handedness: Handedness) -> Vec<DVec3> {
+fn area_weighted(mesh: &Mesh, handedness: Handedness) -> Vec<DVec3> {
     let outward = match handedness {
         Handedness::Left => 1.0,
         Handedness::Right => -1.0,
     };
-    let mut sums = vec![DVec3::ZERO; positions.len()];
-    for corners in indices.chunks_exact(3) {
+    let mut sums = vec![DVec3::ZERO; mesh.vertex_count()];
+    for corners in mesh.indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
-        let side = facing(positions[a], positions[b], positions[c]) * outward;
+        let side = facing([a, b, c].map(|vertex| mesh.positions[vertex])) * outward;
         for corner in [a, b, c] {
             sums[corner] += side;
         }
@@ -77,21 +74,15 @@ const CLEAR_SHARE: f64 = 0.8;
 
 /// Compares the side that each triangle's winding faces with the side of its normals: both agree in a left-handed file
 /// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books.
-pub(super) fn handedness_of(
-    positions: &[Vec3],
-    normals: &[Vec3],
-    indices: &[u32],
-    diagnostics: &mut Diagnostics,
-) -> Handedness {
+pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Handedness {
     let (mut agree, mut disagree) = (0u32, 0u32);
-    for corners in indices.chunks_exact(3) {
-        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
+    for corners in mesh.indices.chunks_exact(3) {
+        let corners = [0, 1, 2].map(|corner| corners[corner] as usize);
         // A corner without a normal says nothing; the others still do.
-        let known = [normals[a], normals[b], normals[c]]
-            .into_iter()
-            .filter(|&normal| is_direction(normal));
+        let normals = corners.map(|vertex| mesh.normals[vertex]);
+        let known = normals.into_iter().filter(|&normal| is_direction(normal));
         let normal: DVec3 = known.map(Vec3::as_dvec3).sum();
-        let side = facing(positions[a], positions[b], positions[c]).dot(normal);
+        let side = facing(corners.map(|vertex| mesh.positions[vertex])).dot(normal);
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);
     }
@@ -113,7 +104,7 @@ pub(super) fn handedness_of(
 
 /// Twice the area of a triangle, along the side from which its corners run clockwise in a left-handed space. In f64, since
 /// the square of a large coordinate may not fit an f32.
-pub(super) fn facing(a: Vec3, b: Vec3, c: Vec3) -> DVec3 {
-    let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
+fn facing(corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
     (b - a).cross(c - a)
 }

@@ -1,0 +1,70 @@
+//! The books' text format: [`from_document`] translates what a file says.
+//!
+//! Bones become joints with parents first, weights sum to 1, keys are sorted and finite, missing normals and tangents are
+//! computed, ranges lie inside the mesh. What was mended comes back as diagnostics; what names something that does not exist is
+//! an [`ImportError`].
+//!
+//! The codes of both are [`codes::OF_MODEL`](crate::diagnostic::codes::OF_MODEL).
+
+mod bones;
+mod clips;
+mod influences;
+mod mesh;
+mod surfaces;
+
+use super::{ImportError, Imported};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::collect::Diagnostics;
+use crate::format::{self, Dialect, Document, LineMap, Parsed};
+use crate::model::{Model, UpAxis};
+
+pub(super) use crate::format::begins_like_model;
+
+pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Diagnostic>> {
+    let parsed = format::parse(bytes).map_err(|error| Box::new(error.diagnostic()))?;
+    let (model, mut diagnostics) = from_parsed(&parsed).map_err(|error| Box::new(error.diagnostic()))?;
+    diagnostics.sort_by_key(|diagnostic| diagnostic.position);
+    Ok(Imported {
+        dialect: parsed.document.dialect,
+        model,
+        diagnostics,
+        clip_lines: parsed.lines.clip_lines(),
+    })
+}
+
+/// The model of a parsed file, and the diagnostics of both stages, the parser's first.
+///
+/// # Errors
+/// As [`from_document`].
+pub fn from_parsed(parsed: &Parsed) -> Result<(Model, Vec<Diagnostic>), ImportError> {
+    let (model, diagnostics) = from_document(&parsed.document, &parsed.lines)?;
+    let all = parsed.diagnostics.iter().cloned().chain(diagnostics).collect();
+    Ok((model, all))
+}
+
+/// What a document means, and what had to be mended for it. `lines` gives the diagnostics their places; it may be empty.
+///
+/// # Errors
+/// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
+pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec<Diagnostic>), ImportError> {
+    let mut diagnostics = Diagnostics::default();
+    let mut materials = surfaces::materials_from_document(document, lines, &mut diagnostics);
+    let submeshes = surfaces::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
+    let skeleton = bones::skeleton_from_document(document, lines, &mut diagnostics)?;
+    let (mut mesh, handedness) = mesh::mesh_from_document(document, lines, &skeleton, &mut diagnostics)?;
+    mesh.submeshes = submeshes;
+    let clips = clips::clips_from_document(document, lines, &skeleton, &mut diagnostics)?;
+    let up_axis = match document.dialect {
+        Dialect::Imm => UpAxis::Z,
+        Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
+    };
+    let model = Model {
+        materials,
+        mesh,
+        skeleton,
+        clips,
+        handedness,
+        up_axis,
+    };
+    Ok((model.checked()?, diagnostics.into_vec()))
+}
