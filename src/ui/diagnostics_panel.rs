@@ -12,7 +12,7 @@ use super::widgets::{closable_heading, focus_ring, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubsetCommand};
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, max_height: f32, commands: &mut Vec<Command>) {
@@ -154,7 +154,7 @@ impl Goal {
             commands: vec![
                 JointCommand::SelectVertex(None).into(),
                 JointCommand::Select(Some(joint)).into(),
-                JointCommand::SetBonesVisible(true).into(),
+                LookCommand::SetBonesVisible(true).into(),
             ],
             page: Some(SidePage::Skeleton),
         }

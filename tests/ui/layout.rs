@@ -2,7 +2,7 @@
 
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
-use bindpose::session::{FileCommand, JointCommand, PlayCommand, SubsetCommand};
+use bindpose::session::{FileCommand, JointCommand, LookCommand, PlayCommand, SubsetCommand};
 use egui::{Rect, Vec2, pos2, vec2};
 
 use crate::models::{self, broken, moving, still};
@@ -187,9 +187,9 @@ fn in_a_low_window_what_was_opened_stands_beside_the_model() {
             assert_apart(&window, &["title", "sheet", "page"]);
             assert!(panel(&window, "page").contains_rect(window.rect("Dialect")));
             assert_model_is_free(&mut window, size);
-            window.apply(JointCommand::SetSkinView(Some(SkinView::Stretch)));
+            window.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
             assert_model_is_free(&mut window, size);
-            window.apply(JointCommand::SetSkinView(None));
+            window.apply(LookCommand::SetSkinView(None));
             show_findings(&mut window);
             assert_between_sides(&window, size);
             window.click("Close the sheet");
@@ -290,7 +290,7 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
         for view in SkinView::ALL {
             let open = if touch { touch_window } else { window };
             let mut window = open(size, vec![moving("a.m3d")]);
-            window.apply(JointCommand::SetSkinView(Some(view)));
+            window.apply(LookCommand::SetSkinView(Some(view)));
             let narrow = size.x < 900.0;
             let base: &[&str] = if narrow {
                 &["title", "sheet", "legend"]

@@ -70,7 +70,7 @@ pub(in crate::ui) fn has_legend(session: &Session) -> bool {
 }
 
 fn view_on_show(session: &Session) -> Option<SkinView> {
-    session.joints().skin_view().filter(|_| session.open_model().is_some())
+    session.look().skin_view.filter(|_| session.open_model().is_some())
 }
 
 /// A panel whose lower left corner is at a point. Nothing while the skin is shown as it is.
