@@ -5,7 +5,7 @@
 
 use crate::anim::{Direction, SkinView};
 use crate::scene::{Overlay, Projection, ViewPreset};
-use crate::session::{CameraCommand, Command, JointCommand, LookCommand, PlayCommand, Session};
+use crate::session::{CameraCommand, Command, LookCommand, PlayCommand, Session};
 
 /// What an action asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,7 +177,7 @@ pub fn speed_label(speed: f32) -> String {
 
 /// The name of what is shown of the surface: colours of the skin take the place of the view mode.
 pub fn view_mode_label(session: &Session) -> &'static str {
-    match session.joints().skin_view() {
+    match session.look().skin_view {
         Some(view) => view.label(),
         None => session.look().view_mode.label(),
     }
@@ -333,20 +333,20 @@ actions! {
 
     /// Bones over the model.
     BONES: Action::new(Group::Bones, &["B"], "bones", "Bones", |session| {
-        with_bones(session, JointCommand::SetBonesVisible(!session.joints().bones_visible()))
+        with_bones(session, LookCommand::SetBonesVisible(!session.look().bones_visible))
     })
-    .now(|session| on(session.joints().bones_visible()));
+    .now(|session| on(session.look().bones_visible));
     /// Names at the bones.
     BONE_NAMES: Action::new(Group::Bones, &["Shift B"], "names of bones", "Names of bones", |session| {
-        with_bones(session, JointCommand::SetLabelsVisible(!session.joints().labels_visible()))
+        with_bones(session, LookCommand::SetLabelsVisible(!session.look().labels_visible()))
     })
-    .now(|session| on(session.joints().labels_visible()));
+    .now(|session| on(session.look().labels_visible()));
     /// Weights of the selected bone on the skin.
     WEIGHTS: Action::new(Group::Bones, &["W"], "weights of the bone", "Weights", |session| {
-        let shown = session.joints().skin_view() == Some(SkinView::Weight);
-        with_bones(session, JointCommand::SetSkinView((!shown).then_some(SkinView::Weight)))
+        let shown = session.look().skin_view == Some(SkinView::Weight);
+        with_bones(session, LookCommand::SetSkinView((!shown).then_some(SkinView::Weight)))
     })
-    .now(|session| on(session.joints().skin_view() == Some(SkinView::Weight)));
+    .now(|session| on(session.look().skin_view == Some(SkinView::Weight)));
     /// Between the clip and the bind pose.
     BIND_POSE: Action::new(Group::Bones, &["K"], "bind pose, clip", "Bind pose", |session| {
         with_bones(session, PlayCommand::ToggleBindPose)

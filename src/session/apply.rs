@@ -31,8 +31,9 @@ impl Session {
             Command::Play(command) => self.apply_to_playback(command),
             Command::Camera(command) => self.apply_to_camera(command),
             Command::Joint(command) => self.apply_to_joints(command),
+            Command::Name(command) => self.apply_to_names(command),
             Command::Subset(command) => self.apply_to_subsets(command),
-            Command::Look(command) => self.view.look.apply(command),
+            Command::Look(command) => self.view.look.apply(command, self.selection.joints.count()),
             Command::Material(command) => {
                 let open = self.content.open.as_ref();
                 let of_file = open.map_or(&[][..], |open| &open.model.materials);
@@ -81,7 +82,7 @@ impl Session {
     /// What is different from before, and what the parts noted.
     fn changes_since(&mut self, before: &Before) -> Changes {
         let mut changes = self.content.changes.take();
-        changes |= self.selection.joints.take_changes();
+        changes.picture |= self.selection.joints.take_redraw();
         changes.picture |= self.selection.subsets.take_redraw();
         changes.pose |= self.actor.mixer.take_changed() || self.actor.pose_inputs() != before.pose;
         changes.playback |=
@@ -90,6 +91,7 @@ impl Session {
             || changes.maps
             || changes.materials
             || changes.sky
+            || changes.names
             || (self.handedness(), self.up_axis()) != before.space
             || self.quality.passes() != before.passes
             || !self.view.shows_the_same_as(&before.view);

@@ -3,13 +3,13 @@
 use glam::Vec2;
 
 use super::camera::CameraCommand;
-use super::joints::JointCommand;
 use super::look::LookCommand;
 use super::materials::MaterialCommand;
+use super::naming::NameCommand;
 use super::opening::FileCommand;
 use super::playing::PlayCommand;
 use super::quality::QualityCommand;
-use super::subsets::SubsetCommand;
+use super::selecting::{JointCommand, SubsetCommand};
 use super::view_state::ViewState;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::Theme;
@@ -23,11 +23,13 @@ pub enum Command {
     Play(PlayCommand),
     /// From where the model is seen.
     Camera(CameraCommand),
-    /// Which joints and vertices are selected, hovered, how joints are called and shown.
+    /// Which joints and vertices are selected, hovered, folded.
     Joint(JointCommand),
+    /// What joints are called.
+    Name(NameCommand),
     /// Which subsets are drawn, selected, hovered.
     Subset(SubsetCommand),
-    /// Light, view mode, background, lines, ghosts.
+    /// Light, view mode, background, lines, ghosts, bones, colours of the skin, trails.
     Look(LookCommand),
     /// The values of materials.
     Material(MaterialCommand),
@@ -64,6 +66,7 @@ groups! {
     Play(PlayCommand),
     Camera(CameraCommand),
     Joint(JointCommand),
+    Name(NameCommand),
     Subset(SubsetCommand),
     Look(LookCommand),
     Material(MaterialCommand),

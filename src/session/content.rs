@@ -1,4 +1,4 @@
-//! What is open: a model with its maps, edited materials and diagnostics, the files it came with, and the sky.
+//! What is open: a model with its maps, edited materials, names of joints and diagnostics, the files it came with, and the sky.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::materials::Materials;
 use super::open_model::OpenModel;
 use super::sky::Sky;
 use crate::diagnostic::Diagnostic;
-use crate::model::Clip;
+use crate::model::{Clip, JointNames};
 
 /// A model is replaced together with all that belongs to it; the sky belongs to no model.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +21,8 @@ pub(super) struct Content {
     pub(super) files: Arc<FileSet>,
     pub(super) maps: Maps,
     pub(super) materials: Materials,
+    /// What joints are called.
+    pub(super) names: JointNames,
     pub(super) sky: Sky,
     /// Why the last load failed.
     pub(super) error: Option<LoadError>,

@@ -45,7 +45,8 @@ impl Session {
     fn closed(&mut self) -> Self {
         self.clear_sky();
         let mut closed = Self::new(self.reduced_motion);
-        closed.view.look = self.view.look;
+        closed.view.look.clone_from(&self.view.look);
+        closed.view.look.trails.clear();
         closed.quality.clone_from(&self.quality);
         closed
     }

@@ -1,7 +1,7 @@
 //! The tree of joints as rows of a list, folded or searched.
 
 use super::joints::Joints;
-use crate::model::{JointIndex, Skeleton};
+use crate::model::{JointIndex, JointNames, Skeleton};
 
 /// One row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +25,13 @@ pub struct JointRow {
 }
 
 /// The rows of the tree, depth first, at the end of the caller's buffer.
-pub(super) fn joint_rows(skeleton: &Skeleton, joints: &Joints, query: &str, rows: &mut Vec<JointRow>) {
+pub(super) fn joint_rows(
+    skeleton: &Skeleton,
+    joints: &Joints,
+    names: &JointNames,
+    query: &str,
+    rows: &mut Vec<JointRow>,
+) {
     let bones = skeleton.file_bones();
     let (tree, counts) = (joints.tree(), joints.vertex_counts());
     let query = Query::new(query);
@@ -51,7 +57,7 @@ pub(super) fn joint_rows(skeleton: &Skeleton, joints: &Joints, query: &str, rows
     };
     let found = |joint: JointIndex| {
         let bone = bones[joint.index()];
-        query.is_met_by(bone, joints.names().get(bone))
+        query.is_met_by(bone, names.get(bone))
     };
     // From the end, so that what is below a joint is known before it.
     let mut has_found = vec![false; bones.len()];

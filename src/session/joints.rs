@@ -1,70 +1,7 @@
-//! Which joint and which vertex the pointer or a choice is about, how the skeleton and the skin are shown, and what joints are
-//! called.
+//! Which joint and which vertex the pointer or a choice is about, and which branches of the tree are folded.
 
-use glam::Vec2;
-
-use super::changes::Changes;
-use crate::anim::SkinView;
-use crate::model::{
-    JointIndex, JointNames, JointTree, Model, SavedNames, Skeleton, VertexCounts, hierarchy_fingerprint,
-};
-use crate::scene::{BoneStyle, Hit, MarkedJoints};
-
-/// A wish about joints. One that the model has not is left out.
-#[derive(Clone, Debug, PartialEq)]
-pub enum JointCommand {
-    /// Selects one, and unfolds what it hangs from, or none.
-    Select(Option<JointIndex>),
-    /// Selects the bone that is drawn at a point of the picture: x right, y up, −1…1. Beside all bones none.
-    SelectAt(Vec2),
-    /// Selects the parent of the selected one, if it has one.
-    SelectParent,
-    /// Selects the first child of the selected one, if it has one; the first root when none is selected.
-    SelectChild,
-    /// Lets one stand out, or none.
-    Hover(Option<JointIndex>),
-    /// Lets the bone that is drawn at a point of the picture stand out: x right, y up, −1…1.
-    HoverAt(Option<Vec2>),
-    /// Selects the vertex nearest to what is drawn of the skin at a point of the picture: x right, y up, −1…1. Beside the skin
-    /// none.
-    SelectVertexAt(Vec2),
-    /// Selects a vertex by its number, or none.
-    SelectVertex(Option<u32>),
-    /// Folds or unfolds a branch of the tree.
-    SetFolded {
-        /// Its topmost joint.
-        joint: JointIndex,
-        /// Whether what hangs from it is left out.
-        folded: bool,
-    },
-    /// Folds or unfolds all branches.
-    SetAllFolded(bool),
-    /// Names a joint; an empty name takes it away.
-    Rename {
-        /// Which.
-        joint: JointIndex,
-        /// What it is called.
-        name: String,
-    },
-    /// Takes the names of [`Session::proposed_names`](crate::session::Session::proposed_names).
-    AcceptMirrorNames,
-    /// Takes names that were kept, if they belong to a hierarchy like this one. They replace those that are there.
-    ImportNames(SavedNames),
-    /// Takes all names away.
-    ClearNames,
-    /// Draws bones in a style.
-    SetBoneStyle(BoneStyle),
-    /// Shows or hides bones.
-    SetBonesVisible(bool),
-    /// Shows or hides names at the joints. Names stand only where bones are drawn: showing them shows the bones too.
-    SetLabelsVisible(bool),
-    /// Shows a number of the skin as colours, or the skin as it is.
-    SetSkinView(Option<SkinView>),
-    /// Draws the way of a joint through the clip, or leaves it, in turn.
-    ToggleTrail(JointIndex),
-    /// Leaves all ways.
-    ClearTrails,
-}
+use crate::model::{JointIndex, JointTree, Model, VertexCounts, hierarchy_fingerprint};
+use crate::scene::{Hit, MarkedJoints};
 
 /// A vertex that was selected. It stays the same vertex in another pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +12,7 @@ pub struct SelectedVertex {
     pub hit: Option<Hit>,
 }
 
-/// The joints of the open model, as they are looked at.
+/// The joints of the open model: their tree, and which of them are selected, hovered, folded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Joints {
     tree: JointTree,
@@ -83,21 +20,12 @@ pub struct Joints {
     fingerprint: u64,
     parents: Vec<Option<JointIndex>>,
     vertex_count: usize,
-    names: JointNames,
 
     marked: MarkedJoints,
     vertex: Option<SelectedVertex>,
     folded: Vec<bool>,
-    trails: Vec<JointIndex>,
-
-    bone_style: BoneStyle,
-    bones_visible: bool,
-    /// Names that are wanted wait while bones are hidden.
-    labels_visible: bool,
-    skin_view: Option<SkinView>,
-
-    /// What is drawn, or the names, changed since it was last asked.
-    changes: Changes,
+    /// Something else stands out or is selected since it was last asked.
+    redraw: bool,
 }
 
 impl Joints {
@@ -141,134 +69,47 @@ impl Joints {
         self.folded.get(joint.index()) == Some(&true)
     }
 
-    /// Those whose way through the clip is drawn, in the order in which they were chosen.
-    pub fn trails(&self) -> &[JointIndex] {
-        &self.trails
-    }
-
-    /// How bones are drawn when they are.
-    pub fn bone_style(&self) -> BoneStyle {
-        self.bone_style
-    }
-
-    /// Whether bones are drawn.
-    pub fn bones_visible(&self) -> bool {
-        self.bones_visible
-    }
-
-    /// Whether names stand at the joints: when they are wanted and bones are drawn.
-    pub fn labels_visible(&self) -> bool {
-        self.labels_visible && self.bones_visible
-    }
-
-    /// The number of the skin that is shown as colours.
-    pub fn skin_view(&self) -> Option<SkinView> {
-        self.skin_view
-    }
-
-    /// What is drawn, or the names, changed since the last call.
-    pub(super) fn take_changes(&mut self) -> Changes {
-        self.changes.take()
-    }
-
-    /// What joints are called.
-    pub(super) fn names(&self) -> &JointNames {
-        &self.names
-    }
-
-    /// Does what was asked, as far as it needs no picture and no other part of the session.
-    pub(super) fn apply(&mut self, command: JointCommand, skeleton: &Skeleton) {
-        match command {
-            JointCommand::Select(joint) => self.select(joint),
-            JointCommand::SelectParent => self.select_parent(),
-            JointCommand::SelectChild => self.select_child(),
-            JointCommand::Hover(joint) => self.hover(joint),
-            JointCommand::SelectVertex(vertex) => {
-                self.select_vertex(vertex.map(|vertex| SelectedVertex { vertex, hit: None }));
-            }
-            JointCommand::SetFolded { joint, folded } => {
-                if let Some(place) = self.folded.get_mut(joint.index()) {
-                    *place = folded;
-                }
-            }
-            JointCommand::SetAllFolded(folded) => self.folded.fill(folded),
-            JointCommand::Rename { joint, name } => {
-                if let Some(&bone) = skeleton.file_bones().get(joint.index()) {
-                    self.change_names(|names| names.set(bone, &name));
-                }
-            }
-            JointCommand::ImportNames(saved) => {
-                if let Some(kept) = JointNames::from_saved(&saved, skeleton) {
-                    self.change_names(|names| *names = kept);
-                }
-            }
-            JointCommand::ClearNames => self.change_names(|names| *names = JointNames::default()),
-            JointCommand::SetBoneStyle(style) => self.show(style, |joints| &mut joints.bone_style),
-            JointCommand::SetBonesVisible(visible) => self.show(visible, |joints| &mut joints.bones_visible),
-            JointCommand::SetLabelsVisible(visible) => {
-                self.show(visible, |joints| &mut joints.labels_visible);
-                if visible {
-                    self.show(true, |joints| &mut joints.bones_visible);
-                }
-            }
-            JointCommand::SetSkinView(view) => self.show(view, |joints| &mut joints.skin_view),
-            JointCommand::ToggleTrail(joint) => self.toggle_trail(joint),
-            JointCommand::ClearTrails => self.show(Vec::new(), |joints| &mut joints.trails),
-            // What is at a point of the picture, and which joints mirror each other, the session knows.
-            JointCommand::SelectAt(_)
-            | JointCommand::HoverAt(_)
-            | JointCommand::SelectVertexAt(_)
-            | JointCommand::AcceptMirrorNames => {}
-        }
-    }
-
-    pub(super) fn change_names(&mut self, change: impl FnOnce(&mut JointNames)) {
-        let before = self.names.clone();
-        change(&mut self.names);
-        if self.names != before {
-            self.changes.names = true;
-            self.changes.picture = true;
-        }
+    /// Whether something else stands out or is selected since the last call.
+    pub(super) fn take_redraw(&mut self) -> bool {
+        std::mem::take(&mut self.redraw)
     }
 
     fn has(&self, joint: JointIndex) -> bool {
         joint.index() < self.count()
     }
 
-    /// Resets to the joints of another model. With `keeps` set and a hierarchy like before, choices and names stay; how things are shown stays
-    /// in any case.
-    pub(super) fn reset_for_model(&mut self, model: &Model, keeps: bool) {
+    /// Resets to the joints of another model. With `keeps` set and a hierarchy like before, choices stay. Whether they stayed.
+    pub(super) fn reset_for_model(&mut self, model: &Model, keeps: bool) -> bool {
         let fingerprint = hierarchy_fingerprint(&model.skeleton);
         let joint_count = model.skeleton.joint_count();
         let before = std::mem::take(self);
         let keeps = keeps && fingerprint == before.fingerprint && joint_count == before.count();
         let tree = JointTree::new(&model.skeleton);
-        let shown = Self {
+        *self = Self {
             counts: tree.vertex_counts(&model.skeleton, &model.mesh),
             tree,
             fingerprint,
             parents: model.skeleton.parents().to_vec(),
             vertex_count: model.mesh.vertex_count(),
             folded: vec![false; joint_count],
-            bone_style: before.bone_style,
-            bones_visible: before.bones_visible,
-            labels_visible: before.labels_visible,
-            skin_view: before.skin_view,
             ..Self::default()
         };
-        *self = if keeps {
+        if keeps {
             // The vertex goes: it belongs to the old file's mesh.
-            Self {
-                names: before.names,
-                marked: before.marked,
-                folded: before.folded,
-                trails: before.trails,
-                ..shown
-            }
-        } else {
-            shown
-        };
-        self.changes.names = !keeps;
+            self.marked = before.marked;
+            self.folded = before.folded;
+        }
+        keeps
+    }
+
+    pub(super) fn set_folded(&mut self, joint: JointIndex, folded: bool) {
+        if let Some(place) = self.folded.get_mut(joint.index()) {
+            *place = folded;
+        }
+    }
+
+    pub(super) fn set_all_folded(&mut self, folded: bool) {
+        self.folded.fill(folded);
     }
 
     pub(super) fn select(&mut self, joint: Option<JointIndex>) {
@@ -277,7 +118,7 @@ impl Joints {
         }
         if self.marked.selected != joint {
             self.marked.selected = joint;
-            self.changes.picture = true;
+            self.redraw = true;
         }
         let mut above = joint.and_then(|joint| self.parents[joint.index()]);
         while let Some(joint) = above {
@@ -289,18 +130,18 @@ impl Joints {
     pub(super) fn hover(&mut self, joint: Option<JointIndex>) {
         if joint.is_none_or(|joint| self.has(joint)) && self.marked.hovered != joint {
             self.marked.hovered = joint;
-            self.changes.picture = true;
+            self.redraw = true;
         }
     }
 
-    fn select_parent(&mut self) {
+    pub(super) fn select_parent(&mut self) {
         let parent = self.selected().and_then(|joint| self.parents[joint.index()]);
         if parent.is_some() {
             self.select(parent);
         }
     }
 
-    fn select_child(&mut self) {
+    pub(super) fn select_child(&mut self) {
         let child = match self.selected() {
             Some(joint) => self.tree.children(joint).next(),
             None => self.tree.order().first().copied(),
@@ -314,7 +155,7 @@ impl Joints {
         let known = vertex.is_none_or(|vertex| (vertex.vertex as usize) < self.vertex_count);
         if known && self.vertex != vertex {
             self.vertex = vertex;
-            self.changes.picture = true;
+            self.redraw = true;
         }
     }
 
@@ -322,25 +163,5 @@ impl Joints {
     pub(super) fn clear_selection(&mut self) {
         self.select(None);
         self.select_vertex(None);
-    }
-
-    fn toggle_trail(&mut self, joint: JointIndex) {
-        if !self.has(joint) {
-            return;
-        }
-        match self.trails.iter().position(|&other| other == joint) {
-            Some(place) => drop(self.trails.remove(place)),
-            None => self.trails.push(joint),
-        }
-        self.changes.picture = true;
-    }
-
-    /// Sets what is shown, and counts it if it changed.
-    fn show<T: PartialEq>(&mut self, value: T, place: impl FnOnce(&mut Self) -> &mut T) {
-        let place = place(self);
-        if *place != value {
-            *place = value;
-            self.changes.picture = true;
-        }
     }
 }

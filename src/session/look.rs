@@ -1,9 +1,10 @@
-//! How the model is looked at: light, view mode, background, lines, ghosts.
+//! How the model is looked at: light, view mode, background, lines, ghosts, bones, colours of the skin, trails.
 
 use std::f32::consts::TAU;
 
-use crate::anim::GhostPlan;
-use crate::scene::{Background, Light, Overlay, Overlays, ViewMode};
+use crate::anim::{GhostPlan, SkinView};
+use crate::model::JointIndex;
+use crate::scene::{Background, BoneStyle, Light, Overlay, Overlays, ViewMode};
 
 /// The book's lights turn by this much a second.
 const BOOK_TURN_RADIANS_PER_SEC: f32 = 0.1;
@@ -15,7 +16,7 @@ pub const MAX_EXPOSURE_STOPS: f32 = 4.0;
 pub const MAX_LINE_LENGTH: f32 = 0.25;
 
 /// How the model is looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Look {
     /// Studio or book light.
     pub light: Light,
@@ -39,6 +40,16 @@ pub struct Look {
     pub ghosts: Option<GhostPlan>,
     /// Whether the bind pose is seen as a ghost.
     pub bind_ghost: bool,
+    /// How bones are drawn when they are.
+    pub bone_style: BoneStyle,
+    /// Whether bones are drawn.
+    pub bones_visible: bool,
+    /// Names that are wanted wait while bones are hidden.
+    pub(super) labels_wanted: bool,
+    /// The number of the skin that is shown as colours.
+    pub skin_view: Option<SkinView>,
+    /// Joints whose way through the clip is drawn, in the order in which they were chosen.
+    pub trails: Vec<JointIndex>,
 }
 
 /// A wish about the look.
@@ -74,11 +85,28 @@ pub enum LookCommand {
     SetGhosts(Option<GhostPlan>),
     /// Shows the bind pose as a ghost, or not.
     SetBindGhost(bool),
+    /// Draws bones in a style.
+    SetBoneStyle(BoneStyle),
+    /// Shows or hides bones.
+    SetBonesVisible(bool),
+    /// Shows or hides names at the joints. Names stand only where bones are drawn: showing them shows the bones too.
+    SetLabelsVisible(bool),
+    /// Shows a number of the skin as colours, or the skin as it is.
+    SetSkinView(Option<SkinView>),
+    /// Draws the way of a joint through the clip, or leaves it, in turn.
+    ToggleTrail(JointIndex),
+    /// Leaves all ways.
+    ClearTrails,
 }
 
 impl Look {
-    /// Does what was asked. Numbers that are none are left out, others are brought into their range.
-    pub(super) fn apply(&mut self, command: LookCommand) {
+    /// Whether names stand at the joints: when they are wanted and bones are drawn.
+    pub fn labels_visible(&self) -> bool {
+        self.labels_wanted && self.bones_visible
+    }
+
+    /// Does what was asked, for a model with so many joints. NaN and infinity are ignored; other numbers are clamped to their range.
+    pub(super) fn apply(&mut self, command: LookCommand, joint_count: usize) {
         match command {
             LookCommand::SetLight(light) => self.light = light,
             LookCommand::ToggleLight => self.light = self.light.other(),
@@ -95,7 +123,8 @@ impl Look {
                 self.environment_turn_radians = radians.rem_euclid(TAU);
             }
             LookCommand::TurnEnvironment(radians) => {
-                self.apply(LookCommand::SetEnvironmentTurn(self.environment_turn_radians + radians));
+                let radians = self.environment_turn_radians + radians;
+                self.apply(LookCommand::SetEnvironmentTurn(radians), joint_count);
             }
             LookCommand::SetExposure(stops) if stops.is_finite() => {
                 self.exposure_stops = stops.clamp(-MAX_EXPOSURE_STOPS, MAX_EXPOSURE_STOPS);
@@ -105,6 +134,19 @@ impl Look {
             // A plan without any is none.
             LookCommand::SetGhosts(plan) => self.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0),
             LookCommand::SetBindGhost(visible) => self.bind_ghost = visible,
+            LookCommand::SetBoneStyle(style) => self.bone_style = style,
+            LookCommand::SetBonesVisible(visible) => self.bones_visible = visible,
+            LookCommand::SetLabelsVisible(visible) => {
+                self.labels_wanted = visible;
+                self.bones_visible |= visible;
+            }
+            LookCommand::SetSkinView(view) => self.skin_view = view,
+            LookCommand::ToggleTrail(joint) => match self.trails.iter().position(|&other| other == joint) {
+                Some(place) => drop(self.trails.remove(place)),
+                None if joint.index() < joint_count => self.trails.push(joint),
+                None => {}
+            },
+            LookCommand::ClearTrails => self.trails.clear(),
         }
     }
 

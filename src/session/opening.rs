@@ -12,6 +12,7 @@ use super::materials::Materials;
 use super::mixer::Blend;
 use super::sky::FoundSky;
 use super::{Event, Session};
+use crate::model::JointNames;
 
 /// A wish about files.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,7 +179,11 @@ impl Session {
         };
         let subset_count = open.model.mesh.submeshes.len();
         self.selection.subsets.reset_for_model(subset_count, again);
-        self.selection.joints.reset_for_model(&open.model, again);
+        let same_joints = self.selection.joints.reset_for_model(&open.model, again);
+        let names = if same_joints { old.names } else { JointNames::default() };
+        if !same_joints {
+            self.view.look.trails.clear();
+        }
         self.actor = if again {
             Actor::for_model_again(&open, &self.actor, clip_name.as_deref())
         } else {
@@ -189,11 +194,13 @@ impl Session {
             files,
             maps,
             materials,
+            names,
             sky: old.sky,
             error: None,
             changes: old.changes,
         };
         self.content.changes |= Changes::MODEL;
+        self.content.changes.names |= !same_joints;
 
         if !again {
             self.quality.reset_for_model();

@@ -5,14 +5,13 @@ use glam::{Affine3A, Vec3};
 
 use super::actor::Actor;
 use super::changes::Revisions;
-use super::joints::Joints;
 use super::look::Look;
 use super::mixer::Blend;
 use super::open_model::OpenModel;
 use super::skeleton_cache::{SkeletonCache, SkinColorsKey};
 use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
 use crate::model::{JointIndex, Model};
-use crate::scene::{BoneColors, Ghosts, OverlayGeometry, Theme, VertexColors, joint_colors};
+use crate::scene::{BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, joint_colors};
 
 /// How opaque the nearest ghost is, and the farthest.
 const GHOST_ALPHA: [u8; 2] = [110, 40];
@@ -98,23 +97,23 @@ impl OverlayCache {
         &mut self,
         open: Option<&OpenModel>,
         actor: &mut Actor,
-        joints: &Joints,
+        (look, marked): (&Look, MarkedJoints),
         skeleton: &SkeletonCache,
         (theme, world_from_model): (Theme, Affine3A),
         revisions: Revisions,
     ) {
         self.geometry.clear();
         let bone_colors = BoneColors::of(theme);
-        if joints.bones_visible() {
-            skeleton.draw_bones(joints.bone_style(), joints.marked(), bone_colors, &mut self.geometry);
+        if look.bones_visible {
+            skeleton.draw_bones(look.bone_style, marked, bone_colors, &mut self.geometry);
         }
         let Some(open) = open else { return };
-        if joints.trails().is_empty() || actor.clip.is_none() {
+        if look.trails.is_empty() || actor.clip.is_none() {
             return;
         }
-        self.update_trails(open, actor, joints.trails(), revisions);
+        self.update_trails(open, actor, &look.trails, revisions);
         let colors = joint_colors(&open.model.skeleton);
-        for (joint, points) in joints.trails().iter().zip(self.trails.polylines()) {
+        for (joint, points) in look.trails.iter().zip(self.trails.polylines()) {
             let color = colors.get(joint.index()).copied();
             let [red, green, blue, _] = color.unwrap_or(bone_colors.plain);
             for step in points.windows(2) {

@@ -1,9 +1,8 @@
 //! The view as plain data, and back.
 
-use super::joints::JointCommand;
 use super::look::LookCommand;
 use super::mixer::Blend;
-use super::subsets::SubsetCommand;
+use super::selecting::{JointCommand, SubsetCommand};
 use super::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 use super::{Event, Session};
 use crate::anim::GhostPlan;
@@ -18,7 +17,7 @@ impl Session {
         let file_bones = open.map_or(&[][..], |open| open.model.skeleton.file_bones());
         ViewState {
             camera: CameraState::of(&self.view),
-            appearance: AppearanceState::of(&self.view, joints, file_bones),
+            appearance: AppearanceState::of(&self.view, file_bones),
             playback: PlaybackState::of(&self.actor, self.content.clips()),
             selection: SelectionState {
                 bone: joints.selected().map(|joint| self.bone_number(joint)),
@@ -47,7 +46,12 @@ impl Session {
     fn restore_appearance(&mut self, state: &AppearanceState) {
         let mut overlays = Overlays::none();
         state.overlays.iter().for_each(|&overlay| overlays.set(overlay, true));
-        let view = &mut self.view;
+        let trails: Vec<JointIndex> = state
+            .trails
+            .iter()
+            .filter_map(|&bone| self.joint_of_bone(bone))
+            .collect();
+        let (view, joint_count) = (&mut self.view, self.selection.joints.count());
         overlays.line_length = view.look.overlays.line_length;
         view.look.overlays = overlays;
         let ghosts = state.ghosts.map(|[before, after, step_frames]| GhostPlan {
@@ -66,29 +70,20 @@ impl Session {
             LookCommand::SetNormalGreenFlipped(state.normal_green_flipped),
             LookCommand::SetGhosts(ghosts),
             LookCommand::SetBindGhost(state.bind_ghost),
-        ] {
-            view.look.apply(command);
+            LookCommand::SetBoneStyle(state.bone_style),
+            LookCommand::SetLabelsVisible(state.labels_visible),
+            LookCommand::SetBonesVisible(state.bones_visible),
+            LookCommand::SetSkinView(state.skin_view),
+            LookCommand::ClearTrails,
+        ]
+        .into_iter()
+        .chain(trails.into_iter().map(LookCommand::ToggleTrail))
+        {
+            view.look.apply(command, joint_count);
         }
         view.look.set_book_lights_turn(state.book_lights_turn_radians);
         view.handedness = state.handedness;
         view.up_axis = state.up_axis;
-        let trails: Vec<JointIndex> = state
-            .trails
-            .iter()
-            .filter_map(|&bone| self.joint_of_bone(bone))
-            .collect();
-        for command in [
-            JointCommand::SetBoneStyle(state.bone_style),
-            JointCommand::SetLabelsVisible(state.labels_visible),
-            JointCommand::SetBonesVisible(state.bones_visible),
-            JointCommand::SetSkinView(state.skin_view),
-            JointCommand::ClearTrails,
-        ]
-        .into_iter()
-        .chain(trails.into_iter().map(JointCommand::ToggleTrail))
-        {
-            self.apply_to_joints(command);
-        }
     }
 
     fn restore_playback(&mut self, state: &PlaybackState) {

@@ -1,19 +1,72 @@
-//! What is at a point of the picture, what a click there selects, and what is said of subsets and joints.
-
-use std::collections::BTreeMap;
+//! What is at a point of the picture, and which joints, vertices and subsets are selected, hovered, folded.
 
 use glam::{Vec2, Vec3};
 
 use super::Session;
 use super::joint_rows::{JointRow, joint_rows};
-use super::joints::{JointCommand, Joints, SelectedVertex};
-use super::subsets::{SubsetCommand, Subsets};
+use super::joints::{Joints, SelectedVertex};
+use super::subsets::Subsets;
 use crate::anim::dominant_joint;
-use crate::model::{JointIndex, JointNames, MirrorPair, SavedNames, Skeleton, mirror_pairs};
+use crate::model::JointIndex;
 use crate::scene::{Hit, pick_joint};
 
 /// How far from a bone the pointer may be, in heights of the picture: 11 pixels of 900.
 const PICK_RADIUS: f32 = 0.012;
+
+/// A wish about joints. One that the model has not is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointCommand {
+    /// Selects one, and unfolds what it hangs from, or none.
+    Select(Option<JointIndex>),
+    /// Selects the bone that is drawn at a point of the picture: x right, y up, −1…1. Beside all bones none.
+    SelectAt(Vec2),
+    /// Selects the parent of the selected one, if it has one.
+    SelectParent,
+    /// Selects the first child of the selected one, if it has one; the first root when none is selected.
+    SelectChild,
+    /// Lets one stand out, or none.
+    Hover(Option<JointIndex>),
+    /// Lets the bone that is drawn at a point of the picture stand out: x right, y up, −1…1.
+    HoverAt(Option<Vec2>),
+    /// Selects the vertex nearest to what is drawn of the skin at a point of the picture: x right, y up, −1…1. Beside the skin
+    /// none.
+    SelectVertexAt(Vec2),
+    /// Selects a vertex by its number, or none.
+    SelectVertex(Option<u32>),
+    /// Folds or unfolds a branch of the tree.
+    SetFolded {
+        /// Its topmost joint.
+        joint: JointIndex,
+        /// Whether what hangs from it is left out.
+        folded: bool,
+    },
+    /// Folds or unfolds all branches.
+    SetAllFolded(bool),
+}
+
+/// A wish about subsets, by their index. An index that the model has not is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SubsetCommand {
+    /// Shows or hides one. While one is shown alone, that ends, and what is on screen stays but for this one.
+    SetVisible {
+        /// Which.
+        subset: usize,
+        /// Whether it is drawn.
+        visible: bool,
+    },
+    /// Shows one alone; asked again for the same one, what was hidden before comes back.
+    Solo(usize),
+    /// Shows all.
+    ShowAll,
+    /// Selects one, or none.
+    Select(Option<usize>),
+    /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none.
+    SelectAt(Vec2),
+    /// Lets one stand out, or none.
+    Hover(Option<usize>),
+    /// Lets what is drawn at a point of the picture stand out: x right, y up, −1…1.
+    HoverAt(Option<Vec2>),
+}
 
 impl Session {
     /// Brings the picker's vertices to the pose of now.
@@ -58,10 +111,10 @@ impl Session {
     /// Selects what is shown at a point of the picture (x right, y up, −1…1): a bone while bones are drawn, a vertex while the
     /// skin is coloured, else a subset. Beside all of them nothing is selected, but for the bone whose weights are shown.
     pub(super) fn select_at(&mut self, pointer: Vec2) {
-        let bone = self.selection.joints.bones_visible().then(|| self.joint_at(pointer));
+        let bone = self.view.look.bones_visible.then(|| self.joint_at(pointer));
         if let Some(bone) = bone.flatten() {
             self.apply_to_joints(JointCommand::Select(Some(bone)));
-        } else if self.selection.joints.skin_view().is_some() {
+        } else if self.view.look.skin_view.is_some() {
             self.apply_to_joints(JointCommand::SelectVertexAt(pointer));
         } else {
             self.apply_to_subsets(SubsetCommand::SelectAt(pointer));
@@ -102,7 +155,7 @@ impl Session {
         }
     }
 
-    /// Which joints are selected, hovered, folded, and how they are shown.
+    /// Which joints are selected, hovered, folded.
     pub fn joints(&self) -> &Joints {
         &self.selection.joints
     }
@@ -116,76 +169,6 @@ impl Session {
             let influences = &self.open_model()?.model.mesh.influences;
             dominant_joint(influences.get(vertex as usize)?)
         })
-    }
-
-    /// What joints are called.
-    pub fn joint_names(&self) -> &JointNames {
-        self.selection.joints.names()
-    }
-
-    /// Counts changes of the names: another number, other names to keep.
-    pub fn joint_names_revision(&self) -> u64 {
-        self.revisions.names
-    }
-
-    /// The names as plain data, to keep; nothing without a model.
-    pub fn saved_joint_names(&self) -> Option<SavedNames> {
-        let open = self.open_model()?;
-        Some(self.selection.joints.names().saved(&open.model.skeleton))
-    }
-
-    /// The name that was given to a joint.
-    pub fn joint_name(&self, joint: JointIndex) -> Option<&str> {
-        let bones = self.open_model()?.model.skeleton.file_bones();
-        self.selection.joints.names().get(*bones.get(joint.index())?)
-    }
-
-    /// What a joint is called: its name, or `Bone 12` by its number in the file.
-    pub fn joint_label(&self, joint: JointIndex) -> String {
-        match self.joint_name(joint) {
-            Some(name) => name.to_owned(),
-            None => format!("Bone {}", self.bone_number(joint)),
-        }
-    }
-
-    /// Number and name of a joint, `12 Left hand`; without a name `Bone 12`.
-    pub fn numbered_joint_label(&self, joint: JointIndex) -> String {
-        match self.joint_name(joint) {
-            Some(name) => format!("{} {name}", self.bone_number(joint)),
-            None => self.joint_label(joint),
-        }
-    }
-
-    /// The number of a joint in the file.
-    pub(super) fn bone_number(&self, joint: JointIndex) -> u32 {
-        let bones = self.open_model().map(|open| open.model.skeleton.file_bones());
-        let bone = bones.and_then(|bones| bones.get(joint.index()));
-        bone.copied().unwrap_or(joint.0)
-    }
-
-    /// Joints that mirror each other in the bind pose.
-    pub fn mirror_pairs(&self) -> Vec<MirrorPair> {
-        let Some(open) = self.open_model() else {
-            return Vec::new();
-        };
-        mirror_pairs(
-            &open.model.skeleton,
-            self.selection.joints.tree(),
-            self.world_from_model(),
-        )
-    }
-
-    /// Names for the other sides of mirrored joints of which one has a name, by the joint's number in the file.
-    pub fn proposed_names(&self) -> BTreeMap<usize, String> {
-        match self.open_model() {
-            // Without a name there is nothing to mirror, and no need to search.
-            Some(open) if !self.selection.joints.names().is_empty() => self
-                .selection
-                .joints
-                .names()
-                .mirrored(&open.model.skeleton, &self.mirror_pairs()),
-            _ => BTreeMap::new(),
-        }
     }
 
     pub(super) fn apply_to_joints(&mut self, command: JointCommand) {
@@ -205,20 +188,16 @@ impl Session {
                     hit: Some(hit),
                 }));
             }
-            JointCommand::AcceptMirrorNames => {
-                let proposed = self.proposed_names();
-                self.selection.joints.change_names(|names| {
-                    for (bone, name) in proposed {
-                        names.set(bone as u32, &name);
-                    }
-                });
+            JointCommand::Select(joint) => self.selection.joints.select(joint),
+            JointCommand::SelectParent => self.selection.joints.select_parent(),
+            JointCommand::SelectChild => self.selection.joints.select_child(),
+            JointCommand::Hover(joint) => self.selection.joints.hover(joint),
+            JointCommand::SelectVertex(vertex) => {
+                let vertex = vertex.map(|vertex| SelectedVertex { vertex, hit: None });
+                self.selection.joints.select_vertex(vertex);
             }
-            command => {
-                let no_skeleton = Skeleton::default();
-                let open = self.content.open.as_ref();
-                let skeleton = open.map_or(&no_skeleton, |open| &open.model.skeleton);
-                self.selection.joints.apply(command, skeleton);
-            }
+            JointCommand::SetFolded { joint, folded } => self.selection.joints.set_folded(joint, folded),
+            JointCommand::SetAllFolded(folded) => self.selection.joints.set_all_folded(folded),
         }
         if self.selection.joints.selected().is_some() || self.selection.joints.selected_vertex().is_some() {
             self.selection.subsets.select(None, None);
@@ -231,7 +210,7 @@ impl Session {
     pub fn joint_rows(&self, query: &str, rows: &mut Vec<JointRow>) {
         rows.clear();
         if let Some(open) = self.open_model() {
-            joint_rows(&open.model.skeleton, self.joints(), query, rows);
+            joint_rows(&open.model.skeleton, self.joints(), self.joint_names(), query, rows);
         }
     }
 }

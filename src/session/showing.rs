@@ -34,7 +34,8 @@ impl Session {
         }
         let in_world = (self.view.theme, self.world_from_model());
         let open = self.content.open.as_deref();
-        let (actor, joints, revisions) = (&mut self.actor, &self.selection.joints, self.revisions);
+        let (actor, look, revisions) = (&mut self.actor, &self.view.look, self.revisions);
+        let marked = self.selection.joints.marked();
         let Caches {
             picker,
             skeleton,
@@ -42,8 +43,8 @@ impl Session {
         } = &mut self.caches;
         let model = open.map(|open| &open.model);
         overlays.update_colors(colors_key, model, picker.positions(), skeleton);
-        overlays.update_ghosts(open, actor, &self.view.look, revisions);
-        overlays.update_geometry(open, actor, joints, skeleton, in_world, revisions);
+        overlays.update_ghosts(open, actor, look, revisions);
+        overlays.update_geometry(open, actor, (look, marked), skeleton, in_world, revisions);
     }
 
     /// Brings the bones to the pose of now.
@@ -77,7 +78,7 @@ impl Session {
     /// (heights of the picture) to one before them are left out; nothing while labels are hidden.
     pub fn joint_labels(&mut self, spacing: f32, places: &mut Vec<LabelPlace>) {
         places.clear();
-        if self.selection.joints.labels_visible() {
+        if self.view.look.labels_visible() {
             let marked = self.selection.joints.marked();
             let first: Vec<_> = [marked.selected, marked.hovered].into_iter().flatten().collect();
             let screen = self.screen();
@@ -112,7 +113,7 @@ impl Session {
     /// as it is. Weights are those of [`Session::weighed_joint`], all 0 without one.
     pub fn skin_colors_key(&self) -> Option<SkinColorsKey> {
         self.open_model()?;
-        let view = self.selection.joints.skin_view()?;
+        let view = self.view.look.skin_view?;
         Some(SkinColorsKey {
             view,
             model_revision: self.revisions.model,

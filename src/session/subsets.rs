@@ -1,32 +1,6 @@
 //! Which subsets of the model are drawn, and which one the pointer or a choice is about.
 
-use glam::Vec2;
-
 use crate::scene::Hit;
-
-/// A wish about subsets, by their index. An index that the model has not is left out.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SubsetCommand {
-    /// Shows or hides one. While one is shown alone, that ends, and what is on screen stays but for this one.
-    SetVisible {
-        /// Which.
-        subset: usize,
-        /// Whether it is drawn.
-        visible: bool,
-    },
-    /// Shows one alone; asked again for the same one, what was hidden before comes back.
-    Solo(usize),
-    /// Shows all.
-    ShowAll,
-    /// Selects one, or none.
-    Select(Option<usize>),
-    /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none.
-    SelectAt(Vec2),
-    /// Lets one stand out, or none.
-    Hover(Option<usize>),
-    /// Lets what is drawn at a point of the picture stand out: x right, y up, −1…1.
-    HoverAt(Option<Vec2>),
-}
 
 /// The subsets of the open model, as they are looked at.
 #[derive(Clone, Debug, Default, PartialEq)]

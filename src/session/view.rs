@@ -78,30 +78,19 @@ impl View {
 
     /// What of it a renderer is told, with the passes that are drawn.
     pub(super) fn frame_options(&self, passes: Passes) -> FrameOptions {
-        let Look {
-            light,
-            split,
-            view_mode,
-            background,
-            overlays,
-            environment_turn_radians,
-            exposure_stops,
-            book_lights_turn_radians,
-            normal_green_flipped,
-            ..
-        } = self.look;
+        let look = &self.look;
         FrameOptions {
             theme: self.theme,
-            light,
-            split,
-            view_mode,
-            background,
-            overlays,
+            light: look.light,
+            split: look.split,
+            view_mode: look.view_mode,
+            background: look.background,
+            overlays: look.overlays,
             passes,
-            environment_turn_radians,
-            exposure_stops,
-            book_lights_turn_radians,
-            normal_green_flipped,
+            environment_turn_radians: look.environment_turn_radians,
+            exposure_stops: look.exposure_stops,
+            book_lights_turn_radians: look.book_lights_turn_radians,
+            normal_green_flipped: look.normal_green_flipped,
         }
     }
 

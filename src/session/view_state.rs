@@ -4,7 +4,6 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::actor::Actor;
-use super::joints::Joints;
 use super::view::View;
 use crate::anim::{LoopMode, SkinView, WrapMode};
 use crate::model::{Clip, Handedness, UpAxis};
@@ -97,7 +96,7 @@ pub struct AppearanceState {
 
 impl Default for AppearanceState {
     fn default() -> Self {
-        Self::of(&View::default(), &Joints::default(), &[])
+        Self::of(&View::default(), &[])
     }
 }
 
@@ -191,9 +190,8 @@ impl CameraState {
 
 impl AppearanceState {
     /// `file_bones` has the number in the file of each joint.
-    pub(super) fn of(view: &View, joints: &Joints, file_bones: &[u32]) -> Self {
+    pub(super) fn of(view: &View, file_bones: &[u32]) -> Self {
         let look = &view.look;
-        let trails = joints.trails().iter();
         Self {
             light: look.light,
             split: look.split,
@@ -210,13 +208,15 @@ impl AppearanceState {
             normal_green_flipped: look.normal_green_flipped,
             handedness: view.handedness,
             up_axis: view.up_axis,
-            bones_visible: joints.bones_visible(),
-            bone_style: joints.bone_style(),
-            labels_visible: joints.labels_visible(),
-            skin_view: joints.skin_view(),
+            bones_visible: look.bones_visible,
+            bone_style: look.bone_style,
+            labels_visible: look.labels_visible(),
+            skin_view: look.skin_view,
             ghosts: look.ghosts.map(|plan| [plan.before, plan.after, plan.step_frames]),
             bind_ghost: look.bind_ghost,
-            trails: trails
+            trails: look
+                .trails
+                .iter()
                 .filter_map(|joint| file_bones.get(joint.index()).copied())
                 .collect(),
         }

@@ -12,7 +12,7 @@ use super::widgets::{closable_heading, paint_row_ground, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubsetCommand};
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -150,7 +150,7 @@ impl Goal {
             commands: vec![
                 JointCommand::SelectVertex(None).into(),
                 JointCommand::Select(Some(joint)).into(),
-                JointCommand::SetBonesVisible(true).into(),
+                LookCommand::SetBonesVisible(true).into(),
             ],
             page: Some(SidePage::Skeleton),
         }

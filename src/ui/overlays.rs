@@ -14,7 +14,7 @@ use super::wording::shortened;
 use crate::actions;
 use crate::anim::GhostPlan;
 use crate::scene::{BoneStyle, Overlay, Overlays};
-use crate::session::{Command, JointCommand, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
+use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 
 /// Ghosts that are shown when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
@@ -61,9 +61,9 @@ fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
 
 /// Whether anything of the skeleton is drawn over the model.
 fn any_of_skeleton(session: &Session) -> bool {
-    let joints = session.joints();
-    let over = joints.bones_visible() || !joints.trails().is_empty();
-    over || session.look().ghosts.is_some() || session.look().bind_ghost || session.bind_weight() > 0.0
+    let look = session.look();
+    let over = look.bones_visible || !look.trails.is_empty();
+    over || look.ghosts.is_some() || look.bind_ghost || session.bind_weight() > 0.0
 }
 
 /// Bones, names, bind pose, ghosts, trails.
@@ -71,14 +71,14 @@ fn skeleton_rows(ui: &mut Ui, session: &Session, state: &mut SkeletonState, comm
     if !has_joints(session) {
         return;
     }
-    let joints = session.joints();
+    let look = session.look();
     popover_gap(ui);
     section_name(ui, "Skeleton");
     action_switch(ui, session, &actions::BONES, commands);
-    if joints.bones_visible() {
+    if look.bones_visible {
         let styles = BoneStyle::ALL.map(|style| (style, style.label()));
-        if let Some(style) = segmented(ui, "Bones", &styles, Some(joints.bone_style())) {
-            commands.push(JointCommand::SetBoneStyle(style).into());
+        if let Some(style) = segmented(ui, "Bones", &styles, Some(look.bone_style)) {
+            commands.push(LookCommand::SetBoneStyle(style).into());
         }
     }
     action_switch(ui, session, &actions::BONE_NAMES, commands);
@@ -147,7 +147,7 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 
 /// The joints whose way through the clip is drawn.
 fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    let trails = session.joints().trails();
+    let trails = &session.look().trails;
     let selected = session.joints().selected();
     if let Some(joint) = selected.filter(|joint| !trails.contains(joint))
         && switch_row(
@@ -158,14 +158,14 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
         )
         .clicked()
     {
-        commands.push(JointCommand::ToggleTrail(joint).into());
+        commands.push(LookCommand::ToggleTrail(joint).into());
     }
     if trails.is_empty() {
         return;
     }
     popover_gap(ui);
     if section_with_action(ui, "Trails", Some("Clear")) {
-        commands.push(JointCommand::ClearTrails.into());
+        commands.push(LookCommand::ClearTrails.into());
     }
     for &joint in trails {
         let name = session.joint_label(joint);
@@ -182,7 +182,7 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
         let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
         let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));
         if icon_button(&mut corner, Icon::Close, &format!("Leave the trail of {name}"), false).clicked() {
-            commands.push(JointCommand::ToggleTrail(joint).into());
+            commands.push(LookCommand::ToggleTrail(joint).into());
         }
     }
 }

@@ -17,7 +17,7 @@ use super::{light, overlays, picture};
 use crate::actions;
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
-use crate::session::{CameraCommand, Command, JointCommand, LookCommand, Session};
+use crate::session::{CameraCommand, Command, LookCommand, Session};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -186,7 +186,7 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
 
 /// A line for each mode, and below them what can be seen of a skin. Whether one was chosen.
 pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
-    let (in_force, skin_view) = (session.look().view_mode, session.joints().skin_view());
+    let (in_force, skin_view) = (session.look().view_mode, session.look().skin_view);
     let mut chosen = false;
     for mode in ViewMode::ALL {
         // The key goes to the next one.
@@ -198,7 +198,7 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
         let on = mode == in_force && skin_view.is_none();
         if keyed_menu_item(ui, mode.label(), key, on).clicked() {
             commands.push(LookCommand::SetViewMode(mode).into());
-            commands.push(JointCommand::SetSkinView(None).into());
+            commands.push(LookCommand::SetSkinView(None).into());
             chosen = true;
         }
     }
@@ -207,7 +207,7 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
         section_name(ui, "Skin");
         for view in SkinView::ALL {
             let on = skin_view == Some(view);
-            let command = JointCommand::SetSkinView((!on).then_some(view)).into();
+            let command = LookCommand::SetSkinView((!on).then_some(view)).into();
             if keyed_menu_item(ui, view.label(), actions::key_of(session, &command), on).clicked() {
                 commands.push(command);
                 chosen = true;

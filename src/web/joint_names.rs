@@ -4,7 +4,7 @@
 use web_sys::Storage;
 
 use crate::model::SavedNames;
-use crate::session::{JointCommand, Session};
+use crate::session::{NameCommand, Session};
 
 /// More text than this is not kept, in bytes: names for two thousand joints.
 const MOST_BYTES: usize = 64 * 1024;
@@ -49,7 +49,7 @@ fn restore(session: &mut Session) -> Option<()> {
     }
     let text = store()?.get_item(&key(fingerprint)).ok()??;
     let kept = SavedNames::from_text(fingerprint, &text);
-    session.apply(JointCommand::ImportNames(kept));
+    session.apply(NameCommand::Import(kept));
     Some(())
 }
 

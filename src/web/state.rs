@@ -208,16 +208,16 @@ fn look(session: &Session) -> Look {
 }
 
 fn skeleton(session: &Session) -> Skeleton<'_> {
-    let joints = session.joints();
+    let (joints, look) = (session.joints(), session.look());
     let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
     let names = session.joint_names().all().iter();
     Skeleton {
         selected: joints.selected().and_then(|joint| bones?.get(joint.index()).copied()),
         vertex: joints.selected_vertex().map(|selected| selected.vertex),
-        bones_visible: joints.bones_visible(),
-        bone_style: joints.bone_style().name(),
-        labels_visible: joints.labels_visible(),
-        skin_view: joints.skin_view().map(|view| view.name()),
+        bones_visible: look.bones_visible,
+        bone_style: look.bone_style.name(),
+        labels_visible: look.labels_visible(),
+        skin_view: look.skin_view.map(|view| view.name()),
         bind_share: session.bind_weight(),
         names: names.map(|(bone, name)| (bone.to_string(), name.as_str())).collect(),
     }

@@ -1,7 +1,7 @@
 //! The sheet above the strip: rows, keys, boxes, zoom; and how little of it is drawn.
 
 use bindpose::model::JointIndex;
-use bindpose::session::{JointCommand, PlayCommand};
+use bindpose::session::{JointCommand, NameCommand, PlayCommand};
 use egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
 };
@@ -283,7 +283,7 @@ fn bones_go_by_their_names() {
     let mut window = sheet(5, 31);
     let name = "Tail".to_owned();
     let joint = JointIndex(2);
-    window.apply(JointCommand::Rename { joint, name });
+    window.apply(NameCommand::Rename { joint, name });
     window.click("Tail, 31 keys");
     window.click("Sheet: Curves");
     assert!(window.shows("Curves of Tail"));

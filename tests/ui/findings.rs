@@ -86,7 +86,10 @@ fn a_finding_about_a_bone_leads_to_the_bone_in_view_tree_and_inspector() {
         (joints.selected(), joints.selected_vertex()),
         (Some(JointIndex(1)), None)
     );
-    assert!(joints.bones_visible(), "a bone is seen where bones are drawn");
+    assert!(
+        window.session().look().bones_visible,
+        "a bone is seen where bones are drawn"
+    );
     assert!(window.shows("Selected: Bone 1") && window.shows("Search bones"));
     assert!(
         !window.named(|name| name.starts_with("Bone 1, ")).is_empty(),
@@ -219,7 +222,7 @@ fn on_a_phone_the_view_above_the_list_goes_there_and_the_inspector_waits_below_i
     window.click("Diagnostics: ");
     window.click(OF_BONE);
     assert_eq!(selected(&window), Some(1));
-    assert!(window.session().joints().bones_visible() && shows_lines(&window));
+    assert!(window.session().look().bones_visible && shows_lines(&window));
     window.click("Close");
     assert!(window.shows("Selected: Bone 1"));
 }

@@ -1,7 +1,7 @@
 //! Nothing is drawn while nothing changes.
 
 use bindpose::anim::SkinView;
-use bindpose::session::{File, JointCommand, PlayCommand};
+use bindpose::session::{File, JointCommand, LookCommand, PlayCommand};
 
 use crate::models::{moving, still};
 use crate::page::{WIDE, Window, phone, window};
@@ -86,7 +86,7 @@ fn an_explained_vertex_and_a_pointer_that_rests_on_its_bones_settle() {
         if window.shows("Model facts") {
             window.click("Model facts");
         }
-        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
+        window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
         window.apply(JointCommand::SelectVertex(Some(4)));
         for row in ["Bone 1: weight", "Unfold the matrices of Bone 0"] {
             if row.starts_with("Unfold") {

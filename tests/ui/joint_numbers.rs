@@ -2,7 +2,7 @@
 
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
-use bindpose::session::{JointCommand, PlayCommand};
+use bindpose::session::{JointCommand, LookCommand, PlayCommand};
 use egui::{Event, Modifiers, OutputCommand, PointerButton, vec2};
 
 use crate::layout::assert_between_sides;
@@ -84,7 +84,7 @@ fn a_click_on_a_key_goes_there() {
     window.click("Keys: Euler");
     assert!(window.shows("Key 0, 0.000 s: 0.00 0.00 0.00"));
     window.click("Trail through the clip");
-    assert_eq!(window.session().joints().trails(), [JointIndex(1)]);
+    assert_eq!(window.session().look().trails, [JointIndex(1)]);
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
 #[test]
 fn the_pointer_over_a_bone_shows_its_weights_and_leaves_those_of_the_selected_one() {
     let mut window = window(vec2(1440.0, 1200.0), chains(5));
-    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
+    window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
     window.apply(JointCommand::Select(Some(JointIndex(2))));
     window.apply(JointCommand::SelectVertex(Some(4)));
     let shown = |window: &Window| (window.session().weighed_joint(), window.session().skin_colors_key());

@@ -1,7 +1,7 @@
 //! The tree of joints: listed, folded, searched, named.
 
 use bindpose::model::JointIndex;
-use bindpose::session::JointCommand;
+use bindpose::session::{JointCommand, NameCommand};
 use egui::{Event, Key, Modifiers, PointerButton};
 
 use crate::page::{WIDE, Window, phone};
@@ -142,7 +142,7 @@ fn a_joint_is_named_by_double_click_by_f2_and_in_the_inspector() {
         "a click elsewhere takes it"
     );
     // Letters that are keys do nothing while a name is typed.
-    assert!(!window.session().joints().bones_visible());
+    assert!(!window.session().look().bones_visible);
 }
 
 #[test]
@@ -152,7 +152,7 @@ fn names_of_one_side_propose_those_of_the_other() {
     window.click("Propose mirrored");
     assert!(!window.shows("Take the proposed names"), "nothing has a name");
     window.click("Back to the tree");
-    let named = |joint, name: &str| JointCommand::Rename {
+    let named = |joint, name: &str| NameCommand::Rename {
         joint: JointIndex(joint),
         name: name.to_owned(),
     };

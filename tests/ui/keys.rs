@@ -3,7 +3,7 @@
 use bindpose::actions::{self, Group};
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
-use bindpose::session::{CameraCommand, File, FileCommand, PlayCommand, SPEEDS, SubsetCommand};
+use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, PlayCommand, SPEEDS, SubsetCommand};
 use bindpose::ui::{Request, escape_shuts};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
 
@@ -436,7 +436,7 @@ fn shortcuts(window: &Window) -> (bool, Option<[f32; 2]>, bool, bool, usize) {
         session.is_animating(),
         session.playback().range_secs(),
         session.look().overlays.has(Overlay::Normals),
-        session.joints().bones_visible(),
+        session.look().bones_visible,
         window.harness.state().requests.len(),
     )
 }
@@ -537,9 +537,7 @@ fn a_letter_under_a_pressed_read_out_is_no_shortcut() {
 #[test]
 fn f2_takes_the_letters_after_it_though_its_row_has_to_be_scrolled_to() {
     let mut window = tree(WIDE, 300);
-    window.apply(bindpose::session::JointCommand::Select(Some(
-        bindpose::model::JointIndex(250),
-    )));
+    window.apply(JointCommand::Select(Some(bindpose::model::JointIndex(250))));
     window.wait(1.0);
     window
         .harness

@@ -2,7 +2,7 @@
 
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
-use bindpose::session::{FileCommand, JointCommand, PlayCommand, SubsetCommand};
+use bindpose::session::{FileCommand, JointCommand, LookCommand, PlayCommand, SubsetCommand};
 use bindpose::ui::SheetPage;
 use egui::{Rect, Vec2, pos2, vec2};
 
@@ -188,9 +188,9 @@ fn in_a_low_window_what_was_opened_stands_beside_the_model() {
             assert_apart(&window, &["title", "sheet", "page"]);
             assert!(panel(&window, "page").contains_rect(window.rect("Dialect")));
             assert_model_is_free(&mut window, size);
-            window.apply(JointCommand::SetSkinView(Some(SkinView::Stretch)));
+            window.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
             assert_model_is_free(&mut window, size);
-            window.apply(JointCommand::SetSkinView(None));
+            window.apply(LookCommand::SetSkinView(None));
             show_findings(&mut window);
             assert_between_sides(&window, size);
             window.click("Close the sheet");
@@ -291,7 +291,7 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
         for view in SkinView::ALL {
             let open = if touch { touch_window } else { window };
             let mut window = open(size, vec![moving("a.m3d")]);
-            window.apply(JointCommand::SetSkinView(Some(view)));
+            window.apply(LookCommand::SetSkinView(Some(view)));
             let narrow = size.x < 900.0;
             let base: &[&str] = if narrow {
                 &["title", "sheet", "legend"]
@@ -356,7 +356,7 @@ fn what_opens_stands_in_its_place_from_its_first_frame_on() {
             page.session.apply(SubsetCommand::Select(Some(0)));
         });
         assert_in_place("legend", &|page| {
-            page.session.apply(JointCommand::SetSkinView(Some(SkinView::Stretch)));
+            page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
         });
         assert_in_place("sheet", &|page| page.state.sheet = Some(SheetPage::Light));
         assert_in_place("findings", &|page| page.state.diagnostics_open = true);

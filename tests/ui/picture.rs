@@ -8,7 +8,9 @@ use std::rc::Rc;
 use bindpose::anim::SkinView;
 use bindpose::app::App;
 use bindpose::model::JointIndex;
-use bindpose::session::{Command, File, FileCommand, JointCommand, LookCommand, PlayCommand, Session, SubsetCommand};
+use bindpose::session::{
+    Command, File, FileCommand, JointCommand, LookCommand, NameCommand, PlayCommand, Session, SubsetCommand,
+};
 use bindpose::ui;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
@@ -240,7 +242,7 @@ fn the_dope_sheet_with_folded_branches() {
         &[5, 15, 20, 25, 60],
         &[3, 33, 47],
     ];
-    let then = || vec![FileCommand::Add(vec![chain(&frames)]).into(), folded.clone().into()];
+    let then = || vec![FileCommand::Add(vec![chain(&frames)]).into(), folded.into()];
     for (name, size, theme, touch) in [
         ("wide-dark-folded", WIDE, Theme::Dark, false),
         ("phone-light-folded", PHONE, Theme::Light, true),
@@ -328,25 +330,24 @@ fn the_seam_of_a_range() {
 /// The bone over whose weights and numbers the pictures are taken: it moves and has children.
 fn inspected() -> Vec<Command> {
     let bone = JointIndex(7);
-    let named = |joint: u32, name: &str| JointCommand::Rename {
+    let named = |joint: u32, name: &str| NameCommand::Rename {
         joint: JointIndex(joint),
         name: name.to_owned(),
     };
-    let commands = [
-        named(0, "Hips"),
-        named(7, "L clavicle"),
-        JointCommand::Select(Some(bone)),
-        JointCommand::SetBonesVisible(true),
-        JointCommand::SetSkinView(Some(SkinView::Weight)),
-    ];
-    commands.into_iter().map(Command::Joint).collect()
+    vec![
+        named(0, "Hips").into(),
+        named(7, "L clavicle").into(),
+        JointCommand::Select(Some(bone)).into(),
+        LookCommand::SetBonesVisible(true).into(),
+        LookCommand::SetSkinView(Some(SkinView::Weight)).into(),
+    ]
 }
 
 #[test]
 fn the_tree_and_a_joint_on_dark_and_light() {
     for (name, theme) in [("wide-dark-joint", Theme::Dark), ("wide-light-joint", Theme::Light)] {
         let mut then = inspected();
-        then.push(JointCommand::SetLabelsVisible(true).into());
+        then.push(LookCommand::SetLabelsVisible(true).into());
         compare(name, &draw_after(WIDE, theme, false, then, &["Panel: Skeleton"]));
     }
 }
@@ -366,7 +367,7 @@ fn a_vertex_explained_in_a_small_window() {
 #[test]
 fn a_vertex_explained_with_the_matrices_of_a_bone() {
     let then = vec![
-        JointCommand::SetBonesVisible(true).into(),
+        LookCommand::SetBonesVisible(true).into(),
         JointCommand::SelectVertex(Some(4_962)).into(),
     ];
     let clicks = ["Explain", "Unfold the matrices of Bone 10"];

@@ -1,7 +1,7 @@
 //! What the toolbar opens: inside the window, off the panels, large enough for fingers.
 
 use bindpose::scene::ViewMode;
-use bindpose::session::{JointCommand, LookCommand, PlayCommand, SubsetCommand};
+use bindpose::session::{LookCommand, PlayCommand, SubsetCommand};
 use egui::{Order, Rect, vec2};
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside, shown_panel};
@@ -92,7 +92,7 @@ fn what_hangs_over_the_timeline_leaves_the_transport_free() {
     ] {
         let open = if touch { touch_window } else { window };
         let mut window = open(size, vec![moving("a.m3d")]);
-        window.apply(JointCommand::SetBonesVisible(true));
+        window.apply(LookCommand::SetBonesVisible(true));
         // A range whose seam is seen has the longest list.
         window.apply(PlayCommand::SetRangeStart(Some(0.2)));
         window.apply(PlayCommand::SetRangeEnd(Some(0.7)));

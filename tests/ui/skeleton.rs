@@ -3,7 +3,7 @@
 use bindpose::anim::{GhostPlan, SkinView};
 use bindpose::model::JointIndex;
 use bindpose::scene::BoneStyle;
-use bindpose::session::{File, JointCommand};
+use bindpose::session::{File, JointCommand, LookCommand};
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
 
 use crate::chains::mirrored;
@@ -46,21 +46,21 @@ fn keys_show_bones_names_weights_and_the_bind_pose() {
     press(&mut window, Modifiers::SHIFT, Key::B);
     press(&mut window, Modifiers::NONE, Key::W);
     press(&mut window, Modifiers::NONE, Key::K);
-    let joints = window.session().joints();
-    assert!(joints.bones_visible() && joints.labels_visible());
-    assert_eq!(joints.skin_view(), Some(SkinView::Weight));
+    let look = window.session().look();
+    assert!(look.bones_visible && look.labels_visible());
+    assert_eq!(look.skin_view, Some(SkinView::Weight));
     assert_eq!(window.session().bind_weight(), 1.0);
     assert!(window.shows("Legend: Weight of a bone"));
     press(&mut window, Modifiers::SHIFT, Key::B);
     press(&mut window, Modifiers::NONE, Key::B);
     press(&mut window, Modifiers::NONE, Key::W);
     press(&mut window, Modifiers::NONE, Key::K);
-    let joints = window.session().joints();
-    assert!(!joints.bones_visible() && !joints.labels_visible() && joints.skin_view().is_none());
+    let look = window.session().look();
+    assert!(!look.bones_visible && !look.labels_visible() && look.skin_view.is_none());
     assert_eq!(window.session().bind_weight(), 0.0);
     let mut still = window_of_still();
     still.press(Modifiers::NONE, Key::B);
-    assert!(!still.session().joints().bones_visible(), "no bones, no key");
+    assert!(!still.session().look().bones_visible, "no bones, no key");
 }
 
 #[test]
@@ -68,8 +68,8 @@ fn names_go_with_the_bones_whatever_key_hides_or_shows_them() {
     let mut window = window(WIDE, chains(5));
     let mut after = |modifiers| {
         window.press(modifiers, Key::B);
-        let joints = window.session().joints();
-        (joints.bones_visible(), joints.labels_visible())
+        let look = window.session().look();
+        (look.bones_visible, look.labels_visible())
     };
     let (bones, names) = (Modifiers::NONE, Modifiers::SHIFT);
     assert_eq!(
@@ -83,8 +83,8 @@ fn names_go_with_the_bones_whatever_key_hides_or_shows_them() {
     window.click("Lines over");
     window.click("Names of bones");
     window.click("Bones");
-    let joints = window.session().joints();
-    assert!(!joints.bones_visible() && !joints.labels_visible());
+    let look = window.session().look();
+    assert!(!look.bones_visible && !look.labels_visible());
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn the_key_that_flies_forward_leaves_the_skin_alone() {
     window.press(Modifiers::NONE, Key::W);
     window.harness.event(held(false));
     window.pass_on();
-    assert_eq!(window.session().joints().skin_view(), None);
+    assert_eq!(window.session().look().skin_view, None);
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn each_view_of_the_skin_has_a_legend() {
     assert!(window.shows("Legend: Strongest bone"));
     window.click("View mode");
     window.click("Lit");
-    assert_eq!(window.session().joints().skin_view(), None);
+    assert_eq!(window.session().look().skin_view, None);
     assert!(window.named(|name| name.starts_with("Legend")).is_empty());
 }
 
@@ -190,10 +190,10 @@ fn a_click_in_the_view_means_what_is_shown_there() {
 /// Where a joint is in the window: its label says it.
 fn bone_place(window: &mut Window, joint: u32) -> egui::Pos2 {
     let session = &mut window.harness.state_mut().session;
-    session.apply(JointCommand::SetLabelsVisible(true));
+    session.apply(LookCommand::SetLabelsVisible(true));
     let mut places = Vec::new();
     session.joint_labels(0.0, &mut places);
-    session.apply(JointCommand::SetLabelsVisible(false));
+    session.apply(LookCommand::SetLabelsVisible(false));
     let place = places
         .into_iter()
         .find(|place| place.joint.0 == joint)
@@ -210,8 +210,8 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     window.click("Bones");
     window.click("Bones: Axes");
     window.click("Names of bones");
-    let joints = window.session().joints();
-    assert_eq!((joints.bone_style(), joints.labels_visible()), (BoneStyle::Axes, true));
+    let look = window.session().look();
+    assert_eq!((look.bone_style, look.labels_visible()), (BoneStyle::Axes, true));
     window.click("Bind pose as a ghost");
     assert!(window.session().look().bind_ghost);
     window.click("To bind pose");
@@ -226,9 +226,9 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     assert_eq!(window.session().look().ghosts, Some(plan));
     assert!(window.shows("Ghosts every frames"));
     window.click("Trail of Bone 3");
-    assert_eq!(window.session().joints().trails(), [JointIndex(3)]);
+    assert_eq!(window.session().look().trails, [JointIndex(3)]);
     window.click("Leave the trail of Bone 3");
-    assert!(window.session().joints().trails().is_empty());
+    assert!(window.session().look().trails.is_empty());
 }
 
 #[test]
@@ -237,7 +237,7 @@ fn tree_and_inspector_fit_every_window() {
         let mut window = tree(size, bone_count);
         window.apply(JointCommand::Select(Some(JointIndex(0))));
         window.apply(JointCommand::SelectVertex(Some(0)));
-        window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
+        window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
         assert_between_sides(&window, size);
         assert_apart(
             &window,
@@ -248,7 +248,7 @@ fn tree_and_inspector_fit_every_window() {
     let mut window = phone(chains(300));
     window.click("Model facts");
     window.click("Panel: Skeleton");
-    window.apply(JointCommand::SetSkinView(Some(SkinView::Weight)));
+    window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
     assert_between_sides(&window, PHONE);
     assert_apart(&window, &["title", "sheet", "legend"]);
     let row = window.rect("Bone 1, ");

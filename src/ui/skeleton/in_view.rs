@@ -56,7 +56,7 @@ pub(in crate::ui) enum LegendShape {
 
 /// What the colours of the skin are about. None while the skin is shown as it is.
 pub(in crate::ui) fn colored_view(session: &Session) -> Option<SkinView> {
-    session.joints().skin_view().filter(|_| session.open_model().is_some())
+    session.look().skin_view.filter(|_| session.open_model().is_some())
 }
 
 /// What the colours mean.

@@ -8,7 +8,7 @@ use super::vertex_panel;
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, PlayCommand, Session};
+use crate::session::{Command, JointCommand, LookCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
     TextButton, focus_ring, paint_elided, pressed_row, pressed_row_height, rule, section_with_action,
@@ -104,9 +104,9 @@ fn show_joint(
         ui.ctx().copy_text(readout.to_text());
     }
     rule(ui, MARGIN);
-    let trail = session.joints().trails().contains(&joint);
+    let trail = session.look().trails.contains(&joint);
     if switch_row(ui, "Trail through the clip", "", trail).clicked() {
-        commands.push(JointCommand::ToggleTrail(joint).into());
+        commands.push(LookCommand::ToggleTrail(joint).into());
     }
     key_list(ui, session, &mut state.key_part, joint, commands);
 }

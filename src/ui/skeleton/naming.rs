@@ -3,7 +3,7 @@
 use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{Command, NameCommand, Session};
 use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
@@ -100,7 +100,7 @@ impl Naming {
     fn take_name(&mut self, commands: &mut Vec<Command>) {
         let naming = std::mem::take(self);
         if let Some(joint) = naming.of {
-            commands.push(Command::Joint(JointCommand::Rename {
+            commands.push(Command::Name(NameCommand::Rename {
                 joint,
                 name: naming.text,
             }));
@@ -177,7 +177,7 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
                 .show(ui)
                 .clicked()
             {
-                commands.push(JointCommand::AcceptMirrorNames.into());
+                commands.push(NameCommand::AcceptMirrored.into());
                 naming.proposing = false;
             }
         }

@@ -63,7 +63,7 @@ impl SkeletonState {
 
     /// Highlights the joint under the pointer. `elsewhere`: the joint that is hovered in another panel.
     pub(in crate::ui) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
-        let bones_at = self.pointer_in_view.filter(|_| session.joints().bones_visible());
+        let bones_at = self.pointer_in_view.filter(|_| session.look().bones_visible);
         match (self.hovered.or(elsewhere), bones_at) {
             (None, Some(pointer)) => commands.push(JointCommand::HoverAt(Some(pointer)).into()),
             (hovered, _) if session.joints().hovered() != hovered => {
@@ -202,7 +202,7 @@ impl Reading {
         let position = self.vertex.as_ref().map(|explained| explained.position);
         self.vertex_at = position.and_then(|position| session.place_in_picture(position));
 
-        let shown = session.joints().skin_view() == Some(SkinView::DominantJoint);
+        let shown = session.look().skin_view == Some(SkinView::DominantJoint);
         let wanted = shown.then_some(session.model_revision());
         if self.colors_of != wanted {
             self.colors_of = wanted;

@@ -8,7 +8,7 @@ use egui::{
 use super::naming::{show_field, show_proposals};
 use super::state::{SidePage, SkeletonState};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, JointRow, Session};
+use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
@@ -99,7 +99,7 @@ fn menu(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mu
         if menu_item(ui, "Propose mirrored names…", false).clicked() {
             state.naming.proposing = true;
         } else if !session.joint_names().is_empty() && menu_item(ui, "Clear names", false).clicked() {
-            commands.push(JointCommand::ClearNames.into());
+            commands.push(NameCommand::Clear.into());
         } else if menu_item(ui, "Fold all", false).clicked() {
             commands.push(JointCommand::SetAllFolded(true).into());
         } else if menu_item(ui, "Unfold all", false).clicked() {

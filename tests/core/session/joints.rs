@@ -6,7 +6,8 @@ use bindpose::anim::{SkinView, skin_positions};
 use bindpose::model::{JointIndex, SavedNames};
 use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
 use bindpose::session::{
-    CameraCommand, Command, File, FileCommand, JointCommand, JointRow, PlayCommand, Session, SubsetCommand,
+    CameraCommand, Command, File, FileCommand, JointCommand, JointRow, LookCommand, NameCommand, PlayCommand, Session,
+    SubsetCommand,
 };
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -16,21 +17,16 @@ use crate::chains::mirrored;
 use crate::documents::shared_bytes;
 
 use JointCommand::{
-    AcceptMirrorNames, ClearNames, ClearTrails, Hover, HoverAt, ImportNames, Rename, Select, SelectAt, SelectChild,
-    SelectParent, SelectVertex, SelectVertexAt, SetAllFolded, SetBoneStyle, SetBonesVisible, SetFolded,
-    SetLabelsVisible, SetSkinView, ToggleTrail,
+    Hover, HoverAt, Select, SelectAt, SelectChild, SelectParent, SelectVertex, SelectVertexAt, SetAllFolded, SetFolded,
 };
+use LookCommand::{ClearTrails, SetBoneStyle, SetBonesVisible, SetLabelsVisible, SetSkinView, ToggleTrail};
 
 fn chains(count: usize) -> Session {
     opened(models::file("chains.m3d", &mirrored(count)))
 }
 
-fn joint(command: JointCommand) -> Command {
-    Command::Joint(command)
-}
-
 fn rename(session: &mut Session, joint: u32, name: &str) {
-    session.apply(Rename {
+    session.apply(NameCommand::Rename {
         joint: JointIndex(joint),
         name: name.to_owned(),
     });
@@ -77,8 +73,8 @@ fn a_bone_is_selected_and_hovered_where_it_is_drawn() {
         .collect();
     for (index, point) in (0..).zip(points) {
         let pointer = on_screen(&mut session, point);
-        session.apply(joint(SelectAt(pointer)));
-        session.apply(joint(HoverAt(Some(pointer))));
+        session.apply(SelectAt(pointer));
+        session.apply(HoverAt(Some(pointer)));
         let expected = Some(JointIndex(index));
         assert_eq!(
             (session.joints().selected(), session.joints().hovered()),
@@ -86,11 +82,11 @@ fn a_bone_is_selected_and_hovered_where_it_is_drawn() {
         );
     }
     for nowhere in [Vec2::splat(0.99), Vec2::NAN] {
-        session.apply(joint(Select(Some(JointIndex(0)))));
-        session.apply(joint(SelectAt(nowhere)));
+        session.apply(Select(Some(JointIndex(0))));
+        session.apply(SelectAt(nowhere));
         assert_eq!(session.joints().selected(), None);
     }
-    session.apply(joint(HoverAt(None)));
+    session.apply(HoverAt(None));
     assert_eq!(session.joints().hovered(), None);
 }
 
@@ -98,7 +94,7 @@ fn a_bone_is_selected_and_hovered_where_it_is_drawn() {
 fn up_and_down_the_chain() {
     let mut session = chains(9);
     let mut after = |command| {
-        session.apply(joint(command));
+        session.apply(command);
         session.joints().selected().map(|joint| joint.0)
     };
     assert_eq!(after(SelectParent), None);
@@ -116,53 +112,79 @@ fn up_and_down_the_chain() {
 fn the_picture_is_another_one_exactly_when_what_stands_out_or_is_shown_changed() {
     let mut session = chains(5);
     session.apply(PlayCommand::Pause);
-    let mut changes = |command: JointCommand| {
+    let mut changes = |command: Command| {
         let before = session.picture_revision();
-        session.apply(joint(command));
+        session.apply(command);
         session.picture_revision() != before
     };
     let (first, none) = (Some(JointIndex(1)), None);
-    assert!(changes(Hover(first)) && !changes(Hover(first)) && changes(Hover(none)) && !changes(Hover(none)));
-    assert!(changes(Select(first)) && !changes(Select(first)) && changes(SelectParent) && !changes(SelectParent));
-    assert!(changes(SelectVertex(Some(2))) && !changes(SelectVertex(Some(2))));
-    assert!(changes(SetBonesVisible(true)) && !changes(SetBonesVisible(true)));
-    assert!(changes(SetBoneStyle(BoneStyle::Axes)) && !changes(SetBoneStyle(BoneStyle::Axes)));
-    assert!(changes(SetLabelsVisible(true)) && !changes(SetLabelsVisible(true)));
-    assert!(changes(SetSkinView(Some(SkinView::Stretch))) && !changes(SetSkinView(Some(SkinView::Stretch))));
-    assert!(changes(ToggleTrail(JointIndex(1))) && changes(ClearTrails) && !changes(ClearTrails));
-    let named = || Rename {
+    assert!(
+        changes(Hover(first).into())
+            && !changes(Hover(first).into())
+            && changes(Hover(none).into())
+            && !changes(Hover(none).into())
+    );
+    assert!(
+        changes(Select(first).into())
+            && !changes(Select(first).into())
+            && changes(SelectParent.into())
+            && !changes(SelectParent.into())
+    );
+    assert!(changes(SelectVertex(Some(2)).into()) && !changes(SelectVertex(Some(2)).into()));
+    assert!(changes(SetBonesVisible(true).into()) && !changes(SetBonesVisible(true).into()));
+    assert!(changes(SetBoneStyle(BoneStyle::Axes).into()) && !changes(SetBoneStyle(BoneStyle::Axes).into()));
+    assert!(changes(SetLabelsVisible(true).into()) && !changes(SetLabelsVisible(true).into()));
+    assert!(
+        changes(SetSkinView(Some(SkinView::Stretch)).into()) && !changes(SetSkinView(Some(SkinView::Stretch)).into())
+    );
+    assert!(changes(ToggleTrail(JointIndex(1)).into()) && changes(ClearTrails.into()) && !changes(ClearTrails.into()));
+    let named = || NameCommand::Rename {
         joint: JointIndex(1),
         name: "arm".to_owned(),
     };
-    assert!(changes(named()) && !changes(named()) && changes(ClearNames) && !changes(ClearNames));
-    assert!(!changes(SetAllFolded(true)), "the tree is beside the picture");
+    assert!(
+        changes(named().into())
+            && !changes(named().into())
+            && changes(NameCommand::Clear.into())
+            && !changes(NameCommand::Clear.into())
+    );
+    assert!(!changes(SetAllFolded(true).into()), "the tree is beside the picture");
 }
 
 #[test]
 fn what_the_model_has_not_is_left_alone() {
     for mut session in [opened(moving("a.m3d")), opened(still("a.m3d")), Session::new(false)] {
-        let before = session.joints().clone();
+        let before = (
+            session.joints().clone(),
+            session.look().clone(),
+            session.joint_names().clone(),
+        );
         let none = JointIndex(u32::MAX);
         for command in [
-            Select(Some(none)),
-            Hover(Some(none)),
-            SelectVertex(Some(u32::MAX)),
-            SetFolded {
+            Command::from(Select(Some(none))),
+            Hover(Some(none)).into(),
+            SelectVertex(Some(u32::MAX)).into(),
+            Command::Joint(SetFolded {
                 joint: none,
                 folded: true,
-            },
-            Rename {
+            }),
+            Command::Name(NameCommand::Rename {
                 joint: none,
                 name: "x".to_owned(),
-            },
-            ToggleTrail(none),
-            ImportNames(SavedNames {
+            }),
+            ToggleTrail(none).into(),
+            Command::Name(NameCommand::Import(SavedNames {
                 fingerprint: 1,
                 names: BTreeMap::from([(0, "x".to_owned())]),
-            }),
+            })),
         ] {
-            session.apply(joint(command.clone()));
-            assert_eq!(session.joints(), &before, "{command:?}");
+            session.apply(command.clone());
+            let after = (
+                session.joints().clone(),
+                session.look().clone(),
+                session.joint_names().clone(),
+            );
+            assert_eq!(after, before, "{command:?}");
         }
         assert_eq!(session.inspect_joint(none), None);
         assert_eq!(session.explain_vertex(), None);
@@ -174,7 +196,7 @@ fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_
     let mut session = opened(moving("a.m3d"));
     session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     session.apply(PlayCommand::Seek { time_secs: 0.0 });
-    session.apply(joint(SelectVertexAt(Vec2::new(0.02, 0.05))));
+    session.apply(SelectVertexAt(Vec2::new(0.02, 0.05)));
     let selected = *session.joints().selected_vertex().expect("the front is there");
     assert_eq!(selected.hit.map(|hit| hit.vertex), Some(selected.vertex));
     let mut places = Vec::new();
@@ -199,7 +221,7 @@ fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_
         .expect("selected")
         .to_text(|joint| session.joint_name(joint));
     assert!(text.contains("bone 1 \"upper\", weight"), "{text}");
-    session.apply(joint(SelectVertexAt(Vec2::splat(0.999))));
+    session.apply(SelectVertexAt(Vec2::splat(0.999)));
     assert_eq!(session.joints().selected_vertex(), None, "beside the skin");
 }
 
@@ -208,18 +230,18 @@ fn rows_fold_and_a_selection_unfolds_what_it_hangs_from() {
     let mut session = chains(5);
     let all = [0, 1, 3, 2, 4];
     assert_eq!(bones(&rows(&session, "")), all);
-    session.apply(joint(SetFolded {
+    session.apply(SetFolded {
         joint: JointIndex(1),
         folded: true,
-    }));
+    });
     assert_eq!(bones(&rows(&session, " ")), [0, 1, 2, 4]);
     assert!(rows(&session, "")[1].folded && rows(&session, "")[1].has_children);
-    session.apply(joint(SetAllFolded(true)));
+    session.apply(SetAllFolded(true));
     let row = rows(&session, "");
     assert_eq!((bones(&row), row[0].branch_vertices), (vec![0], 15));
-    session.apply(joint(Select(Some(JointIndex(3)))));
+    session.apply(Select(Some(JointIndex(3))));
     assert_eq!(bones(&rows(&session, "")), [0, 1, 3, 2], "bone 2 stays folded");
-    session.apply(joint(SetAllFolded(false)));
+    session.apply(SetAllFolded(false));
     let row = rows(&session, "");
     assert_eq!(bones(&row), all);
     assert!(row.iter().all(|row| !row.folded && !row.found));
@@ -237,7 +259,7 @@ fn a_search_finds_numbers_and_names_with_what_they_hang_from_even_when_folded() 
     let mut session = chains(41);
     rename(&mut session, 3, "Left Elbow");
     rename(&mut session, 12, "Toe 7");
-    session.apply(joint(SetAllFolded(true)));
+    session.apply(SetAllFolded(true));
     for query in ["3", "#3", "bone 3", " BONE 3 ", "elbow", "LEFT e"] {
         let rows = rows(&session, query);
         assert_eq!(bones(&rows), [0, 1, 3], "{query}");
@@ -262,18 +284,18 @@ fn names_are_given_shown_proposed_for_the_other_side_and_accepted() {
     assert!(session.joint_names_revision() > revision);
     let expected = BTreeMap::from([(4, "R hand".to_owned())]);
     assert_eq!(session.proposed_names(), expected);
-    session.apply(joint(AcceptMirrorNames));
+    session.apply(NameCommand::AcceptMirrored);
     assert_eq!(session.joint_names().get(4), Some("R hand"));
     assert!(session.proposed_names().is_empty());
 
     let saved = session.saved_joint_names().expect("a model is open");
-    session.apply(joint(ClearNames));
+    session.apply(NameCommand::Clear);
     assert!(session.joint_names().is_empty());
-    session.apply(joint(ImportNames(saved.clone())));
+    session.apply(NameCommand::Import(saved.clone()));
     assert_eq!(session.saved_joint_names(), Some(saved.clone()));
 
     let mut other = chains(7);
-    other.apply(joint(ImportNames(saved)));
+    other.apply(NameCommand::Import(saved));
     assert!(other.joint_names().is_empty(), "another hierarchy");
     assert_eq!(Session::new(false).saved_joint_names(), None);
 }
@@ -283,17 +305,17 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
     let mut session = chains(5);
     rename(&mut session, 1, "arm");
     for command in [
-        Select(Some(JointIndex(3))),
-        SelectVertex(Some(1)),
-        ToggleTrail(JointIndex(2)),
-        SetFolded {
+        Command::from(Select(Some(JointIndex(3)))),
+        SelectVertex(Some(1)).into(),
+        ToggleTrail(JointIndex(2)).into(),
+        Command::Joint(SetFolded {
             joint: JointIndex(2),
             folded: true,
-        },
-        SetBonesVisible(true),
-        SetSkinView(Some(SkinView::Weight)),
+        }),
+        SetBonesVisible(true).into(),
+        SetSkinView(Some(SkinView::Weight)).into(),
     ] {
-        session.apply(joint(command));
+        session.apply(command);
     }
     session.apply(PlayCommand::SetBindWeight(0.5));
     let again = |session: &mut Session, path: &str, count| {
@@ -302,8 +324,8 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
     again(&mut session, "chains.m3d", 5);
     assert_eq!(session.joint_names().get(1), Some("arm"));
     assert_eq!(
-        (session.joints().selected(), session.joints().trails()),
-        (Some(JointIndex(3)), [JointIndex(2)].as_slice())
+        (session.joints().selected(), &session.look().trails[..]),
+        (Some(JointIndex(3)), &[JointIndex(2)][..])
     );
     assert!(session.joints().is_folded(JointIndex(2)));
     assert_eq!(session.joints().selected_vertex(), None, "of the old mesh");
@@ -315,10 +337,10 @@ fn the_same_file_again_keeps_names_and_choices_and_another_one_does_not() {
 
     rename(&mut session, 1, "arm");
     again(&mut session, "other.m3d", 7);
-    assert!(session.joint_names().is_empty() && session.joints().trails().is_empty());
+    assert!(session.joint_names().is_empty() && session.look().trails.is_empty());
     assert_eq!(session.bind_weight(), 0.0);
-    assert!(session.joints().bones_visible(), "how it is shown stays");
-    assert_eq!(session.joints().skin_view(), Some(SkinView::Weight));
+    assert!(session.look().bones_visible, "how it is shown stays");
+    assert_eq!(session.look().skin_view, Some(SkinView::Weight));
 }
 
 #[test]
@@ -349,14 +371,14 @@ fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
     let mut session = opened(moving("a.m3d"));
     session.apply(PlayCommand::Seek { time_secs: 0.0 });
     assert_eq!(over_model(&mut session), OverlayGeometry::default(), "hidden");
-    session.apply(joint(SetBonesVisible(true)));
+    session.apply(SetBonesVisible(true));
     let mut drawn = Vec::new();
     for command in [
-        joint(SetBoneStyle(BoneStyle::Lines)),
-        joint(SetBoneStyle(BoneStyle::Axes)),
+        Command::from(SetBoneStyle(BoneStyle::Lines)),
+        SetBoneStyle(BoneStyle::Axes).into(),
         PlayCommand::Seek { time_secs: 0.3 }.into(),
-        joint(Select(Some(JointIndex(1)))),
-        joint(Hover(Some(JointIndex(0)))),
+        Select(Some(JointIndex(1))).into(),
+        Hover(Some(JointIndex(0))).into(),
         Command::SetHandedness(Some(bindpose::model::Handedness::Right)),
         Command::SetUpAxis(Some(bindpose::model::UpAxis::Z)),
         Command::SetTheme(bindpose::scene::Theme::Light),
@@ -377,9 +399,9 @@ fn labels_are_those_in_view_and_the_selected_comes_first() {
     let mut places = Vec::new();
     session.joint_labels(0.0, &mut places);
     assert!(places.is_empty(), "hidden");
-    session.apply(joint(SetLabelsVisible(true)));
-    session.apply(joint(Select(Some(JointIndex(20)))));
-    session.apply(joint(Hover(Some(JointIndex(7)))));
+    session.apply(SetLabelsVisible(true));
+    session.apply(Select(Some(JointIndex(20))));
+    session.apply(Hover(Some(JointIndex(7))));
     session.joint_labels(0.0, &mut places);
     assert_eq!(
         (places.len(), places[0].joint, places[1].joint),
@@ -393,11 +415,11 @@ fn names_stand_only_where_bones_are_drawn_and_bring_them() {
     let shown = |session: &mut Session| {
         let mut places = Vec::new();
         session.joint_labels(0.0, &mut places);
-        assert_eq!(places.is_empty(), !session.joints().labels_visible());
-        (session.joints().bones_visible(), session.joints().labels_visible())
+        assert_eq!(places.is_empty(), !session.look().labels_visible());
+        (session.look().bones_visible, session.look().labels_visible())
     };
     let mut after = |command| {
-        session.apply(joint(command));
+        session.apply(command);
         shown(&mut session)
     };
     assert_eq!(
@@ -439,7 +461,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
 
     let mut seen = Vec::new();
     for view in SkinView::ALL {
-        session.apply(joint(SetSkinView(Some(view))));
+        session.apply(SetSkinView(Some(view)));
         assert_eq!(skin_colors(&mut session).len(), vertices);
         let key = session.skin_colors_key().expect("shown");
         assert!(!seen.contains(&key));
@@ -453,7 +475,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
             "only stretch is of a pose"
         );
     }
-    session.apply(joint(SetSkinView(Some(SkinView::Weight))));
+    session.apply(SetSkinView(Some(SkinView::Weight)));
     let colors = skin_colors(&mut session);
     assert!(
         colors
@@ -462,7 +484,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
         "no joint, no weight"
     );
     let key = session.skin_colors_key();
-    session.apply(joint(Select(Some(JointIndex(1)))));
+    session.apply(Select(Some(JointIndex(1))));
     assert_ne!(session.skin_colors_key(), key);
     let colors = skin_colors(&mut session);
     let mesh = &session.open_model().expect("open").model.mesh;
@@ -478,11 +500,11 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
         let place = mesh.positions.iter().position(|position| position.y == y);
         place.expect("the box is four high") as u32
     });
-    session.apply(joint(SelectVertex(Some(lowest))));
+    session.apply(SelectVertex(Some(lowest)));
     assert_eq!(session.weighed_joint(), Some(JointIndex(1)), "the selected joint stays");
-    session.apply(joint(Select(None)));
+    session.apply(Select(None));
     assert_eq!(session.weighed_joint(), Some(JointIndex(0)));
-    session.apply(joint(SelectVertex(Some(highest))));
+    session.apply(SelectVertex(Some(highest)));
     assert_eq!(session.weighed_joint(), Some(JointIndex(1)));
     let colors = skin_colors(&mut session);
     assert_eq!(colors, expected);
@@ -494,15 +516,15 @@ fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
     // A trail of n points has n - 1 steps, each drawn as a line of two ends.
     let steps = |session: &mut Session| over_model(session).lines.len() / 2;
     assert_eq!(steps(&mut session), 0);
-    session.apply(joint(ToggleTrail(JointIndex(1))));
+    session.apply(ToggleTrail(JointIndex(1)));
     assert_eq!(steps(&mut session), 30);
     session.apply(PlayCommand::SelectClip(1));
     assert_eq!(steps(&mut session), 60);
-    session.apply(joint(ToggleTrail(JointIndex(0))));
+    session.apply(ToggleTrail(JointIndex(0)));
     assert_eq!(steps(&mut session), 120);
-    session.apply(joint(ClearTrails));
+    session.apply(ClearTrails);
     assert_eq!(steps(&mut session), 0);
-    session.apply(joint(ToggleTrail(JointIndex(1))));
+    session.apply(ToggleTrail(JointIndex(1)));
     assert_eq!(steps(&mut session), 60);
 }
 
@@ -513,7 +535,7 @@ fn the_soldier_is_inspected_explained_and_coloured() {
     };
     let mut session = opened(File::new("soldier.m3d", bytes));
     session.apply(PlayCommand::Seek { time_secs: 0.517 });
-    session.apply(joint(SelectVertexAt(Vec2::ZERO)));
+    session.apply(SelectVertexAt(Vec2::ZERO));
     assert!(
         session
             .explain_vertex()
@@ -522,7 +544,7 @@ fn the_soldier_is_inspected_explained_and_coloured() {
     let readout = session.inspect_joint(JointIndex(10)).expect("58 joints");
     assert!(!readout.model.is_mirrored() && readout.to_text().contains("finalTransform"));
     for view in SkinView::ALL {
-        session.apply(joint(SetSkinView(Some(view))));
+        session.apply(SetSkinView(Some(view)));
         assert_eq!(skin_colors(&mut session).len(), 13_748);
     }
     let pairs = session.mirror_pairs();
@@ -550,10 +572,10 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
     let at = inside(&mut session);
     session.apply(Command::SelectAt(at));
     assert_eq!(selected(&session), (Some(0), false, None));
-    session.apply(joint(SetSkinView(Some(SkinView::Weight))));
+    session.apply(SetSkinView(Some(SkinView::Weight)));
     session.apply(Command::SelectAt(at));
     assert_eq!(selected(&session), (None, true, None));
-    session.apply(joint(SetBonesVisible(true)));
+    session.apply(SetBonesVisible(true));
     let at_bone = bone(&mut session);
     session.apply(Command::SelectAt(at_bone));
     assert_eq!(selected(&session), (None, true, Some(JointIndex(0))));
@@ -561,10 +583,10 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
     let nowhere = Vec2::splat(0.99);
     session.apply(Command::SelectAt(nowhere));
     assert_eq!(selected(&session), (None, false, Some(JointIndex(0))));
-    session.apply(joint(SetSkinView(None)));
+    session.apply(SetSkinView(None));
     session.apply(Command::SelectAt(nowhere));
     assert_eq!(selected(&session), (None, false, None));
-    session.apply(joint(Select(Some(JointIndex(1)))));
+    session.apply(Select(Some(JointIndex(1))));
     session.apply(SubsetCommand::Select(Some(0)));
     assert_eq!(selected(&session), (Some(0), false, None));
 }
@@ -572,7 +594,7 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
 #[test]
 fn a_selected_vertex_is_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
-    session.apply(joint(SelectVertex(Some(0))));
+    session.apply(SelectVertex(Some(0)));
     session.apply(PlayCommand::Seek { time_secs: 0.5 });
     let place = session.explain_vertex().expect("it is there").position;
     let world = session.frame().world_from_model.transform_point3(place);
@@ -595,7 +617,7 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     assert_eq!(*session.camera(), whole, "nothing is selected");
 
     let chosen = JointIndex(31);
-    session.apply(joint(Select(Some(chosen))));
+    session.apply(Select(Some(chosen)));
     session.apply(CameraCommand::FrameSelection);
     let near = *session.camera();
     assert!(
@@ -611,8 +633,8 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
         near.target
     );
     // A vertex comes with what is around it.
-    session.apply(joint(Select(None)));
-    session.apply(joint(SelectVertex(Some(60))));
+    session.apply(Select(None));
+    session.apply(SelectVertex(Some(60)));
     session.apply(CameraCommand::FrameSelection);
     let (at_vertex, place) = (*session.camera(), session.explain_vertex().expect("selected").position);
     let world = session.frame().world_from_model.transform_point3(place);
@@ -625,8 +647,8 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
         (0.05..0.5).contains(&(at_vertex.distance / whole.distance)),
         "{at_vertex:?}"
     );
-    session.apply(joint(SelectVertex(None)));
-    session.apply(joint(Select(Some(chosen))));
+    session.apply(SelectVertex(None));
+    session.apply(Select(Some(chosen)));
     session.apply(CameraCommand::FrameSelection);
     assert_eq!(*session.camera(), near);
 
@@ -639,7 +661,7 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
 
     session.apply(CameraCommand::FrameModel);
     assert!(session.camera().distance > 1.5 * near.distance);
-    session.apply(joint(Select(None)));
+    session.apply(Select(None));
     session.apply(SubsetCommand::Select(Some(0)));
     session.apply(CameraCommand::Zoom {
         factor: 8.0,

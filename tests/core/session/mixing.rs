@@ -2,7 +2,7 @@
 
 use bindpose::anim::{CompiledClip, GhostPlan, LocalPose, LoopMode, Playback, PoseBuffers, blend, sample};
 use bindpose::model::JointIndex;
-use bindpose::session::{Blend, FileCommand, JointCommand, LookCommand, MAX_CROSSFADE_SECS, PlayCommand, Session};
+use bindpose::session::{Blend, FileCommand, LookCommand, MAX_CROSSFADE_SECS, PlayCommand, Session};
 use glam::Affine3A;
 
 use super::{models, opened};
@@ -322,7 +322,7 @@ fn ghosts_and_trails_are_of_what_is_on_show_a_blend_too() {
         step_frames: 1,
     };
     session.apply(LookCommand::SetGhosts(Some(plan)));
-    session.apply(JointCommand::ToggleTrail(JointIndex(2)));
+    session.apply(LookCommand::ToggleTrail(JointIndex(2)));
     let clip = session.open_model().expect("open").model.clips[0].clone();
     let (away_secs, now_secs) = (1.0 / clip.keys_per_sec, 0.5 * (clip.start_secs + clip.end_secs));
     session.apply(PlayCommand::Seek { time_secs: now_secs });

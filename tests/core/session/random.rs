@@ -6,8 +6,8 @@ use bindpose::anim::{Direction, GhostPlan, LoopMode, MAX_SPEED, MIN_SPEED, SkinV
 use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
 use bindpose::scene::{BoneStyle, Insets, Overlay, Theme, ViewPreset};
 use bindpose::session::{
-    CameraCommand, Command, Event, File, FileCommand, JointCommand, LookCommand, MaterialCommand, PlayCommand, Session,
-    SubsetCommand,
+    CameraCommand, Command, Event, File, FileCommand, JointCommand, LookCommand, MaterialCommand, NameCommand,
+    PlayCommand, Session, SubsetCommand,
 };
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -81,13 +81,6 @@ fn subset_command() -> impl Strategy<Value = SubsetCommand> {
 
 fn joint_command() -> impl Strategy<Value = JointCommand> {
     let any_joint = || (0u32..9).prop_map(JointIndex);
-    let name = prop::sample::select(vec!["", " ", "L arm", "hand", "R_leg", "\u{7}"]);
-    let saved = |bones: usize| {
-        let (model, _) = crate::documents::model_of(&mirrored(bones));
-        let names = [(1, "kept".to_owned()), (99, "none".to_owned())].into();
-        let fingerprint = hierarchy_fingerprint(&model.skeleton);
-        JointCommand::ImportNames(SavedNames { fingerprint, names })
-    };
     prop_oneof![
         4 => prop::option::of(any_joint()).prop_map(JointCommand::Select),
         2 => vector().prop_map(JointCommand::SelectAt),
@@ -99,16 +92,36 @@ fn joint_command() -> impl Strategy<Value = JointCommand> {
         1 => prop::option::of(0u32..40).prop_map(JointCommand::SelectVertex),
         1 => (any_joint(), any::<bool>()).prop_map(|(joint, folded)| JointCommand::SetFolded { joint, folded }),
         1 => any::<bool>().prop_map(JointCommand::SetAllFolded),
-        2 => (any_joint(), name).prop_map(|(joint, name)| JointCommand::Rename { joint, name: name.to_owned() }),
-        1 => Just(JointCommand::AcceptMirrorNames),
+    ]
+}
+
+fn name_command() -> impl Strategy<Value = NameCommand> {
+    let any_joint = || (0u32..9).prop_map(JointIndex);
+    let name = prop::sample::select(vec!["", " ", "L arm", "hand", "R_leg", "\u{7}"]);
+    let saved = |bones: usize| {
+        let (model, _) = crate::documents::model_of(&mirrored(bones));
+        let names = [(1, "kept".to_owned()), (99, "none".to_owned())].into();
+        let fingerprint = hierarchy_fingerprint(&model.skeleton);
+        NameCommand::Import(SavedNames { fingerprint, names })
+    };
+    prop_oneof![
+        2 => (any_joint(), name).prop_map(|(joint, name)| NameCommand::Rename { joint, name: name.to_owned() }),
+        1 => Just(NameCommand::AcceptMirrored),
         1 => prop::sample::select(vec![2, 7]).prop_map(saved),
-        1 => Just(JointCommand::ClearNames),
-        1 => prop::sample::select(BoneStyle::ALL.to_vec()).prop_map(JointCommand::SetBoneStyle),
-        1 => any::<bool>().prop_map(JointCommand::SetBonesVisible),
-        1 => any::<bool>().prop_map(JointCommand::SetLabelsVisible),
-        1 => prop::option::of(prop::sample::select(SkinView::ALL.to_vec())).prop_map(JointCommand::SetSkinView),
-        1 => any_joint().prop_map(JointCommand::ToggleTrail),
-        1 => Just(JointCommand::ClearTrails),
+        1 => Just(NameCommand::Clear),
+    ]
+}
+
+/// How the skeleton and the skin are shown.
+fn skeleton_look() -> impl Strategy<Value = LookCommand> {
+    let any_joint = || (0u32..9).prop_map(JointIndex);
+    prop_oneof![
+        1 => prop::sample::select(BoneStyle::ALL.to_vec()).prop_map(LookCommand::SetBoneStyle),
+        1 => any::<bool>().prop_map(LookCommand::SetBonesVisible),
+        1 => any::<bool>().prop_map(LookCommand::SetLabelsVisible),
+        1 => prop::option::of(prop::sample::select(SkinView::ALL.to_vec())).prop_map(LookCommand::SetSkinView),
+        1 => any_joint().prop_map(LookCommand::ToggleTrail),
+        1 => Just(LookCommand::ClearTrails),
     ]
 }
 
@@ -240,7 +253,9 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         8 => camera.prop_map(Command::Camera),
         3 => alone,
         4 => subset_command().prop_map(Command::Subset),
-        5 => joint_command().prop_map(Command::Joint),
+        4 => joint_command().prop_map(Command::Joint),
+        2 => name_command().prop_map(Command::Name),
+        2 => skeleton_look().prop_map(Command::Look),
         3 => look.prop_map(Command::Look),
         2 => material_command().prop_map(Command::Material),
         5 => files.prop_map(Command::File),
@@ -326,7 +341,7 @@ fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError
     let marked = [joints.selected(), joints.hovered()].into_iter().flatten();
     prop_assert!(
         marked
-            .chain(joints.trails().iter().copied())
+            .chain(session.look().trails.iter().copied())
             .all(|joint| joint.index() < count)
     );
     prop_assert!(session.joint_names().all().keys().all(|&bone| bone < count));
@@ -358,8 +373,8 @@ fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError
 
     let overlay = over_model(session);
     let mut corners = overlay.lines.iter().chain(&overlay.triangles);
-    if joints.trails().is_empty() {
-        prop_assert_eq!(corners.clone().count() > 0, joints.bones_visible() && count > 0);
+    if session.look().trails.is_empty() {
+        prop_assert_eq!(corners.clone().count() > 0, session.look().bones_visible && count > 0);
     }
     prop_assert!(corners.all(|corner| Vec3::from(corner.position).is_finite()));
     Ok(())
