@@ -38,6 +38,46 @@ pub(super) struct PoseInputs {
     bind_weight: f32,
 }
 
+/// The figures of the open model, and which of them commands are about. A session has one.
+#[derive(Clone, Debug)]
+pub(super) struct Actors {
+    /// Never empty.
+    all: Vec<Actor>,
+    picked: usize,
+}
+
+impl Default for Actors {
+    fn default() -> Self {
+        Self::one(Actor::default())
+    }
+}
+
+impl Actors {
+    pub(super) fn one(actor: Actor) -> Self {
+        Self {
+            all: vec![actor],
+            picked: 0,
+        }
+    }
+
+    /// The one that commands are about, and that is shown.
+    pub(super) fn picked(&self) -> &Actor {
+        &self.all[self.picked]
+    }
+
+    pub(super) fn picked_mut(&mut self) -> &mut Actor {
+        &mut self.all[self.picked]
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Actor> {
+        self.all.iter()
+    }
+
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Actor> {
+        self.all.iter_mut()
+    }
+}
+
 impl Actor {
     /// One for a model that has just opened, in the bind pose. The length of crossfades stays as it was chosen.
     pub(super) fn for_model(open: &OpenModel, before: &Self) -> Self {
@@ -155,10 +195,21 @@ impl Actor {
         }
     }
 
-    /// Lets time pass for what fades.
-    pub(super) fn advance_fades(&mut self, dt_secs: f32) {
+    /// Whether its time moves by itself.
+    pub(super) fn is_animating(&self) -> bool {
+        // A clip of no length would loop on the spot for ever; playing it once still has to end.
+        let [start_secs, end_secs] = self.playback.played_secs();
+        let has_length = start_secs < end_secs || self.playback.loop_mode() == LoopMode::Once;
+        self.playback.is_playing() && !self.scrubbing && self.clip.is_some() && has_length
+    }
+
+    /// Lets time pass for its clip and for what fades.
+    pub(super) fn advance(&mut self, dt_secs: f32) {
         if self.is_fading() && dt_secs > 0.0 {
             self.mixer.advance_fades(&self.playback, dt_secs);
+        }
+        if self.is_animating() {
+            self.playback.advance(dt_secs);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The one place where things change.
 
-use super::actor::{PlaybackSettings, PoseInputs};
+use super::actor::{Actor, PlaybackSettings, PoseInputs};
 use super::view::View;
 use super::{Changes, Command, Event, Session};
 use crate::model::{Handedness, UpAxis};
@@ -61,7 +61,7 @@ struct Before {
     view: View,
     /// How the model stands in the world.
     space: (Handedness, UpAxis),
-    pose: PoseInputs,
+    poses: Vec<PoseInputs>,
     settings: PlaybackSettings,
     clip_count: usize,
     passes: Passes,
@@ -72,8 +72,8 @@ impl Session {
         Before {
             view: self.view.clone(),
             space: (self.handedness(), self.up_axis()),
-            pose: self.actor.pose_inputs(),
-            settings: self.actor.settings(),
+            poses: self.actors.iter().map(Actor::pose_inputs).collect(),
+            settings: self.actors.picked().settings(),
             clip_count: self.content.clip_count(),
             passes: self.quality.passes(),
         }
@@ -84,9 +84,14 @@ impl Session {
         let mut changes = self.content.changes.take();
         changes.picture |= self.selection.joints.take_redraw();
         changes.picture |= self.selection.subsets.take_redraw();
-        changes.pose |= self.actor.mixer.take_changed() || self.actor.pose_inputs() != before.pose;
-        changes.playback |=
-            changes.clips || self.actor.settings() != before.settings || self.content.clip_count() != before.clip_count;
+        let poses: Vec<_> = self.actors.iter().map(Actor::pose_inputs).collect();
+        changes.pose |= poses != before.poses;
+        for actor in self.actors.iter_mut() {
+            changes.pose |= actor.mixer.take_changed();
+        }
+        changes.playback |= changes.clips
+            || self.actors.picked().settings() != before.settings
+            || self.content.clip_count() != before.clip_count;
         changes.picture |= changes.pose
             || changes.maps
             || changes.materials

@@ -12,7 +12,7 @@ impl Session {
     pub(super) fn frame_model(&mut self) {
         let world_from_model = self.world_from_model();
         if let Some(open) = &self.content.open {
-            let (_, points) = open.extent(self.actor.clip);
+            let (_, points) = open.extent(self.clip_index());
             let points: Vec<_> = points
                 .iter()
                 .map(|&point| world_from_model.transform_point3(point))

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
-use super::actor::Actor;
+use super::actor::{Actor, Actors};
 use super::changes::Changes;
 use super::content::Content;
 use super::files::{File, FileSet};
@@ -132,7 +132,7 @@ impl Session {
     /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices.
     fn replace_model(&mut self, loaded: Loaded) {
         let Loaded { files, open, maps, sky } = loaded;
-        let was_playing = self.actor.playback.is_playing();
+        let was_playing = self.playback().is_playing();
         let clip_name = self.clip().map(|clip| clip.name.clone());
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
@@ -150,11 +150,12 @@ impl Session {
         if !same_joints {
             self.view.look.trails.clear();
         }
-        self.actor = if again {
-            Actor::for_model_again(&open, &self.actor, clip_name.as_deref())
+        let actor = if again {
+            Actor::for_model_again(&open, self.actors.picked(), clip_name.as_deref())
         } else {
-            Actor::for_model(&open, &self.actor)
+            Actor::for_model(&open, self.actors.picked())
         };
+        self.actors = Actors::one(actor);
         self.content = Content {
             open: Some(Arc::new(open)),
             files,
@@ -175,7 +176,7 @@ impl Session {
             self.frame_model();
         }
         self.note(Event::Load);
-        if self.actor.playback.is_playing() != was_playing {
+        if self.playback().is_playing() != was_playing {
             self.note(if was_playing { Event::Pause } else { Event::Play });
         }
         self.note(Event::TimeUpdate);
@@ -185,10 +186,11 @@ impl Session {
     /// Goes to the first clip, if there is one, and plays it unless things are to stand still.
     fn show_first_clip(&mut self) {
         if let Some(open) = &self.content.open
-            && self.actor.show_clip(open, 0)
+            && let actor = self.actors.picked_mut()
+            && actor.show_clip(open, 0)
             && !self.reduced_motion
         {
-            self.actor.playback.play();
+            actor.playback.play();
         }
     }
 
@@ -231,7 +233,7 @@ impl Session {
         }
         if !had_clips && self.content.clip_count() > 0 {
             self.show_first_clip();
-            if self.actor.playback.is_playing() {
+            if self.playback().is_playing() {
                 self.note(Event::Play);
             }
             self.note(Event::TimeUpdate);
@@ -242,7 +244,7 @@ impl Session {
     fn shown_clips(&self) -> ShownClips {
         let name = |index: usize| Some(self.content.clips().get(index)?.name.clone());
         ShownClips {
-            shown: self.actor.clip.and_then(name),
+            shown: self.clip_index().and_then(name),
             blended: self.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
         }
     }
@@ -252,7 +254,7 @@ impl Session {
     fn show_clips_again(&mut self, before: &ShownClips) {
         self.content.changes.clips = true;
         let Some(open) = &self.content.open else { return };
-        let actor = &mut self.actor;
+        let actor = self.actors.picked_mut();
         let clips = &open.model.clips;
         let place_of = |name: &str| clips.iter().position(|clip| clip.name == name);
         actor.mixer.end_fades();

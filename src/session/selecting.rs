@@ -73,7 +73,7 @@ impl Session {
     pub(super) fn pose_vertices(&mut self) {
         self.pose_now();
         if let Some(open) = &self.content.open {
-            let palette = &self.actor.pose.palette;
+            let palette = &self.actors.picked().pose.palette;
             self.caches
                 .picker
                 .update(&open.model.mesh, palette, self.revisions.pose);
