@@ -1,4 +1,4 @@
-//! Who moves: the clip that plays, the time in it, what is mixed into it, and the pose that comes of all this.
+//! A figure of the open model: the clip that plays, its time, what is mixed into it, and the pose.
 
 use super::mixer::{Blend, Mixer};
 use super::open_model::OpenModel;
@@ -20,7 +20,7 @@ pub(super) struct Actor {
     posed: Option<u64>,
 }
 
-/// What plays, and how: what a listener of [`Event::PlaybackChange`] asks for.
+/// What plays, and how. A change of it is [`super::Event::PlaybackChange`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlaybackSettings {
     clip: Option<usize>,
@@ -181,8 +181,8 @@ impl Actor {
         }
     }
 
-    /// The clip that plays becomes one that played before, and is seen a little longer while time moves; `at_once` ends it now. A
-    /// blend goes on with the next clip, unless it was with that one.
+    /// Fades the clip that plays out while the `next` one plays; with `at_once` nothing fades. A blend stays with the next clip,
+    /// unless the next clip is the one that was blended in.
     pub(super) fn fade_to(&mut self, next: usize, at_once: bool) {
         match self.clip {
             Some(clip) if self.playback.is_playing() && !self.scrubbing && !at_once => {

@@ -7,7 +7,7 @@ use crate::model::{Handedness, UpAxis};
 use crate::scene::Passes;
 
 impl Session {
-    /// Does what was asked, and tells what changed. What makes no sense now is left undone.
+    /// Applies a command and returns what changed. A command that makes no sense now is ignored.
     pub fn apply(&mut self, command: impl Into<Command>) -> Changes {
         let command = command.into();
         let to_go_back_to = match &command {
@@ -18,7 +18,7 @@ impl Session {
         if changes.need_upload() && to_go_back_to.is_some() {
             self.before = to_go_back_to;
         }
-        // Another model is an event of its own.
+        // Opening a model has its own event, `Load`.
         if changes.playback && !changes.model {
             self.note(Event::PlaybackChange);
         }
@@ -55,8 +55,8 @@ impl Session {
     }
 }
 
-/// The parts of a session that are small enough to be compared: whatever of them a command changes, and in whatever way, is
-/// noticed. What is large (model, maps, sky, materials) and what is changed in few places notes its changes by itself.
+/// Copies of the small parts of a session, to compare before with after: so no change of them is missed, whichever command made
+/// it. Large parts (model, maps, sky, materials, names) and parts that change in few places record their changes themselves.
 struct Before {
     view: View,
     /// How the model stands in the world.
@@ -79,7 +79,7 @@ impl Session {
         }
     }
 
-    /// What is different from before, and what the parts noted.
+    /// What differs from before, and what the parts recorded.
     fn changes_since(&mut self, before: &Before) -> Changes {
         let mut changes = self.content.changes.take();
         changes.picture |= self.selection.joints.take_redraw();
@@ -103,12 +103,12 @@ impl Session {
         changes
     }
 
-    /// Counts changes, so that whoever keeps something that was made from what they are about makes it again.
+    /// Counts changes in the revisions, so that caches that were made from what changed are filled again.
     pub(super) fn commit(&mut self, changes: Changes) {
         self.revisions.count(changes);
     }
 
-    /// Does something, and counts what it changed.
+    /// Runs `act`, counts what it changed, and returns it.
     pub(super) fn track(&mut self, act: impl FnOnce(&mut Self)) -> Changes {
         let before = self.before();
         act(self);

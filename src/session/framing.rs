@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::Session;
 use crate::scene::Insets;
 
-/// What is framed around a vertex, as a part of the model's radius: its neighbourhood, and where on the model that is.
+/// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
 const VERTEX_ROOM: f32 = 0.15;
 
 impl Session {

@@ -80,7 +80,7 @@ pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 
 
 /// The viewer's state, without window, clock or GPU.
 ///
-/// Each part has one owner, and parts borrow apart: what needs three of them takes three.
+/// Each part can be borrowed on its own: a function that needs three parts takes three.
 #[derive(Clone, Debug, Default)]
 pub struct Session {
     content: Content,
@@ -93,11 +93,11 @@ pub struct Session {
     revisions: Revisions,
     events: Vec<Event>,
     reduced_motion: bool,
-    /// All of it as the GPU was last seen to have it, while something newer is on its way there.
+    /// The session as it was when the GPU last took all of it, until it has taken what is open now.
     before: Option<Box<Self>>,
 }
 
-/// What the pointer or a choice is about.
+/// What is selected and hovered.
 #[derive(Clone, Debug, Default)]
 struct Selection {
     subsets: Subsets,
@@ -121,8 +121,8 @@ impl Session {
         }
     }
 
-    /// As a new one, but for the window that it is seen in: closes what is open and forgets what was chosen. Revisions count on,
-    /// so that nobody takes what comes next for what was there.
+    /// Closes what is open and forgets what was chosen; only the shape of the window and its theme stay. Revisions go on counting,
+    /// so that no cache is used for what opens next.
     pub fn start_over(&mut self, reduced_motion: bool) {
         let mut new = Self::new(reduced_motion);
         new.view.aspect = self.view.aspect;

@@ -14,7 +14,7 @@ use super::sky::FoundSky;
 use super::{Event, Session};
 use crate::model::JointNames;
 
-/// A wish about files.
+/// A command about files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileCommand {
     /// Opens the largest model of a drop; the others are listed, pictures are kept beside it, a cube map becomes the sky.
@@ -24,9 +24,9 @@ pub enum FileCommand {
     AddClips(Vec<File>),
     /// Opens another model of the last drop, by its path.
     Open(String),
-    /// Takes the sky away that was dropped.
+    /// Removes the sky that was dropped.
     ClearSky,
-    /// Takes the error card away.
+    /// Dismisses the error.
     DismissError,
 }
 
@@ -78,7 +78,7 @@ impl Session {
         }
     }
 
-    /// Gives a job what the open model has of the same file.
+    /// Gives a job what the open model already has of the same file: decoded maps and joined clips.
     fn reuse(&self, job: LoadJob) -> LoadJob {
         match &self.content.open {
             Some(open) if open.file.base_name() == job.file_name() => {
@@ -183,7 +183,7 @@ impl Session {
         self.use_as_sky(sky);
     }
 
-    /// Goes to the first clip, if there is one, and plays it unless things are to stand still.
+    /// Goes to the first clip, if there is one, and plays it unless motion is reduced.
     fn show_first_clip(&mut self) {
         if let Some(open) = &self.content.open
             && let actor = self.actors.picked_mut()
@@ -209,7 +209,7 @@ impl Session {
         let set = FileSet::new(files);
         let models = set.models();
         let mut refused = models.is_empty().then(|| Box::new(LoadError::no_model(&set)));
-        // In the order of the drop, which the list of the largest first has lost.
+        // In the order of the drop; `models` has the largest first.
         let models: HashSet<&str> = models.iter().map(|file| file.path.as_str()).collect();
         let mut joined: HashSet<&str> = HashSet::new();
         let mut replaced = false;

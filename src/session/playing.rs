@@ -7,7 +7,7 @@ use super::{Blend, Event, SPEEDS, Session};
 use crate::anim::{Direction, LoopMode, Seam, WrapMode, next_key, previous_key};
 use crate::model::JointIndex;
 
-/// A wish about what plays and how.
+/// A command about what plays and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlayCommand {
     /// Plays on in the direction it had; a clip that stopped at its end starts over.
@@ -38,12 +38,12 @@ pub enum PlayCommand {
     SeekStart,
     /// Last frame, of the range where there is one.
     SeekEnd,
-    /// Lets playing begin at a time, seconds, or at the present one. A range that would end before then ends with the clip.
+    /// Starts the range at a time in seconds, or at the present time. A range that would end before then ends with the clip.
     /// Ranges are forgotten with their clip.
     SetRangeStart(Option<f32>),
-    /// Lets playing end at a time, seconds, or at the present one. A range that would begin after then begins with the clip.
+    /// Ends the range at a time in seconds, or at the present time. A range that would begin after then begins with the clip.
     SetRangeEnd(Option<f32>),
-    /// Lets the whole clip play.
+    /// Removes the range: the whole clip plays.
     ClearRange,
     /// The pointer holds the time: playing waits until [`PlayCommand::EndScrub`].
     BeginScrub,
@@ -51,7 +51,7 @@ pub enum PlayCommand {
     EndScrub,
     /// Shows a clip, by its index.
     SelectClip(usize),
-    /// Shows the clip some places further, around the end.
+    /// Shows the clip some places further in the list, which goes round at its ends.
     CycleClip(i32),
     /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
     /// Under reduced motion it is at once in any case.
@@ -73,13 +73,13 @@ pub enum PlayCommand {
     Faster,
     /// What happens at the end.
     SetLoopMode(LoopMode),
-    /// Once, loop, ping-pong, in turn.
+    /// The next of once, loop, ping-pong.
     CycleLoopMode,
     /// How a loop begins again.
     SetWrapMode(WrapMode),
-    /// Brings the pose a part of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
+    /// Blends the pose with the bind pose: 0 the clip's pose … 1 the bind pose.
     SetBindWeight(f32),
-    /// The bind pose, or the clip's, in turn.
+    /// Switches between the bind pose and the clip's pose.
     ToggleBindPose,
 }
 
@@ -176,7 +176,7 @@ impl Session {
         } else {
             playback.pause();
         }
-        // What stood at its end begins anew.
+        // To play at the end of a clip starts it over.
         let moved = playback.time_secs() != was_at;
         self.note(if playing { Event::Play } else { Event::Pause });
         if moved {
@@ -188,7 +188,7 @@ impl Session {
         if self.clip_index().is_none() || time_secs.is_nan() {
             return;
         }
-        // Who asks for a time wants to see the pose of that time.
+        // A time that was asked for is shown without fades.
         let Actor { mixer, playback, .. } = self.actors.picked_mut();
         mixer.end_fades();
         let was_at = playback.time_secs();

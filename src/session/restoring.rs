@@ -30,8 +30,8 @@ impl Session {
         }
     }
 
-    /// Looks at the open model as a state says. Clips, bones and subsets that the model has not are ignored, and numbers are brought
-    /// into their ranges.
+    /// Looks at the open model as a state says. Clips, bones and subsets that the model does not have are ignored, and numbers are
+    /// clamped to their ranges.
     pub(super) fn restore(&mut self, state: &ViewState) {
         self.restore_appearance(&state.appearance);
         self.restore_playback(&state.playback);
@@ -109,7 +109,7 @@ impl Session {
             actor.playback.set_range_start(start_secs);
         }
         self.set_playing(state.playing);
-        // What stood at its end would begin anew by playing.
+        // After playing: to play at the end of a clip starts it over.
         self.actors.picked_mut().playback.seek(state.time_secs);
         self.note(Event::TimeUpdate);
     }

@@ -114,8 +114,8 @@ impl Session {
         explain_vertex(&self.content.open.as_ref()?.model, &self.actors.picked().pose, vertex)
     }
 
-    /// What the colours of the skin depend on now: as long as it stays, they need not be asked for. None while the skin is shown
-    /// as it is. Weights are those of [`Session::weighed_joint`], all 0 without one.
+    /// What the colours of the skin depend on: the same key, the same colours. None while the skin is shown as it is. Weights are
+    /// those of [`Session::weighed_joint`], all 0 without one.
     pub fn skin_colors_key(&self) -> Option<SkinColorsKey> {
         self.open_model()?;
         let view = self.view.look.skin_view?;

@@ -90,7 +90,7 @@ pub struct AppearanceState {
     pub ghosts: Option<GhostPlan>,
     /// Whether the bind pose is seen as a ghost.
     pub bind_ghost: bool,
-    /// Bones whose ways through the clip are drawn.
+    /// Bones whose paths through the clip are drawn.
     pub trails: Vec<u32>,
 }
 
