@@ -61,7 +61,8 @@ impl Trails {
 }
 
 /// Which poses are shown beside that of now.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, rename_all = "camelCase")]
 pub struct GhostPlan {
     /// How many before.
     pub before: u32,
@@ -69,6 +70,16 @@ pub struct GhostPlan {
     pub after: u32,
     /// Frames from one to the next, 1 or more.
     pub step_frames: u32,
+}
+
+impl Default for GhostPlan {
+    fn default() -> Self {
+        Self {
+            before: 0,
+            after: 0,
+            step_frames: 1,
+        }
+    }
 }
 
 /// Ghosts on either side at most.

@@ -1,4 +1,4 @@
-//! Who moves: the clip that plays, the time in it, what is mixed into it, and the pose that comes of all this.
+//! A figure of the open model: the clip that plays, its time, what is mixed into it, and the pose.
 
 use super::mixer::{Blend, Mixer};
 use super::open_model::OpenModel;
@@ -20,7 +20,7 @@ pub(super) struct Actor {
     posed: Option<u64>,
 }
 
-/// What plays, and how: what a listener of [`Event::PlaybackChange`] asks for.
+/// What plays, and how. A change of it is [`super::Event::PlaybackChange`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlaybackSettings {
     clip: Option<usize>,
@@ -36,6 +36,46 @@ pub(super) struct PoseInputs {
     clip: Option<usize>,
     time_secs: f32,
     bind_weight: f32,
+}
+
+/// The figures of the open model, and which of them commands are about. A session has one.
+#[derive(Clone, Debug)]
+pub(super) struct Actors {
+    /// Never empty.
+    all: Vec<Actor>,
+    picked: usize,
+}
+
+impl Default for Actors {
+    fn default() -> Self {
+        Self::one(Actor::default())
+    }
+}
+
+impl Actors {
+    pub(super) fn one(actor: Actor) -> Self {
+        Self {
+            all: vec![actor],
+            picked: 0,
+        }
+    }
+
+    /// The one that commands are about, and that is shown.
+    pub(super) fn picked(&self) -> &Actor {
+        &self.all[self.picked]
+    }
+
+    pub(super) fn picked_mut(&mut self) -> &mut Actor {
+        &mut self.all[self.picked]
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Actor> {
+        self.all.iter()
+    }
+
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Actor> {
+        self.all.iter_mut()
+    }
 }
 
 impl Actor {
@@ -141,8 +181,8 @@ impl Actor {
         }
     }
 
-    /// The clip that plays becomes one that played before, and is seen a little longer while time moves; `at_once` ends it now. A
-    /// blend goes on with the next clip, unless it was with that one.
+    /// Fades the clip that plays out while the `next` one plays; with `at_once` nothing fades. A blend stays with the next clip,
+    /// unless the next clip is the one that was blended in.
     pub(super) fn fade_to(&mut self, next: usize, at_once: bool) {
         match self.clip {
             Some(clip) if self.playback.is_playing() && !self.scrubbing && !at_once => {
@@ -155,10 +195,21 @@ impl Actor {
         }
     }
 
-    /// Lets time pass for what fades.
-    pub(super) fn advance_fades(&mut self, dt_secs: f32) {
+    /// Whether its time moves by itself.
+    pub(super) fn is_animating(&self) -> bool {
+        // A clip of no length would loop on the spot for ever; playing it once still has to end.
+        let [start_secs, end_secs] = self.playback.played_secs();
+        let has_length = start_secs < end_secs || self.playback.loop_mode() == LoopMode::Once;
+        self.playback.is_playing() && !self.scrubbing && self.clip.is_some() && has_length
+    }
+
+    /// Lets time pass for its clip and for what fades.
+    pub(super) fn advance(&mut self, dt_secs: f32) {
         if self.is_fading() && dt_secs > 0.0 {
             self.mixer.advance_fades(&self.playback, dt_secs);
+        }
+        if self.is_animating() {
+            self.playback.advance(dt_secs);
         }
     }
 

@@ -1,13 +1,13 @@
 //! The one place where things change.
 
-use super::actor::{PlaybackSettings, PoseInputs};
+use super::actor::{Actor, PlaybackSettings, PoseInputs};
 use super::view::View;
 use super::{Changes, Command, Event, Session};
 use crate::model::{Handedness, UpAxis};
 use crate::scene::Passes;
 
 impl Session {
-    /// Does what was asked, and tells what changed. What makes no sense now is left undone.
+    /// Applies a command and returns what changed. A command that makes no sense now is ignored.
     pub fn apply(&mut self, command: impl Into<Command>) -> Changes {
         let command = command.into();
         let to_go_back_to = match &command {
@@ -18,7 +18,7 @@ impl Session {
         if changes.need_upload() && to_go_back_to.is_some() {
             self.before = to_go_back_to;
         }
-        // Another model is an event of its own.
+        // Opening a model has its own event, `Load`.
         if changes.playback && !changes.model {
             self.note(Event::PlaybackChange);
         }
@@ -55,13 +55,13 @@ impl Session {
     }
 }
 
-/// The parts of a session that are small enough to be compared: whatever of them a command changes, and in whatever way, is
-/// noticed. What is large (model, maps, sky, materials) and what is changed in few places notes its changes by itself.
+/// Copies of the small parts of a session, to compare before with after: so no change of them is missed, whichever command made
+/// it. Large parts (model, maps, sky, materials, names) and parts that change in few places record their changes themselves.
 struct Before {
     view: View,
     /// How the model stands in the world.
     space: (Handedness, UpAxis),
-    pose: PoseInputs,
+    poses: Vec<PoseInputs>,
     settings: PlaybackSettings,
     clip_count: usize,
     passes: Passes,
@@ -72,21 +72,26 @@ impl Session {
         Before {
             view: self.view.clone(),
             space: (self.handedness(), self.up_axis()),
-            pose: self.actor.pose_inputs(),
-            settings: self.actor.settings(),
+            poses: self.actors.iter().map(Actor::pose_inputs).collect(),
+            settings: self.actors.picked().settings(),
             clip_count: self.content.clip_count(),
             passes: self.quality.passes(),
         }
     }
 
-    /// What is different from before, and what the parts noted.
+    /// What differs from before, and what the parts recorded.
     fn changes_since(&mut self, before: &Before) -> Changes {
         let mut changes = self.content.changes.take();
         changes.picture |= self.selection.joints.take_redraw();
         changes.picture |= self.selection.subsets.take_redraw();
-        changes.pose |= self.actor.mixer.take_changed() || self.actor.pose_inputs() != before.pose;
-        changes.playback |=
-            changes.clips || self.actor.settings() != before.settings || self.content.clip_count() != before.clip_count;
+        let poses: Vec<_> = self.actors.iter().map(Actor::pose_inputs).collect();
+        changes.pose |= poses != before.poses;
+        for actor in self.actors.iter_mut() {
+            changes.pose |= actor.mixer.take_changed();
+        }
+        changes.playback |= changes.clips
+            || self.actors.picked().settings() != before.settings
+            || self.content.clip_count() != before.clip_count;
         changes.picture |= changes.pose
             || changes.maps
             || changes.materials
@@ -98,12 +103,12 @@ impl Session {
         changes
     }
 
-    /// Counts changes, so that whoever keeps something that was made from what they are about makes it again.
+    /// Counts changes in the revisions, so that caches that were made from what changed are filled again.
     pub(super) fn commit(&mut self, changes: Changes) {
         self.revisions.count(changes);
     }
 
-    /// Does something, and counts what it changed.
+    /// Runs `act`, counts what it changed, and returns it.
     pub(super) fn track(&mut self, act: impl FnOnce(&mut Self)) -> Changes {
         let before = self.before();
         act(self);

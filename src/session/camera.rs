@@ -10,7 +10,7 @@ use crate::scene::{Camera, Insets, Projection, ViewPreset};
 /// Flight ends this far from the scene's middle, in radii of the scene: where zooming ends too.
 const FARTHEST_RADII: f32 = 100.0;
 
-/// A wish about the camera.
+/// A command about the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraCommand {
     /// Turns the camera about its target.
@@ -22,14 +22,14 @@ pub enum CameraCommand {
     },
     /// Moves the scene with the pointer.
     Pan {
-        /// Shares of the picture's height, x right, y down.
+        /// Fractions of the picture's height, x right, y down.
         drag: Vec2,
     },
     /// Comes nearer (factor below 1) to what is under the pointer.
     Zoom {
         /// Factor of the distance.
         factor: f32,
-        /// Shares of the picture's height from its centre, x right, y down.
+        /// Fractions of the picture's height from its centre, x right, y down.
         pointer: Vec2,
     },
     /// Frames all that the clip reaches.
@@ -43,25 +43,25 @@ pub enum CameraCommand {
     ToggleProjection,
     /// The default view.
     Reset,
-    /// Does what another command asks, but lets the camera go there within a quarter of a second where it would jump.
-    /// Under reduced motion it jumps.
+    /// Applies another command, but where the camera would jump, it moves there within a quarter of a second. Under reduced
+    /// motion it jumps.
     Glide(Box<CameraCommand>),
-    /// The pointer holds the camera: what it did by itself ends, and the turntable waits until [`CameraCommand::EndDrag`].
+    /// The pointer takes hold of the camera: glides and flings end, and the turntable waits until [`CameraCommand::EndDrag`].
     BeginDrag,
     /// The pointer let go.
     EndDrag,
-    /// Turns on after a drag, slower and slower. Nothing under reduced motion.
+    /// Goes on turning after a drag, slower and slower. Does nothing under reduced motion.
     Fling {
         /// Rate of [`CameraCommand::Orbit`]'s yaw when the pointer let go, radians a second.
         yaw_radians_per_sec: f32,
         /// Rate of its pitch.
         pitch_radians_per_sec: f32,
     },
-    /// Turns the camera about the model, once in twelve seconds, or leaves it.
+    /// Starts or stops turning the camera about the model, once in twelve seconds.
     SetTurntable(bool),
-    /// Turns the camera about the model, or leaves it, in turn.
+    /// Starts or stops the turntable, whichever it is not.
     ToggleTurntable,
-    /// Flies on, at one radius of the scene a second, until another command of this kind: the keys that are held now.
+    /// Flies at one radius of the scene a second until the next such command. It is sent whenever the keys that are held change.
     Fly {
         /// To the right, up in the world, forward: −1…1 each. Zero ends it.
         direction: Vec3,
@@ -85,7 +85,7 @@ pub enum CameraCommand {
 }
 
 impl CameraCommand {
-    /// Whether it says where the camera shall be.
+    /// Whether it moves the camera to a place.
     fn sends_camera(&self) -> bool {
         matches!(
             self,
@@ -204,7 +204,7 @@ impl Session {
     fn zoom(&mut self, factor: f32, pointer: Vec2) {
         let radius = self.world_bounds().radius().max(1e-6);
         let View { camera, framed, .. } = &mut self.view;
-        // Neither through the model nor so far that it is a dot.
+        // Not through the model, and not so far away that it is a dot.
         let distance = (camera.distance * factor).clamp(radius * 1e-2, radius * 100.0);
         camera.zoom(distance / camera.distance, pointer);
         *framed = false;
@@ -219,13 +219,13 @@ impl Session {
         self.view.motion.is_moving(self.content.open.is_some())
     }
 
-    /// Does what was asked, and lets the camera go there instead of jumping.
+    /// Applies a command; the camera glides to where the command would move it at once.
     fn glide(&mut self, command: CameraCommand) {
         if self.reduced_motion || !command.sends_camera() {
             return self.apply_to_camera(command);
         }
         let from = self.view.camera;
-        // Sent again on its way, it goes from here to where it would have been sent from there.
+        // While it glides, a new command counts from the end of that glide.
         if let Some(goal) = self.view.motion.goal() {
             self.view.camera = goal;
             self.view.motion.end_glide();
@@ -239,7 +239,7 @@ impl Session {
         }
     }
 
-    /// Changes the camera, or where it is going while it glides.
+    /// Changes the camera; while it glides, the end of the glide.
     pub(super) fn change_goal(&mut self, change: impl FnOnce(&mut Self)) {
         let Some(goal) = self.view.motion.goal() else {
             return change(self);
@@ -269,7 +269,7 @@ impl Session {
         let bounds = self.world_bounds();
         let (center, radius) = (bounds.center(), bounds.radius().max(1e-6));
         let camera = &mut self.view.camera;
-        // Whoever is farther out already comes nearer or stays.
+        // A camera that is farther out already may come nearer, but not go farther.
         let farthest = (FARTHEST_RADII * radius).max(camera.eye().distance(center));
         camera.fly(way_radii * radius);
         let off = camera.eye() - center;

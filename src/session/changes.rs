@@ -1,4 +1,4 @@
-//! What a command or a step of time changed, and counters of it for those who keep something that was made from a session.
+//! What a command or a step of time changed, and counters of these changes for caches.
 
 use std::ops::BitOrAssign;
 
@@ -21,7 +21,7 @@ pub struct Changes {
     pub pose: bool,
     /// Which clips there are, which one plays and how: range, speed, what happens at the end.
     pub playback: bool,
-    /// The picture. Whatever else changed in it, this is true too.
+    /// The picture. True whenever one of the others changed what is seen.
     pub picture: bool,
 }
 
@@ -38,7 +38,7 @@ impl Changes {
         picture: false,
     };
 
-    /// All that belongs to a model. Whether its names are different is known to those who keep them.
+    /// All that belongs to a model, but for the names: they may stay when the same file opens again.
     pub(super) const MODEL: Self = Self {
         model: true,
         clips: true,
@@ -61,7 +61,7 @@ impl Changes {
         self.model || self.maps || self.sky
     }
 
-    /// Gives what was noted, and begins anew.
+    /// Returns what was recorded, and clears it.
     pub(super) fn take(&mut self) -> Self {
         std::mem::take(self)
     }
@@ -81,8 +81,8 @@ impl BitOrAssign for Changes {
     }
 }
 
-/// Counts changes of each kind since the session began: the same number, the same thing. Whoever keeps something that was made
-/// from a session keeps the number with it, and makes it again when the number is another.
+/// Counts changes of each kind since the session began. A cache keeps the number that it was filled at, and is filled again when
+/// the number differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Revisions {
     pub(super) model: u64,

@@ -1,4 +1,4 @@
-//! All that a person or a program can ask for, in groups as the session has parts.
+//! All that a person or a program can ask for, in groups that follow the parts of the session.
 
 use glam::Vec2;
 
@@ -14,7 +14,7 @@ use super::view_state::ViewState;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::Theme;
 
-/// A wish. [`super::Session::apply`] is the one place where things change.
+/// A command to a session. [`super::Session::apply`] is the one place where things change.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Models, clips and pictures from files; the sky.
@@ -36,8 +36,8 @@ pub enum Command {
     /// Which costly passes are drawn, and how fine the picture is.
     Quality(QualityCommand),
 
-    /// Selects the bone, the vertex or the subset that is shown at a point of the picture: x right, y up, −1…1. What is selected
-    /// is a subset, or a joint and a vertex: one lets the other go.
+    /// Selects the bone, the vertex or the subset that is shown at a point of the picture: x right, y up, −1…1. Either a subset
+    /// is selected, or a joint and a vertex: selecting one kind clears the other.
     SelectAt(Vec2),
     /// Takes the file as left- or right-handed; `None` is what was found.
     SetHandedness(Option<Handedness>),
@@ -45,12 +45,12 @@ pub enum Command {
     SetUpAxis(Option<UpAxis>),
     /// The dark or the light theme.
     SetTheme(Theme),
-    /// Looks at the open model as a state says; see [`super::Session::view_state`]. Clips, bones and subsets that the model has not
-    /// are ignored, and numbers are brought into their ranges.
+    /// Looks at the open model as a state says; see [`super::Session::view_state`]. Clips, bones and subsets that the model does
+    /// not have are ignored, and numbers are clamped to their ranges.
     Restore(Box<ViewState>),
 }
 
-/// A command of a group is a command.
+/// Makes the command of each group a [`Command`].
 macro_rules! groups {
     ($($group:ident($command:ty)),* $(,)?) => {$(
         impl From<$command> for Command {

@@ -15,7 +15,7 @@ use crate::model::{Clip, JointNames};
 /// A model is replaced together with all that belongs to it; the sky belongs to no model.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Content {
-    /// Shared with what is kept to go back to.
+    /// Shared with the copy that [`Session::go_back`](super::Session::go_back) returns to.
     pub(super) open: Option<Arc<OpenModel>>,
     /// Files of the last drop that had a model.
     pub(super) files: Arc<FileSet>,
@@ -26,7 +26,7 @@ pub(super) struct Content {
     pub(super) sky: Sky,
     /// Why the last load failed.
     pub(super) error: Option<LoadError>,
-    /// What was changed since it was last asked.
+    /// What changed since the last [`Changes::take`].
     pub(super) changes: Changes,
 }
 

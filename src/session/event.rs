@@ -11,9 +11,9 @@ pub enum Event {
     Play,
     /// Playing ended.
     Pause,
-    /// The time is another one.
+    /// The time changed.
     TimeUpdate,
-    /// What of the open model plays, or how, is another: clips, range, speed, what happens at the end.
+    /// The clips, the clip that plays, or its range, speed, loop or wrap mode changed.
     PlaybackChange,
 }
 

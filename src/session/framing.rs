@@ -5,14 +5,14 @@ use glam::Vec3;
 use super::Session;
 use crate::scene::Insets;
 
-/// What is framed around a vertex, as a part of the model's radius: its neighbourhood, and where on the model that is.
+/// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
 const VERTEX_ROOM: f32 = 0.15;
 
 impl Session {
     pub(super) fn frame_model(&mut self) {
         let world_from_model = self.world_from_model();
         if let Some(open) = &self.content.open {
-            let (_, points) = open.extent(self.actor.clip);
+            let (_, points) = open.extent(self.clip_index());
             let points: Vec<_> = points
                 .iter()
                 .map(|&point| world_from_model.transform_point3(point))

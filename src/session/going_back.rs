@@ -1,5 +1,4 @@
-//! What was dropped is on the screen when the GPU has taken it. Until then what was there before is kept, and comes back when the
-//! GPU refuses.
+//! Until the GPU has taken what was dropped, a copy of what was open before is kept. If the GPU refuses, the copy is open again.
 
 use super::camera::CameraCommand;
 use super::changes::Changes;
@@ -7,7 +6,7 @@ use super::{Event, LoadError, Session};
 use crate::diagnostic::codes;
 
 impl Session {
-    /// A copy of all that is open, for [`Session::go_back`]; none when there is an older one, which the screen still shows.
+    /// A copy of all that is open, for [`Session::go_back`]. None when there is an older copy: that one is still on the screen.
     pub(super) fn to_go_back_to(&self) -> Option<Box<Self>> {
         self.before.is_none().then(|| Box::new(self.clone()))
     }
@@ -30,7 +29,7 @@ impl Session {
         };
         self.view.theme = theme;
         self.apply_to_camera(CameraCommand::SetViewport { aspect, insets });
-        // Whoever has seen the one that failed must not take this for it.
+        // New revisions, so that no cache of the model that failed is used for this one.
         self.commit(Changes::CONTENT);
         self.note(Event::Load);
         self.fail(LoadError::refused_by_gpu(refused.unwrap_or_default(), reason));
@@ -41,7 +40,7 @@ impl Session {
         self.fail(LoadError::refused_by_gpu(String::new(), reason));
     }
 
-    /// The same view of nothing.
+    /// This session with nothing open, with the same look and quality.
     fn closed(&mut self) -> Self {
         self.clear_sky();
         let mut closed = Self::new(self.reduced_motion);

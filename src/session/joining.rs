@@ -87,7 +87,7 @@ impl OpenModel {
         self.joined.iter().filter_map(|joined| joined.offsets_differ.as_ref())
     }
 
-    /// Takes the clips away that a file of this name brought, and what was found about them. The place of the first and how many
+    /// Removes the clips that a file of this name brought, and their diagnostics. Returns the index of the first and how many
     /// there were.
     fn remove_joined(&mut self, file_name: &str) -> Option<(usize, usize)> {
         let is_gone = |facts: &ClipFacts| facts.joined && facts.file_name == file_name;
@@ -110,7 +110,7 @@ impl OpenModel {
         Some((first, count))
     }
 
-    /// Lets findings be about clips some places further on, from a place on.
+    /// Adds `by` to the clip index of each diagnostic about a clip at index `from` or later.
     fn move_clip_notices(&mut self, from: usize, by: usize) {
         for notice in &mut self.notices {
             if let Some(Subject::Clip(clip)) = &mut notice.subject

@@ -1,4 +1,4 @@
-//! Which joint and which vertex the pointer or a choice is about, and which branches of the tree are folded.
+//! Which joint and which vertex are selected or hovered, and which branches of the tree are folded.
 
 use crate::model::{JointIndex, JointTree, Model, VertexCounts, hierarchy_fingerprint};
 use crate::scene::{Hit, MarkedJoints};
@@ -24,7 +24,7 @@ pub struct Joints {
     marked: MarkedJoints,
     vertex: Option<SelectedVertex>,
     folded: Vec<bool>,
-    /// Something else stands out or is selected since it was last asked.
+    /// Something else stands out or is selected since the last [`Joints::take_redraw`].
     redraw: bool,
 }
 
@@ -78,7 +78,8 @@ impl Joints {
         joint.index() < self.count()
     }
 
-    /// Resets to the joints of another model. With `keeps` set and a hierarchy like before, choices stay. Whether they stayed.
+    /// Resets to the joints of another model. With `keeps` set and the same hierarchy as before, selection and folding stay.
+    /// Returns whether they stayed.
     pub(super) fn reset_for_model(&mut self, model: &Model, keeps: bool) -> bool {
         let fingerprint = hierarchy_fingerprint(&model.skeleton);
         let joint_count = model.skeleton.joint_count();

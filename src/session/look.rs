@@ -44,15 +44,15 @@ pub struct Look {
     pub bone_style: BoneStyle,
     /// Whether bones are drawn.
     pub bones_visible: bool,
-    /// Names that are wanted wait while bones are hidden.
+    /// Whether names shall stand at the joints. They are drawn only while bones are.
     pub(super) labels_wanted: bool,
-    /// The number of the skin that is shown as colours.
+    /// The property of the skin that is shown as colours.
     pub skin_view: Option<SkinView>,
-    /// Joints whose way through the clip is drawn, in the order in which they were chosen.
+    /// Joints whose path through the clip is drawn, in the order in which they were chosen.
     pub trails: Vec<JointIndex>,
 }
 
-/// A wish about the look.
+/// A command about the look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LookCommand {
     /// Studio or book light.
@@ -69,7 +69,7 @@ pub enum LookCommand {
     SetBackground(Background),
     /// Shows or hides lines.
     SetOverlay(Overlay, bool),
-    /// Shows or hides lines, in turn.
+    /// Shows lines that are hidden, hides lines that are shown.
     ToggleOverlay(Overlay),
     /// Length of the lines along normals and tangents, as a fraction of the scene's radius.
     SetLineLength(f32),
@@ -91,11 +91,11 @@ pub enum LookCommand {
     SetBonesVisible(bool),
     /// Shows or hides names at the joints. Names stand only where bones are drawn: showing them shows the bones too.
     SetLabelsVisible(bool),
-    /// Shows a number of the skin as colours, or the skin as it is.
+    /// Shows a property of the skin as colours, or the skin as it is.
     SetSkinView(Option<SkinView>),
-    /// Draws the way of a joint through the clip, or leaves it, in turn.
+    /// Shows or hides the path of a joint through the clip, whichever it is not.
     ToggleTrail(JointIndex),
-    /// Leaves all ways.
+    /// Hides all paths.
     ClearTrails,
 }
 
@@ -105,7 +105,8 @@ impl Look {
         self.labels_wanted && self.bones_visible
     }
 
-    /// Does what was asked, for a model with so many joints. NaN and infinity are ignored; other numbers are clamped to their range.
+    /// Applies a command, for a model with `joint_count` joints. NaN and infinity are ignored; other numbers are clamped to their
+    /// range.
     pub(super) fn apply(&mut self, command: LookCommand, joint_count: usize) {
         match command {
             LookCommand::SetLight(light) => self.light = light,
@@ -131,7 +132,7 @@ impl Look {
             }
             LookCommand::SetLineLength(_) | LookCommand::SetEnvironmentTurn(_) | LookCommand::SetExposure(_) => {}
             LookCommand::SetNormalGreenFlipped(flipped) => self.normal_green_flipped = flipped,
-            // A plan without any is none.
+            // A plan without a pose before or after shows no ghosts.
             LookCommand::SetGhosts(plan) => self.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0),
             LookCommand::SetBindGhost(visible) => self.bind_ghost = visible,
             LookCommand::SetBoneStyle(style) => self.bone_style = style,

@@ -1,11 +1,11 @@
-//! Materials that are edited while one looks on.
+//! Materials as they are drawn: those of the file, with the values that were edited.
 
 use crate::model::{Material, Reflectance};
 
 /// The greatest specular exponent that can be asked for: a highlight a few pixels wide.
 pub const MAX_SPEC_POWER: f32 = 1024.0;
 
-/// A wish about materials, by their index. An index that the model has not is left out.
+/// A command about a material, by its index. An index without a material is ignored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaterialCommand {
     /// Draws a material with the values of another. Its names, the names of its maps and its book stay; numbers are brought
@@ -55,7 +55,7 @@ impl Materials {
         materials
     }
 
-    /// Does what was asked; `of_file` are the materials of the file. Whether one is different now.
+    /// Applies a command; `of_file` are the materials of the file. Returns whether a material changed.
     pub(super) fn apply(&mut self, command: MaterialCommand, of_file: &[Material]) -> bool {
         let (index, material) = match command {
             MaterialCommand::Edit { index, material } => {

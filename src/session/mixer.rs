@@ -3,13 +3,13 @@
 use super::open_model::OpenModel;
 use crate::anim::{CompiledClip, LocalPose, Playback, PoseBuffers, blend, sample};
 
-/// How long a crossfade takes unless another length is chosen, in seconds: seen as a way from pose to pose, not waited for.
+/// How long a crossfade takes unless another length is chosen, in seconds: long enough to be seen, too short to wait for.
 pub const DEFAULT_CROSSFADE_SECS: f32 = 0.3;
 
 /// The longest crossfade, in seconds: a longer one is a blend.
 pub const MAX_CROSSFADE_SECS: f32 = 10.0;
 
-/// Fades at one time. Who changes clips more often within one fade sees the oldest of them leave early.
+/// Fades at one time. When clips change more often within one fade, the oldest ends early.
 const MOST_FADES: usize = 4;
 
 /// A second clip in the pose, at the same fraction of its length as the clip on show.
@@ -28,7 +28,7 @@ pub(super) struct Mixer {
     blend: Option<Blend>,
     /// What was on show before, the oldest first; each fades into the next, the last into the clip on show.
     fades: Vec<Fade>,
-    /// Whether what is mixed is different since it was last asked.
+    /// Whether what is mixed changed since the last [`Mixer::take_changed`].
     changed: bool,
     pose: LocalPose,
     scratch: Scratch,
@@ -106,8 +106,7 @@ impl Mixer {
         !self.fades.is_empty()
     }
 
-    /// The clip that plays becomes one that played before, and is seen a little longer while time moves. Without a length of
-    /// crossfades it is not seen any more.
+    /// Fades a clip out. When crossfades have no length, all fades end.
     pub(super) fn fade_from(&mut self, clip: usize, playback: &Playback) {
         if self.crossfade_secs <= 0.0 {
             return self.end_fades();

@@ -60,7 +60,7 @@ pub use subsets::Subsets;
 pub use textures::{Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
 pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 
-use actor::Actor;
+use actor::{Actor, Actors};
 use changes::Revisions;
 use content::Content;
 use overlays::OverlayCache;
@@ -70,7 +70,7 @@ use view::View;
 
 use std::sync::Arc;
 
-use crate::anim::{LoopMode, Playback};
+use crate::anim::Playback;
 use crate::image::Image;
 use crate::model::{Clip, Material};
 use crate::scene::{Aabb, FrameOptions, Overlay};
@@ -80,11 +80,11 @@ pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 
 
 /// The viewer's state, without window, clock or GPU.
 ///
-/// Each part has one owner, and parts borrow apart: what needs three of them takes three.
+/// Each part can be borrowed on its own: a function that needs three parts takes three.
 #[derive(Clone, Debug, Default)]
 pub struct Session {
     content: Content,
-    actor: Actor,
+    actors: Actors,
     view: View,
     selection: Selection,
     quality: Quality,
@@ -93,11 +93,11 @@ pub struct Session {
     revisions: Revisions,
     events: Vec<Event>,
     reduced_motion: bool,
-    /// All of it as the GPU was last seen to have it, while something newer is on its way there.
+    /// The session as it was when the GPU last took all of it, until it has taken what is open now.
     before: Option<Box<Self>>,
 }
 
-/// What the pointer or a choice is about.
+/// What is selected and hovered.
 #[derive(Clone, Debug, Default)]
 struct Selection {
     subsets: Subsets,
@@ -121,8 +121,8 @@ impl Session {
         }
     }
 
-    /// As a new one, but for the window that it is seen in: closes what is open and forgets what was chosen. Revisions count on,
-    /// so that nobody takes what comes next for what was there.
+    /// Closes what is open and forgets what was chosen; only the shape of the window and its theme stay. Revisions go on counting,
+    /// so that no cache is used for what opens next.
     pub fn start_over(&mut self, reduced_motion: bool) {
         let mut new = Self::new(reduced_motion);
         new.view.aspect = self.view.aspect;
@@ -160,30 +160,27 @@ impl Session {
 
     /// Index of the clip on show.
     pub fn clip_index(&self) -> Option<usize> {
-        self.actor.clip
+        self.actors.picked().clip
     }
 
     /// The clip on show.
     pub fn clip(&self) -> Option<&Clip> {
-        self.content.clips().get(self.actor.clip?)
+        self.content.clips().get(self.actors.picked().clip?)
     }
 
     /// Where playing is.
     pub fn playback(&self) -> &Playback {
-        &self.actor.playback
+        &self.actors.picked().playback
     }
 
     /// Whether the pointer holds the time.
     pub fn is_scrubbing(&self) -> bool {
-        self.actor.scrubbing
+        self.actors.picked().scrubbing
     }
 
     /// Whether time moves by itself. The camera may move too: [`Session::is_moving`].
     pub fn is_animating(&self) -> bool {
-        // A clip of no length would loop on the spot for ever; playing it once still has to end.
-        let [start_secs, end_secs] = self.actor.playback.played_secs();
-        let has_length = start_secs < end_secs || self.actor.playback.loop_mode() == LoopMode::Once;
-        self.actor.playback.is_playing() && !self.actor.scrubbing && self.clip().is_some() && has_length
+        self.actors.iter().any(Actor::is_animating)
     }
 
     /// Whether the ground grid is drawn.
@@ -297,30 +294,26 @@ impl Session {
     pub fn advance(&mut self, dt_secs: f32) -> Changes {
         self.track(|session| {
             session.advance_camera(dt_secs);
-            session.actor.advance_fades(dt_secs);
-            if session.is_animating() {
-                session.advance_clip(dt_secs);
+            let is_animating = session.is_animating();
+            let (was_at, was_playing) = (session.playback().time_secs(), session.playback().is_playing());
+            for actor in session.actors.iter_mut() {
+                actor.advance(dt_secs);
+            }
+            if is_animating {
+                session.view.look.advance(dt_secs);
+            }
+            if session.playback().time_secs() != was_at {
+                session.note(Event::TimeUpdate);
+            }
+            if was_playing && !session.playback().is_playing() {
+                session.note(Event::Pause);
             }
         })
     }
 
-    fn advance_clip(&mut self, dt_secs: f32) {
-        let playback = &mut self.actor.playback;
-        let was_at = playback.time_secs();
-        playback.advance(dt_secs);
-        let (moved, ended) = (playback.time_secs() != was_at, !playback.is_playing());
-        self.view.look.advance(dt_secs);
-        if moved {
-            self.note(Event::TimeUpdate);
-        }
-        if ended {
-            self.note(Event::Pause);
-        }
-    }
-
     /// Box of all that the clips in the pose reach, world space; with the bind pose in it while the pose is brought there.
     pub fn world_bounds(&self) -> Aabb {
-        let reach = self.content.open.as_ref().map(|open| self.actor.reach(open));
+        let reach = self.content.open.as_ref().map(|open| self.actors.picked().reach(open));
         reach.unwrap_or_default().transformed(self.world_from_model())
     }
 

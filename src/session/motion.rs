@@ -12,7 +12,7 @@ const FLING_SECS: f32 = 0.15;
 const LEAST_FLING_RADIANS_PER_SEC: f32 = 0.02;
 /// A faster flick cannot be followed with the eyes.
 const MOST_FLING_RADIANS_PER_SEC: f32 = 8.0 * PI;
-/// How long a glide takes: seen as a way, not waited for.
+/// How long a glide takes: long enough to be seen, too short to wait for.
 const GLIDE_SECS: f32 = 0.25;
 /// A turn of the turntable takes 12 seconds.
 const TURNTABLE_RADIANS_PER_SEC: f32 = TAU / 12.0;
@@ -48,8 +48,8 @@ struct Flight {
 }
 
 impl Motion {
-    /// The camera belongs to someone else now: what it did by itself ends. The turntable goes on afterwards, and so does
-    /// flight, which is keys that are held.
+    /// A command takes the camera: fling and glide end. The turntable goes on afterwards, and so does flight, since its keys
+    /// are still held.
     pub(super) fn interrupt(&mut self) {
         self.fling = Vec2::ZERO;
         self.glide = None;
@@ -91,7 +91,7 @@ impl Motion {
         self.glide.map(|glide| glide.to)
     }
 
-    /// Stays where it is on its way.
+    /// Ends a glide where the camera is now.
     pub(super) fn end_glide(&mut self) {
         self.glide = None;
     }
@@ -150,7 +150,7 @@ impl Motion {
     pub(super) fn fling(&mut self, yaw_radians_per_sec: f32, pitch_radians_per_sec: f32) {
         let rates = Vec2::new(yaw_radians_per_sec, pitch_radians_per_sec);
         self.interrupt();
-        // A length of numbers that have none cannot be limited.
+        // NaN and infinity cannot be clamped.
         if rates.is_finite() && rates.length() >= LEAST_FLING_RADIANS_PER_SEC {
             let most = Vec2::splat(MOST_FLING_RADIANS_PER_SEC);
             self.fling = rates.clamp(-most, most);

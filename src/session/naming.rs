@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use super::Session;
 use crate::model::{JointIndex, JointNames, MirrorPair, SavedNames, mirror_pairs};
 
-/// A wish about names. A joint that the model has not is left out.
+/// A command about names. A joint that the model does not have is ignored.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NameCommand {
-    /// Names a joint; an empty name takes it away.
+    /// Names a joint; an empty name removes the name.
     Rename {
         /// Which.
         joint: JointIndex,
@@ -17,9 +17,9 @@ pub enum NameCommand {
     },
     /// Takes the names of [`Session::proposed_names`](super::Session::proposed_names).
     AcceptMirrored,
-    /// Takes names that were kept, if they belong to a hierarchy like this one. They replace those that are there.
+    /// Replaces all names by saved ones, if those belong to the same hierarchy.
     Import(SavedNames),
-    /// Takes all names away.
+    /// Removes all names.
     Clear,
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
-use super::actor::Actor;
+use super::actor::{Actor, Actors};
 use super::changes::Changes;
 use super::content::Content;
 use super::files::{File, FileSet};
@@ -14,7 +14,7 @@ use super::sky::FoundSky;
 use super::{Event, Session};
 use crate::model::JointNames;
 
-/// A wish about files.
+/// A command about files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileCommand {
     /// Opens the largest model of a drop; the others are listed, pictures are kept beside it, a cube map becomes the sky.
@@ -24,9 +24,9 @@ pub enum FileCommand {
     AddClips(Vec<File>),
     /// Opens another model of the last drop, by its path.
     Open(String),
-    /// Takes the sky away that was dropped.
+    /// Removes the sky that was dropped.
     ClearSky,
-    /// Takes the error card away.
+    /// Dismisses the error.
     DismissError,
 }
 
@@ -112,7 +112,7 @@ impl Session {
         }
     }
 
-    /// Gives a job what the open model has of the same file.
+    /// Gives a job what the open model already has of the same file: decoded maps and joined clips.
     fn reuse(&self, job: LoadJob) -> LoadJob {
         match &self.content.open {
             Some(open) if open.file.base_name() == job.file_name() => {
@@ -166,7 +166,7 @@ impl Session {
     /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices.
     fn replace_model(&mut self, loaded: Loaded) {
         let Loaded { files, open, maps, sky } = loaded;
-        let was_playing = self.actor.playback.is_playing();
+        let was_playing = self.playback().is_playing();
         let clip_name = self.clip().map(|clip| clip.name.clone());
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
@@ -184,11 +184,12 @@ impl Session {
         if !same_joints {
             self.view.look.trails.clear();
         }
-        self.actor = if again {
-            Actor::for_model_again(&open, &self.actor, clip_name.as_deref())
+        let actor = if again {
+            Actor::for_model_again(&open, self.actors.picked(), clip_name.as_deref())
         } else {
-            Actor::for_model(&open, &self.actor)
+            Actor::for_model(&open, self.actors.picked())
         };
+        self.actors = Actors::one(actor);
         self.content = Content {
             open: Some(Arc::new(open)),
             files,
@@ -209,20 +210,21 @@ impl Session {
             self.frame_model();
         }
         self.note(Event::Load);
-        if self.actor.playback.is_playing() != was_playing {
+        if self.playback().is_playing() != was_playing {
             self.note(if was_playing { Event::Pause } else { Event::Play });
         }
         self.note(Event::TimeUpdate);
         self.use_as_sky(sky);
     }
 
-    /// Goes to the first clip, if there is one, and plays it unless things are to stand still.
+    /// Goes to the first clip, if there is one, and plays it unless motion is reduced.
     fn show_first_clip(&mut self) {
         if let Some(open) = &self.content.open
-            && self.actor.show_clip(open, 0)
+            && let actor = self.actors.picked_mut()
+            && actor.show_clip(open, 0)
             && !self.reduced_motion
         {
-            self.actor.playback.play();
+            actor.playback.play();
         }
     }
 
@@ -241,7 +243,7 @@ impl Session {
         let set = FileSet::new(files);
         let models = set.models();
         let mut refused = models.is_empty().then(|| Box::new(LoadError::no_model(&set)));
-        // In the order of the drop, which the list of the largest first has lost.
+        // In the order of the drop; `models` has the largest first.
         let models: HashSet<&str> = models.iter().map(|file| file.path.as_str()).collect();
         let mut joined: HashSet<&str> = HashSet::new();
         let mut replaced = false;
@@ -265,7 +267,7 @@ impl Session {
         }
         if !had_clips && self.content.clip_count() > 0 {
             self.show_first_clip();
-            if self.actor.playback.is_playing() {
+            if self.playback().is_playing() {
                 self.note(Event::Play);
             }
             self.note(Event::TimeUpdate);
@@ -276,7 +278,7 @@ impl Session {
     fn shown_clips(&self) -> ShownClips {
         let name = |index: usize| Some(self.content.clips().get(index)?.name.clone());
         ShownClips {
-            shown: self.actor.clip.and_then(name),
+            shown: self.clip_index().and_then(name),
             blended: self.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
         }
     }
@@ -286,7 +288,7 @@ impl Session {
     fn show_clips_again(&mut self, before: &ShownClips) {
         self.content.changes.clips = true;
         let Some(open) = &self.content.open else { return };
-        let actor = &mut self.actor;
+        let actor = self.actors.picked_mut();
         let clips = &open.model.clips;
         let place_of = |name: &str| clips.iter().position(|clip| clip.name == name);
         actor.mixer.end_fades();

@@ -164,7 +164,7 @@ impl OverlayCache {
         }
     }
 
-    /// Finds the ways of joints through the clip and what is blended into it, unless they are those of the last call.
+    /// Finds the paths of joints through the clip and what is blended into it, unless they are those of the last call.
     fn update_trails(&mut self, open: &OpenModel, actor: &mut Actor, joints: &[JointIndex], revisions: Revisions) {
         let wanted = TrailsKey {
             clips_revision: revisions.clips,

@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
+use super::actor::Actor;
 use super::{Blend, Event, SPEEDS, Session};
 use crate::anim::{Direction, LoopMode, Seam, WrapMode, next_key, previous_key};
 use crate::model::JointIndex;
 
-/// A wish about what plays and how.
+/// A command about what plays and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlayCommand {
     /// Plays on in the direction it had; a clip that stopped at its end starts over.
@@ -37,12 +38,12 @@ pub enum PlayCommand {
     SeekStart,
     /// Last frame, of the range where there is one.
     SeekEnd,
-    /// Lets playing begin at a time, seconds, or at the present one. A range that would end before then ends with the clip.
+    /// Starts the range at a time in seconds, or at the present time. A range that would end before then ends with the clip.
     /// Ranges are forgotten with their clip.
     SetRangeStart(Option<f32>),
-    /// Lets playing end at a time, seconds, or at the present one. A range that would begin after then begins with the clip.
+    /// Ends the range at a time in seconds, or at the present time. A range that would begin after then begins with the clip.
     SetRangeEnd(Option<f32>),
-    /// Lets the whole clip play.
+    /// Removes the range: the whole clip plays.
     ClearRange,
     /// The pointer holds the time: playing waits until [`PlayCommand::EndScrub`].
     BeginScrub,
@@ -50,7 +51,7 @@ pub enum PlayCommand {
     EndScrub,
     /// Shows a clip, by its index.
     SelectClip(usize),
-    /// Shows the clip some places further, around the end.
+    /// Shows the clip some places further in the list, which goes round at its ends.
     CycleClip(i32),
     /// How long the pose takes from clip to clip when one is selected while another plays, in seconds; 0 is at once.
     /// Under reduced motion it is at once in any case.
@@ -72,72 +73,79 @@ pub enum PlayCommand {
     Faster,
     /// What happens at the end.
     SetLoopMode(LoopMode),
-    /// Once, loop, ping-pong, in turn.
+    /// The next of once, loop, ping-pong.
     CycleLoopMode,
     /// How a loop begins again.
     SetWrapMode(WrapMode),
-    /// Brings the pose a part of the way to the bind pose: 0 as the clip has it … 1 the bind pose.
+    /// Blends the pose with the bind pose: 0 the clip's pose … 1 the bind pose.
     SetBindWeight(f32),
-    /// The bind pose, or the clip's, in turn.
+    /// Switches between the bind pose and the clip's pose.
     ToggleBindPose,
 }
 
 impl Session {
     pub(super) fn apply_to_playback(&mut self, command: PlayCommand) {
+        let actor = self.actors.picked_mut();
         match command {
             PlayCommand::Play => self.set_playing(true),
             PlayCommand::Pause => self.set_playing(false),
             PlayCommand::Toggle => {
-                let playing = !self.actor.playback.is_playing();
-                self.actor.playback.set_backward(false);
+                let playing = !actor.playback.is_playing();
+                actor.playback.set_backward(false);
                 self.set_playing(playing);
             }
             PlayCommand::ToggleBackward => {
-                let playing = !(self.actor.playback.is_playing() && self.actor.playback.is_backward());
-                self.actor.playback.set_backward(true);
+                let playing = !(actor.playback.is_playing() && actor.playback.is_backward());
+                actor.playback.set_backward(true);
                 self.set_playing(playing);
             }
             PlayCommand::Seek { time_secs } => self.seek(time_secs),
             PlayCommand::StepFrames(frames) => self.step_frames(frames),
             PlayCommand::SeekFrame(frame) => self.seek_frame(frame),
             PlayCommand::StepKey { direction, joint } => self.step_key(direction, joint),
-            PlayCommand::SeekStart => self.seek(self.actor.playback.played_secs()[0]),
-            PlayCommand::SeekEnd => self.seek(self.actor.playback.played_secs()[1]),
+            PlayCommand::SeekStart => {
+                let [start_secs, _] = actor.playback.played_secs();
+                self.seek(start_secs);
+            }
+            PlayCommand::SeekEnd => {
+                let [_, end_secs] = actor.playback.played_secs();
+                self.seek(end_secs);
+            }
             PlayCommand::SetRangeStart(secs) => {
-                let secs = secs.unwrap_or(self.actor.playback.time_secs());
-                self.actor.playback.set_range_start(secs);
+                let secs = secs.unwrap_or(actor.playback.time_secs());
+                actor.playback.set_range_start(secs);
             }
             PlayCommand::SetRangeEnd(secs) => {
-                let secs = secs.unwrap_or(self.actor.playback.time_secs());
-                self.actor.playback.set_range_end(secs);
+                let secs = secs.unwrap_or(actor.playback.time_secs());
+                actor.playback.set_range_end(secs);
             }
-            PlayCommand::ClearRange => self.actor.playback.clear_range(),
-            PlayCommand::BeginScrub => self.actor.scrubbing = true,
-            PlayCommand::EndScrub => self.actor.scrubbing = false,
+            PlayCommand::ClearRange => actor.playback.clear_range(),
+            PlayCommand::BeginScrub => actor.scrubbing = true,
+            PlayCommand::EndScrub => actor.scrubbing = false,
             PlayCommand::SelectClip(clip) => self.select_clip(clip),
             PlayCommand::CycleClip(places) => self.cycle_clip(places),
-            PlayCommand::SetCrossfade(secs) => self.actor.mixer.set_crossfade(secs),
+            PlayCommand::SetCrossfade(secs) => actor.mixer.set_crossfade(secs),
             PlayCommand::SetBlend { clip, weight } => {
-                self.actor.set_blend(Blend { clip, weight }, self.content.clip_count());
+                actor.set_blend(Blend { clip, weight }, self.content.clip_count());
             }
-            PlayCommand::ClearBlend => self.actor.mixer.set_blend(None),
-            PlayCommand::SetSpeed(speed) => self.actor.playback.set_speed(speed),
+            PlayCommand::ClearBlend => actor.mixer.set_blend(None),
+            PlayCommand::SetSpeed(speed) => actor.playback.set_speed(speed),
             PlayCommand::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             PlayCommand::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
-            PlayCommand::SetLoopMode(mode) => self.actor.playback.set_loop_mode(mode),
+            PlayCommand::SetLoopMode(mode) => actor.playback.set_loop_mode(mode),
             PlayCommand::CycleLoopMode => {
-                let next = match self.actor.playback.loop_mode() {
+                let next = match actor.playback.loop_mode() {
                     LoopMode::Once => LoopMode::Loop,
                     LoopMode::Loop => LoopMode::PingPong,
                     LoopMode::PingPong => LoopMode::Once,
                 };
-                self.actor.playback.set_loop_mode(next);
+                actor.playback.set_loop_mode(next);
             }
-            PlayCommand::SetWrapMode(mode) => self.actor.playback.set_wrap_mode(mode),
-            PlayCommand::SetBindWeight(weight) => self.actor.set_bind_weight(weight),
+            PlayCommand::SetWrapMode(mode) => actor.playback.set_wrap_mode(mode),
+            PlayCommand::SetBindWeight(weight) => actor.set_bind_weight(weight),
             PlayCommand::ToggleBindPose => {
-                let weight = if self.actor.bind_weight < 0.5 { 1.0 } else { 0.0 };
-                self.actor.set_bind_weight(weight);
+                let weight = if actor.bind_weight < 0.5 { 1.0 } else { 0.0 };
+                actor.set_bind_weight(weight);
             }
         }
     }
@@ -145,19 +153,21 @@ impl Session {
     /// How far the pose is brought to the bind pose: 0 as the clip has it … 1 the bind pose. See
     /// [`crate::anim::blend_to_rest`].
     pub fn bind_weight(&self) -> f32 {
-        self.actor.bind_weight
+        self.actors.picked().bind_weight
     }
 
     /// Brings the pose to the clip and the time.
     pub(super) fn pose_now(&mut self) {
         if let Some(open) = &self.content.open {
-            self.actor.update_pose(open, self.revisions.pose);
+            for actor in self.actors.iter_mut() {
+                actor.update_pose(open, self.revisions.pose);
+            }
         }
     }
 
     pub(super) fn set_playing(&mut self, playing: bool) {
-        let playback = &mut self.actor.playback;
-        if self.actor.clip.is_none() || playing == playback.is_playing() {
+        let Actor { clip, playback, .. } = self.actors.picked_mut();
+        if clip.is_none() || playing == playback.is_playing() {
             return;
         }
         let was_at = playback.time_secs();
@@ -166,7 +176,7 @@ impl Session {
         } else {
             playback.pause();
         }
-        // What stood at its end begins anew.
+        // To play at the end of a clip starts it over.
         let moved = playback.time_secs() != was_at;
         self.note(if playing { Event::Play } else { Event::Pause });
         if moved {
@@ -175,21 +185,22 @@ impl Session {
     }
 
     fn seek(&mut self, time_secs: f32) {
-        if self.actor.clip.is_none() || time_secs.is_nan() {
+        if self.clip_index().is_none() || time_secs.is_nan() {
             return;
         }
-        // Who asks for a time wants to see the pose of that time.
-        self.actor.mixer.end_fades();
-        let was_at = self.actor.playback.time_secs();
-        self.actor.playback.seek(time_secs);
-        if self.actor.playback.time_secs() != was_at {
+        // A time that was asked for is shown without fades.
+        let Actor { mixer, playback, .. } = self.actors.picked_mut();
+        mixer.end_fades();
+        let was_at = playback.time_secs();
+        playback.seek(time_secs);
+        if playback.time_secs() != was_at {
             self.note(Event::TimeUpdate);
         }
     }
 
     fn step_frames(&mut self, frames: i32) {
         let Some(clip) = self.clip() else { return };
-        let time_secs = clip.step_frames(self.actor.playback.time_secs(), frames);
+        let time_secs = clip.step_frames(self.playback().time_secs(), frames);
         self.set_playing(false);
         self.seek(time_secs);
     }
@@ -203,7 +214,7 @@ impl Session {
 
     fn step_key(&mut self, direction: Direction, joint: Option<JointIndex>) {
         let Some(clip) = self.clip() else { return };
-        let (key_times, time_secs) = (self.key_times(joint), self.actor.playback.time_secs());
+        let (key_times, time_secs) = (self.key_times(joint), self.playback().time_secs());
         let key_secs = match direction {
             Direction::Forward => next_key(clip, key_times, time_secs),
             Direction::Backward => previous_key(clip, key_times, time_secs),
@@ -216,48 +227,48 @@ impl Session {
 
     fn select_clip(&mut self, index: usize) {
         let Some(open) = self.content.open.clone() else { return };
-        if self.actor.clip == Some(index) || index >= open.model.clips.len() {
+        if self.clip_index() == Some(index) || index >= open.model.clips.len() {
             return;
         }
-        let at_once = self.reduced_motion;
-        self.actor.fade_to(index, at_once);
-        self.actor.show_clip(&open, index);
+        let actor = self.actors.picked_mut();
+        actor.fade_to(index, self.reduced_motion);
+        actor.show_clip(&open, index);
         self.note(Event::TimeUpdate);
     }
 
     fn cycle_clip(&mut self, places: i32) {
         let count = self.content.clip_count();
-        if let (Some(clip), true) = (self.actor.clip, count > 0) {
+        if let (Some(clip), true) = (self.clip_index(), count > 0) {
             self.select_clip((clip as i64 + i64::from(places)).rem_euclid(count as i64) as usize);
         }
     }
 
     fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
-        if let Some(&speed) = pick(&SPEEDS, self.actor.playback.speed()) {
-            self.actor.playback.set_speed(speed);
+        if let Some(&speed) = pick(&SPEEDS, self.playback().speed()) {
+            self.actors.picked_mut().playback.set_speed(speed);
         }
     }
 
     /// How long the pose takes from one clip to the next while it plays, in seconds; 0 is at once. Paused and under reduced
     /// motion clips change at once.
     pub fn crossfade_secs(&self) -> f32 {
-        self.actor.mixer.crossfade_secs()
+        self.actors.picked().mixer.crossfade_secs()
     }
 
     /// The clip that is blended into the one that plays.
     pub fn blend(&self) -> Option<Blend> {
-        self.actor.mixer.blend()
+        self.actors.picked().mixer.blend()
     }
 
     /// Whether a clip that played before is still seen. A fade goes on to its end when playing is paused, so that a picture that
     /// stands still is a pose of its clip and time.
     pub fn is_fading(&self) -> bool {
-        self.actor.is_fading()
+        self.actors.iter().any(Actor::is_fading)
     }
 
     /// Key times of the clip on show, in order: of one joint, or of all.
     pub fn key_times(&self, joint: Option<JointIndex>) -> &[f32] {
-        match (&self.content.open, self.actor.clip) {
+        match (&self.content.open, self.clip_index()) {
             (Some(open), Some(clip)) => open.key_times(clip, joint),
             _ => &[],
         }
@@ -267,16 +278,16 @@ impl Session {
     /// nothing loops.
     pub fn loop_seam(&self) -> Option<Cow<'_, Seam>> {
         let (open, clip) = (self.content.open.as_ref()?, self.clip()?);
-        let span_secs = self.actor.playback.seam_secs()?;
+        let span_secs = self.playback().seam_secs()?;
         Some(if span_secs == [clip.start_secs, clip.end_secs] {
-            Cow::Borrowed(open.seam(self.actor.clip?)?)
+            Cow::Borrowed(open.seam(self.clip_index()?)?)
         } else {
-            Cow::Owned(open.seam_between(open.compiled.get(self.actor.clip?)?, span_secs))
+            Cow::Owned(open.seam_between(open.compiled.get(self.clip_index()?)?, span_secs))
         })
     }
 
     /// Where the time is in frames of the clip on show, counted from 0: 30.5 is half way from frame 30 to frame 31.
     pub fn frame_place(&self) -> Option<f64> {
-        Some(self.clip()?.place_of(self.actor.playback.time_secs()))
+        Some(self.clip()?.place_of(self.playback().time_secs()))
     }
 }

@@ -78,7 +78,7 @@ impl Default for RenderScale {
     }
 }
 
-/// A wish about quality.
+/// A command about quality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum QualityCommand {
     /// Whether a costly pass is drawn.

@@ -5,7 +5,6 @@ use super::mixer::Blend;
 use super::selecting::{JointCommand, SubsetCommand};
 use super::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 use super::{Event, Session};
-use crate::anim::GhostPlan;
 use crate::model::JointIndex;
 use crate::scene::Overlays;
 
@@ -18,7 +17,7 @@ impl Session {
         ViewState {
             camera: CameraState::of(&self.view),
             appearance: AppearanceState::of(&self.view, file_bones),
-            playback: PlaybackState::of(&self.actor, self.content.clips()),
+            playback: PlaybackState::of(self.actors.picked(), self.content.clips()),
             selection: SelectionState {
                 bone: joints.selected().map(|joint| self.bone_number(joint)),
                 vertex: joints.selected_vertex().map(|selected| selected.vertex),
@@ -31,8 +30,8 @@ impl Session {
         }
     }
 
-    /// Looks at the open model as a state says. Clips, bones and subsets that the model has not are ignored, and numbers are brought
-    /// into their ranges.
+    /// Looks at the open model as a state says. Clips, bones and subsets that the model does not have are ignored, and numbers are
+    /// clamped to their ranges.
     pub(super) fn restore(&mut self, state: &ViewState) {
         self.restore_appearance(&state.appearance);
         self.restore_playback(&state.playback);
@@ -54,11 +53,6 @@ impl Session {
         let (view, joint_count) = (&mut self.view, self.selection.joints.count());
         overlays.line_length = view.look.overlays.line_length;
         view.look.overlays = overlays;
-        let ghosts = state.ghosts.map(|[before, after, step_frames]| GhostPlan {
-            before,
-            after,
-            step_frames,
-        });
         for command in [
             LookCommand::SetLight(state.light),
             LookCommand::SetSplit(state.split),
@@ -68,7 +62,7 @@ impl Session {
             LookCommand::SetEnvironmentTurn(state.environment_turn_radians),
             LookCommand::SetExposure(state.exposure_stops),
             LookCommand::SetNormalGreenFlipped(state.normal_green_flipped),
-            LookCommand::SetGhosts(ghosts),
+            LookCommand::SetGhosts(state.ghosts),
             LookCommand::SetBindGhost(state.bind_ghost),
             LookCommand::SetBoneStyle(state.bone_style),
             LookCommand::SetLabelsVisible(state.labels_visible),
@@ -87,11 +81,12 @@ impl Session {
     }
 
     fn restore_playback(&mut self, state: &PlaybackState) {
-        self.actor.mixer.set_crossfade(state.crossfade_secs);
-        self.actor.mixer.end_fades();
-        self.actor.mixer.set_blend(None);
-        self.actor.set_bind_weight(state.bind_weight);
-        let playback = &mut self.actor.playback;
+        let actor = self.actors.picked_mut();
+        actor.mixer.set_crossfade(state.crossfade_secs);
+        actor.mixer.end_fades();
+        actor.mixer.set_blend(None);
+        actor.set_bind_weight(state.bind_weight);
+        let playback = &mut actor.playback;
         playback.set_speed(state.speed);
         playback.set_loop_mode(state.loop_mode);
         playback.set_wrap_mode(state.wrap_mode);
@@ -103,19 +98,19 @@ impl Session {
         let Some(clip) = state.clip.as_deref().and_then(named) else {
             return;
         };
-        self.actor.show_clip(open, clip);
+        actor.show_clip(open, clip);
         if let Some((name, weight)) = &state.blend
             && let Some(clip) = named(name)
         {
-            self.actor.set_blend(Blend { clip, weight: *weight }, clips.len());
+            actor.set_blend(Blend { clip, weight: *weight }, clips.len());
         }
         if let Some([start_secs, end_secs]) = state.range_secs {
-            self.actor.playback.set_range_end(end_secs);
-            self.actor.playback.set_range_start(start_secs);
+            actor.playback.set_range_end(end_secs);
+            actor.playback.set_range_start(start_secs);
         }
         self.set_playing(state.playing);
-        // What stood at its end would begin anew by playing.
-        self.actor.playback.seek(state.time_secs);
+        // After playing: to play at the end of a clip starts it over.
+        self.actors.picked_mut().playback.seek(state.time_secs);
         self.note(Event::TimeUpdate);
     }
 

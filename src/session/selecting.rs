@@ -13,23 +13,23 @@ use crate::scene::{Hit, pick_joint};
 /// How far from a bone the pointer may be, in heights of the picture: 11 pixels of 900.
 const PICK_RADIUS: f32 = 0.012;
 
-/// A wish about joints. One that the model has not is left out.
+/// A command about joints and vertices. One that the model does not have is ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointCommand {
-    /// Selects one, and unfolds what it hangs from, or none.
+    /// Selects one and unfolds the branches above it, or selects none.
     Select(Option<JointIndex>),
-    /// Selects the bone that is drawn at a point of the picture: x right, y up, −1…1. Beside all bones none.
+    /// Selects the bone that is drawn at a point of the picture: x right, y up, −1…1. None where no bone is.
     SelectAt(Vec2),
     /// Selects the parent of the selected one, if it has one.
     SelectParent,
     /// Selects the first child of the selected one, if it has one; the first root when none is selected.
     SelectChild,
-    /// Lets one stand out, or none.
+    /// Highlights one, or none.
     Hover(Option<JointIndex>),
-    /// Lets the bone that is drawn at a point of the picture stand out: x right, y up, −1…1.
+    /// Highlights the bone that is drawn at a point of the picture: x right, y up, −1…1.
     HoverAt(Option<Vec2>),
-    /// Selects the vertex nearest to what is drawn of the skin at a point of the picture: x right, y up, −1…1. Beside the skin
-    /// none.
+    /// Selects the vertex nearest to what is drawn of the skin at a point of the picture: x right, y up, −1…1. None beside
+    /// the skin.
     SelectVertexAt(Vec2),
     /// Selects a vertex by its number, or none.
     SelectVertex(Option<u32>),
@@ -44,17 +44,17 @@ pub enum JointCommand {
     SetAllFolded(bool),
 }
 
-/// A wish about subsets, by their index. An index that the model has not is left out.
+/// A command about a subset, by its index. An index without a subset is ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SubsetCommand {
-    /// Shows or hides one. While one is shown alone, that ends, and what is on screen stays but for this one.
+    /// Shows or hides one. A solo ends; the others stay shown or hidden as they are on screen.
     SetVisible {
         /// Which.
         subset: usize,
         /// Whether it is drawn.
         visible: bool,
     },
-    /// Shows one alone; asked again for the same one, what was hidden before comes back.
+    /// Shows one alone. A second time for the same one restores what was shown before.
     Solo(usize),
     /// Shows all.
     ShowAll,
@@ -62,9 +62,9 @@ pub enum SubsetCommand {
     Select(Option<usize>),
     /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none.
     SelectAt(Vec2),
-    /// Lets one stand out, or none.
+    /// Highlights one, or none.
     Hover(Option<usize>),
-    /// Lets what is drawn at a point of the picture stand out: x right, y up, −1…1.
+    /// Highlights what is drawn at a point of the picture: x right, y up, −1…1.
     HoverAt(Option<Vec2>),
 }
 
@@ -73,7 +73,7 @@ impl Session {
     pub(super) fn pose_vertices(&mut self) {
         self.pose_now();
         if let Some(open) = &self.content.open {
-            let palette = &self.actor.pose.palette;
+            let palette = &self.actors.picked().pose.palette;
             self.caches
                 .picker
                 .update(&open.model.mesh, palette, self.revisions.pose);
@@ -160,8 +160,8 @@ impl Session {
         &self.selection.joints
     }
 
-    /// The joint whose weights the skin shows. The pointer over another one looks ahead; where none is selected, the strongest
-    /// one of the selected vertex.
+    /// The joint whose weights the skin shows: the hovered one, else the selected one, else the strongest one of the selected
+    /// vertex.
     pub fn weighed_joint(&self) -> Option<JointIndex> {
         let marked = self.selection.joints.marked();
         marked.hovered.or(marked.selected).or_else(|| {

@@ -16,7 +16,7 @@ impl Session {
             camera: self.view.camera,
             world_from_model: self.world_from_model(),
             world_bounds: self.world_bounds(),
-            palette: &self.actor.pose.palette,
+            palette: &self.actors.picked().pose.palette,
             hidden_submeshes: self.selection.subsets.left_out(),
             highlighted_submesh: self.selection.subsets.highlighted(),
             vertex_colors: self.caches.overlays.vertex_colors(),
@@ -34,7 +34,7 @@ impl Session {
         }
         let in_world = (self.view.theme, self.world_from_model());
         let open = self.content.open.as_deref();
-        let (actor, look, revisions) = (&mut self.actor, &self.view.look, self.revisions);
+        let (actor, look, revisions) = (self.actors.picked_mut(), &self.view.look, self.revisions);
         let marked = self.selection.joints.marked();
         let Caches {
             picker,
@@ -62,7 +62,7 @@ impl Session {
         let no_skeleton = Skeleton::default();
         let open = self.content.open.as_ref();
         let skeleton = open.map_or(&no_skeleton, |open| &open.model.skeleton);
-        let pose = &self.actor.pose.model;
+        let pose = &self.actors.picked().pose.model;
         self.caches
             .skeleton
             .place(key, skeleton, pose, world_from_model, scene_radius);
@@ -99,18 +99,23 @@ impl Session {
     pub fn inspect_joint(&mut self, joint: JointIndex) -> Option<JointReadout> {
         self.pose_now();
         let skeleton = &self.content.open.as_ref()?.model.skeleton;
-        JointReadout::of(skeleton, self.selection.joints.tree(), &self.actor.pose, joint)
+        JointReadout::of(
+            skeleton,
+            self.selection.joints.tree(),
+            &self.actors.picked().pose,
+            joint,
+        )
     }
 
     /// How the selected vertex comes to its place in the pose of now.
     pub fn explain_vertex(&mut self) -> Option<VertexExplanation> {
         self.pose_now();
         let vertex = self.selection.joints.selected_vertex()?.vertex;
-        explain_vertex(&self.content.open.as_ref()?.model, &self.actor.pose, vertex)
+        explain_vertex(&self.content.open.as_ref()?.model, &self.actors.picked().pose, vertex)
     }
 
-    /// What the colours of the skin depend on now: as long as it stays, they need not be asked for. None while the skin is shown
-    /// as it is. Weights are those of [`Session::weighed_joint`], all 0 without one.
+    /// What the colours of the skin depend on: the same key, the same colours. None while the skin is shown as it is. Weights are
+    /// those of [`Session::weighed_joint`], all 0 without one.
     pub fn skin_colors_key(&self) -> Option<SkinColorsKey> {
         self.open_model()?;
         let view = self.view.look.skin_view?;

@@ -68,7 +68,7 @@ impl Sky {
 pub(super) struct FoundSky {
     /// The largest that can be read, unless it is the sky already.
     image: Option<(File, Arc<Image>)>,
-    /// The largest that can be read is the sky already: the folder came again, and what was chosen since stays.
+    /// The largest that can be read is the sky already: the same folder was dropped again, and the background stays as chosen.
     is_kept: bool,
     /// Those that could not be read.
     notices: Vec<Diagnostic>,

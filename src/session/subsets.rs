@@ -1,4 +1,4 @@
-//! Which subsets of the model are drawn, and which one the pointer or a choice is about.
+//! Which subsets of the model are drawn, and which one is selected or hovered.
 
 use crate::scene::Hit;
 
@@ -7,12 +7,12 @@ use crate::scene::Hit;
 pub struct Subsets {
     hidden: Vec<bool>,
     solo: Option<usize>,
-    /// What comes of both.
+    /// Those that are not drawn, from both.
     left_out: Vec<bool>,
     selected: Option<usize>,
     selected_at: Option<Hit>,
     hovered: Option<usize>,
-    /// Other subsets are drawn, or stand out, since it was last asked.
+    /// Other subsets are drawn, or stand out, since the last [`Subsets::take_redraw`].
     redraw: bool,
 }
 
@@ -57,8 +57,8 @@ impl Subsets {
         self.hovered
     }
 
-    /// The one that stands out in the picture: hovered and drawn. A selected one does not by itself, since its colours are
-    /// what it was selected for.
+    /// The one that stands out in the picture: hovered and drawn. A selected one does not, so that its colours
+    /// can be seen as they are.
     pub fn highlighted(&self) -> Option<usize> {
         self.hovered.filter(|&subset| self.is_visible(subset))
     }

@@ -19,7 +19,7 @@ pub(super) struct View {
     pub(super) aspect: f32,
     /// Margins of the picture that panels cover.
     pub(super) insets: Insets,
-    /// What was chosen over what was found.
+    /// Chosen instead of what was found in the file.
     pub(super) handedness: Option<Handedness>,
     pub(super) up_axis: Option<UpAxis>,
     pub(super) look: Look,
@@ -76,7 +76,7 @@ impl View {
         model::world_from_model(self.handedness(open), self.up_axis(open))
     }
 
-    /// What of it a renderer is told, with the passes that are drawn.
+    /// The part of it that a renderer needs, with the passes that are drawn.
     pub(super) fn frame_options(&self, passes: Passes) -> FrameOptions {
         let look = &self.look;
         FrameOptions {
@@ -96,7 +96,7 @@ impl View {
 
     /// Frames points of the world in what the panels leave free.
     pub(super) fn frame_points(&mut self, world_points: &[Vec3]) {
-        // A figure stands in the middle of the window; only what would reach under the panels beside it makes way.
+        // Centred in the window where that fits between the panels at the sides, else in the room that they leave.
         let centered = Insets {
             left: 0.0,
             right: 0.0,

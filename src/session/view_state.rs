@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::actor::Actor;
 use super::view::View;
-use crate::anim::{LoopMode, SkinView, WrapMode};
+use crate::anim::{GhostPlan, LoopMode, SkinView, WrapMode};
 use crate::model::{Clip, Handedness, UpAxis};
 use crate::scene::{Background, BoneStyle, Camera, Light, MAX_PITCH_RADIANS, Overlay, Projection, ViewMode};
 
@@ -86,11 +86,11 @@ pub struct AppearanceState {
     pub labels_visible: bool,
     /// What of the skin is shown as colours.
     pub skin_view: Option<SkinView>,
-    /// Poses before and after, frames from one to the next.
-    pub ghosts: Option<[u32; 3]>,
+    /// Poses before and after that of now that are seen as ghosts.
+    pub ghosts: Option<GhostPlan>,
     /// Whether the bind pose is seen as a ghost.
     pub bind_ghost: bool,
-    /// Bones whose ways through the clip are drawn.
+    /// Bones whose paths through the clip are drawn.
     pub trails: Vec<u32>,
 }
 
@@ -212,7 +212,7 @@ impl AppearanceState {
             bone_style: look.bone_style,
             labels_visible: look.labels_visible(),
             skin_view: look.skin_view,
-            ghosts: look.ghosts.map(|plan| [plan.before, plan.after, plan.step_frames]),
+            ghosts: look.ghosts,
             bind_ghost: look.bind_ghost,
             trails: look
                 .trails

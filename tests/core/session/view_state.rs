@@ -1,5 +1,6 @@
 //! What is looked at, as plain data that brings the same view back.
 
+use bindpose::anim::GhostPlan;
 use bindpose::session::{Command, FileCommand, JointCommand, PlayCommand, Session, SubsetCommand, ViewState};
 use proptest::prelude::*;
 
@@ -59,7 +60,7 @@ fn a_state_that_says_little_is_the_default_and_one_that_says_nonsense_is_brought
     let mut session = opened(moving("a.m3d"));
     let state: ViewState = serde_json::from_str(
         r#"{"camera": {"distance": -3.0, "pitchRadians": 99.0}, "playback": {"clip": "Turn", "timeSecs": 1e9, "speed": 1000.0},
-            "appearance": {"viewMode": "tangent", "exposureStops": 77.0, "trails": [1, 400]}, "selection": {"bone": 70}}"#,
+            "appearance": {"viewMode": "tangent", "exposureStops": 77.0, "trails": [1, 400], "ghosts": {"before": 2}}, "selection": {"bone": 70}}"#,
     )
     .expect("known names");
     session.apply(Command::Restore(Box::new(state)));
@@ -71,6 +72,13 @@ fn a_state_that_says_little_is_the_default_and_one_that_says_nonsense_is_brought
     assert_eq!(restored.playback.speed, bindpose::anim::MAX_SPEED);
     assert_eq!(restored.appearance.trails, [1]);
     assert_eq!(restored.selection.bone, None);
+    let ghosts = GhostPlan {
+        before: 2,
+        after: 0,
+        step_frames: 1,
+    };
+    assert_eq!(restored.appearance.ghosts, Some(ghosts));
+    assert!(json(&restored).contains(r#""ghosts":{"before":2,"after":0,"stepFrames":1}"#));
     assert!(restored.appearance.exposure_stops <= bindpose::session::MAX_EXPOSURE_STOPS);
 
     let unknown = serde_json::from_str::<ViewState>(r#"{"appearance": {"viewMode": "x-ray"}}"#);
