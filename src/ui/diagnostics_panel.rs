@@ -1,12 +1,12 @@
-//! Every finding about the open file, with what it is about, its place and code. A click shows the lines, and goes to the bone, subset,
-//! clip or vertex that it is about.
+//! All diagnostics of the open file, with subject, position and code. A click shows the lines of the file, and goes to the joint,
+//! submesh, clip or vertex that is the subject.
 
 use egui::{CursorIcon, FontId, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::error_card::show_excerpt;
 use super::panel::scrolled;
 use super::skeleton::state::SidePage;
-use super::state::{ShownFinding, UiState};
+use super::state::{ShownDiagnostic, UiState};
 use super::theme::{MARGIN, Tokens};
 use super::widgets::{closable_heading, paint_row_ground, rule};
 use super::wording::grouped;
@@ -26,16 +26,16 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));
         return;
     }
-    scrolled("findings", ui.available_height())
+    scrolled("diagnostics list", ui.available_height())
         .auto_shrink([false, true])
         .show(ui, |ui| {
             for notice in session.notices() {
-                finding(ui, session, open, notice, state, commands);
+                diagnostic_row(ui, session, open, notice, state, commands);
             }
         });
 }
 
-fn finding(
+fn diagnostic_row(
     ui: &mut Ui,
     session: &Session,
     open: &OpenModel,
@@ -51,9 +51,9 @@ fn finding(
     };
     let goal = notice.subject.and_then(|subject| Goal::of(session, open, subject));
     let shown = state
-        .shown_finding
+        .shown_diagnostic
         .as_ref()
-        .is_some_and(|shown| shown.finding == *notice);
+        .is_some_and(|shown| shown.diagnostic == *notice);
     let mut job = egui::text::LayoutJob::default();
     job.wrap.max_width = ui.available_width() - 16.0;
     let plain = |size: f32, color| egui::TextFormat {
@@ -85,33 +85,33 @@ fn finding(
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     if response.clicked() {
-        state.shown_finding = (!shown).then(|| ShownFinding {
-            finding: notice.clone(),
+        state.shown_diagnostic = (!shown).then(|| ShownDiagnostic {
+            diagnostic: notice.clone(),
             excerpt: open.excerpt(notice),
         });
         if let Some(goal) = goal.filter(|_| !shown) {
             goal.go(session, state, commands);
         }
     }
-    if shown && let Some(lines) = state.shown_finding.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
+    if shown && let Some(lines) = state.shown_diagnostic.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
         ui.add_space(4.0);
         show_excerpt(ui, lines, None, color);
         ui.add_space(8.0);
     }
 }
 
-/// A part of the open model, and how it comes on screen.
+/// A part of the open model, and how to show it.
 struct Goal {
     /// What it is called: `Bone 3`, `Subset 0`, `Clip walk`.
     words: String,
-    /// They select and show it.
+    /// Select and show it.
     commands: Vec<Command>,
-    /// The page of the panel on the left that has it, if one does.
+    /// The page of the side panel that lists it, if any.
     page: Option<SidePage>,
 }
 
 impl Goal {
-    /// The way to a part of the open model. None for a part that is not there, such as a material that no subset has.
+    /// How to show a subject. None if the model lacks it, or if no submesh has this material.
     fn of(session: &Session, open: &OpenModel, subject: Subject) -> Option<Self> {
         let mesh = &open.model.mesh;
         match subject {
@@ -136,7 +136,7 @@ impl Goal {
                 let name = &open.model.clips.get(clip as usize)?.name;
                 Some(Self {
                     words: format!("Clip {name}"),
-                    // The timeline has it.
+                    // The timeline shows it.
                     commands: vec![PlayCommand::SelectClip(clip as usize).into()],
                     page: None,
                 })
@@ -179,7 +179,7 @@ impl Goal {
         }
     }
 
-    /// Goes there. What is selected is framed in the next pass, when its panels stand.
+    /// Goes there. The selection is framed in the next pass, when its panels are open.
     fn go(self, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         state.frames_selection = self
             .commands
@@ -197,7 +197,7 @@ mod tests {
     use super::*;
     use crate::session::{File, FileCommand};
 
-    /// No model that can be shown has a finding about a triangle, so no click can lead there yet.
+    /// No model that opens has a diagnostic about a triangle, so no click can lead there yet.
     #[test]
     fn the_way_to_a_triangle_is_that_to_its_first_corner_and_what_is_not_there_has_none() {
         let mut session = Session::new(true);

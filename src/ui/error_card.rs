@@ -76,7 +76,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
     });
 }
 
-/// Lines of a file with a mark under what is meant. Draws them on a quiet ground. `heading` stands above them, `expected` beside the mark.
+/// Lines of a file, with a mark under the wrong part. The heading stands above the lines, what was expected beside the mark.
 pub(super) fn show_excerpt(
     ui: &mut Ui,
     excerpt: &Excerpt,

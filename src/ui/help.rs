@@ -1,4 +1,4 @@
-//! What keys, pointer and fingers do.
+//! The table of what keys, pointer and fingers do.
 
 use egui::{Align2, FontId, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -40,7 +40,7 @@ enum Part {
 
 use Part::{Fingers, Keys};
 
-/// Parts in two columns that are about as long, or all in one. Where there are fingers they come first.
+/// Parts in two columns of about the same length, or all in one. By touch the part about fingers comes first.
 const COLUMNS: [&[Part]; 2] = [
     &[Keys(Group::Time), Keys(Group::Camera)],
     &[Keys(Group::Picture), Keys(Group::Bones), Fingers],
@@ -64,11 +64,11 @@ const LIST_BY_TOUCH: &[Part] = &[
     Keys(Group::Picture),
 ];
 
-/// Width of a column, and of what is between two.
+/// Width of a column, and of the gap between two.
 const COLUMN_WIDTH: f32 = 280.0;
 const BETWEEN: f32 = 20.0;
 
-/// The table: in two columns where there is room for them, else in one that scrolls.
+/// The table: in two columns if there is room, otherwise in one that scrolls.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let touch = is_touch(ui);
     let most = ui.available_width();
@@ -132,7 +132,7 @@ fn gestures(ui: &mut Ui, gestures: &[(&str, &str)]) {
     }
 }
 
-/// What does something, what it does, and what of that is in force.
+/// Keys, what they do, and the value that is on.
 fn row(ui: &mut Ui, keys: &str, does: &str, in_force: Option<&str>) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());

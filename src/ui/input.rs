@@ -1,8 +1,8 @@
-//! Input: its order within a frame, and who has the keyboard.
+//! Input: its order within a frame, and the keyboard focus.
 //!
-//! egui finds out once a pass which widget lies under the pointer and which one has the keyboard, so a press and what follows it must
-//! not fall into one pass, nor Tab and the letters after it. A slow frame brings many events at once: they are dealt with in as many
-//! passes as they need, all in the same frame.
+//! Once in a pass egui finds the widget under the pointer and the widget with the focus. So a press and the events after it must not
+//! share a pass, nor Tab and the letters after it. A slow frame brings many events at once. It handles them in as many passes as
+//! they need.
 
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
@@ -29,26 +29,26 @@ impl egui::Plugin for InputOrder {
         input.events.extend(self.waiting.drain(..count));
         if !self.waiting.is_empty() {
             ctx.request_discard("there is input that depends on this pass");
-            // The next frame takes what this frame's passes left.
+            // The next frame takes the events that are left.
             ctx.request_repaint();
         }
     }
 }
 
-/// What an event means for the events after it.
+/// Which events may share a pass with this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// Moves the pointer.
     Move,
-    /// Takes hold of what is under the pointer.
+    /// Presses what is under the pointer.
     Press,
-    /// Lets it go.
+    /// Releases it.
     Release,
-    /// There is no pointer any more: a finger was lifted, a mouse left the window.
+    /// The pointer is gone: a finger was lifted, or the mouse left the window.
     Gone,
-    /// Goes to the widget that has the keyboard.
+    /// Goes to the focused widget.
     Typed,
-    /// May give the keyboard to another widget, or shut what has it.
+    /// May focus another widget, or close the focused one.
     MovesFocus,
     /// None of these. It stays in the pass of the event before it.
     Other,
@@ -73,7 +73,7 @@ impl Kind {
     }
 }
 
-/// How many of these events one pass can deal with.
+/// How many of these events one pass can handle.
 fn first_pass(events: &VecDeque<Event>) -> usize {
     let (mut moved, mut typed) = (false, false);
     let mut end = None;
@@ -83,7 +83,7 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
             Kind::Other => false,
             Kind::Move | Kind::Typed => end.is_some(),
             Kind::Press | Kind::MovesFocus => end.is_some() || typed,
-            // The drag that came before is dealt with first.
+            // The drag before it is handled first.
             Kind::Release => end.is_some() || typed || moved,
             // A pointer that leaves with its release shares the pass of the release.
             Kind::Gone => end.is_some_and(|end| end != Kind::Release),
@@ -98,7 +98,7 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
     events.iter().position(waits).unwrap_or(events.len())
 }
 
-/// Which widget had the keyboard when the last pass ended, and which button opened the popover.
+/// Which widget had the focus when the last pass ended, and which button opened the popover.
 #[derive(Debug, Default)]
 pub(super) struct Keyboard {
     focused: Option<Id>,
@@ -107,19 +107,19 @@ pub(super) struct Keyboard {
 }
 
 impl Keyboard {
-    /// Whether a text field had the keyboard when this pass began, or until a key of this pass took it away.
+    /// Whether a text field had the focus when this pass began, or until a key of this pass took it away.
     pub(super) fn was_typing(&self, ctx: &Context) -> bool {
         self.typing || ctx.text_edit_focused()
     }
 
-    /// Whether a text field has the keyboard as this pass ends, or is being pressed.
+    /// Whether a text field has the focus as this pass ends, or is being pressed.
     pub(super) fn is_typing(&mut self, ctx: &Context) -> bool {
         let pressed = ctx.data_mut(|data| data.remove_temp::<()>(pressed_field()).is_some());
         self.typing = pressed || ctx.text_edit_focused();
         self.typing
     }
 
-    /// Gives the keyboard back to the widget that had it before a popover or panel was closed. `popover_was_open`: when this pass began;
+    /// Gives the focus back to the widget that had it before a popover or panel was closed. `popover_was_open`: when this pass began.
     /// `escape_shut`: Esc has closed something.
     pub(super) fn give_back(&mut self, ctx: &Context, popover_was_open: bool, escape_shut: bool) {
         let before = self.focused;
@@ -135,7 +135,7 @@ impl Keyboard {
         };
         let popover_shut = popover_was_open && !Popup::is_any_open(ctx);
         if (popover_shut || escape_shut) && focused.is_none_or(|id| popover_shut && hung(id)) {
-            // Who uses a mouse has not given the keyboard to any widget.
+            // With a mouse no widget was focused.
             let heir = before.and_then(|id| {
                 if escape_shut && !hung(id) {
                     Some(id)
@@ -151,7 +151,7 @@ impl Keyboard {
     }
 }
 
-/// Says that the pointer presses a text field. Until the field has the keyboard, no key is a shortcut.
+/// Notes that the pointer presses a text field. Until the field has the focus, no key is a shortcut.
 pub(super) fn press_field(ui: &Ui) {
     ui.data_mut(|data| data.insert_temp(pressed_field(), ()));
 }
@@ -160,7 +160,7 @@ fn pressed_field() -> Id {
     Id::unique("a field is pressed")
 }
 
-/// The id that egui gives to the popup of a button.
+/// The id of a button's popup in egui.
 fn popup_of(button: Id) -> Id {
     button.with("popup")
 }
@@ -198,7 +198,7 @@ mod tests {
         Event::Text("a".to_owned())
     }
 
-    /// How many events each pass deals with.
+    /// How many events each pass handles.
     fn passes(events: Vec<Event>) -> Vec<usize> {
         let mut waiting = VecDeque::from(events);
         let mut counts = Vec::new();

@@ -1,4 +1,4 @@
-//! The selected subset: its counts, its material to be changed, its maps.
+//! The selected submesh: its counts, its material to edit, its maps.
 
 use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
@@ -63,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     }
 }
 
-/// A map that the material names: the picture, or that it is missing.
+/// A map that the material names: its thumbnail, or that it is missing.
 fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, material: usize, slot: MapSlot) {
     let of_file = open.model.materials.get(material);
     let Some(name) = of_file.and_then(|material| slot.name_in(material)) else {
@@ -102,7 +102,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
     response.on_hover_text(format!("{what} map: {name}\n{hint}"));
 }
 
-/// The values of a material. The material with what was changed, when something was.
+/// The values of a material. Returns the edited material if a value changed.
 fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
     let mut edited = material.clone();
     match &mut edited.reflectance {
@@ -133,13 +133,13 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
     (edited != *material).then_some(edited)
 }
 
-/// A linear colour: to choose by eye, and its three numbers.
+/// A linear colour: a button with a picker, and three numbers.
 fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3]) {
     row(ui, label, |ui, height| {
         let side = Vec2::splat(height);
         let shown = color.map(srgb8_from_linear);
         if let Some(chosen) = color_button(ui, label, side, shown) {
-            // Only the channels that changed. The others keep their exact value, which 8 bits would round.
+            // Set only the channels that changed. 8 bits would round the others.
             for channel in 0..3 {
                 if chosen[channel] != shown[channel] {
                     color[channel] = linear_from_srgb8(chosen[channel]);
@@ -167,7 +167,7 @@ fn power_row(ui: &mut Ui, power: &mut f32) {
     });
 }
 
-/// A label, and fields of a height behind it.
+/// A label, then fields, which get their height.
 fn row(ui: &mut Ui, label: &str, fields: impl FnOnce(&mut Ui, f32)) {
     let height = if is_touch(ui) { 40.0 } else { 22.0 };
     let row_height = control_size(ui).max(height + 4.0);

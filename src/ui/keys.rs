@@ -1,4 +1,4 @@
-//! Keys to actions. Only keys of the table and those that fly: the browser keeps its own.
+//! Maps keys to actions: those of the table and those that fly. All others are the browser's.
 
 use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 
@@ -7,7 +7,7 @@ use super::viewport::FLIGHT_KEYS;
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubsetCommand};
 
-/// Reads the keys of a pass in which no field is typed into. `popover_open`: Esc has shut something that hung from a button.
+/// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
     let events = ui.input(|input| input.events.clone());
     // Space and Enter belong to a focused control.
@@ -25,10 +25,10 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 held = repeat;
                 let is_controls = control_focused && matches!(key, Key::Space | Key::Enter);
                 let has_shut = popover_open && key == Key::Escape;
-                // The key that flies forward while the view is held.
+                // This key flies forward while the view is held.
                 let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
                 action_of(key, modifiers)
-                    // A key that is held steps on. What it switches or asks for is meant once.
+                    // A held key goes on stepping, but switches or asks only once.
                     .filter(|action| (action.repeats || !held) && !is_controls && !has_shut && !flies)
             }
             // The question mark is on different keys of different keyboards.
@@ -85,7 +85,7 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, session: &Session, state: &mut UiStat
     }
 }
 
-/// What Esc takes away.
+/// What Esc closes or clears.
 enum OnTop {
     Error,
     Help,
@@ -94,7 +94,7 @@ enum OnTop {
     Selection(Command),
 }
 
-/// What lies on top, apart from what hangs from a button.
+/// What lies on top, apart from popovers.
 fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
     if session.error().is_some() {
         Some(OnTop::Error)
@@ -109,7 +109,7 @@ fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
     }
 }
 
-/// Takes away what lies on top.
+/// Closes or clears what lies on top.
 fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     match on_top(session, state) {
         Some(OnTop::Error) => commands.push(FileCommand::DismissError.into()),
@@ -121,13 +121,12 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     }
 }
 
-/// Whether Esc would shut a panel or clear a selection.
+/// Whether Esc would close a panel or clear a selection.
 pub(super) fn escape_shuts_panel(session: &Session, state: &UiState) -> bool {
     on_top(session, state).is_some()
 }
 
-/// Whether Esc would shut something, end what is being typed or clear a selection. When it would not, it lets Tab leave the page's
-/// canvas.
+/// Whether Esc would close something, end typing or clear a selection. If not, it lets Tab leave the page's canvas.
 pub fn escape_shuts(ctx: &Context, session: &Session, state: &UiState) -> bool {
     Popup::is_any_open(ctx)
         || ctx.text_edit_focused()
@@ -148,7 +147,7 @@ fn clears_selection(session: &Session) -> Option<Command> {
     }
 }
 
-/// Whether a key is the viewer's, so that the browser must not act on it too.
+/// Whether the viewer uses a key, so that the browser must not act on it too.
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     let plain = !modifiers.command && !modifiers.alt;
     let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);

@@ -20,8 +20,8 @@ use crate::session::{Command, LoadError, Session};
 const SIDE_WIDTH: f32 = 246.0;
 /// Width of the inspector on the right.
 const INSPECTOR_WIDTH: f32 = 288.0;
-/// Width of the list of findings, where there is room for it.
-const FINDINGS_WIDTH: f32 = 456.0;
+/// Width of the list of diagnostics, where there is room for it.
+const DIAGNOSTICS_WIDTH: f32 = 456.0;
 /// Width of the card that tells why a file was not opened, where there is room for it.
 const ERROR_WIDTH: f32 = 562.0;
 /// Height of the middle of that card, as a fraction of the window.
@@ -34,8 +34,8 @@ const TIMELINE_BESIDE_FRACTION: f32 = 0.62;
 const MOST_BESIDE: f32 = 560.0;
 /// In a narrow window a figure in the middle reaches about so far to either side.
 const FIGURE_REACH: f32 = 80.0;
-/// The least width beside the findings in which something of a model is seen.
-const LEAST_BESIDE_FINDINGS: f32 = 200.0;
+/// The least width beside the diagnostics in which something of a model is seen.
+const LEAST_BESIDE_DIAGNOSTICS: f32 = 200.0;
 /// The least height in which a legend leaves something to see: of the panel above a card, of the view beside a card, of the model
 /// above a strip.
 const LEAST_WITH_CARD: f32 = 220.0;
@@ -135,12 +135,12 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
     }
     if state.diagnostics_open {
         let room = beside.room();
-        let findings = Panel::new("diagnostics", Align2::LEFT_TOP)
-            .width(FINDINGS_WIDTH.min(room.width()))
+        let list = Panel::new("diagnostics", Align2::LEFT_TOP)
+            .width(DIAGNOSTICS_WIDTH.min(room.width()))
             .show(ui, room, |ui| diagnostics_panel::show(ui, session, state, commands));
-        beside.cut_left(findings);
-        // A finding is clicked to see what it is about. Where the list leaves next to nothing, it covers the model.
-        if beside.rect.width() >= LEAST_BESIDE_FINDINGS {
+        beside.cut_left(list);
+        // A click on a diagnostic shows its subject, so the list does not cover it. If the list leaves too little room, it does.
+        if beside.rect.width() >= LEAST_BESIDE_DIAGNOSTICS {
             return beside;
         }
     }

@@ -1,4 +1,4 @@
-//! Light on the model, what is behind it, and what that costs.
+//! The light, the background, and the passes that cost time.
 
 use egui::{Align2, Color32, FontId, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -15,11 +15,11 @@ use crate::session::{
     Command, FileCommand, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, Session,
 };
 
-/// Colours that a background of one colour begins with: the middle of the backdrop.
+/// The first colour of a plain background: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
 const FIRST_COLOR_LIGHT: [u8; 3] = [0xF4, 0xF5, 0xF7];
 
-/// What the button says: the light in force.
+/// The button's label: the light that is on.
 pub(super) fn label(session: &Session) -> &'static str {
     match session.look().split {
         Some(_) => "Split",
@@ -27,7 +27,7 @@ pub(super) fn label(session: &Session) -> &'static str {
     }
 }
 
-/// A dot on the button while something is left out because the device is too slow.
+/// Puts a dot on the button while a pass is off because the device is too slow.
 pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
     if slow_passes(session).is_some() {
         let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
@@ -81,7 +81,7 @@ fn environment_turn(ui: &mut Ui, radians: f32, commands: &mut Vec<Command>) {
     let degrees = radians.to_degrees();
     let text = format!("{degrees:.0}°");
     if let Some(degrees) = Slider::new("Environment", degrees, 0.0..=360.0, &text).show(ui) {
-        // 360° would be read back as 0° and the knob would jump to the other end.
+        // 360° would come back as 0°, and the knob would jump to the other end.
         commands.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()).into());
     }
 }
@@ -138,7 +138,7 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
     });
 }
 
-/// Which costly steps of drawing are on, and which the device is too slow for.
+/// The passes: which are on, and for which the device is too slow.
 fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     section_name(ui, "Passes");
@@ -166,7 +166,7 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
 }
 
-/// `Ambient occlusion is off: frames took too long`; nothing while the device keeps up.
+/// `Ambient occlusion is off: frames took too long`. None while the device keeps up.
 fn slow_passes(session: &Session) -> Option<String> {
     let quality = session.quality();
     let slow: Vec<&str> = Pass::ALL

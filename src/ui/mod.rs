@@ -37,7 +37,7 @@ use input::{InputOrder, MOST_PASSES};
 use state::Framed;
 use theme::MARGIN;
 
-/// Gives a context what the interface needs: fonts, styles, and input in an order that it can act on.
+/// Gives a context what the interface needs: fonts, styles, and the order of input.
 pub fn install(ctx: &egui::Context) {
     theme::install(ctx);
     ctx.options_mut(|options| options.max_passes = MOST_PASSES);
@@ -46,7 +46,7 @@ pub fn install(ctx: &egui::Context) {
 
 /// One pass over the whole window. Returns what the person asked for, in order.
 ///
-/// The session is changed by the commands alone: what it is borrowed for is to pose the model of which numbers are read.
+/// Only the commands change the session. It is borrowed mutably so that the pose can be computed for panels that show its numbers.
 pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Command> {
     let mut commands = Vec::new();
     let window = ui.max_rect();
@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     widgets::size_for_touch(ui.ctx(), touch);
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
-        state.shown_finding = None;
+        state.shown_diagnostic = None;
         state.diagnostics_open = false;
         state.missing_maps_open = false;
     }
@@ -62,9 +62,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
-    // Set in the pass before: the panels of what was selected then stand in this one.
+    // It was set in an earlier pass. By now the panels about the selection are open.
     let frames_selection = std::mem::take(&mut state.frames_selection);
-    // A click beside what hangs from a button shuts it and nothing else, and so does Esc.
+    // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
@@ -86,8 +86,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     }
     state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
     state.skeleton.settle_naming(ui, &mut commands);
-    // Last, since a control that has the keyboard takes its keys first. Keys that were typed into a field are no shortcuts, whether
-    // the field had the keyboard when the pass began or has it now.
+    // Shortcuts come last, since a focused control takes its keys first. Keys typed into a field are not shortcuts, whether the field
+    // had the focus when the pass began or has it now.
     let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();
     let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(session, state));
     if !typed && !typing {
@@ -106,8 +106,8 @@ fn set_theme(ui: &Ui) -> Command {
     })
 }
 
-/// What the panels leave free is where the model is framed. A window of another size and another model are framed at once;
-/// where a panel opened or shut the camera goes there.
+/// Frames the model in what the panels leave free: at once in a resized window or for another model, with a glide when a panel
+/// opened or closed.
 fn set_viewport(session: &Session, state: &mut UiState, window: Rect, free: Rect) -> Option<Command> {
     let insets = insets(window, free);
     let aspect = window.width() / window.height().max(1.0);

@@ -1,4 +1,4 @@
-//! What is open: counts, handedness, up axis, size, the count of diagnostics, subsets, textures, other models of the drop.
+//! The open model: counts, handedness, up axis, size, diagnostics, submeshes, textures, other models of the drop.
 
 use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -18,7 +18,7 @@ use crate::model::{Handedness, Submesh, UpAxis};
 use crate::scene::display_color;
 use crate::session::{Command, FileCommand, MapSlot, OpenModel, Session, SubsetCommand};
 
-/// Subsets listed before the list scrolls.
+/// Submeshes listed before the list scrolls.
 const ROWS: f32 = 8.0;
 /// From this width on a row has room for its count beside the icons.
 const WIDE_ROW: f32 = 280.0;
@@ -28,7 +28,7 @@ const ICON_WIDTH: f32 = 22.0;
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
-    // Where there is a skeleton, the panel's pages are its heading.
+    // With a skeleton the switch between the panel's pages is the heading.
     if !has_joints(session) {
         heading(ui);
     }
@@ -156,7 +156,7 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     }
 }
 
-/// `2 warnings`, `1 note`, `none`, with the colour that says how bad it is.
+/// `2 warnings`, `1 note`, `none`, in the colour of the worst.
 fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
     let count = |severity| session.notices().filter(|notice| notice.severity == severity).count();
     match (count(Severity::Warning), count(Severity::Note)) {
@@ -170,7 +170,7 @@ fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
     }
 }
 
-/// The subsets: which are drawn, which one is selected.
+/// The submeshes: which are drawn, which one is selected.
 fn subset_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
     let all_drawn = !session.subsets().left_out().contains(&true);
     let action = (!all_drawn).then_some("Show all");
@@ -188,8 +188,7 @@ fn subset_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiS
     });
 }
 
-/// The colour in which a subset's material is shown, linear. A map that is there brings its own colours; the tint only stands
-/// in for one that is missing.
+/// The colour of a material, linear. If its diffuse map is missing, the colour that stands in for it.
 pub(super) fn shown_color(session: &Session, material: usize) -> [f32; 3] {
     let Some(values) = session.materials().get(material) else {
         return [0.0; 3];
@@ -226,7 +225,7 @@ impl<'a> Subset<'a> {
         }
     }
 
-    /// Whether the pointer is over it.
+    /// Shows it. Returns whether the pointer is over it.
     fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) -> bool {
         let tokens = Tokens::of(ui);
         let (rect, response) = pressed_row(ui, self.selected);
@@ -267,8 +266,8 @@ impl<'a> Subset<'a> {
         over
     }
 
-    /// What stands at the right end: the icons under the pointer or where one of them is on, else the count of triangles.
-    /// Where it begins.
+    /// The right end: icons if the pointer is over the row or one of them is on, otherwise the count of triangles. Returns its left
+    /// edge.
     fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, all: bool, commands: &mut Vec<Command>) -> f32 {
         let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
         let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };

@@ -16,13 +16,13 @@ use crate::anim::GhostPlan;
 use crate::scene::{BoneStyle, Overlay, Overlays};
 use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 
-/// Ghosts that are shown when they are switched on.
+/// The ghosts when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
     before: 3,
     after: 3,
     step_frames: 5,
 };
-/// The most of either side, and frames between two, that can be asked for.
+/// The most ghosts on either side, and the most frames between two.
 const MOST_GHOSTS: f32 = 16.0;
 const MOST_STEP: f32 = 120.0;
 
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
     skeleton_rows(ui, session, state, commands);
 }
 
-/// Whether anything beside the ground is drawn over the model.
+/// Whether any overlay but the grid is on.
 pub(super) fn any_beside_the_grid(session: &Session) -> bool {
     let overlays = &session.look().overlays;
     let mut lines = Overlay::ALL.into_iter().filter(|&overlay| overlay != Overlay::Grid);
@@ -145,7 +145,7 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.add_space(6.0);
 }
 
-/// The joints whose way through the clip is drawn.
+/// The joints whose path through the clip is drawn.
 fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let trails = &session.look().trails;
     let selected = session.joints().selected();

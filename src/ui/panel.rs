@@ -1,4 +1,4 @@
-//! Panels that float over the view, the room that they leave, and what hangs from buttons.
+//! Panels that float over the view, the room that they leave, popovers and menus.
 
 use egui::{
     Align2, Area, CornerRadius, Frame, Id, LayerId, Margin, Order, Popup, PopupCloseBehavior, Pos2, Rect, RectAlign,
@@ -47,8 +47,8 @@ impl Free {
     }
 }
 
-/// A list in a panel that scrolls once it is higher than `most`. A panel remembers the size that it had, so without a word
-/// about it a list that grows would scroll in the height of before.
+/// A list that scrolls once it is higher than `most`. The least height is set too: a popover remembers its last size, and a list that
+/// grows would scroll in that.
 pub(super) fn scrolled(id: &'static str, most: f32) -> ScrollArea {
     ScrollArea::vertical()
         .id_salt(id)
@@ -56,7 +56,7 @@ pub(super) fn scrolled(id: &'static str, most: f32) -> ScrollArea {
         .min_scrolled_height(most)
 }
 
-/// Where a panel was in the last pass, if it was shown. What is shown before a panel finds its place here.
+/// The rect of a panel in the last pass, if it was shown. Popovers need it: they are shown before or inside of the panel.
 fn shown_rect(ui: &Ui, name: &'static str) -> Option<Rect> {
     let layer = LayerId::new(Order::Middle, id_of(name));
     ui.memory(|memory| {
@@ -65,7 +65,7 @@ fn shown_rect(ui: &Ui, name: &'static str) -> Option<Rect> {
     })
 }
 
-/// Tells popovers where the controls of the timeline are. They leave these free.
+/// Notes where the transport is. Popovers do not cover it.
 pub(super) fn mark_transport(ui: &Ui, rect: Rect) {
     ui.interact(rect, id_of("transport"), Sense::hover());
 }
@@ -113,12 +113,12 @@ impl Panel {
         }
     }
 
-    /// Room between border and contents; 12 points unless told.
+    /// Room between border and contents. 12 points unless told.
     pub(super) fn margin(self, margin: Margin) -> Self {
         Self { margin, ..self }
     }
 
-    /// Round corners at the top alone, as a sheet that comes from below.
+    /// A sheet at the bottom: only its upper corners are round.
     pub(super) fn sheet(self) -> Self {
         Self {
             corner_radius: CornerRadius {
@@ -131,7 +131,7 @@ impl Panel {
         }
     }
 
-    /// Shows it and returns the rect that it took. To the contents, what is available is what `room` leaves inside of border and
+    /// Shows it in a room, and returns the rect that it took. What is available to the contents is the room without border and
     /// margins.
     pub(super) fn show(self, ui: &Ui, room: Rect, contents: impl FnOnce(&mut Ui)) -> Rect {
         let frame: Frame = theme::panel_frame(&Tokens::of(ui))
@@ -156,7 +156,7 @@ impl Panel {
             })
             .response
             .rect;
-        // egui places an area by the size that it had in the last pass. Another pass of the same frame puts all panels right.
+        // egui places an area by its size in the last pass. Another pass of the same frame places all panels by their new sizes.
         if before.is_none_or(|before| before.size() != now.size()) {
             ui.ctx().request_discard("a panel has another size");
         }
@@ -166,25 +166,25 @@ impl Panel {
 
 /// Margin inside a popover.
 const POPOVER_MARGIN: f32 = MARGIN;
-/// From a button to its menu: as far from the bar as the panels are.
+/// From a button to its menu, so that the menu is as far from the bar as the panels are.
 const MENU_GAP: f32 = MARGIN + 4.0;
-/// The least height before something scrolls.
+/// The least height of a popover.
 const LEAST_HEIGHT: f32 = 120.0;
-/// With less room than this above the sheet of a phone a popover stands over the sheet, and below the bars over them.
+/// With less room than this above the sheet of a phone a popover covers the sheet. With less below the bars it covers these.
 pub(super) const LEAST_ROOM: f32 = 180.0;
 
-/// Opens and shuts with the button; a click elsewhere or Esc shuts it.
+/// A popover of the toolbar. The button opens and closes it. A click elsewhere or Esc closes it.
 pub(super) fn popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     let top = below_bars(ui);
-    // Time can be moved while a popover is open. A sheet above these controls may be covered.
+    // A person can move the time while a popover is open. It may cover the sheet above the transport.
     let transport = ui.ctx().read_response(id_of("transport"));
     let bottom = transport.map_or(window.max.y, |transport| transport.rect.min.y - 2.0 * MARGIN);
     let corner = (pos2(window.max.x, top), RectAlign::BOTTOM_END);
     hang(ui, button, corner, vec2(width, bottom - top - around(ui)), contents);
 }
 
-/// A menu below a button, which a choice shuts. What is higher than the window scrolls.
+/// A menu below a button. A choice closes it. A menu higher than the window scrolls.
 pub(super) fn popover_menu(ui: &Ui, button: &Response, align: RectAlign, width: f32, contents: impl FnOnce(&mut Ui)) {
     let bottom = ui.ctx().content_rect().max.y - MARGIN;
     let around = 2.0 * ui.style().spacing.menu_margin.bottom as f32;
@@ -195,7 +195,7 @@ pub(super) fn popover_menu(ui: &Ui, button: &Response, align: RectAlign, width: 
     });
 }
 
-/// Where the room below the bars at the top begins.
+/// The y where the room below the bars begins.
 fn below_bars(ui: &Ui) -> f32 {
     let bar = shown_rect(ui, "title").unwrap_or(Rect::ZERO);
     bar.max.y + MARGIN
@@ -206,7 +206,7 @@ fn around(ui: &Ui) -> f32 {
     popover_frame(&Tokens::of(ui)).total_margin().sum().x
 }
 
-/// Shows the contents, `size` at most, from a corner on.
+/// Shows a popover at a corner, no larger than `size`.
 fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui)) {
     Popup::from_toggle_button_response(button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
@@ -221,7 +221,7 @@ fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, 
         });
 }
 
-/// An opaque panel, since it lies over text.
+/// An opaque frame, since it lies over text.
 fn popover_frame(tokens: &Tokens) -> Frame {
     theme::panel_frame(tokens)
         .fill(tokens.panel.to_opaque())
@@ -233,17 +233,17 @@ pub(super) fn popover_gap(ui: &mut Ui) {
     rule(ui, POPOVER_MARGIN);
 }
 
-/// Stands over a button at the window's lower edge, as far from the window's sides as the panels are.
+/// A popover above a button at the window's lower edge, as far from the window's sides as the panels are.
 pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
-    // On a phone the strip has two rows: what hangs from the lower one stands over both, unless the sheet leaves no room there.
+    // On a phone the strip has two rows. A popover of the lower row is above both, unless the sheet leaves no room there.
     let above = |top: f32| top - MARGIN - 4.0;
     let sheet = shown_rect(ui, "sheet").map(|sheet| above(sheet.min.y));
     let least = window.min.y + LEAST_ROOM;
     let bottom = sheet
         .filter(|&bottom| bottom >= least)
         .unwrap_or(above(button.rect.min.y));
-    // What is higher scrolls, rather than to lie over the bars at the top.
+    // It scrolls rather than cover the bars at the top.
     let below_bars = below_bars(ui);
     let top = if bottom - below_bars >= LEAST_ROOM {
         below_bars

@@ -1,4 +1,4 @@
-//! A picture of the view as a file: how large, with or without ground, and its name.
+//! Saves the view as a picture: its size, its background, its name.
 
 use egui::{Rangef, Ui, vec2};
 
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-/// Width × height, to drag or to type.
+/// Width × height, dragged or typed.
 fn size_fields(ui: &mut Ui, size: [u32; 2], choice: &mut PictureChoice) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 8.0;
@@ -76,8 +76,7 @@ fn words(ui: &mut Ui, text: &str, width: f32) {
         .text(rect.center(), egui::Align2::CENTER_CENTER, text, font, color);
 }
 
-/// What a picture of now is called: model, clip and frame, as `soldier-Take1-31.png`. Characters that file systems refuse
-/// become dashes.
+/// The name of a picture: model, clip and frame, as in `soldier-Take1-31.png`. Characters that file systems refuse become dashes.
 pub fn picture_name(session: &Session) -> String {
     let mut parts = Vec::new();
     if let Some(open) = session.open_model() {

@@ -1,4 +1,4 @@
-//! Where the picture is divided between both lights: a line over the view with a handle that moves it.
+//! The line that divides the picture between both lights, and its handle.
 
 use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
@@ -7,7 +7,7 @@ use super::widgets::{arrow_steps, is_touch, paint_chip};
 use crate::scene::Light;
 use crate::session::{Command, LookCommand, Session};
 
-/// The handle never leaves the window: fractions of its width.
+/// Where the line can be, as fractions of the window's width.
 const REACH: std::ops::RangeInclusive<f32> = 0.02..=0.98;
 /// One step of an arrow key, as a fraction of the width.
 const KEY_STEP: f32 = 0.01;
@@ -17,7 +17,7 @@ const HANDLE_RADIUS: f32 = 13.0;
 pub(super) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, commands: &mut Vec<Command>) {
     let Some(fraction) = session.look().split else { return };
     let x = window.min.x + fraction * window.width();
-    // The handle stands in the middle of the window, or higher, where panels below leave less.
+    // The handle is in the middle of the window, or higher if panels at the bottom leave less room.
     let handle = pos2(x, window.center().y.min(free.center().y));
     let reach = if is_touch(ui) { 22.0 } else { HANDLE_RADIUS };
     let id = ui.scope_id().with("split");
@@ -63,7 +63,7 @@ fn dragged_to(part: &Response) -> Option<f32> {
 fn paint(ui: &Ui, window: Rect, top: f32, handle: egui::Pos2, light: Light, active: bool) {
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
-    // A light line with a dark edge is seen over any picture.
+    // A light line with a dark edge is visible on any picture.
     painter.vline(
         handle.x,
         window.y_range(),

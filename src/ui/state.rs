@@ -1,4 +1,4 @@
-//! What of the interface is open, and what it asks of the page around.
+//! Which parts of the interface are open, and what it asks of the page around it.
 
 use egui::{Rect, Ui};
 
@@ -12,7 +12,7 @@ use crate::format::Excerpt;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
 
-/// The longest side that can be asked for.
+/// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// What only the page around the interface can do.
@@ -20,17 +20,17 @@ pub const MAX_PICTURE_SIDE: u32 = 8192;
 pub enum Request {
     /// Let the person pick files.
     PickFiles,
-    /// Read the files that were opened last again.
+    /// Read the files opened last once more.
     ReadAgain,
     /// Let the person pick models whose clips join those of the open one.
     PickClips,
-    /// Take this theme, whatever the system says.
+    /// Use this theme, whatever the system's is.
     UseTheme(Theme),
     /// Save the view as a picture; [`picture_name`](crate::ui::picture_name) says how the file is called.
     SavePicture {
         /// Width and height in pixels.
         size: [u32; 2],
-        /// Without what is behind the model.
+        /// Without a background.
         transparent: bool,
     },
 }
@@ -38,9 +38,9 @@ pub enum Request {
 /// What the bottom sheet of a narrow window shows below the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SheetPage {
-    /// Facts, subsets, textures; the selected subset, or the findings while they are open.
+    /// Facts, submeshes, textures. Instead the selection, or the diagnostics while they are open.
     Model,
-    /// What of a surface is shown.
+    /// The view mode.
     ViewMode,
     /// Light, background, passes.
     Light,
@@ -67,15 +67,15 @@ pub(super) struct Framed {
 pub struct UiState {
     /// The table of keys.
     pub help_open: bool,
-    /// The list of findings.
+    /// The list of diagnostics.
     pub diagnostics_open: bool,
-    /// In a narrow window: what the bottom sheet shows; shut if nothing.
+    /// What the bottom sheet of a narrow window shows. None while it is closed.
     pub sheet: Option<SheetPage>,
     pub(super) coarse_pointer: bool,
-    pub(super) shown_finding: Option<ShownFinding>,
+    pub(super) shown_diagnostic: Option<ShownDiagnostic>,
     /// The names of missing maps are listed.
     pub(super) missing_maps_open: bool,
-    /// What was selected in the pass before is to be framed.
+    /// What was selected in this pass will be framed in the next.
     pub(super) frames_selection: bool,
     pub(super) shown_model: u64,
     pub(super) framed: Option<Framed>,
@@ -91,7 +91,7 @@ pub struct UiState {
 }
 
 impl UiState {
-    /// Everything shut. `coarse_pointer`: the device says that fingers are its pointer.
+    /// Everything closed. `coarse_pointer`: the device says that its pointer is a finger.
     pub fn new(coarse_pointer: bool) -> Self {
         Self {
             coarse_pointer,
@@ -99,7 +99,7 @@ impl UiState {
         }
     }
 
-    /// Whether fingers are the device's pointer.
+    /// Whether the device's pointer is a finger.
     pub fn coarse_pointer(&self) -> bool {
         self.coarse_pointer
     }
@@ -108,12 +108,12 @@ impl UiState {
         self.requests.push(Request::ReadAgain);
     }
 
-    /// What was asked of the page since the last call.
+    /// The requests to the page since the last call.
     pub fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
     }
 
-    /// Asks for a picture as chosen. `transparent`: without background in any case.
+    /// Asks for a picture as chosen. `transparent`: in any case without a background.
     pub(super) fn save_picture(&mut self, ui: &Ui, transparent: bool) {
         let size = self.picture.size_in_pixels(ui);
         self.requests.push(Request::SavePicture {
@@ -123,14 +123,14 @@ impl UiState {
     }
 }
 
-/// The finding whose lines are shown. They are read from the file once, when it is opened.
+/// The diagnostic whose lines are shown. They are read from the file once, when it is unfolded.
 #[derive(Debug)]
-pub(super) struct ShownFinding {
-    pub(super) finding: Diagnostic,
+pub(super) struct ShownDiagnostic {
+    pub(super) diagnostic: Diagnostic,
     pub(super) excerpt: Option<Excerpt>,
 }
 
-/// Vertices of the subset that was counted last.
+/// Vertices of the submesh counted last.
 #[derive(Debug, Default)]
 pub(super) struct VertexCount {
     of: Option<(u64, usize)>,
@@ -138,7 +138,7 @@ pub(super) struct VertexCount {
 }
 
 impl VertexCount {
-    /// How many vertices the triangles of a subset use.
+    /// How many vertices the triangles of a submesh use.
     pub(super) fn of(&mut self, model_revision: u64, subset: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
         if self.of != Some((model_revision, subset)) {
             let start = submesh.triangle_start as usize * 3;
@@ -155,12 +155,12 @@ impl VertexCount {
     }
 }
 
-/// How a picture is to be.
+/// How to save a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct PictureChoice {
-    /// Width and height in pixels; the window's unless chosen.
+    /// Width and height in pixels. None: the window's.
     pub(super) size: Option<[u32; 2]>,
-    /// Without what is behind the model.
+    /// Without a background.
     pub(super) transparent: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The maps of the open model: how many are there, which are missing, what each holds and who uses it.
+//! The maps of the open model: how many were found, which are missing, what each holds and which materials use it.
 
 use egui::epaint::RectShape;
 use egui::{
@@ -23,7 +23,7 @@ const MAP_ROW_HEIGHT: f32 = 38.0;
 /// Missing maps listed before their list scrolls.
 const MISSING_ROWS: f32 = 6.0;
 
-/// The section's contents. Nothing for a model whose materials name no map.
+/// The section's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState) {
     let checklist = session.maps().checklist();
     section_name(ui, "Textures");
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
     missing_maps(ui, open, &checklist.missing, &mut state.missing_maps_open);
 }
 
-/// How many maps are missing; their names where that was opened.
+/// How many maps are missing, and their names while unfolded.
 fn missing_maps(ui: &mut Ui, open: &OpenModel, missing: &[String], is_open: &mut bool) {
     if missing.is_empty() {
         return;
@@ -73,7 +73,7 @@ fn missing_maps(ui: &mut Ui, open: &OpenModel, missing: &[String], is_open: &mut
     }
 }
 
-/// How many maps are there, and on the right how many of them cannot be read.
+/// How many maps were found, and on the right how many of them cannot be read.
 fn count_row(ui: &mut Ui, checklist: &Checklist) {
     let tokens = Tokens::of(ui);
     let found = format!("{} of {} found", checklist.found(), checklist.named);
@@ -85,7 +85,7 @@ fn count_row(ui: &mut Ui, checklist: &Checklist) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Textures: {}", all.join(", "))));
 }
 
-/// One map: its thumbnail and name, below them what it holds; its users under the pointer.
+/// One map: its thumbnail and name, below the name what it holds, in the tooltip its users.
 fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, thumbnails: &mut Thumbnails) {
     let users = words_for(open, map.users).join("\n");
     let details = format!("{}\n{}\n{users}", map.file.path, holds(map.image));
@@ -93,7 +93,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, 
     picture_row(ui, thumbnail, map.file.base_name(), map.image, &details);
 }
 
-/// A map whose file is there and damaged; what is wrong with it and its users under the pointer.
+/// A map whose file is damaged. The tooltip says why, and who uses it.
 fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) {
     let users = words_for(open, map.users).join("\n");
     let words = "could not be read";
@@ -102,7 +102,7 @@ fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) {
     absent_row(ui, [map.file.base_name(), words], color, &details);
 }
 
-/// A map that cannot be shown: an empty frame and its name in a colour, and in the second line words about it.
+/// A map that cannot be shown: an empty frame and its name in a colour, and words in the second line.
 fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &str) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), MAP_ROW_HEIGHT), Sense::hover());
@@ -125,13 +125,13 @@ fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &s
     response.on_hover_text(details);
 }
 
-/// Where the thumbnail of a row stands.
+/// The rect of a row's thumbnail.
 fn frame_in(row: Rect) -> Rect {
     let center = pos2(row.min.x + THUMBNAIL * 0.5, row.center().y);
     Rect::from_center_size(center, Vec2::splat(THUMBNAIL))
 }
 
-/// A row with a small picture of a map, its name, and in the second line what it holds.
+/// A row with the thumbnail of a map, its name, and in the second line what it holds.
 pub(super) fn picture_row(
     ui: &mut Ui,
     thumbnail: Option<TextureId>,

@@ -16,9 +16,9 @@ pub const PANEL_RADIUS: u8 = 10;
 pub const CONTROL_RADIUS: u8 = 6;
 /// Below this width the panels become one bottom sheet.
 pub const NARROW_WIDTH: f32 = 900.0;
-/// Below this height a sheet would leave nothing of the model: what it shows stands beside the model …
+/// Below this height a sheet would cover the model. What it shows stands beside the model instead …
 pub const LOW_HEIGHT: f32 = 480.0;
-/// … from this width on.
+/// … if the window is at least this wide.
 pub const LOW_WIDTH: f32 = 600.0;
 
 /// Semibold family, for titles.
@@ -53,7 +53,7 @@ pub struct Tokens {
     pub error: Color32,
     /// Shadow under panels.
     pub shadow: Color32,
-    /// What belongs to x, y and z.
+    /// The x, y and z axes.
     pub axes: [Color32; 3],
 }
 
@@ -123,7 +123,7 @@ impl Tokens {
     }
 }
 
-/// Ground, border and shadow of a floating panel; contents bring their own margins.
+/// Ground, border and shadow of a floating panel, without margins.
 pub fn panel_frame(tokens: &Tokens) -> egui::Frame {
     egui::Frame::new()
         .fill(tokens.panel)
@@ -198,7 +198,7 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     visuals.selection.bg_fill = tokens.accent_ground;
     visuals.selection.stroke = Stroke::new(1.4, tokens.accent);
     let radius = CornerRadius::same(CONTROL_RADIUS);
-    // Icons and words of controls are quiet until the pointer or the keyboard is on them.
+    // Icons and words of controls are muted until they are hovered or focused.
     let looks = [
         (&mut visuals.widgets.noninteractive, Color32::TRANSPARENT, tokens.text),
         (&mut visuals.widgets.inactive, tokens.field, tokens.muted),
@@ -234,7 +234,7 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     style.spacing.interact_size = vec2(28.0, 28.0);
     style.spacing.menu_margin = Margin::same(6);
     style.spacing.tooltip_width = 320.0;
-    // It stands in the margin of the panel: over what is listed it would take the clicks on icons at the end of a row.
+    // The scroll bar stands in the panel's margin. Over the list it would take clicks on icons at the end of a row.
     style.spacing.scroll.bar_width = 6.0;
     style.spacing.scroll.bar_outer_margin = -9.0;
     style.interaction.selectable_labels = false;

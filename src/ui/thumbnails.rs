@@ -11,7 +11,7 @@ use crate::session::{Session, UsedMap};
 /// Longest side of the level that is shown, in texels.
 const MOST_TEXELS: u32 = 64;
 
-/// Thumbnails by path of the map, made when they are first seen, and kept while the picture is in use.
+/// Thumbnails by path of the map. Each is made when it is first seen, and kept while its image is in use.
 #[derive(Default)]
 pub(super) struct Thumbnails {
     maps_revision: u64,
@@ -30,7 +30,7 @@ impl std::fmt::Debug for Thumbnails {
 }
 
 impl Thumbnails {
-    /// The thumbnail of a map; none when its texels cannot be read.
+    /// The thumbnail of a map. None if its texels cannot be read.
     pub(super) fn of(&mut self, ctx: &Context, session: &Session, map: &UsedMap<'_>) -> Option<TextureId> {
         if self.maps_revision != session.maps_revision() {
             self.maps_revision = session.maps_revision();
@@ -48,7 +48,7 @@ impl Thumbnails {
     }
 }
 
-/// The picture no larger than a thumbnail needs, without its alpha: a cut-out would hide half of it.
+/// The image, no larger than a thumbnail needs, without its alpha, which could hide half of it.
 fn small_picture(image: &Image) -> Option<ColorImage> {
     let small = |&level: &u32| {
         let (width, height) = image.level_size(level);
@@ -68,7 +68,7 @@ fn small_picture(image: &Image) -> Option<ColorImage> {
     Some(ColorImage::from_rgba_unmultiplied(size, &texels))
 }
 
-/// Texels averaged by squares, so that no side is longer than a thumbnail's. Averages encoded values, which is quick and good enough.
+/// Averages squares of texels so that no side is longer than a thumbnail's. Averages encoded values, which is quick and good enough.
 fn shrunk([width, height]: [usize; 2], texels: &[u8]) -> ([usize; 2], Vec<u8>) {
     let square = width.max(height).div_ceil(MOST_TEXELS as usize).max(1);
     let size = [width.div_ceil(square), height.div_ceil(square)];
@@ -92,7 +92,7 @@ fn shrunk([width, height]: [usize; 2], texels: &[u8]) -> ([usize; 2], Vec<u8>) {
     (size, small)
 }
 
-/// The z of a direction of which a map holds x and y, so that the thumbnail has the usual blue.
+/// The z of a direction whose x and y are in the map, so that the thumbnail has the usual blue.
 fn rebuilt_z(x: u8, y: u8) -> u8 {
     let [x, y] = [x, y].map(|encoded| f32::from(encoded) / 127.5 - 1.0);
     let z = (1.0 - x * x - y * y).max(0.0).sqrt();

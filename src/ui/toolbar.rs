@@ -1,5 +1,5 @@
-//! The bar at the top. On its left: whose page this is and which file is open. On its right: what of the model is shown and in which
-//! light, from where, pictures, opening files, help.
+//! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
+//! help.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Rangef, RectAlign, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -23,7 +23,7 @@ use crate::session::{CameraCommand, Command, LookCommand, Session};
 const TITLE_SPACING: f32 = 10.0;
 /// Width of the popover with light, background and passes.
 const LIGHT_WIDTH: f32 = 288.0;
-/// The light's button is as wide for either light, so that nothing beside it moves.
+/// The light's button has one width for all lights, so that nothing beside it moves.
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
 /// Width of the menus of view modes and directions.
 const MENU_WIDTH: f32 = 190.0;
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     });
 }
 
-/// In a narrow window, from the right edge: the rarer buttons wait behind dots, and what they open is in the sheet.
+/// In a narrow window, from the right edge. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
     let dots = icon_button(ui, Icon::Dots, "More", false);
@@ -107,7 +107,7 @@ fn open_button(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-/// The name of the other theme, and what asks for it.
+/// The name of the other theme, and its request.
 fn other_theme(ui: &Ui) -> (&'static str, Request) {
     if ui.visuals().dark_mode {
         ("Light theme", Request::UseTheme(Theme::Light))
@@ -132,12 +132,12 @@ fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
-/// A line for each direction, and the projection. Whether one was chosen.
+/// A line for each direction, and the projection. Returns whether one was chosen.
 pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
     let before = commands.len();
     for preset in ViewPreset::ALL {
         let command = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(preset))).into();
-        // A model opens with the camera at three quarters.
+        // Resetting the camera gives three quarters.
         let key = match preset {
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
             _ => actions::key_of(session, &command),
@@ -184,12 +184,12 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
     }
 }
 
-/// A line for each mode, and below them what can be seen of a skin. Whether one was chosen.
+/// A line for each mode, then one for each view of the skin. Returns whether one was chosen.
 pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
     let (in_force, skin_view) = (session.look().view_mode, session.look().skin_view);
     let mut chosen = false;
     for mode in ViewMode::ALL {
-        // The key goes to the next one.
+        // The key chooses the next mode.
         let key = if mode == in_force.cycled(1) {
             actions::NEXT_VIEW_MODE.key()
         } else {
@@ -217,7 +217,7 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     chosen
 }
 
-/// Name, file, dialect, no wider than what is available. What is too long of the file's name ends in an ellipsis.
+/// Title, file, dialect, no wider than what is available. A file name that is too long ends in an ellipsis.
 pub(super) fn title(ui: &mut Ui, session: &Session, with_dialect: bool) {
     let tokens = Tokens::of(ui);
     ui.horizontal_centered(|ui| {

@@ -1,4 +1,4 @@
-//! The 3D view that fills the page: pointer and fingers to camera commands.
+//! The 3D view that fills the page. Turns pointer and fingers into camera commands.
 
 use std::f32::consts::PI;
 
@@ -22,7 +22,7 @@ pub(super) struct ViewHold {
     flight: Flight,
 }
 
-/// Takes the whole window behind the panels. `popover_open`: a click shuts something, and means nothing else.
+/// The whole window behind the panels. `popover_open`: a click closes the popover and does nothing else.
 pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool, commands: &mut Vec<Command>) {
     let response = ui.interact(rect, ui.scope_id().with("viewport"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
@@ -78,7 +78,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
     }
 }
 
-/// What a drag with one pointer does: the environment, the model or the eye move.
+/// A drag with one pointer moves the environment, the model or the eye.
 fn drag(
     ui: &Ui,
     response: &Response,
@@ -141,7 +141,7 @@ pub(super) const FLIGHT_KEYS: [(Key, Vec3); 6] = [
     (Key::Q, Vec3::NEG_Y),
 ];
 
-/// A flight from the first key under the held button until the button is let go.
+/// A flight: from the first key while the button is held until the button is released.
 #[derive(Debug, Default)]
 struct Flight {
     flying: bool,
@@ -149,7 +149,7 @@ struct Flight {
 }
 
 impl Flight {
-    /// Reads keys and the drag. Whether the drag turns the head instead of carrying the scene.
+    /// Reads keys and the drag. Returns whether the drag turns the head instead of moving the scene.
     fn update(&mut self, ui: &Ui, view: &Response, height: f32, commands: &mut Vec<Command>) -> bool {
         let button = ui.input(|input| input.pointer.button_down(PointerButton::Secondary));
         let held = button && view.is_pointer_button_down_on();
@@ -180,24 +180,24 @@ fn keys_held(ui: &Ui) -> Vec3 {
     })
 }
 
-/// Only the last part of a drag counts, in seconds: who slows down before letting go wants to stop.
+/// Only this last part of a drag counts, in seconds. A person who slows down before the release wants to stop.
 const RECENT_SECS: f64 = 0.08;
 
-/// What a drag did lately.
+/// The recent part of a drag.
 #[derive(Clone, Debug, Default)]
 struct DragTrail {
-    /// When, and how far since the step before.
+    /// Times in seconds, and how far since the step before.
     steps: Vec<(f64, Vec2)>,
 }
 
 impl DragTrail {
-    /// The drag went on.
+    /// Adds a step of the drag.
     fn add(&mut self, now_secs: f64, moved: Vec2) {
         self.steps.retain(|&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
         self.steps.push((now_secs, moved));
     }
 
-    /// Another drag, or none.
+    /// Forgets the drag.
     fn clear(&mut self) {
         self.steps.clear();
     }

@@ -2,7 +2,7 @@
 
 use crate::format::Dialect;
 
-/// A whole number with its thousands grouped by narrow spaces: `13 748`.
+/// A whole number with thousands grouped by narrow spaces: `13 748`.
 pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
@@ -53,7 +53,7 @@ pub(super) fn counted(count: usize, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// What people call a dialect.
+/// The common name of a dialect.
 pub(super) fn dialect_name(dialect: Dialect) -> &'static str {
     match dialect {
         Dialect::D3d12 => "D3D12 book",

@@ -1,4 +1,4 @@
-//! What stands over the view: names at the joints, a ring round the selected vertex, and what the colours of the skin mean.
+//! What is drawn over the view: names of joints, a ring round the selected vertex, and the legend of the skin's colours.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::ui::wording::{shortened, trimmed};
 
 /// The most characters of a name over the view. The tree shows the whole name.
 const MOST_CHARS: usize = 24;
-/// Offsets at which a word is first drawn in the panel's colour, as a halo.
+/// A name is first drawn at these offsets in the panel's colour, as a halo.
 const HALO: [(f32, f32); 8] = [
     (-1.0, -1.0),
     (0.0, -1.2),
@@ -27,12 +27,12 @@ const HALO: [(f32, f32); 8] = [
     (0.0, 1.2),
     (1.0, 1.0),
 ];
-/// Height of the colours, and of them with their values.
+/// Height of the bar of colours, without and with its values.
 const BAR_HEIGHT: f32 = 8.0;
 const COLORS_HEIGHT: f32 = BAR_HEIGHT + 22.0;
-/// Shown instead of colours that are too many for a legend.
+/// Shown instead of a legend with too many colours.
 const COLORS_IN_TREE: &str = "Colours as in the skeleton's tree";
-/// Type of the values, and the least room between two.
+/// Font size of the values, and the least gap between two.
 const VALUE_SIZE: f32 = 11.0;
 const VALUE_GAP: f32 = 6.0;
 /// The greatest width of a strip's contents, and the fraction of it that the colours take.
@@ -48,18 +48,18 @@ pub(in crate::ui) const STRIP_MARGIN: Margin = Margin {
 /// The shape of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::ui) enum LegendShape {
-    /// Colours below the title, and a sentence where they do not say all. For a corner where there is room.
+    /// The colours below the title, then a sentence if they need one. For a corner with room.
     Card,
-    /// Colours beside the title: a line of its own between the model and what is below.
+    /// The colours beside the title, in a line between the model and the panel below it.
     Strip,
 }
 
-/// What the colours of the skin are about. None while the skin is shown as it is.
+/// What the skin's colours show. None while the skin has its own.
 pub(in crate::ui) fn colored_view(session: &Session) -> Option<SkinView> {
     session.look().skin_view.filter(|_| session.open_model().is_some())
 }
 
-/// What the colours mean.
+/// The legend of the skin's colours.
 pub(in crate::ui) fn show_legend(ui: &mut Ui, session: &Session, view: SkinView, shape: LegendShape) {
     let (title, hint) = words(session, view);
     match shape {
@@ -109,7 +109,7 @@ fn show_title(ui: &mut Ui, rect: Rect, title: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Legend: {title}")));
 }
 
-/// Joints have their colours in the tree.
+/// The joints' own colours are in the tree.
 fn colors_height(view: SkinView) -> f32 {
     match view {
         SkinView::DominantJoint => 0.0,
@@ -125,7 +125,7 @@ fn show_colors(ui: &mut Ui, rect: Rect, view: SkinView) {
     }
 }
 
-/// The title, and a sentence where the colours do not say all.
+/// The title, and a sentence if the colours need one.
 fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
     match view {
         SkinView::Weight => {
@@ -133,7 +133,7 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
                 Some(joint) => format!("Weight of {}", shortened(&session.joint_label(joint), 20)),
                 None => view.label().to_owned(),
             };
-            // The hint also stays while the pointer is over another bone, so that the card keeps its height.
+            // The hint stays while another joint is hovered, so that the card keeps its height.
             let joints = session.joints();
             let hint = match (joints.selected(), joints.selected_vertex()) {
                 (Some(_), _) => None,
@@ -153,7 +153,7 @@ fn color_of(stop: &LegendStop) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// A colour gradient with its values below. Values stand in proportion.
+/// A colour gradient with its values below, each where it is on the scale.
 fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     let (Some(first), Some(last)) = (stops.first(), stops.last()) else {
         return;
@@ -192,7 +192,7 @@ fn swatches(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Colours of 0 to {count} bones")));
 }
 
-/// Writes a value and returns its place.
+/// Writes a value and returns its rect.
 fn value(ui: &Ui, at: Pos2, anchor: Align2, value: f32) -> Rect {
     let color = Tokens::of(ui).muted;
     ui.painter()
@@ -233,7 +233,7 @@ pub(in crate::ui) fn show_marks(ui: &Ui, session: &Session, state: &SkeletonStat
     }
     if let Some(at) = state.reading.vertex_at {
         let at = in_window(window, at);
-        // A light ring with a dark edge is seen on any skin.
+        // A light ring with a dark edge is visible on any skin.
         painter.circle_stroke(at, 6.0, Stroke::new(3.6, Color32::from_black_alpha(150)));
         painter.circle_stroke(at, 6.0, Stroke::new(1.8, Color32::WHITE));
         painter.circle(at, 2.2, tokens.accent, Stroke::new(1.0, Color32::from_black_alpha(150)));

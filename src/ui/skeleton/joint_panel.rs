@@ -1,4 +1,4 @@
-//! The selected joint: what it hangs from, where it is now, its matrices and keys; below it the selected vertex.
+//! The selected joint: its parent and children, its transform now, its matrices and keys. Below it the selected vertex.
 
 use egui::{Align2, FontId, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -23,14 +23,14 @@ const FRAME_END: f32 = 34.0;
 const TIME_END: f32 = 86.0;
 /// Width of a column of numbers.
 const KEY_COLUMN: f32 = 56.0;
-/// Children that are listed: hundreds may hang from one joint.
+/// The most children listed. A joint may have hundreds.
 const CHILDREN: usize = 12;
 /// Where values begin.
 const LABEL_WIDTH: f32 = 72.0;
 
 /// The panel's contents. Nothing while nothing is selected.
 pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    // It was read in this pass, so it is about the joint that is selected now.
+    // Both were read in this pass, so they are about what is selected now.
     let joint = state.reading.joint.take();
     let vertex = state.reading.vertex.take();
     if let Some(readout) = &joint {
@@ -136,7 +136,7 @@ fn relatives(
     }
 }
 
-/// A label and joints behind it, on as many lines as they need.
+/// A label, then joints on as many lines as they need.
 fn links(
     ui: &mut Ui,
     session: &Session,
@@ -167,7 +167,7 @@ fn links(
     });
 }
 
-/// A joint's name that can be clicked.
+/// A joint's name as a link.
 fn joint_link(ui: &mut Ui, name: &str) -> Response {
     let tokens = Tokens::of(ui);
     let galley = ui
@@ -187,7 +187,7 @@ fn joint_link(ui: &mut Ui, name: &str) -> Response {
     response
 }
 
-/// The keys of a joint's track in the clip that is shown. Only the rows in view are laid out; a click goes to the key.
+/// The keys of a joint's track in the open clip. Only rows in view are laid out. A click goes to the key.
 fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointIndex, commands: &mut Vec<Command>) {
     rule(ui, MARGIN);
     let clip = session.clip();
@@ -231,7 +231,7 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
         });
 }
 
-/// Whether it was clicked.
+/// A row of a key. Returns whether it was clicked.
 fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
     let tokens = Tokens::of(ui);
     let (rect, response) = pressed_row(ui, in_force);

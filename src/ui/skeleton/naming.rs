@@ -8,9 +8,9 @@ use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
 
-/// A row that is scrolled to appears within this time, if at all, in seconds …
+/// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
-/// … but is waited for at least this many passes.
+/// … and at least this many passes.
 const LONGEST_WAIT_PASSES: u32 = 10;
 
 /// What is being named.
@@ -24,7 +24,7 @@ pub(super) struct Naming {
     proposed: Proposed,
 }
 
-/// The names proposed last, by bone. Kept because they take a search through the whole skeleton.
+/// The names proposed last, by bone. They are kept, since finding them searches the whole skeleton.
 #[derive(Debug, Default)]
 struct Proposed {
     /// The model, names and axes that they belong to.
@@ -53,16 +53,16 @@ impl Proposed {
 /// The progress of naming a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Stage {
-    /// Its field has the keyboard; whether it was shown in this pass.
+    /// Its field has the focus. `shown`: in this pass.
     Typing { shown: bool },
-    /// Its field has not been shown yet, since this time (seconds) and for this many passes.
+    /// Its field was not shown yet, since this time in seconds and for so many passes.
     Begins { at_secs: f64, passes: u32 },
     #[default]
     Idle,
 }
 
 impl Naming {
-    /// Lets a joint be named.
+    /// Begins to name a joint.
     pub(super) fn begin(&mut self, ui: &Ui, session: &Session, joint: JointIndex) {
         *self = Self {
             of: Some(joint),
@@ -73,7 +73,7 @@ impl Naming {
             },
             ..Self::default()
         };
-        // At once, so that the first letters typed go to the field.
+        // Focus the field at once, so that it gets the first letters.
         ui.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
@@ -82,7 +82,7 @@ impl Naming {
         matches!(self.stage, Stage::Begins { .. })
     }
 
-    /// At the end of a pass. If the row is out of view, the typed name is accepted; if its field never appeared, naming is cancelled.
+    /// Ends a pass. Accepts the typed name if the row went out of view. Cancels if the field never appeared.
     pub(super) fn settle(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
         match &mut self.stage {
             Stage::Typing { shown: shown @ true } => *shown = false,
@@ -136,7 +136,7 @@ pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands
     }
 }
 
-/// Between the proposed names and the buttons below them.
+/// Gap between the proposed names and the buttons below them.
 const BUTTONS_GAP: f32 = 10.0;
 
 /// The names proposed for mirrored joints, to accept or refuse.

@@ -1,5 +1,5 @@
-//! Transforms and matrices as numbers that stand still while they change: how many digits they have, rows and tables of them, and
-//! formulas as the books print them.
+//! Transforms and matrices as numbers: how many digits they have, rows and tables of them, formulas as the books print them. The
+//! columns stand still while values change.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Align2, Color32, FontId, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -10,14 +10,14 @@ use crate::ui::theme::{self, ROW_HEIGHT, Tokens};
 
 /// Characters of a number: sign, digits, point.
 const NUMBER_CHARS: usize = 9;
-/// The most decimals of a number of a matrix, and of a place.
+/// The most decimals of a matrix element, and of a coordinate.
 const MATRIX_DECIMALS: usize = 5;
 const PLACE_DECIMALS: usize = 4;
 /// Numbers keep their decimals up to this multiple of the model's largest coordinate.
 const HEADROOM: f32 = 4.0;
 
-/// Decimals for numbers of one model. They follow from the model's size, not from each number, so that decimal points stand
-/// below each other and stay where they are while a clip plays.
+/// Decimals for the numbers of one model. They follow from the model's size, not from each number, so that the decimal points align
+/// and stay in place while a clip plays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Digits {
     decimals: usize,
@@ -45,24 +45,24 @@ impl Digits {
         }
     }
 
-    /// Coordinates of a place.
+    /// The coordinates of a position.
     pub(super) fn place(self, numbers: [f32; 3]) -> [String; 3] {
         numbers.map(|number| self.place_of(number))
     }
 
-    /// One coordinate of a place.
+    /// One coordinate of a position.
     pub(super) fn place_of(self, number: f32) -> String {
         fitted(number, self.decimals.min(PLACE_DECIMALS))
     }
 
-    /// Numbers of a row of a matrix.
+    /// A row of a matrix.
     pub(super) fn matrix(self, numbers: [f32; 3]) -> [String; 3] {
         numbers.map(|number| fitted(number, self.decimals))
     }
 }
 
-/// A number in at most nine characters, with up to `decimals` decimals, or with an exponent if it does not fit.
-/// Never a negative zero.
+/// A number in at most nine characters: with up to `decimals` decimals, or with an exponent if it does not fit. Never a negative
+/// zero.
 pub(super) fn fitted(number: f32, decimals: usize) -> String {
     if !number.is_finite() {
         return "–".to_owned();
@@ -79,17 +79,16 @@ pub(super) fn fitted(number: f32, decimals: usize) -> String {
 
 /// Height of a line of a table.
 pub(super) const LINE_HEIGHT: f32 = 19.0;
-/// Of the three columns that end at the panel's right edge: in the slimmest one nine characters and a gap, elsewhere what
-/// labels leave.
+/// Least and greatest width of the three columns at the panel's right edge: nine characters with a gap, and what labels leave.
 const LEAST_COLUMN: f32 = 63.0;
 const MOST_COLUMN: f32 = 80.0;
 const LABEL_WIDTH: f32 = 73.0;
 /// The last column of an affine matrix is 0 0 0 1 and needs less room.
 const LAST_COLUMN_WIDTH: f32 = 22.0;
-/// Of numbers, in points.
+/// Font size of numbers, in points.
 const FONT_SIZE: f32 = 11.0;
 
-/// Position, quaternion, Euler angles and scale; shear and mirroring where there is any.
+/// Position, quaternion, Euler angles and scale, and shear and mirroring if there is any.
 pub(super) fn show_parts(ui: &mut Ui, parts: &TransformParts, digits: Digits) {
     row(ui, "Position", &digits.place(parts.position.to_array()));
     let quaternion = parts.rotation.to_array().map(|number| fitted(number, 4));
@@ -115,7 +114,7 @@ pub(super) fn row(ui: &mut Ui, label: &str, numbers: &[String]) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {}", numbers.join(" "))));
 }
 
-/// A line of a table: a label already laid out (`spoken` for screen readers), and numbers in the columns of [`row`].
+/// A line of a table: a label (`spoken` for screen readers), and numbers in the columns of [`row`].
 pub(super) fn show_line(ui: &mut Ui, spoken: &str, label: LayoutJob, numbers: &[String]) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT), Sense::hover());
     let galley = ui.painter().layout_job(label);
@@ -140,7 +139,7 @@ pub(super) fn number_column(width: f32) -> f32 {
 
 /// Numbers in columns of one width that end at the right edge.
 fn paint_columns(ui: &Ui, rect: Rect, numbers: &[String]) {
-    // Four numbers are a unit quaternion, whose numbers are short.
+    // Four numbers are a unit quaternion. They are short.
     let (column, size) = if numbers.len() > 3 {
         (48.0, FONT_SIZE - 0.5)
     } else {
@@ -179,7 +178,7 @@ pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: D
     }
 }
 
-/// A formula as the books print it: vectors and matrices bold, indices below the line. It grows from left to right.
+/// A formula as the books print it: vectors and matrices bold, indices as subscripts. It is built from left to right.
 #[derive(Debug)]
 pub(super) struct Formula {
     job: LayoutJob,
@@ -196,30 +195,30 @@ impl Formula {
         }
     }
 
-    /// A word, a sign, a number.
+    /// Adds a word, a sign or a number.
     pub(super) fn plain(self, text: &str) -> Self {
         let font = FontId::proportional(self.size);
         self.with(text, font, Align::Center)
     }
 
-    /// A vector or a matrix.
+    /// Adds a vector or a matrix.
     pub(super) fn bold(self, symbol: &str) -> Self {
         let font = theme::semibold(self.size);
         self.with(symbol, font, Align::Center)
     }
 
-    /// Which of several.
+    /// Adds an index as a subscript.
     pub(super) fn below(self, index: usize) -> Self {
         let font = FontId::proportional(self.size * 0.72);
         self.with(&index.to_string(), font, Align::Max)
     }
 
-    /// `v·F0`: the vertex through the final matrix of an influence.
+    /// Adds `v·F0`: the vertex times the final matrix of an influence.
     pub(super) fn moved(self, index: usize) -> Self {
         self.bold("v").plain("·").bold("F").below(index)
     }
 
-    /// `w0·v·F0`: that, times the weight.
+    /// Adds `w0·v·F0`: the same times the weight.
     pub(super) fn weighted(self, index: usize) -> Self {
         self.plain("w").below(index).plain("·").moved(index)
     }

@@ -1,4 +1,4 @@
-//! What of the skeleton's panels is open, and what they read of the session before they are laid out.
+//! Which of the skeleton's panels are open, and what they read from the session before the layout.
 
 use egui::{Rect, Ui};
 use glam::Vec2;
@@ -11,17 +11,17 @@ use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, Session};
 use crate::ui::viewport::in_picture;
 
-/// What the panel on the left is about.
+/// The page of the side panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) enum SidePage {
-    /// Facts, subsets, textures.
+    /// Facts, submeshes, textures.
     #[default]
     Model,
     /// The tree of joints.
     Skeleton,
 }
 
-/// What of the skeleton's panels is open, and what they read.
+/// Which of the skeleton's panels are open, and what they read.
 #[derive(Debug, Default)]
 pub(in crate::ui) struct SkeletonState {
     pub(in crate::ui) page: SidePage,
@@ -31,17 +31,17 @@ pub(in crate::ui) struct SkeletonState {
     pub(super) space: Space,
     pub(super) key_part: KeyPart,
     pub(super) explains: bool,
-    /// Influences of the explained vertex whose matrices are unfolded, by slot. Kept for the next vertex.
+    /// Whether the matrices of each influence of the explained vertex are unfolded. Kept for the next vertex.
     pub(super) unfolded: [bool; 4],
     /// The joint whose row or link is under the pointer in this pass.
     pub(in crate::ui) hovered: Option<JointIndex>,
-    /// Where the pointer is over the view itself: x right, y up, −1…1.
+    /// The pointer if it is over the view: x right, y up, −1…1.
     pointer_in_view: Option<Vec2>,
     model: u64,
 }
 
 impl SkeletonState {
-    /// Reads what the panels of this pass show.
+    /// Reads what the panels show in this pass.
     pub(in crate::ui) fn read(&mut self, ui: &Ui, session: &mut Session, window: Rect) {
         if self.model != session.model_revision() {
             self.model = session.model_revision();
@@ -61,7 +61,7 @@ impl SkeletonState {
         self.reading.take(session, window.height());
     }
 
-    /// Highlights the joint under the pointer. `elsewhere`: the joint that is hovered in another panel.
+    /// Highlights the joint under the pointer. `elsewhere`: the joint hovered in another panel.
     pub(in crate::ui) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
         let bones_at = self.pointer_in_view.filter(|_| session.look().bones_visible);
         match (self.hovered.or(elsewhere), bones_at) {
@@ -73,7 +73,7 @@ impl SkeletonState {
         }
     }
 
-    /// Turns the panel on the left to a page; the tree scrolls to the joint that is selected next.
+    /// Shows a page of the side panel. The tree scrolls to the joint selected next.
     pub(in crate::ui) fn show_page(&mut self, session: &Session, page: SidePage) {
         self.page = if has_joints(session) { page } else { SidePage::Model };
         self.naming.proposing = false;
@@ -85,7 +85,7 @@ impl SkeletonState {
         self.naming.of.is_some()
     }
 
-    /// Whether a field for a name is about to appear. Its row may have to be scrolled to first.
+    /// Whether a field for a name will appear. Its row may have to scroll into view first.
     pub(in crate::ui) fn awaits_field(&self) -> bool {
         self.naming.awaits_field()
     }
@@ -95,7 +95,7 @@ impl SkeletonState {
         self.naming.settle(ui, commands);
     }
 
-    /// Lets the selected joint be named in its row.
+    /// Begins to name the selected joint in its row.
     pub(in crate::ui) fn rename_selected(&mut self, ui: &Ui, session: &Session) {
         if let Some(joint) = session.joints().selected() {
             self.page = SidePage::Skeleton;
@@ -105,7 +105,7 @@ impl SkeletonState {
     }
 }
 
-/// Whether the inspector is about a joint or a vertex.
+/// Whether a joint or a vertex is selected.
 pub(in crate::ui) fn is_inspected(session: &Session) -> bool {
     session.joints().selected().is_some() || session.joints().selected_vertex().is_some()
 }
@@ -114,17 +114,17 @@ pub(in crate::ui) fn has_joints(session: &Session) -> bool {
     session.joints().count() > 0
 }
 
-/// What of the tree is shown.
+/// What the tree shows.
 #[derive(Debug, Default)]
 pub(super) struct TreeState {
     pub(super) query: String,
     pub(super) rows: Vec<JointRow>,
-    /// The selected joint that was scrolled to.
+    /// The selected joint to which the tree has scrolled.
     shown: Option<JointIndex>,
 }
 
 impl TreeState {
-    /// Shows a joint that the search may have left out, and scrolls to it.
+    /// Clears the search if it leaves out a joint, and scrolls to the joint.
     pub(super) fn reveal(&mut self, joint: JointIndex) {
         if !self.rows.iter().any(|row| row.joint == joint) {
             self.query.clear();
@@ -132,7 +132,7 @@ impl TreeState {
         self.shown = None;
     }
 
-    /// Shows the whole tree, and scrolls to the selected joint anew.
+    /// Clears the search, and scrolls to the selected joint again.
     pub(super) fn reset(&mut self) {
         self.query.clear();
         self.shown = None;
@@ -143,7 +143,7 @@ impl TreeState {
         self.shown = Some(joint);
     }
 
-    /// The index of the selected joint's row, once after it was selected.
+    /// The index of the selected joint's row, once after each selection.
     pub(super) fn row_to_show(&mut self, selected: Option<JointIndex>) -> Option<usize> {
         if self.shown == selected {
             return None;
@@ -163,7 +163,7 @@ pub(super) enum Space {
     Model,
 }
 
-/// What of the keys is listed.
+/// Which part of the keys is listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum KeyPart {
     #[default]
@@ -175,23 +175,23 @@ pub(super) enum KeyPart {
 /// Least distance between the names of two joints, in points.
 const LABEL_SPACING: f32 = 22.0;
 
-/// Numbers and places, in buffers that are kept.
+/// What was read, in buffers that are reused.
 #[derive(Debug, Default)]
 pub(super) struct Reading {
     pub(super) labels: Vec<LabelPlace>,
     pub(super) joint: Option<JointReadout>,
     pub(super) vertex: Option<VertexExplanation>,
-    /// How the numbers of joint and vertex are shown.
+    /// Digits of the numbers of joint and vertex.
     pub(super) digits: Digits,
-    /// Where the vertex is in the picture: x right, y up, −1…1.
+    /// The vertex's position in the picture: x right, y up, −1…1.
     pub(super) vertex_at: Option<Vec2>,
-    /// Colour of each joint (sRGB), while the skin shows the strongest one of each vertex.
+    /// Colour of each joint (sRGB) while the skin shows the strongest joint of each vertex.
     pub(super) colors_srgb: Vec<[u8; 4]>,
     colors_of: Option<u64>,
 }
 
 impl Reading {
-    /// Reads a session whose picture is this high, in points.
+    /// Reads a session whose picture has this height, in points.
     pub(super) fn take(&mut self, session: &mut Session, height: f32) {
         session.joint_labels(LABEL_SPACING / height.max(1.0), &mut self.labels);
         let bounds = session.open_model().map(|open| &open.bind_bounds);

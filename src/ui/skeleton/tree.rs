@@ -17,7 +17,7 @@ use crate::ui::widgets::{
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
-/// The heading of the panel on the left: which of its pages is shown.
+/// The heading of the side panel: a switch between its pages.
 pub(in crate::ui) fn show_pages(ui: &mut Ui, state: &mut SkeletonState) {
     let pages = [(SidePage::Model, "Model"), (SidePage::Skeleton, "Skeleton")];
     if let Some(page) = segmented(ui, "Panel", &pages, Some(state.page)) {
@@ -25,9 +25,9 @@ pub(in crate::ui) fn show_pages(ui: &mut Ui, state: &mut SkeletonState) {
     }
 }
 
-/// Rows that stay in view even in the lowest window.
+/// The fewest rows in view, however low the window is.
 const LEAST_ROWS: f32 = 4.0;
-/// Between the search and the rows.
+/// Gap between the search and the rows.
 const GAP: f32 = 8.0;
 
 /// The page's contents, no higher than what is available.
@@ -113,7 +113,7 @@ fn menu(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mu
     });
 }
 
-/// Arrow keys in a row that has the keyboard: up and down select a neighbour, left and right fold and unfold.
+/// Arrow keys in a focused row: up and down select a neighbour, left and right fold and unfold.
 fn walk(ui: &Ui, rows: &[JointRow], place: usize, commands: &mut Vec<Command>) {
     let filter = EventFilter {
         horizontal_arrows: true,
@@ -142,16 +142,16 @@ fn walk(ui: &Ui, rows: &[JointRow], place: usize, commands: &mut Vec<Command>) {
 
 /// Width of a digit of the column of numbers.
 const DIGIT_WIDTH: f32 = 6.7;
-/// Each level is indented by this much …
+/// Indent of each level …
 const INDENT: f32 = 9.0;
 /// … down to this depth. Deeper levels are not indented further, so that names keep their room.
 const DEEPEST: u32 = 10;
 /// Width of the chevron where a mouse is the pointer.
 const CHEVRON_WIDTH: f32 = 16.0;
 
-/// The id of a joint's row, wherever it stands.
+/// The id of a joint's row, wherever the row is.
 fn row_id(ui: &Ui, joint: JointIndex) -> Id {
-    // Not derived from the rows' scroll area, whose id changes.
+    // It does not depend on the scroll area's id, which changes.
     Id::unique("joint row").with((ui.layer_id(), joint.0))
 }
 
@@ -239,13 +239,13 @@ impl<'a> TreeRow<'a> {
         ))
     }
 
-    /// The mark before a joint from which others hang. Whether it was clicked.
+    /// The mark before a joint with children. Returns whether it was clicked.
     fn show_chevron(&self, ui: &Ui, row: &Response, left: egui::Pos2, commands: &mut Vec<Command>) -> bool {
         if !self.row.has_children {
             return false;
         }
         let width = if is_touch(ui) { row.rect.height() } else { CHEVRON_WIDTH };
-        // A finger reaches to the left of it, where the number is.
+        // By touch its target reaches to the left, over the number.
         let place = Rect::from_min_max(
             pos2(left.x + CHEVRON_WIDTH - width, row.rect.min.y),
             pos2(left.x + CHEVRON_WIDTH - 1.0, row.rect.max.y),
@@ -264,7 +264,7 @@ impl<'a> TreeRow<'a> {
         response.clicked()
     }
 
-    /// The count of vertices at the right end (of the whole branch if folded). Returns where the text begins.
+    /// The count of vertices at the right end (of the whole branch if folded). Returns its left edge.
     fn show_count(&self, ui: &Ui, rect: Rect) -> f32 {
         let count = if self.row.folded {
             self.row.branch_vertices

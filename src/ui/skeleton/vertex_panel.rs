@@ -15,13 +15,13 @@ use crate::ui::widgets::{
 };
 use crate::ui::wording::grouped;
 
-/// Size of formulas that stand before numbers, and of the one that stands above all.
+/// Font size of formulas before numbers, and of the one above all.
 const LABEL_SIZE: f32 = 12.0;
-// Four terms fill the slimmest panel.
+// With four terms it fills the slimmest panel.
 const FORMULA_SIZE: f32 = 13.0;
-/// Room for the mark before a name.
+/// Width of the mark before a name.
 const CHEVRON_WIDTH: f32 = 14.0;
-/// Where bars begin and end, from the left and from the right.
+/// Where bars begin, from the left, and end, from the right.
 const BAR_START: f32 = 86.0;
 const BAR_END: f32 = 52.0;
 
@@ -100,9 +100,8 @@ fn influence_bar(
     }
 }
 
-/// The formula of the book's chapter on one vertex, with the numbers of the present time, to be followed with a finger:
-/// `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`, row vectors.
-/// One line for the bind position, two for each influence (or all its matrices), one for the sum.
+/// The book's formula for one vertex with its present numbers, step by step: `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`,
+/// row vectors. One line for the bind position, two for each influence (or all its matrices), one for the sum.
 fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanation: &VertexExplanation) {
     let tokens = Tokens::of(ui);
     let digits = state.reading.digits;
@@ -212,7 +211,7 @@ fn show_matrices(
     show_line(ui, &format!("{name}: v·F"), label, &moved);
 }
 
-/// Name and weight, and the mark that unfolds. Whether it was clicked.
+/// Name and weight, and the mark that unfolds. Returns whether the row was clicked.
 fn influence_row(
     ui: &mut Ui,
     state: &mut SkeletonState,
@@ -260,7 +259,7 @@ fn influence_row(
     response.clicked()
 }
 
-/// What stands below: a symbol, and in words what it does.
+/// The caption of a matrix: its symbol, and in words what it does.
 fn caption(ui: &mut Ui, symbol: Formula, words: &str) {
     let tokens = Tokens::of(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT + 3.0), Sense::hover());

@@ -1,4 +1,4 @@
-//! Time along a width: what of a clip is seen, and where.
+//! Time along a width: which part of a clip is visible, and where.
 
 use egui::Rangef;
 
@@ -8,7 +8,7 @@ pub(super) const END_ROOM: f32 = 8.0;
 /// The fewest frames that zooming in shows.
 const LEAST_FRAMES: f32 = 4.0;
 
-/// A stretch of time along a width.
+/// A time span along a width.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TimeAxis {
     points: Rangef,
@@ -16,7 +16,7 @@ pub(super) struct TimeAxis {
 }
 
 impl TimeAxis {
-    /// A stretch of time in order along a width, with room at both ends.
+    /// A time span (start, end) along a width, with room at both ends.
     pub(super) fn new(width: Rangef, end_room: f32, span_secs: [f32; 2]) -> Self {
         let room = end_room.min(0.5 * width.span());
         Self {
@@ -25,7 +25,7 @@ impl TimeAxis {
         }
     }
 
-    /// Where its ends are.
+    /// The x of its ends.
     pub(super) fn points(&self) -> Rangef {
         self.points
     }
@@ -34,7 +34,7 @@ impl TimeAxis {
         f64::from(self.span_secs[1]) - f64::from(self.span_secs[0])
     }
 
-    /// The x of a time, not clamped. Everything is at the start if the stretch has no length.
+    /// The x of a time, not clamped. The start's if the span has no length.
     pub(super) fn x_of(&self, time_secs: f32) -> f32 {
         let length_secs = self.length_secs();
         if length_secs <= 0.0 {
@@ -44,18 +44,18 @@ impl TimeAxis {
         self.points.min + (fraction * f64::from(self.points.span())) as f32
     }
 
-    /// The time at a place, beyond the ends too.
+    /// The time at an x, not clamped.
     pub(super) fn time_at(&self, x: f32) -> f32 {
         let fraction = f64::from(x - self.points.min) / f64::from(self.points.span().max(1.0));
         (f64::from(self.span_secs[0]) + fraction * self.length_secs()) as f32
     }
 
-    /// The time at a place, or that of the nearer end.
+    /// The time at an x, clamped to the ends.
     pub(super) fn seen_time_at(&self, x: f32) -> f32 {
         self.time_at(self.points.clamp(x))
     }
 
-    /// Points that a second takes; 0 without length.
+    /// Points per second. 0 if the span has no length.
     pub(super) fn points_per_sec(&self) -> f32 {
         let length_secs = self.length_secs() as f32;
         if length_secs > 0.0 {
@@ -66,14 +66,14 @@ impl TimeAxis {
     }
 }
 
-/// What of a clip is seen: all of it, or a part.
+/// The visible part of a clip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct TimeWindow {
     part_secs: Option<[f32; 2]>,
 }
 
 impl TimeWindow {
-    /// Start and end of what is seen of a clip.
+    /// Start and end of the visible part.
     pub(super) fn span_secs(&self, whole_secs: [f32; 2]) -> [f32; 2] {
         self.part_secs.unwrap_or(whole_secs)
     }
@@ -88,7 +88,7 @@ impl TimeWindow {
         self.part_secs = None;
     }
 
-    /// Shows a stretch of time, clamped to the clip. A stretch as long as the clip, or NaN, shows all.
+    /// Shows a time span, clamped to the clip. A span as long as the clip, or NaN, shows all.
     pub(super) fn show(&mut self, whole_secs: [f32; 2], frame_secs: f32, [start_secs, end_secs]: [f32; 2]) {
         let whole_length = whole_secs[1] - whole_secs[0];
         let length = (end_secs - start_secs).max(LEAST_FRAMES * frame_secs);
@@ -101,7 +101,7 @@ impl TimeWindow {
         self.part_secs = Some([start_secs, start_secs + length]);
     }
 
-    /// Zooms in by `factor` around a time, which keeps its place.
+    /// Zooms in by `factor` around a time, which keeps its x.
     pub(super) fn zoom(&mut self, whole_secs: [f32; 2], frame_secs: f32, factor: f32, around_secs: f32) {
         let [start_secs, end_secs] = self.span_secs(whole_secs);
         let length = end_secs - start_secs;
@@ -116,7 +116,7 @@ impl TimeWindow {
         self.show(whole_secs, frame_secs, [start_secs, start_secs + zoomed]);
     }
 
-    /// Moves what is seen to later times.
+    /// Moves the visible part to later times.
     pub(super) fn pan(&mut self, whole_secs: [f32; 2], frame_secs: f32, by_secs: f32) {
         if let Some([start_secs, end_secs]) = self.part_secs {
             self.show(whole_secs, frame_secs, [start_secs + by_secs, end_secs + by_secs]);

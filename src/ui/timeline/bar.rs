@@ -1,4 +1,4 @@
-//! The bar of the strip: all keys of a clip, the time as a line that follows the pointer, the range that plays.
+//! The bar of the strip: all keys of a clip, the play head, the range that plays.
 
 use egui::{CursorIcon, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
@@ -12,12 +12,12 @@ use crate::session::{Command, PlayCommand, Session};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{arrow_steps, focus_ring, is_touch};
 
-/// Room at both ends, where the range's ends are taken hold of.
+/// Room at both ends for the grips of the range.
 const END_ROOM: f32 = 12.0;
-/// How far an end of the range can be taken hold of: outside and inside of it.
+/// How far the grip of a range's end reaches: outside and inside of the range.
 const GRIP: [f32; 2] = [11.0, 4.0];
 const TOUCH_GRIP: [f32; 2] = [28.0, 16.0];
-/// The same while the play head stands at that end: a finger on the play head moves the time, so only the outside holds the end.
+/// The same while the play head is at that end. A finger on the play head moves the time, so the grip is outside only.
 const TOUCH_GRIP_BY_HEAD: [f32; 2] = [32.0, -4.0];
 
 /// An end of the range.
@@ -27,7 +27,7 @@ enum End {
     Out,
 }
 
-/// Shows the bar of the clip that is shown.
+/// The bar of the open clip.
 pub(super) fn show(ui: &mut Ui, session: &Session, seam: &SeamReading, size: Vec2, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -117,7 +117,7 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
     ));
 }
 
-/// The frame that pointer or arrow keys ask for.
+/// The frame to which pointer or arrow keys move an end.
 fn dragged_frame(ui: &Ui, clip: &Clip, secs: f32, axis: &TimeAxis, response: &Response) -> Option<u32> {
     let steps = arrow_steps(ui, response);
     if steps != 0.0 {
@@ -141,7 +141,7 @@ fn paint_bracket(ui: &Ui, session: &Session, response: &Response, at: egui::Pos2
     ui.painter().add(Shape::line(points.into(), Stroke::new(1.6, color)));
 }
 
-/// A mark at the end of a loop whose seam is seen.
+/// A mark at the end of a loop whose seam is visible.
 fn seam_tick(ui: &Ui, seam: &SeamReading, axis: &TimeAxis, rect: Rect) {
     let (Some(words), Some(at_secs)) = (seam.words(), seam.seen_at_secs()) else {
         return;

@@ -1,4 +1,4 @@
-//! The clips of the model: which one is shown, what is blended into it, and more of them from other files.
+//! The clips of the model: which one is open, which one is blended into it, and more from other files.
 
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -17,7 +17,7 @@ use crate::ui::wording::{counted, trimmed};
 const WIDTH: f32 = 320.0;
 /// Clips listed before the list scrolls.
 const ROWS: f32 = 6.0;
-/// The longest crossfade that the slider offers, seconds.
+/// The longest crossfade of the slider, in seconds.
 const LONGEST_CROSSFADE: f32 = 2.0;
 
 /// The button with the clip's name, and the list that it opens.
@@ -48,7 +48,7 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
     });
 }
 
-/// A row for each clip. Whether another one was chosen.
+/// A row for each clip. Returns whether one was chosen.
 fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) -> bool {
     let mut chosen = false;
     let height = row_height(ui);
@@ -70,7 +70,7 @@ fn row_height(ui: &Ui) -> f32 {
     control_size(ui).max(40.0)
 }
 
-/// One clip: its name, below it what it is. Whether it was chosen.
+/// One clip: its name, below it its facts. Returns whether it was chosen.
 fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, commands: &mut Vec<Command>) -> bool {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), row_height(ui)), Sense::click());
@@ -118,7 +118,7 @@ fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, com
     response.clicked()
 }
 
-/// What blends a clip into the one that is shown, or ends that.
+/// The icon that blends a clip into the open one, or ends the blend.
 fn blend_icon(
     ui: &Ui,
     session: &Session,
@@ -146,7 +146,7 @@ fn blend_icon(
     }
 }
 
-/// How clips go over into each other.
+/// Crossfade and blend.
 fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) {
     let secs = session.crossfade_secs();
     let text = format!("{secs:.2} s");
@@ -174,7 +174,7 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
     paint_ends(ui, names);
 }
 
-/// The names of what stands at the ends of the slider above.
+/// The names of the clips at the ends of the slider above.
 fn paint_ends(ui: &mut Ui, [left, right]: [&str; 2]) {
     let color = Tokens::of(ui).muted;
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 16.0), Sense::hover());

@@ -1,4 +1,4 @@
-//! What moves the time: buttons to play and step, time and frame as numbers that can be typed.
+//! Controls of the time: buttons to play and step, time and frame as numbers that can be typed.
 
 use egui::{Align, FontId, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
@@ -45,7 +45,7 @@ pub(super) fn backward_button(ui: &mut Ui, session: &Session, commands: &mut Vec
     action_button(ui, session, &actions::PLAY_BACKWARD, Icon::PlayBackward, commands);
 }
 
-/// To an end of what plays.
+/// Goes to an end of the range that plays.
 pub(super) fn end_button(ui: &mut Ui, session: &Session, direction: Direction, commands: &mut Vec<Command>) {
     let (icon, action) = match direction {
         Direction::Backward => (Icon::SkipStart, &actions::FIRST_FRAME),
@@ -54,7 +54,7 @@ pub(super) fn end_button(ui: &mut Ui, session: &Session, direction: Direction, c
     action_button(ui, session, action, icon, commands);
 }
 
-/// One frame on or back; with Shift, or held by a finger, ten.
+/// Steps by one frame. With Shift, or by a long touch, by ten.
 pub(super) fn frame_button(ui: &mut Ui, session: &Session, direction: Direction, commands: &mut Vec<Command>) {
     let (icon, one, ten) = match direction {
         Direction::Backward => (Icon::StepBack, &actions::FRAME_BACK, &actions::TEN_FRAMES_BACK),
@@ -71,7 +71,7 @@ pub(super) fn frame_button(ui: &mut Ui, session: &Session, direction: Direction,
     }
 }
 
-/// To the next key of the selected joint, or of any.
+/// Goes to the next key of the selected joint, or of any.
 pub(super) fn key_button(ui: &mut Ui, session: &Session, direction: Direction, commands: &mut Vec<Command>) {
     let (icon, action) = match direction {
         Direction::Backward => (Icon::KeyBack, &actions::PREVIOUS_KEY),
@@ -80,7 +80,7 @@ pub(super) fn key_button(ui: &mut Ui, session: &Session, direction: Direction, c
     action_button(ui, session, action, icon, commands);
 }
 
-/// All buttons that move the time but play, spread over the width: for where a strip has no room for them.
+/// All buttons that move the time but play, spread over the width. For where the strip has no room for them.
 pub(super) fn all_steps(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     // The slimmest phones have no buttons for the ends, only the bar.
     let with_ends = ui.available_width() >= 7.0 * control_size(ui);
@@ -102,7 +102,7 @@ pub(super) fn all_steps(ui: &mut Ui, session: &Session, commands: &mut Vec<Comma
     });
 }
 
-/// Widths of the read-outs of a clip: as its longest numbers need, so that nothing moves while they change.
+/// Widths of a clip's read-outs. They fit its longest numbers, so that nothing moves while these change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReadoutWidths {
     pub(super) time: f32,

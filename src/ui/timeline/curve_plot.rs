@@ -12,12 +12,12 @@ use crate::model::JointIndex;
 use crate::session::{Command, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
-/// Points of the width from sample to sample.
+/// Distance of samples, in points.
 const SAMPLE_SPACING: f32 = 2.0;
-/// The most samples. No screen is wider.
+/// The most samples, more than any screen needs.
 const MOST_SAMPLES: usize = 2048;
 
-/// What can be chosen.
+/// The controls of the curves.
 pub(super) fn controls(ui: &mut Ui, curves: &mut Curves) {
     let parts = [
         (Part::Translation, "Translation"),
@@ -39,7 +39,7 @@ pub(super) fn controls(ui: &mut Ui, curves: &mut Curves) {
     }
 }
 
-/// Fills what is left of the sheet.
+/// The curves. Fills the rest of the sheet.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
     let (Some(open), Some(clip_index), Some(clip)) = (session.open_model(), session.clip_index(), session.clip())
     else {
@@ -97,16 +97,16 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     time_area::navigate(ui, &ruler, clip, &axis, state, false);
 }
 
-/// Room that names and values take left of the lines.
+/// Width of names and values, left of the lines.
 const LEGEND_WIDTH: f32 = 100.0;
 
-/// Colours of x, y, z as the axes have them, and of w.
+/// Colours of x, y and z, those of the axes, and of w.
 fn channel_color(ui: &Ui, channel: usize) -> Color32 {
     let tokens = Tokens::of(ui);
     tokens.axes.get(channel).copied().unwrap_or(tokens.muted)
 }
 
-/// What stands where there is no joint to show.
+/// Words while no joint is selected.
 fn paint_hint(ui: &Ui, plot: Rect) {
     let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
     let words = "Choose a bone in the dope sheet to see how it moves.";
@@ -116,7 +116,7 @@ fn paint_hint(ui: &Ui, plot: Rect) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
 }
 
-/// The lines, and behind them round values. Where values are.
+/// The lines, over lines at round values. Returns the value axis.
 fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_left: f32) -> ValueAxis {
     let (tokens, split) = (Tokens::of(ui), rect.min.x);
     let channels = curves.channels().len();
@@ -131,7 +131,7 @@ fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_lef
         let y = values.y_of(value);
         ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, tokens.hairline));
         let text = format!("{value:.decimals$}{}", curves.unit());
-        // Beside the lines where the legend leaves room, else over them.
+        // Beside the lines if the legend leaves room, otherwise over them.
         let (at, anchor) = if split - legend_left >= LEGEND_WIDTH + 60.0 {
             (pos2(split - 6.0, y), Align2::RIGHT_CENTER)
         } else {
@@ -150,7 +150,7 @@ fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_lef
     values
 }
 
-/// A dot at each key, where there is room for dots.
+/// A dot at each key, if there is room.
 fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, values: &ValueAxis) {
     let seen = axis.points().expand(1.0);
     let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
@@ -176,7 +176,7 @@ fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, val
     }
 }
 
-/// The joint and its values at the time that is read, left of the lines.
+/// The joint and its values at a time, left of the lines.
 fn paint_legend(
     ui: &Ui,
     session: &Session,
@@ -219,12 +219,12 @@ fn paint_legend(
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words.join(", ")));
 }
 
-/// Room above and below the curves, as a fraction of what they take.
+/// Room above and below the curves, as a fraction of their height.
 const HEADROOM: f32 = 0.08;
-/// Lines are this far apart at least.
+/// The least distance of lines, in points.
 const LINE_SPACING: f32 = 34.0;
 
-/// A range of values along a height, the greatest above.
+/// A range of values along a height, the greatest at the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ValueAxis {
     height: Rangef,
@@ -249,7 +249,7 @@ impl ValueAxis {
         }
     }
 
-    /// Where a value is.
+    /// The y of a value.
     fn y_of(&self, value: f32) -> f32 {
         let fraction = (value - self.values[0]) / (self.values[1] - self.values[0]);
         self.height.max - fraction * self.height.span()

@@ -1,4 +1,4 @@
-//! The motion of the selected joint over time, as numbers: which part of it is shown, and its samples.
+//! The motion of the selected joint over time as numbers: which part of it is shown, and its samples.
 
 use crate::anim::{CompiledClip, Curve, CurvePoint, CurveSpace};
 use crate::model::JointIndex;
@@ -13,7 +13,7 @@ pub(super) enum Part {
     Scale,
 }
 
-/// In which numbers a rotation is given.
+/// How a rotation is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum RotationAs {
     #[default]
@@ -55,7 +55,7 @@ fn compiled_clip<'a>(session: &Session, open: &'a OpenModel) -> Option<&'a Compi
 }
 
 impl Curves {
-    /// Samples what is seen, when that changed.
+    /// Samples the visible part, if it changed.
     pub(super) fn sample(&mut self, session: &Session, open: &OpenModel, of: SampledOf) {
         if self.of == Some(of) {
             return;

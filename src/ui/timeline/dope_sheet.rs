@@ -1,4 +1,4 @@
-//! The keys of all joints: a row for each, and only those that are seen; what pressing and dragging over them does.
+//! The keys of all joints, a row for each. Only rows in view are laid out. Clicks and drags over them.
 
 use egui::{
     Align2, CursorIcon, FontId, PointerButton, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
@@ -17,11 +17,11 @@ use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{by_finger, is_touch, pressed_row_height};
 use crate::ui::wording::counted;
 
-/// How far from a key a click still means it.
+/// How far from a key a click still hits it.
 const REACH: f32 = 6.0;
 const TOUCH_REACH: f32 = 16.0;
 
-/// What the rows have in common.
+/// What all rows share.
 pub(super) struct Sheet<'a> {
     pub(super) session: &'a Session,
     pub(super) open: &'a OpenModel,
@@ -32,11 +32,11 @@ pub(super) struct Sheet<'a> {
     pub(super) area: Rect,
     pub(super) split: f32,
     pub(super) row_height: f32,
-    /// Without a tree there is nothing to fold.
+    /// Rows are sorted by motion. Without a tree nothing folds.
     pub(super) by_motion: bool,
 }
 
-/// Fills what is left of the sheet.
+/// The dope sheet. Fills the rest of the sheet.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
     let (Some(open), Some(clip_index), Some(clip)) = (session.open_model(), session.clip_index(), session.clip())
     else {
@@ -131,7 +131,7 @@ impl Sheet<'_> {
         self.open.key_times(self.clip_index, Some(joint))
     }
 
-    /// The stretch of the box on the ruler.
+    /// The time span of the box, on the ruler.
     fn paint_box_span(&self, ui: &Ui, state: &TimelineState, ruler_rect: Rect) {
         let Some(key_box) = &state.key_box else { return };
         let [start, end] = key_box
@@ -200,7 +200,7 @@ impl Sheet<'_> {
             if response.clicked() {
                 state.revealed = Some(joint);
                 commands.push(JointCommand::Select(Some(joint)).into());
-                // If it played on, it would leave the key at once.
+                // Playing on would leave the key at once.
                 commands.push(PlayCommand::Pause.into());
                 commands.push(PlayCommand::Seek { time_secs }.into());
             }
@@ -210,13 +210,13 @@ impl Sheet<'_> {
         }
     }
 
-    /// The key of a row near an x: the joint's own, or one of a joint folded away below it.
+    /// The key of a row near an x: of the joint, or of a joint folded below it.
     fn key_near(&self, ui: &Ui, rows: &Rows, row: &Row, x: f32) -> Option<f32> {
         let reach = if is_touch(ui) { TOUCH_REACH } else { REACH };
         let folded = rows.folded_below(row).map_or(&[][..], |branch| &branch.times_secs);
         let nearest = [self.key_times(row.joint), folded].map(|times_secs| self.nearest_key(times_secs, x));
         let away = |secs: &f32| (self.axis.x_of(*secs) - x).abs();
-        // Of two equally near keys `min_by` takes the first, the joint's own.
+        // Of two keys equally near, `min_by` takes the first, the joint's own.
         let nearest = nearest
             .into_iter()
             .flatten()

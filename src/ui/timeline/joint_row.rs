@@ -14,17 +14,17 @@ use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark};
 use crate::ui::wording::counted;
 
-/// Room that a branch begins further to the right than its parent.
+/// Indent of each level of the tree.
 const INDENT: f32 = 11.0;
-/// A column of names slimmer than this has little room for a tree.
+/// A column of names slimmer than this indents less.
 const SLIM_NAMES: f32 = 150.0;
-/// Size of the marks of keys folded away, as a fraction of those of a row's own keys.
+/// Size of the marks of folded keys, as a fraction of the row's own.
 const FOLDED_SIZE: f32 = 0.85;
 /// Opacity of the tint of the row that moves most.
 const MOST_TINT: f32 = 0.17;
 
 impl Sheet<'_> {
-    /// Brings the row of a joint that was selected elsewhere into sight.
+    /// Scrolls to the row of a joint that was selected elsewhere.
     pub(super) fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
         let selected = self.session.joints().selected();
         if state.revealed == selected {
@@ -38,7 +38,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Shows it; its marks are added to those of the others.
+    /// Shows it, and adds its marks to those of the other rows.
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
@@ -155,7 +155,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Keys of joints folded away: hollow and smaller than the joint's own, which are drawn over them.
+    /// Keys of folded joints: hollow, smaller than the joint's own and below them.
     fn add_folded_marks(
         &self,
         joint: JointIndex,
@@ -186,7 +186,7 @@ impl Sheet<'_> {
         shape.add_hollow(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
     }
 
-    /// What is seen of a stretch of time.
+    /// The visible part of a time span.
     fn seen_points(&self, first_secs: f32, last_secs: f32) -> Rangef {
         let seen = self.axis.points().expand(END_ROOM);
         Rangef::new(

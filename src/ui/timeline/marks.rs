@@ -1,4 +1,4 @@
-//! Keys as marks along a width: one by one where there is room, and as bars where there is none.
+//! Keys as marks along a width: one by one if there is room, otherwise as bars.
 
 use egui::{Color32, Mesh, Painter, Pos2, Rangef, Rect, Shape, Ui, pos2};
 
@@ -6,27 +6,27 @@ use super::axis::TimeAxis;
 
 /// Keys closer than this are drawn as one bar.
 pub(super) const MERGE_POINTS: f32 = 3.0;
-/// How far a mark reaches at most.
+/// The greatest radius of a mark.
 const MOST_RADIUS: f32 = 4.2;
 const LEAST_RADIUS: f32 = 1.6;
 /// Width of the outline of a hollow mark.
 const LINE_WIDTH: f32 = 1.2;
-/// A smaller mark has no room for a hollow.
+/// The least radius of a hollow mark.
 const LEAST_HOLLOW_RADIUS: f32 = 2.4;
 /// Half the height of a bar.
 const BAR_RADIUS: f32 = 1.5;
 
-/// What is drawn of one key or of many.
+/// A mark of one key or of many.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mark {
-    /// A key by itself, at a place.
+    /// A single key, at an x.
     Key(f32),
     /// Keys too close to be told apart.
     Run(Rangef),
 }
 
-/// The marks of key times in order, from the left: as many as the width holds at most, found in steps that leap over what
-/// is merged, so that their number does not matter.
+/// The marks of key times in order, from the left. There are no more than fit the width, and a binary search skips merged keys, so
+/// the count of keys does not matter.
 pub(super) fn marks(times_secs: &[f32], axis: &TimeAxis, mut draw: impl FnMut(Mark)) {
     let seen = axis.points().expand(MOST_RADIUS);
     let first = times_secs.partition_point(|&secs| axis.x_of(secs) < seen.min);
@@ -64,7 +64,7 @@ pub(super) struct MarkShape {
 }
 
 impl MarkShape {
-    /// Nothing yet.
+    /// An empty mesh.
     pub(super) fn new(ui: &Ui) -> Self {
         Self {
             mesh: Mesh::default(),
@@ -116,7 +116,7 @@ impl MarkShape {
         }
     }
 
-    /// Four corners around a point. The number of the first.
+    /// Adds four corners around a point. Returns the index of the first.
     fn corners(&mut self, center: Pos2, radius: f32, color: Color32) -> u32 {
         let first = self.mesh.vertices.len() as u32;
         for (x, y) in [(0.0, -radius), (radius, 0.0), (0.0, radius), (-radius, 0.0)] {
@@ -125,7 +125,7 @@ impl MarkShape {
         first
     }
 
-    /// What lies between two sets of corners.
+    /// Fills the area between two sets of corners.
     fn ring(&mut self, inner: u32, outer: u32) {
         for corner in 0..4 {
             let next = (corner + 1) % 4;

@@ -20,18 +20,18 @@ use crate::ui::wording::trimmed;
 /// Rows before the list scrolls.
 const ROWS: f32 = 6.0;
 const TOUCH_ROWS: f32 = 4.0;
-/// Room for a distance, and for an angle.
+/// Width of a distance, and of an angle.
 const DISTANCE_WIDTH: f32 = 84.0;
 const ANGLE_WIDTH: f32 = 66.0;
-/// Room between a row's border and its words.
+/// Margin inside a row.
 const INSIDE: f32 = 6.0;
 /// Width of the popover.
 pub(super) const WIDTH: f32 = 300.0;
-/// Speeds in a row.
+/// Speeds in one row of the switch.
 const IN_A_ROW: usize = 5;
 const FIELD_WIDTH: f32 = 78.0;
 
-/// The popover's contents. `with_steps`: also the buttons that move the time, for which the strip has no room.
+/// The popover's contents. `with_steps`: with the buttons that step, if the strip has no room for them.
 pub(super) fn show(
     ui: &mut Ui,
     session: &Session,
@@ -123,7 +123,7 @@ fn typed_row(ui: &mut Ui, name: &'static str, text: &str, typed: &str) -> Option
     .inner
 }
 
-/// The seam of a loop in words, and joint by joint: how far each is from where it was.
+/// The seam of a loop in words, and the jump of each joint.
 fn seam_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
     let reading = std::mem::take(&mut state.seam);
     let of_range = session.playback().range_secs().is_some();
@@ -262,12 +262,12 @@ fn joint_row(
     });
 }
 
-/// The numbers of one row; `None` where one is nothing.
+/// The numbers of one row. None stands for zero.
 struct Jump {
     distance: Option<String>,
     own_distance: Option<String>,
     angle: Option<String>,
-    /// Few clips scale: there is no column for it.
+    /// In words, not in a column, since few clips scale.
     scaled: Option<String>,
     travel_is_seen: bool,
     own_is_seen: bool,

@@ -1,5 +1,5 @@
-//! The joints as rows: as a tree whose branches fold, or by how much they move; and what folded rows show of the joints folded away
-//! in their branches, merged once for each, when it is first seen.
+//! The joints as rows: as a tree whose branches fold, or sorted by motion. A folded row shows the keys of its whole branch. They are
+//! merged once, when the row is first in view.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -12,24 +12,24 @@ use crate::session::{JointRow, OpenModel, Session};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Row {
     pub(super) joint: JointIndex,
-    /// Distance from the root; 0 in a list without a tree.
+    /// Distance from the root. 0 without a tree.
     pub(super) depth: u32,
-    /// Joints below it in the tree, folded away or not; 0 in a list without a tree.
+    /// Joints below it in the tree, folded or not. 0 without a tree.
     pub(super) below: usize,
     pub(super) folded: bool,
 }
 
-/// A row that is seen, and what is folded away below it.
+/// A row in view, and what is folded below it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SeenRow<'a> {
     pub(super) row: &'a Row,
     pub(super) folded: Option<&'a FoldedBranch>,
 }
 
-/// Rows of the clip that is shown, in buffers that are kept.
+/// Rows of the open clip, in buffers that are reused.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
-    /// The liveliest first, instead of the tree.
+    /// Sorted by motion, the most first, instead of as a tree.
     pub(super) by_motion: bool,
     sorted_of: Option<(u64, usize)>,
     sorted: Vec<JointIndex>,
@@ -39,7 +39,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Orders the rows of a clip anew.
+    /// Lists the rows of a clip again, if something changed.
     pub(super) fn update(&mut self, session: &Session, open: &OpenModel, clip: usize) {
         self.branches.keep_of((session.clips_revision(), clip));
         self.rows.clear();
@@ -72,7 +72,7 @@ impl Rows {
         &self.rows
     }
 
-    /// Merges what is folded away below the rows that are seen.
+    /// Merges what is folded below rows in view.
     pub(super) fn merge_folded(&mut self, seen: Range<usize>, session: &Session, open: &OpenModel, clip_index: usize) {
         let Some(clip) = open.model.clips.get(clip_index) else {
             return;
@@ -87,12 +87,12 @@ impl Rows {
         }
     }
 
-    /// What is folded away below a row that is seen.
+    /// What is folded below a row in view.
     pub(super) fn folded_below(&self, row: &Row) -> Option<&FoldedBranch> {
         self.branches.get(row.joint).filter(|_| row.folded)
     }
 
-    /// The rows that are seen, once what is below them was merged.
+    /// The rows in view, once what is below them was merged.
     pub(super) fn seen(&self, seen: Range<usize>) -> impl Iterator<Item = SeenRow<'_>> {
         let rows = self.rows.get(seen).unwrap_or_default();
         rows.iter().map(|row| SeenRow {
@@ -101,7 +101,7 @@ impl Rows {
         })
     }
 
-    /// The joints that a row stands for: its own, and those folded away below it.
+    /// The joints of a row: its own, and those folded below it.
     pub(super) fn joints_of<'a>(&'a self, session: &'a Session, index: usize) -> Option<&'a [JointIndex]> {
         let row = self.rows.get(index)?;
         Some(if row.folded {
@@ -112,26 +112,26 @@ impl Rows {
     }
 }
 
-/// The joints of a branch but for its topmost.
+/// The joints of a branch without its root.
 fn below(session: &Session, joint: JointIndex) -> &[JointIndex] {
     session.joints().tree().branch(joint).get(1..).unwrap_or_default()
 }
 
-/// What moves most first; of equal ones in the skeleton's order.
+/// Sorts by motion, the most first. Equal ones keep the skeleton's order.
 fn sort_by_motion(activity: &[JointActivity], sorted: &mut Vec<JointIndex>) {
     sorted.clear();
     sorted.extend((0..activity.len() as u32).map(JointIndex));
     sorted.sort_by(|a, b| activity[b.index()].fraction.total_cmp(&activity[a.index()].fraction));
 }
 
-/// What is folded away below one joint.
+/// What is folded below one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FoldedBranch {
-    /// Times at which any joint of it has a key, in order.
+    /// Times of the keys of all its joints, in order.
     pub(super) times_secs: Vec<f32>,
     /// Whether nothing of it moves.
     pub(super) constant: bool,
-    /// How much the joint moves that moves most of it, as a fraction of the one that moves most of all.
+    /// The most that a joint of it moves, as a fraction of the most of all joints.
     pub(super) most_motion: f32,
 }
 
@@ -141,7 +141,7 @@ impl FoldedBranch {
         let activity = || below.iter().filter_map(|joint| activity.get(joint.index()));
         Self {
             times_secs: merged_key_times_of(clip, below),
-            // A single key is not called constant.
+            // A joint with a single key does not count as constant.
             constant: activity().all(|joint| joint.constant)
                 && below.iter().any(|&joint| key_times(clip, joint).len() > 1),
             most_motion: activity().map(|joint| joint.fraction).fold(0.0, f32::max),
@@ -149,8 +149,7 @@ impl FoldedBranch {
     }
 }
 
-/// The branches folded away below rows that were seen. Of joints shown as rows none is in the branch of another, so they
-/// hold no more keys than the clip.
+/// The folded branches of rows that were in view. No two of them overlap, so together they hold no more keys than the clip.
 #[derive(Debug, Default)]
 struct FoldedBranches {
     of: Option<(u64, usize)>,
@@ -166,12 +165,12 @@ impl FoldedBranches {
         }
     }
 
-    /// What is folded away below a joint, once it was merged.
+    /// What is folded below a joint, if it was merged.
     fn get(&self, joint: JointIndex) -> Option<&FoldedBranch> {
         self.branches.get(&joint)
     }
 
-    /// Merges what is below a joint, when that is not there. `folded` are all joints whose rows are folded.
+    /// Merges what is below a joint, if that is missing. `folded`: all joints whose rows are folded.
     fn merge(
         &mut self,
         joint: JointIndex,

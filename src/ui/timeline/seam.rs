@@ -1,4 +1,4 @@
-//! The seam of a loop, where its last pose meets its first: read when it changed, and put in words.
+//! The seam of a loop, where its last pose meets its first, in numbers and words. It is read again when the loop changed.
 
 use crate::anim::{JointSeam, Seam};
 use crate::model::JointIndex;
@@ -12,12 +12,12 @@ const LEAST_DEGREES: f32 = 0.005;
 /// Smaller changes are 0 % with one decimal.
 const LEAST_SCALE: f32 = 5e-4;
 
-/// The seam of what loops, as it is shown.
+/// The seam of the loop.
 #[derive(Debug, Default)]
 pub(super) struct SeamReading {
     of: Option<ReadOf>,
     seam: Seam,
-    /// All joints, the farthest travelled first; empty where nothing loops.
+    /// All joints, the farthest travelled first. Empty if nothing loops.
     order: Vec<JointIndex>,
     words: Option<String>,
     decimals: usize,
@@ -34,7 +34,7 @@ struct ReadOf {
 }
 
 impl SeamReading {
-    /// Reads the seam when there is another one.
+    /// Reads the seam if the loop changed.
     pub(super) fn update(&mut self, session: &Session) {
         let of = Some(ReadOf {
             clips: session.clips_revision(),
@@ -63,13 +63,13 @@ impl SeamReading {
         self.of.is_some_and(|of| of.seam_secs.is_some())
     }
 
-    /// Where the loop ends, in seconds, when its seam is seen.
+    /// Where the loop ends, in seconds, if its seam is visible.
     pub(super) fn seen_at_secs(&self) -> Option<f32> {
         let [_, last_secs] = self.of?.seam_secs?;
         self.seam.visible.then_some(last_secs)
     }
 
-    /// The seam in words, when it is seen.
+    /// The seam in words, if it is visible.
     pub(super) fn words(&self) -> Option<&str> {
         self.words.as_deref()
     }
@@ -84,7 +84,7 @@ impl SeamReading {
         &self.order
     }
 
-    /// The jump of a joint; none of a joint that is not there.
+    /// The jump of a joint. No jump for a joint that is not there.
     pub(super) fn of_joint(&self, joint: JointIndex) -> JointSeam {
         self.seam.joints.get(joint.index()).copied().unwrap_or_default()
     }
@@ -94,13 +94,13 @@ impl SeamReading {
         joint.travel >= self.seam.visible_travel
     }
 
-    /// A distance with as many decimals as all of this model have; `None` where that is nothing.
+    /// A distance with the model's decimals. None if it rounds to zero.
     pub(super) fn distance(&self, distance: f32) -> Option<String> {
         let decimals = self.decimals;
         (distance >= self.least_distance()).then(|| format!("{distance:.decimals$}"))
     }
 
-    /// Smaller distances are 0 with this many decimals.
+    /// The least distance that does not round to zero.
     fn least_distance(&self) -> f32 {
         0.5 * 10.0_f32.powi(-(self.decimals as i32))
     }
@@ -127,12 +127,12 @@ impl SeamReading {
     }
 }
 
-/// A change of scale in per cent; `None` where that is nothing.
+/// A change of scale in per cent. None if it rounds to zero.
 pub(super) fn scale(fraction: f32) -> Option<String> {
     (fraction >= LEAST_SCALE).then(|| format!("{:.1} %", fraction * 100.0))
 }
 
-/// An angle in degrees; `None` where that is nothing.
+/// An angle in degrees. None if it rounds to zero.
 pub(super) fn angle(degrees: f32) -> Option<String> {
     (degrees >= LEAST_DEGREES).then(|| format!("{degrees:.2}°"))
 }

@@ -1,4 +1,4 @@
-//! What opens above the strip: dope sheet or curves, and the controls of each; and the edge that opens it.
+//! The sheet above the strip: dope sheet or curves with their controls, and the edge that opens it.
 
 use egui::{CursorIcon, FontId, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
@@ -12,12 +12,12 @@ use crate::ui::theme::Tokens;
 use crate::ui::widgets::{TextButton, control_size, icon_button};
 use crate::ui::wording::counted;
 
-/// Room between the controls and what they control.
+/// Gap between the controls and the sheet.
 const GAP: f32 = 6.0;
-/// Below this height a page has no room for buttons that move the time.
+/// Pages lower than this have no buttons that step.
 const WITH_TRANSPORT: f32 = 260.0;
 
-/// The sheet of a wide window, this high.
+/// The sheet of a wide window, with a height.
 pub(super) fn show(
     ui: &mut Ui,
     session: &Session,
@@ -97,10 +97,10 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     }
 }
 
-/// The panel's upper edge lies over the panel's margin.
+/// How far the edge reaches into the panel's margin.
 const REACH: f32 = 9.0;
 
-/// The upper edge of the panel whose contents begin here. Dragged, it opens the sheet and sizes it.
+/// The upper edge of the panel, above its contents. A drag opens and resizes the sheet.
 pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
     let contents = ui.max_rect();
     let edge = Rect::from_x_y_ranges(contents.x_range(), contents.min.y - REACH..=contents.min.y - 1.0);

@@ -1,4 +1,4 @@
-//! What the timeline remembers: what of it is open, what part of the time is seen, what is chosen in it.
+//! What the timeline remembers: what is open, which part of the time is visible, which keys are chosen.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ const FIRST_HEIGHT: f32 = 264.0;
 const KEPT_HEIGHT: f32 = 150.0;
 /// … and the sheet has this fraction of the rest.
 const FIRST_FRACTION: f32 = 0.4;
-/// Below this height a sheet shows nothing.
+/// The least height of the sheet.
 const LEAST_HEIGHT: f32 = 132.0;
 /// The most that it can be dragged to, as a fraction of the room for the panel. The view keeps the rest.
 const MOST_FRACTION: f32 = 0.54;
@@ -43,14 +43,14 @@ pub(in crate::ui) struct TimelineState {
     pub(super) seam: SeamReading,
     /// The joint whose row is under the pointer in this pass.
     pub(super) hovered: Option<JointIndex>,
-    /// The selected joint whose row was brought into sight.
+    /// The selected joint to whose row the sheet has scrolled.
     pub(super) revealed: Option<JointIndex>,
     of: Option<(u64, usize)>,
     head_was_seen: bool,
 }
 
 impl TimelineState {
-    /// Resets what belonged to another clip or model, and scrolls on when the time leaves what is shown.
+    /// Resets what belonged to another clip or model, and follows the play head.
     pub(in crate::ui) fn update(&mut self, session: &Session) {
         self.hovered = None;
         self.seam.update(session);
@@ -66,7 +66,7 @@ impl TimelineState {
         self.follow(session, clip);
     }
 
-    /// Follows the play head, if it was in view before.
+    /// Scrolls on when the play head leaves the view while it plays.
     fn follow(&mut self, session: &Session, clip: &Clip) {
         let time_secs = session.playback().time_secs();
         let whole_secs = [clip.start_secs, clip.end_secs];
@@ -97,7 +97,7 @@ impl TimelineState {
         self.key_box.is_some()
     }
 
-    /// Lets go of the keys that were chosen.
+    /// Clears the box of chosen keys.
     pub(in crate::ui) fn let_go_of_keys(&mut self) {
         self.key_box = None;
     }
@@ -123,10 +123,10 @@ impl TimelineState {
     }
 }
 
-/// A stretch of time and the joints whose keys in it are chosen.
+/// A time span, and the joints whose keys in it are chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct KeyBox {
-    /// Where the drag began: a time, and a row (with fraction).
+    /// Where the drag began: a time, and a row with its fraction.
     pub(super) from: (f32, f32),
     /// Start and end, in order.
     pub(super) span_secs: [f32; 2],
@@ -135,7 +135,7 @@ pub(super) struct KeyBox {
 }
 
 impl KeyBox {
-    /// An empty box at a time and a row (with fraction).
+    /// An empty box at a time and a row with its fraction.
     pub(super) fn at(from: (f32, f32)) -> Self {
         Self {
             from,
@@ -144,7 +144,7 @@ impl KeyBox {
         }
     }
 
-    /// Takes the box to another corner.
+    /// Moves the corner that is dragged.
     pub(super) fn stretch<'a>(
         &mut self,
         (time_secs, row): (f32, f32),
@@ -156,7 +156,7 @@ impl KeyBox {
         self.joints = (first..=last).map_while(joints_of).flatten().copied().collect();
     }
 
-    /// Those of a joint's key times that are in it.
+    /// The range of a joint's key times that are in it.
     pub(super) fn part_of(&self, joint: JointIndex, times_secs: &[f32]) -> std::ops::Range<usize> {
         if !self.joints.contains(&joint) {
             return 0..0;
@@ -164,7 +164,7 @@ impl KeyBox {
         self.span_of(times_secs)
     }
 
-    /// Those of the merged key times of several joints that are in it. Empty if it contains none of these joints.
+    /// The range of merged key times of several joints that are in it. Empty if it has none of these joints.
     pub(super) fn part_of_any(
         &self,
         is_among: impl Fn(JointIndex) -> bool,

@@ -13,12 +13,12 @@ use crate::ui::widgets::{by_finger, control_size, is_touch, segmented};
 
 /// Height of the ruler.
 pub(super) const RULER_HEIGHT: f32 = 24.0;
-/// Room that a label takes with the gap to the next one.
+/// Width of a label with the gap to the next one.
 const LABEL_SPACING: f32 = 92.0;
-/// Ticks of single frames are this far apart at least.
+/// The least distance of ticks of single frames.
 const TICK_SPACING: f32 = 5.0;
 
-/// A drag moves the time. Two fingers pan and zoom instead.
+/// Moves the time with a drag. Two fingers pan and zoom instead.
 pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Command>) {
     if response.drag_started_by(PointerButton::Primary) {
         commands.push(PlayCommand::BeginScrub.into());
@@ -46,7 +46,7 @@ pub(super) fn paint_pointer(ui: &Ui, response: &Response, axis: &TimeAxis, heigh
     }
 }
 
-/// The time as a line, when it is seen.
+/// The time as a line, if it is in view.
 pub(super) fn paint_head(ui: &Ui, session: &Session, axis: &TimeAxis, height: Rangef) {
     let x = axis.x_of(session.playback().time_secs());
     if axis.points().expand(1.0).contains(x) {
@@ -64,7 +64,7 @@ pub(super) fn paint_head_below_ruler(ui: &Ui, session: &Session, axis: &TimeAxis
     }
 }
 
-/// The ruler as something to press: it carries the time.
+/// The ruler as a control: a press or drag moves the time.
 pub(super) fn ruler(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect, commands: &mut Vec<Command>) -> Response {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     scrub(&response, axis, commands);
@@ -73,8 +73,7 @@ pub(super) fn ruler(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect, com
     response
 }
 
-/// Wheel with Ctrl, pinch, wheel with Shift, middle drag and two fingers: what of the time is seen. With `finger_pans` a drag of
-/// one finger too, where it carries nothing else.
+/// Zooms (Ctrl wheel, pinch) and pans (Shift wheel, middle drag, two fingers). With `finger_pans` a drag of one finger pans too.
 pub(super) fn navigate(
     ui: &Ui,
     response: &Response,
@@ -106,7 +105,7 @@ pub(super) fn navigate(
     }
 }
 
-/// A switch among other controls.
+/// A switch with a width, for a row with other controls.
 pub(super) fn segmented_of_width<T: Copy + PartialEq>(
     ui: &mut Ui,
     width: f32,
@@ -119,13 +118,13 @@ pub(super) fn segmented_of_width<T: Copy + PartialEq>(
     segmented(&mut child, name, choices, Some(in_force))
 }
 
-/// Where names end and time begins.
+/// The x where names end and time begins.
 pub(super) fn split_x(area: Rect) -> f32 {
     let names = if area.width() < 600.0 { 124.0 } else { 196.0 };
     area.min.x + names
 }
 
-/// Draws ticks and labels over `rect`, and faint lines down to `bottom`.
+/// Draws ticks and labels in `rect`, and faint lines down to `bottom`.
 pub(super) fn paint_ruler(ui: &Ui, clip: &Clip, axis: &TimeAxis, rect: Rect, bottom: f32) {
     let tokens = Tokens::of(ui);
     let painter = ui
@@ -157,7 +156,7 @@ pub(super) fn paint_ruler(ui: &Ui, clip: &Clip, axis: &TimeAxis, rect: Rect, bot
     }
 }
 
-/// Every so many frames, those that are seen, and one more at the left whose label reaches in.
+/// Every `step`th frame in view, and one more on the left whose label reaches into view.
 fn seen_frames(clip: &Clip, axis: &TimeAxis, step: u32) -> impl Iterator<Item = u32> {
     let points = axis.points();
     let left = clip.frame_at(axis.time_at(points.min - LABEL_SPACING)) / step * step;
@@ -165,7 +164,7 @@ fn seen_frames(clip: &Clip, axis: &TimeAxis, step: u32) -> impl Iterator<Item = 
     (left..=right).step_by(step as usize)
 }
 
-/// Frames from label to label: the least round number that leaves room, round in seconds where the rate is whole.
+/// Frames from label to label: the least round number that leaves room. If the rate is whole, round in seconds.
 fn label_step(keys_per_sec: f32, least_frames: f32, last_frame: u32) -> u32 {
     let rate = keys_per_sec.round().max(1.0);
     let is_whole = (keys_per_sec - rate).abs() < 0.01 * rate;

@@ -1,4 +1,4 @@
-//! The panel of the timeline. Its strip: transport, clip, bar, read-outs, speed and loop mode; in a wide window the sheet above it.
+//! The panel of the timeline. Its strip has transport, clip, bar, read-outs, speed and loop mode. In a wide window the sheet is above.
 
 use egui::{Align2, FontId, Rangef, Role, Sense, Ui, WidgetInfo, vec2};
 
@@ -17,17 +17,17 @@ use crate::ui::widgets::{control_size, icon_button};
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
-/// Room between sheet and transport.
+/// Gap between sheet and transport.
 const SHEET_GAP: f32 = 8.0;
 /// The least width of the clip's name on a phone.
 const CLIP_WIDTH_NARROW: f32 = 84.0;
 /// The width of the speed on a phone.
 const SPEED_WIDTH_NARROW: f32 = 52.0;
-/// The least width of the bar beside buttons for frames.
+/// The least width of the bar with buttons for frames beside it.
 const LEAST_BAR_WITH_FRAMES: f32 = 200.0;
-/// Room between controls, but for the large ones.
+/// Gap between controls, but for the large ones.
 const SPACING: f32 = 6.0;
-/// From this width on there are buttons for steps from key to key.
+/// From this width on there are buttons that step from key to key.
 const KEY_BUTTONS_WIDTH: f32 = 1060.0;
 
 /// The panel's contents in a wide window.
@@ -81,7 +81,7 @@ fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec
     mark_transport(ui, row.response.rect);
 }
 
-/// The strip for phones, with large targets: in two rows, the bar above, or in one where a window is `low`.
+/// The strip for phones, with large targets: in two rows with the bar above, or in one row in a `low` window.
 pub(in crate::ui) fn narrow(
     ui: &mut Ui,
     session: &Session,
@@ -94,7 +94,7 @@ pub(in crate::ui) fn narrow(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         let button = control_size(ui) + ui.spacing().item_spacing.x;
-        // In one row, with two frame buttons, the clip and the read-outs, as long as the bar stays long enough to scrub on.
+        // A single row has two frame buttons if they leave the bar long enough to scrub on.
         let others = 44.0 + CLIP_WIDTH_NARROW + end.width + 4.0 * button;
         let with_frames = low && ui.available_width() - others >= LEAST_BAR_WITH_FRAMES;
         if with_frames {
@@ -137,11 +137,11 @@ pub(in crate::ui) fn narrow(
     });
 }
 
-/// What is read and how it plays, on a phone.
+/// Read-outs, speed and loop mode on a phone.
 struct EndOfStrip {
     widths: ReadoutWidths,
     shows_frame: bool,
-    /// Whether its popover has the buttons for steps. An upright phone has them in the page of the dope sheet.
+    /// Whether its popover has the buttons that step. On an upright phone the dope sheet's page has them.
     with_steps: bool,
     width: f32,
 }
@@ -150,7 +150,7 @@ impl EndOfStrip {
     fn of(ui: &Ui, clip: &Clip, low: bool) -> Self {
         let widths = ReadoutWidths::of(ui, clip);
         let least = widths.time + SPEED_WIDTH_NARROW + control_size(ui) + 2.0 * SPACING;
-        // The slimmest phones have room for the time alone.
+        // The slimmest phones show the time without the frame.
         let with_frame = least + widths.frame + SPACING;
         let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + SPACING + with_frame;
         Self {
@@ -179,7 +179,7 @@ impl EndOfStrip {
     }
 }
 
-/// The button with the speed. It opens all options of playing, `with_steps` if the strip has no room for those buttons.
+/// The button with the speed. It opens all options of playing. `with_steps`: with the buttons that step.
 fn speed_button(
     ui: &mut Ui,
     session: &Session,
@@ -216,7 +216,7 @@ fn speed_button(
     });
 }
 
-/// Whether it was pressed.
+/// The button of the dope sheet. Returns whether it was pressed.
 fn sheet_button(ui: &mut Ui, open: bool) -> bool {
     let label = if open {
         "Shut the dope sheet"

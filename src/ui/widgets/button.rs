@@ -1,12 +1,11 @@
-//! Buttons: an icon, words, a line of a menu, one of a few, a switch.
+//! Buttons: with an icon, with words, a line of a menu, one of a few choices, a switch.
 
 use egui::{
     Align2, Atom, AtomExt as _, AtomKind, AtomPaintArgs, Atoms, Button, Color32, FontId, Rangef, Rect, Response,
     RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint};
-use super::row::paint_row_ground;
+use super::control::{MOUSE_CONTROL, TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint, paint_row_ground};
 use crate::actions::Action;
 use crate::session::{Command, Session};
 use crate::ui::icons::{self, Icon};
@@ -14,11 +13,11 @@ use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
 /// Side of an icon.
 const ICON_SIZE: f32 = 16.0;
-/// Room between what stands in a button.
+/// Gap between the parts of a button.
 const GAP: f32 = 5.0;
 /// Width of the chevron of a drop-down.
 const CHEVRON_WIDTH: f32 = 13.0;
-/// Room at both ends of a line of a menu.
+/// Margin at both ends of a line of a menu.
 const MENU_PADDING: f32 = 10.0;
 /// Height of a line of a menu where a mouse is the pointer.
 const MENU_LINE: f32 = 26.0;
@@ -33,7 +32,7 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Res
     response.on_hover_text(label)
 }
 
-/// An icon in the middle of a place of this size, in the colour of the words beside it.
+/// An icon in the middle of a size, in the colour of the words beside it.
 fn icon_atom(icon: Icon, size: Vec2) -> Atom<'static> {
     AtomKind::paint(move |ui, args| icons::paint(ui.painter(), args.rect, icon, args.fallback_text_color))
         .atom_size(size)
@@ -46,7 +45,7 @@ pub(crate) fn action_button(ui: &mut Ui, session: &Session, action: &Action, ico
     }
 }
 
-/// A button with words on a quiet ground, as wide as they need within its width; what is longer ends in an ellipsis.
+/// A button with words, as wide as they need within its least and greatest width. Longer words end in an ellipsis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TextButton<'a> {
     text: &'a str,
@@ -57,7 +56,7 @@ pub(crate) struct TextButton<'a> {
 }
 
 impl<'a> TextButton<'a> {
-    /// A button with this text; `label` is what a reader says.
+    /// A button with this text. `label` is for screen readers.
     pub(crate) fn new(text: &'a str, label: &'a str) -> Self {
         Self {
             text,
@@ -102,7 +101,7 @@ impl<'a> TextButton<'a> {
             let paint = move |ui: &Ui, args: AtomPaintArgs| icons::paint(ui.painter(), args.rect, icon, color);
             atoms.push_right(AtomKind::paint(paint).atom_size(Vec2::splat(ICON_SIZE)));
         }
-        // Words alone stand in the middle. Before a chevron they begin at the left.
+        // Words alone are centred. Before a chevron they are at the left.
         let alone = self.icon.is_none() && !self.opens_list;
         if alone {
             atoms.push_right(Atom::grow());
@@ -123,7 +122,7 @@ impl<'a> TextButton<'a> {
     }
 }
 
-/// A line of a menu; `on` marks the one in force.
+/// A line of a menu. `on` marks the current choice.
 pub(crate) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
     menu_line(ui, text, "", theme::mono(11.0), on)
 }
@@ -134,7 +133,7 @@ pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, on: bool) -> R
     menu_line(ui, text, key, theme::mono(11.0), on)
 }
 
-/// A line of a menu that opens something, with what is in force there.
+/// A line of a menu that opens a page, with the current choice of that page.
 pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
     menu_line(ui, text, value, FontId::proportional(12.0), on)
 }
@@ -154,8 +153,8 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: boo
     response
 }
 
-/// A place for each choice, over the whole width. What was chosen, when something was. Painted here: a row of egui's buttons on a
-/// common ground would leave a finger less than the whole height.
+/// A switch with a segment for each choice, over the whole width. Returns a new choice. Painted here: in a row of egui's buttons on a
+/// common ground a finger would have less than the whole height.
 pub(crate) fn segmented<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -172,7 +171,7 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     for (index, &(choice, label)) in choices.iter().enumerate() {
         let left = inner.min.x + index as f32 * width;
         let place = Rect::from_min_max(pos2(left, inner.min.y), pos2(left + width, inner.max.y));
-        // By touch the whole height can be pressed.
+        // The target has the whole height.
         let target = Rect::from_x_y_ranges(place.x_range(), rect.y_range());
         let part = ui.interact(target, response.id.with(index), Sense::click());
         let on = in_force == Some(choice);
@@ -200,8 +199,8 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
 const TRACK_WIDTH: f32 = 26.0;
 const TRACK_HEIGHT: f32 = 15.0;
 
-/// A row that turns something on or off, with the key that does the same (or none). Painted here: egui has a check box, but no switch
-/// at the end of a row that can be pressed as a whole.
+/// A row with a switch at its end, and the key that does the same (or none). Painted here: egui has a check box, but no row that can
+/// be pressed as a whole with a switch at its end.
 pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     let height = control_size(ui).max(MOUSE_CONTROL);

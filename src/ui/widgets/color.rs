@@ -1,5 +1,5 @@
-//! Choosing a colour: a square of saturation and value, a bar of hues, the hexadecimal number. Painted here: egui's picker has no field
-//! for the hexadecimal number, and mixes in linear light.
+//! A colour picker: a square of saturation and value, a bar of hues, a field for the hexadecimal number. Painted here: egui's picker has
+//! no such field, and interpolates in linear light.
 
 use egui::ecolor::{hsv_from_rgb, rgb_from_hsv};
 use egui::{
@@ -13,10 +13,10 @@ use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
 /// Height of the square.
 const SQUARE_HEIGHT: f32 = 112.0;
-/// Fields of the square's mesh, a side: corners alone would bend the colours along the diagonal.
+/// Cells of the square's mesh on a side. Two triangles alone would bend the colours along the diagonal.
 const SQUARE_FIELDS: u32 = 8;
 
-/// A button in a colour (sRGB) that opens the picker. The new colour, when there is one.
+/// A button in a colour (sRGB) that opens the picker. Returns a new colour.
 pub(crate) fn color_button(ui: &mut Ui, label: &str, size: Vec2, srgb: [u8; 3]) -> Option<[u8; 3]> {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -44,7 +44,7 @@ pub(crate) fn color_button(ui: &mut Ui, label: &str, size: Vec2, srgb: [u8; 3]) 
     chosen
 }
 
-/// The picker in place, over the whole width. The new colour, when there is one.
+/// The picker, over the whole width. Returns a new colour.
 pub(crate) fn color_picker(ui: &mut Ui, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]> {
     let id = ui.make_persistent_id(("picker", label));
     // Grey has no hue and black has no saturation, so the last chosen ones are kept.
@@ -93,7 +93,7 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     Some([hue, at.x.clamp(0.0, 1.0), 1.0 - at.y.clamp(0.0, 1.0)])
 }
 
-/// A band of colours that go over into each other, from left to right.
+/// A gradient of colours from left to right.
 pub(crate) fn gradient_shape(height: Rangef, colors: impl Iterator<Item = (f32, Color32)>) -> Shape {
     let mut mesh = Mesh::default();
     for (index, (x, color)) in (0u32..).zip(colors) {
@@ -127,20 +127,20 @@ fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hs
     Some([fraction.clamp(0.0, 1.0), saturation, value])
 }
 
-/// Where the pointer holds a field.
+/// Where the pointer presses a control.
 fn held(response: &Response) -> Option<Pos2> {
     let holds = response.is_pointer_button_down_on() || response.clicked();
     response.interact_pointer_pos().filter(|_| holds)
 }
 
-/// A ring that can be seen on every colour.
+/// A ring that is visible on every colour.
 fn mark(ui: &Ui, at: Pos2, color: Color32) {
     ui.painter()
         .circle(at, 6.0, color, Stroke::new(3.0, Color32::from_black_alpha(90)));
     ui.painter().circle_stroke(at, 6.0, Stroke::new(1.6, Color32::WHITE));
 }
 
-/// The colour as `#rrggbb`; what is typed counts as soon as it is one.
+/// The colour as `#rrggbb`. Typing changes it as soon as the text is a colour.
 fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]> {
     let typing = ui.memory(|memory| memory.has_focus(id));
     let kept = ui.data(|data| data.get_temp::<String>(id)).filter(|_| typing);
@@ -199,12 +199,12 @@ fn from_hex(text: &str) -> Option<[u8; 3]> {
 /// Hue, saturation, value.
 type Hsv = [f32; 3];
 
-/// What a colour is made of. Grey has hue 0, black has saturation 0 too.
+/// Converts from sRGB. Grey has hue 0, black has saturation 0 too.
 fn hsv_from_srgb(srgb: [u8; 3]) -> Hsv {
     hsv_from_rgb(srgb.map(|channel| f32::from(channel) / 255.0)).into()
 }
 
-/// The colour made of these, rounded.
+/// Converts to sRGB, rounded.
 fn srgb_from_hsv(hsv: Hsv) -> [u8; 3] {
     rgb_from_hsv(hsv.into()).map(|channel| (channel * 255.0).round() as u8)
 }

@@ -1,5 +1,4 @@
-//! What controls have in common: their size, the ring of the one that has the keyboard, words that end in an ellipsis, arrow keys;
-//! and chips, small rounded labels.
+//! What controls have in common: their size, the focus ring, words that end in an ellipsis, arrow keys. And chips: small rounded labels.
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
@@ -9,9 +8,9 @@ use egui::{
 
 use crate::ui::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
-/// Side of a control where a mouse is the pointer.
+/// Side of a control for a mouse.
 pub(super) const MOUSE_CONTROL: f32 = 28.0;
-/// Side of a control where fingers are.
+/// Side of a control for fingers.
 pub(super) const TOUCH_CONTROL: f32 = 44.0;
 
 /// Sizes controls for fingers or for a mouse, from the next pass on.
@@ -33,7 +32,7 @@ pub(crate) fn is_touch(ui: &Ui) -> bool {
     control_size(ui) > MOUSE_CONTROL
 }
 
-/// Whether the pointer is a finger. A screen that was touched may have a mouse too, which keeps what it can do.
+/// Whether the pointer is a finger. A touch screen may have a mouse too, and then it acts as one.
 pub(crate) fn by_finger(ui: &Ui) -> bool {
     ui.input(|input| {
         if input.has_touch_screen() {
@@ -44,7 +43,7 @@ pub(crate) fn by_finger(ui: &Ui) -> bool {
     })
 }
 
-/// A key to show beside what it does: fingers have none.
+/// A key to show beside what it does. By touch none.
 pub(crate) fn key_hint<'a>(ui: &Ui, key: &'a str) -> &'a str {
     if is_touch(ui) { "" } else { key }
 }
@@ -54,7 +53,7 @@ pub(crate) fn pressed_row_height(ui: &Ui) -> f32 {
     if is_touch(ui) { TOUCH_CONTROL } else { ROW_HEIGHT }
 }
 
-/// Shows which control has the keyboard.
+/// A ring round the focused control.
 pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
@@ -63,7 +62,19 @@ pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     }
 }
 
-/// Draws words that begin at a point, in the middle of their height; what is longer than `most` ends in an ellipsis.
+/// Draws the ground of a row, a little wider than its contents, and the focus ring.
+pub(crate) fn paint_row_ground(ui: &Ui, rect: Rect, response: &Response, selected: bool, over: bool) {
+    let tokens = Tokens::of(ui);
+    let around = rect.expand2(vec2(6.0, 0.0));
+    if selected {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
+    } else if over {
+        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
+    }
+    focus_ring(ui, around, response);
+}
+
+/// Draws words from a point at their left centre. Words wider than `most` end in an ellipsis.
 pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId, color: Color32, most: f32) {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
     job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
@@ -71,7 +82,7 @@ pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId
     painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
 }
 
-/// The mark before something that folds: it points to the right while folded, or else down.
+/// The mark before something that folds. It points right while folded, otherwise down.
 pub(crate) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, color: Color32) {
     let corners = if folded {
         [Vec2::new(-1.7, -3.4), Vec2::new(1.7, 0.0), Vec2::new(-1.7, 3.4)]
@@ -82,8 +93,7 @@ pub(crate) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, col
     painter.add(Shape::line(corners, Stroke::new(1.4, color)));
 }
 
-/// Steps that arrow keys ask of a control that has the keyboard: right and up count up. They are taken, so that nothing else
-/// acts on them.
+/// Steps of the arrow keys in a focused control: right and up count up. The keys are consumed, so that nothing else acts on them.
 pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
     if !response.has_focus() {
         return 0.0;
@@ -112,7 +122,7 @@ pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
     steps
 }
 
-/// Room around the words, left and right together, above and below together.
+/// Margins of a chip: left and right together, top and bottom together.
 const AROUND: Vec2 = vec2(14.0, 5.0);
 
 /// A chip in a row.
@@ -130,7 +140,7 @@ pub(crate) fn chip_size(ui: &Ui, text: &str) -> Vec2 {
     layout(ui.painter(), text, Color32::WHITE).size() + AROUND
 }
 
-/// Draws a chip whose `anchor` is at a point. Where it came to be.
+/// Draws a chip whose `anchor` is at a point. Returns its rect.
 pub(crate) fn paint_chip(
     painter: &Painter,
     at: Pos2,

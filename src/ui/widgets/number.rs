@@ -1,4 +1,4 @@
-//! Numbers: between two ends, dragged or typed, and read-outs that become a field.
+//! Numbers: a slider, a field to drag or type, and a read-out that becomes a field.
 
 use std::ops::RangeInclusive;
 
@@ -14,14 +14,14 @@ use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
 /// Width of the label before the track.
 const LABEL_WIDTH: f32 = 90.0;
-/// Width of the number behind the track: it stands still while the number changes.
+/// Width of the number behind the track. The track stands still while the number changes.
 const NUMBER_WIDTH: f32 = 56.0;
 const KNOB_RADIUS: f32 = 6.0;
 /// Steps of the arrow keys over the whole range.
 const KEY_STEPS: f32 = 50.0;
 
-/// A row with a label, a track with a knob, and the number in words of the caller. Painted here: egui's fills its track from the
-/// range's start alone, not from a middle, and a double click resets nothing.
+/// A row with a label, a track with a knob, and the number as the caller writes it. Painted here: egui's slider fills its track only
+/// from the range's start, and has no default for a double click to restore.
 #[derive(Clone, Debug)]
 pub(crate) struct Slider<'a> {
     label: &'a str,
@@ -32,7 +32,7 @@ pub(crate) struct Slider<'a> {
 }
 
 impl<'a> Slider<'a> {
-    /// A slider at a value, which `text` gives in words.
+    /// A slider at a value, which `text` writes out.
     pub(crate) fn new(label: &'a str, value: f32, range: RangeInclusive<f32>, text: &'a str) -> Self {
         let reset_to = *range.start();
         Self {
@@ -44,12 +44,12 @@ impl<'a> Slider<'a> {
         }
     }
 
-    /// What a double click brings back, and where the filled part of the track begins. The range's start unless told.
+    /// The default: a double click restores it, and the filled part of the track begins there. The range's start unless told.
     pub(crate) fn reset_to(self, reset_to: f32) -> Self {
         Self { reset_to, ..self }
     }
 
-    /// Shows it. The new value, when there is one.
+    /// Shows it. Returns a new value.
     pub(crate) fn show(self, ui: &mut Ui) -> Option<f32> {
         let tokens = Tokens::of(ui);
         let height = control_size(ui).max(MOUSE_CONTROL);
@@ -70,7 +70,7 @@ impl<'a> Slider<'a> {
         self.asked(ui, *ends.start(), *ends.end(), &response)
     }
 
-    /// What pointer and keys ask for.
+    /// The value that pointer or keys ask for.
     fn asked(&self, ui: &Ui, left: f32, right: f32, response: &Response) -> Option<f32> {
         let (start, end) = (*self.range.start(), *self.range.end());
         let steps = arrow_steps(ui, response);
@@ -84,7 +84,7 @@ impl<'a> Slider<'a> {
         let pointer = response.interact_pointer_pos().filter(|_| pressed)?;
         let fraction = ((pointer.x - left) / (right - left).max(1.0)).clamp(0.0, 1.0);
         let value = start + fraction * (end - start);
-        // The knob snaps to the value of a double click, so that it is easy to find again.
+        // The knob snaps to the default, so that it is easy to find again.
         let near = (value - self.reset_to).abs() < 0.015 * (end - start);
         Some(if near { self.reset_to } else { value })
     }
@@ -111,8 +111,8 @@ impl<'a> Slider<'a> {
     }
 }
 
-/// A field for a number, dragged by `speed` a point, with `decimals` always shown so that it stands still. The new value,
-/// when there is one.
+/// A field for a number. A drag changes it by `speed` a point. It always shows all `decimals`, so that it stands still. Returns a new
+/// value.
 pub(crate) fn number_field(
     ui: &mut Ui,
     label: &str,
@@ -148,14 +148,14 @@ pub(crate) fn number_field(
     (changed != value).then_some(changed)
 }
 
-/// Characters that can be typed: more than any number needs.
+/// The most characters that can be typed, more than any number needs.
 const MOST_CHARS: usize = 24;
 
-/// A number in words of the caller. Painted here: egui's `DragValue` drops what is typed when the value changes meanwhile, as a time
-/// does that plays.
+/// A number as the caller writes it. A click turns it into a field. Painted here: egui's `DragValue` drops what is typed when the value
+/// changes meanwhile, as the time does while a clip plays.
 #[derive(Clone, Debug)]
 pub(crate) struct TypedValue<'a> {
-    /// Tells it apart from others.
+    /// Unique among the read-outs.
     name: &'static str,
     text: &'a str,
     typed: &'a str,
@@ -167,7 +167,7 @@ pub(crate) struct TypedValue<'a> {
 }
 
 impl<'a> TypedValue<'a> {
-    /// A read-out of this text. Its field begins with `typed`, all of it marked.
+    /// A read-out of this text. Its field begins with `typed`, all selected.
     pub(crate) fn new(ui: &Ui, name: &'static str, text: &'a str, typed: &'a str) -> Self {
         let tokens = Tokens::of(ui);
         Self {
@@ -182,12 +182,12 @@ impl<'a> TypedValue<'a> {
         }
     }
 
-    /// Its width, whatever it says.
+    /// Its width, whatever the text.
     pub(crate) fn width(self, width: f32) -> Self {
         Self { width, ..self }
     }
 
-    /// Quiet words on no ground.
+    /// Words in a colour, without a ground.
     pub(crate) fn quiet(self, color: Color32, align: Align) -> Self {
         Self {
             color,
@@ -198,7 +198,7 @@ impl<'a> TypedValue<'a> {
         }
     }
 
-    /// Shows it. What was typed when Enter ended it, and the read-out itself while it is one.
+    /// Shows it. Returns what was typed if Enter ended it.
     pub(crate) fn show(self, ui: &mut Ui) -> (Option<String>, Response) {
         let (rect, response) = ui.allocate_exact_size(vec2(self.width, control_size(ui)), Sense::click());
         let id = Id::unique(("typed", self.name));
@@ -235,7 +235,7 @@ impl<'a> TypedValue<'a> {
         ui.painter().text(at, anchor, self.text, self.font.clone(), self.color);
     }
 
-    /// The field. What was typed when Enter ended it.
+    /// The field. Returns what was typed if Enter ended it.
     fn edit(&self, ui: &mut Ui, field: Rect, id: Id, mut typed: String, begins: bool) -> Option<String> {
         let tokens = Tokens::of(ui);
         ui.painter().rect_filled(field, CONTROL_RADIUS, tokens.field_hovered);
@@ -267,7 +267,7 @@ impl<'a> TypedValue<'a> {
         } else if response.lost_focus() || !response.has_focus() {
             ui.data_mut(|data| data.remove::<String>(id));
             let entered = ui.input(|input| input.key_pressed(Key::Enter));
-            // Esc ends the typing and nothing else.
+            // Esc ends typing and does nothing else.
             ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
             return entered.then_some(typed);
         }
@@ -276,7 +276,7 @@ impl<'a> TypedValue<'a> {
     }
 }
 
-/// The first number in what was typed: `1.25 s`, `1,25`, `31 of 75`. None when there is none.
+/// The first number in a text: `1.25 s`, `1,25`, `31 of 75`. None if there is none.
 pub(crate) fn typed_number(typed: &str) -> Option<f64> {
     let typed = typed.trim().replace(',', ".").replace('−', "-");
     let end = typed

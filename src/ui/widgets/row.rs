@@ -4,16 +4,18 @@ use egui::{Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec
 
 use super::button::icon_button;
 use super::color::paint_swatch;
-use super::control::{MOUSE_CONTROL, control_size, focus_ring, is_touch, key_hint, paint_elided, pressed_row_height};
+use super::control::{
+    MOUSE_CONTROL, control_size, focus_ring, is_touch, key_hint, paint_elided, paint_row_ground, pressed_row_height,
+};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
-/// Height of the heading of what is selected, as of the panel on the left.
+/// Height of the heading of a selection.
 const SELECTED_HEIGHT: f32 = 22.0;
-/// Height of the name of a part.
+/// Height of the name of a section.
 const SECTION_HEIGHT: f32 = 21.0;
 
-/// A row that can be pressed, over the whole width; its ground says whether the pointer is over it, and whether it is `selected`.
+/// A row that can be pressed, over the whole width. Its ground shows whether it is hovered or `selected`.
 pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
     let size = vec2(ui.available_width(), pressed_row_height(ui));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -22,19 +24,7 @@ pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
     (rect, response)
 }
 
-/// The ground of a row, a little wider than the words in it, and the ring of the keyboard.
-pub(crate) fn paint_row_ground(ui: &Ui, rect: Rect, response: &Response, selected: bool, over: bool) {
-    let tokens = Tokens::of(ui);
-    let around = rect.expand2(vec2(6.0, 0.0));
-    if selected {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.accent_ground);
-    } else if over {
-        ui.painter().rect_filled(around, CONTROL_RADIUS, tokens.field);
-    }
-    focus_ring(ui, around, response);
-}
-
-/// A small icon at a place in a row; `on` marks a switch that is on. Whether it was clicked.
+/// A small icon in a row. `on` marks a switch that is on. Returns whether it was clicked.
 pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
     let tokens = Tokens::of(ui);
     let response = ui.interact(place, row.id.with(icon), Sense::click());
@@ -99,7 +89,7 @@ pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Re
     response
 }
 
-/// The title of a panel with a button that closes it. Whether it was clicked.
+/// The title of a panel with a button that closes it. Returns whether it was clicked.
 pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
     ui.horizontal(|ui| {
         let width = ui.available_width() - control_size(ui) - 6.0;
@@ -112,8 +102,8 @@ pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
     .inner
 }
 
-/// The name of what is selected, after a swatch in a colour (linear) if it has one, and a button that clears the selection. Whether
-/// it was clicked.
+/// The name of the selection, after a swatch in its colour (linear) if any, and a button that clears it. Returns whether it was
+/// clicked.
 pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: Option<[f32; 3]>) -> bool {
     let size = vec2(ui.available_width(), SELECTED_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -132,23 +122,23 @@ pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: 
         rect.max.x - side - at.x,
     );
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Selected: {name}")));
-    // The cross stands where the edges of the rows below end, and its field around it.
+    // The cross aligns with the right edge of the rows below.
     let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
-    // Apart from the rows, which it must not make wider.
+    // In a child of its own, so that it does not widen the rows.
     let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
     icon_button(&mut corner, Icon::Close, "Clear the selection (Esc)", false).clicked()
 }
 
-/// The name of a part of a panel: 11 points, capitals.
+/// The name of a section: 11 points, capitals.
 pub(crate) fn section_name(ui: &mut Ui, name: &str) {
     keyed_section_name(ui, name, "");
 }
 
-/// The name of a part of a panel with the key that changes it.
+/// The name of a section with the key that changes it.
 pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SECTION_HEIGHT), Sense::hover());
-    // The words stand a little higher than the middle, nearer to what is above than a row would be.
+    // The words are a little above the middle.
     let y = rect.center().y - 1.0;
     let font = theme::semibold(11.0);
     ui.painter().text(
@@ -164,12 +154,12 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
 }
 
-/// The name of a part of a panel, and at its right end something to do about it. Whether it was clicked.
+/// The name of a section, and an action at its right end. Returns whether the action was clicked.
 pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>) -> bool {
     section_with_labelled_action(ui, name, action.map(|action| (action, action)))
 }
 
-/// The same where the words alone do not say enough to a reader: the second ones do.
+/// The same with a longer label of the action, for screen readers.
 pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Option<(&str, &str)>) -> bool {
     let top = ui.cursor().min;
     section_name(ui, name);
@@ -212,7 +202,7 @@ const SHEET_HANDLE_HEIGHT: f32 = 24.0;
 pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SHEET_HANDLE_HEIGHT), Sense::hover());
-    // A finger may also take hold of it a little above the sheet.
+    // By touch its target reaches a little above the sheet.
     let above = (control_size(ui) - rect.height()).max(0.0);
     let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
     let response = ui.interact(target, response.id.with("grip"), Sense::click());
