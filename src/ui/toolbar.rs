@@ -1,8 +1,7 @@
 //! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
 //! help.
 
-use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Rangef, RectAlign, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Label, Rangef, RectAlign, RichText, Ui};
 
 use super::icons::Icon;
 use super::panel::{popover, popover_menu};
@@ -222,7 +221,7 @@ pub(super) fn title(ui: &mut Ui, session: &Session, with_dialect: bool) {
     let tokens = Tokens::of(ui);
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = TITLE_SPACING;
-        text(ui, "Bindpose", theme::semibold(13.5), tokens.text, f32::INFINITY);
+        ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
         let Some(open) = session.open_model() else { return };
         let dialect = dialect_name(open.dialect);
         let dialect_width = if with_dialect {
@@ -230,23 +229,15 @@ pub(super) fn title(ui: &mut Ui, session: &Session, with_dialect: bool) {
         } else {
             0.0
         };
-        let room = ui.available_width() - dialect_width;
-        let font = FontId::proportional(13.0);
-        let name = open.file.base_name();
-        text(ui, name, font, tokens.muted, room).on_hover_text(&open.file.path);
+        let most = ui.available_width() - dialect_width;
+        ui.scope(|ui| {
+            ui.set_max_width(most);
+            let name = RichText::new(open.file.base_name()).color(tokens.muted);
+            let name = Label::new(name).truncate().show_tooltip_when_elided(false);
+            ui.add(name).on_hover_text(&open.file.path);
+        });
         if with_dialect {
             chip(ui, dialect, tokens.muted);
         }
     });
-}
-
-fn text(ui: &mut Ui, text: &str, font: FontId, color: Color32, most: f32) -> Response {
-    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
-    job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
-    let galley = ui.painter().layout_job(job);
-    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x, 22.0), Sense::hover());
-    let at = pos2(rect.min.x, rect.center().y - galley.size().y * 0.5);
-    ui.painter().galley(at, galley, color);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
-    response
 }

@@ -171,11 +171,11 @@ fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<C
             weight,
         }));
     }
-    paint_ends(ui, names);
+    paint_clip_names(ui, names);
 }
 
 /// The names of the clips at the ends of the slider above.
-fn paint_ends(ui: &mut Ui, [left, right]: [&str; 2]) {
+fn paint_clip_names(ui: &mut Ui, [left, right]: [&str; 2]) {
     let color = Tokens::of(ui).muted;
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 16.0), Sense::hover());
     let font = FontId::proportional(11.0);

@@ -1,6 +1,6 @@
 //! How a clip plays: speed, what happens at the end, the range, and the seam of a loop.
 
-use egui::{Align, Align2, Color32, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align, Align2, FontId, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::controls;
 use super::seam::{SeamReading, angle, scale};
@@ -136,23 +136,17 @@ fn seam_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands
         },
     );
     let tokens = Tokens::of(ui);
-    match (reading.words(), reading.any_jumps()) {
-        (Some(words), _) => paragraph(ui, words, tokens.warning),
-        (None, true) => paragraph(ui, "No jump from the last pose to the first is seen.", tokens.muted),
-        (None, false) => paragraph(ui, "The last pose is the first one again.", tokens.muted),
-    }
+    let (words, color) = match (reading.words(), reading.any_jumps()) {
+        (Some(words), _) => (words, tokens.warning),
+        (None, true) => ("No jump from the last pose to the first is seen.", tokens.muted),
+        (None, false) => ("The last pose is the first one again.", tokens.muted),
+    };
+    ui.label(RichText::new(words).size(11.5).color(color));
     if reading.any_jumps() {
+        ui.add_space(4.0);
         joint_list(ui, session, &reading, state, commands);
     }
     state.seam = reading;
-}
-
-fn paragraph(ui: &mut Ui, words: &str, color: Color32) {
-    let font = FontId::proportional(11.5);
-    let galley = ui.painter().layout(words.to_owned(), font, color, ui.available_width());
-    let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(0.0, 4.0), Sense::hover());
-    ui.painter().galley(rect.min, galley, color);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
 }
 
 fn joint_list(
