@@ -18,9 +18,9 @@ fn open_arc(horizon: f32, normal_angle: f32) -> f32 {
 fn horizon_cosine(pixel: vec2<f32>, step: vec2<f32>, start: f32, point: vec3<f32>, to_eye: vec3<f32>, lowest: f32) -> f32 {
     var highest = lowest;
     for (var i = 0; i < STEPS; i++) {
-        let share = (f32(i) + start) / f32(STEPS);
+        let fraction = (f32(i) + start) / f32(STEPS);
         // Denser near the point, and never the point itself.
-        let at = pixel + step * share * share + normalize(step);
+        let at = pixel + step * fraction * fraction + normalize(step);
         let packed = geometry_at(vec2<i32>(floor(at)));
         let away = world_at(ndc_of_pixel(floor(at) + 0.5), distance_of(packed)) - point;
         let distance = length(away);

@@ -80,8 +80,8 @@ fn reflectance(albedo: vec3<f32>, fresnel0: vec3<f32>, scale_bias: vec2<f32>) ->
 // Where the lobe of a rough surface is strongest: from the mirrored direction towards the normal (Lagarde and de Rousiers
 // 2014). Not of unit length.
 fn dominant_direction(normal: vec3<f32>, mirrored: vec3<f32>, alpha: f32) -> vec3<f32> {
-    let smooth_share = 1.0 - alpha;
-    return mix(normal, mirrored, smooth_share * (sqrt(smooth_share) + alpha));
+    let smoothness = 1.0 - alpha;
+    return mix(normal, mirrored, smoothness * (sqrt(smoothness) + alpha));
 }
 
 // Fraction of the reflected environment that a point sees whose ambient occlusion is `occlusion`, 0 … 1 (Lagarde and de

@@ -3,10 +3,10 @@
 // The Khronos PBR neutral tone mapper: base colours stay what they are, and what is brighter bends towards white without
 // turning its hue.
 
-// The light that a surface which mirrors 4 % adds to its base colour. The original has 0.04, for an environment of 1; the studio's
+// What is subtracted: the light that a surface which mirrors 4 % adds to its base colour. The original has 0.04, for an environment of 1; the studio's
 // are 0.4 on the mean, and more than they add would leave base colours too deep.
-const VEIL: f32 = 0.016;
-// Where the shoulder begins: at 0.8, of which the veil is taken off.
+const OFFSET: f32 = 0.016;
+// Where the shoulder begins: at 0.8, less the offset.
 const SHOULDER: f32 = 0.784;
 // How fast what lies above the shoulder turns white.
 const DESATURATION: f32 = 0.15;
@@ -18,8 +18,8 @@ fn exposed(radiance: vec3<f32>, stops: f32) -> vec3<f32> {
 fn tone_mapped(radiance: vec3<f32>) -> vec3<f32> {
     let least = min(radiance.r, min(radiance.g, radiance.b));
     // A parabola brings dark colours to 0 as the light does.
-    let veil = select(VEIL, least - least * least / (4.0 * VEIL), least < 2.0 * VEIL);
-    let color = radiance - veil;
+    let offset = select(OFFSET, least - least * least / (4.0 * OFFSET), least < 2.0 * OFFSET);
+    let color = radiance - offset;
     let peak = max(color.r, max(color.g, color.b));
     if peak < SHOULDER {
         return color;

@@ -23,8 +23,8 @@
 //!
 //! let bytes = std::fs::read("web/sample/figure.m3d")?;
 //! let parsed = format::parse(&bytes)?;
-//! let (model, notices) = m3d::from_document(&parsed.document, &parsed.lines)?;
-//! assert!(notices.is_empty());
+//! let (model, diagnostics) = m3d::from_document(&parsed.document, &parsed.lines)?;
+//! assert!(diagnostics.is_empty());
 //!
 //! let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
 //! pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.25);

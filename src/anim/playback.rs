@@ -112,7 +112,7 @@ impl Playback {
 
     /// The two times between which a loop jumps, the earlier first: the ends of what plays, but that
     /// [`WrapMode::BookDemo`] goes on at 0 where it can. `None` where nothing loops.
-    pub fn seam_secs(&self) -> Option<[f32; 2]> {
+    pub fn loop_gap_secs(&self) -> Option<[f32; 2]> {
         let played = self.played();
         let goes_on_secs = match (self.wrap_mode, self.backward) {
             (WrapMode::BookDemo, false) => played.book_demo_start_secs(),

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::finding::write_finding;
+use super::diagnostic::write_diagnostic;
 use super::text::{OneLine, Plain};
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
@@ -37,7 +37,7 @@ impl From<Outcome> for ExitCode {
 pub(super) enum Failure {
     #[error("{} cannot be read: {reason}", named(path))]
     Unreadable { path: PathBuf, reason: io::Error },
-    /// Shown as a finding, see [`Failure::report`].
+    /// Shown as a diagnostic, see [`Failure::report`].
     #[error("{} has an error", named(path))]
     Refused { path: PathBuf, error: Box<LoadError> },
     #[error("there is no clip \"{asked}\" in {}; {}", named(path), listed(known))]
@@ -90,7 +90,7 @@ impl Failure {
         // When standard error is closed too, the exit code is all that is left to say it.
         match self {
             Self::Refused { path, error } => {
-                let _ = write_finding(err, path, &error.diagnostic, error.excerpt.as_ref());
+                let _ = write_diagnostic(err, path, &error.diagnostic, error.excerpt.as_ref());
                 Outcome::FileHasErrors
             }
             _ => {

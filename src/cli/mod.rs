@@ -5,8 +5,8 @@
 
 mod appearance;
 mod check;
+mod diagnostic;
 mod failure;
-mod finding;
 mod info;
 mod input;
 mod output;

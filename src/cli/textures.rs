@@ -5,8 +5,8 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use super::diagnostic::write_diagnostic;
 use super::failure::Failure;
-use super::finding::write_finding;
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
 use crate::model::Material;
@@ -153,7 +153,7 @@ impl Textures {
         for (map, material) in all.iter_mut().zip(indices) {
             let slot = map.slot;
             map.state = Some(match (maps.file(material, slot), maps.finding(material, slot)) {
-                (Some(file), Some(finding)) => MapState::Unreadable(self.path(file), finding.clone()),
+                (Some(file), Some(diagnostic)) => MapState::Unreadable(self.path(file), diagnostic.clone()),
                 (Some(file), None) => MapState::Found(self.path(file)),
                 (None, _) => unopened(material, slot).unwrap_or(MapState::Missing),
             });
@@ -170,7 +170,7 @@ impl Textures {
     /// Tells what was skipped in the folders, a line each.
     pub(super) fn write_warnings(&self, err: &mut dyn Write) -> io::Result<()> {
         let mut warnings = self.warnings.iter();
-        warnings.try_for_each(|(path, warning)| write_finding(err, path, warning, None))
+        warnings.try_for_each(|(path, warning)| write_diagnostic(err, path, warning, None))
     }
 }
 
@@ -178,13 +178,13 @@ impl Textures {
 pub(super) fn write_missing(err: &mut dyn Write, file: &Path, maps: &[NamedMap<'_>]) -> io::Result<bool> {
     let mut any = false;
     for (map, count) in by_name(maps) {
-        let (path, finding) = match &map.state {
+        let (path, diagnostic) = match &map.state {
             Some(MapState::Missing) => (file, missing(map, count)),
-            Some(MapState::Unreadable(path, finding)) => (*path, without_name(finding, path)),
+            Some(MapState::Unreadable(path, diagnostic)) => (*path, without_name(diagnostic, path)),
             Some(MapState::Found(_)) | None => continue,
         };
         any = true;
-        write_finding(err, path, &finding, None)?;
+        write_diagnostic(err, path, &diagnostic, None)?;
     }
     Ok(any)
 }
@@ -217,14 +217,14 @@ fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
     )
 }
 
-/// A finding about a picture without the name that its message begins with, since the path stands before it.
-fn without_name(finding: &Diagnostic, path: &Path) -> Diagnostic {
+/// A diagnostic about a picture without the name that its message begins with, since the path stands before it.
+fn without_name(diagnostic: &Diagnostic, path: &Path) -> Diagnostic {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let message = finding.message.strip_prefix(&*name);
+    let message = diagnostic.message.strip_prefix(&*name);
     let message = message.and_then(|message| message.strip_prefix(": "));
     Diagnostic {
-        message: message.unwrap_or(&finding.message).to_owned(),
-        ..finding.clone()
+        message: message.unwrap_or(&diagnostic.message).to_owned(),
+        ..diagnostic.clone()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::{Blend, Event, SPEEDS, Session};
-use crate::anim::{Direction, Seam, next_key, previous_key};
+use crate::anim::{Direction, LoopGap, next_key, previous_key};
 use crate::model::JointIndex;
 
 impl Session {
@@ -128,15 +128,15 @@ impl Session {
         }
     }
 
-    /// The seam of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
+    /// The gap of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
     /// nothing loops.
-    pub fn loop_seam(&self) -> Option<Cow<'_, Seam>> {
+    pub fn loop_gap(&self) -> Option<Cow<'_, LoopGap>> {
         let (open, clip) = (self.content.open.as_ref()?, self.clip()?);
-        let span_secs = self.actor.playback.seam_secs()?;
+        let span_secs = self.actor.playback.loop_gap_secs()?;
         Some(if span_secs == [clip.start_secs, clip.end_secs] {
-            Cow::Borrowed(open.seam(self.actor.clip?)?)
+            Cow::Borrowed(open.loop_gap(self.actor.clip?)?)
         } else {
-            Cow::Owned(open.seam_between(open.compiled.get(self.actor.clip?)?, span_secs))
+            Cow::Owned(open.loop_gap_between(open.compiled.get(self.actor.clip?)?, span_secs))
         })
     }
 

@@ -12,7 +12,7 @@ pub const VISIBLE_FRACTION: f32 = 1.0 / 500.0;
 
 /// The jump of one joint from the last pose of a loop to the first, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JointSeam {
+pub struct JointGap {
     /// Distance of the joint's place, in model units.
     pub translation: f32,
     /// Angle of its turn, degrees, 0…180.
@@ -26,11 +26,11 @@ pub struct JointSeam {
     pub visibility: f32,
 }
 
-/// The seam of a loop.
+/// The gap of a loop: how far its last pose is from its first.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Seam {
+pub struct LoopGap {
     /// In the skeleton's order.
-    pub joints: Vec<JointSeam>,
+    pub joints: Vec<JointGap>,
     /// The joint whose own keys jump most; `None` when none jumps.
     pub worst: Option<JointIndex>,
     /// Whether it is seen: a joint's own jump is, or what the jumps of its ancestors add up to.
@@ -39,7 +39,7 @@ pub struct Seam {
     pub visible_travel: f32,
 }
 
-impl Seam {
+impl LoopGap {
     /// All joints, the farthest travelled first. Of equal ways the greater turn is first, then the greater change of scale, then
     /// the skeleton's order.
     pub fn by_travel(&self) -> Vec<JointIndex> {
@@ -54,9 +54,9 @@ impl Seam {
     }
 }
 
-/// The seam of a loop through a clip of a skeleton, from `first_secs` to `last_secs` of the clip's time; `size` is the
+/// The gap of a loop through a clip of a skeleton, from `first_secs` to `last_secs` of the clip's time; `size` is the
 /// length of the model's diagonal in its own units. A loop without length has none.
-pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [f32; 2], size: f32) -> Seam {
+pub fn loop_gap(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [f32; 2], size: f32) -> LoopGap {
     let mut pose = PoseBuffers::default();
     let mut places = |time_secs| {
         pose.evaluate(skeleton, clip, time_secs);
@@ -64,13 +64,13 @@ pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [
     };
     let (last, first) = (places(last_secs), places(first_secs));
     let visible_travel = VISIBLE_FRACTION * size.max(f32::MIN_POSITIVE);
-    let joints: Vec<JointSeam> = (0u32..)
+    let joints: Vec<JointGap> = (0u32..)
         .map(JointIndex)
         .zip(last.into_iter().zip(first))
         .map(|(joint, (last, first))| {
             let [from, to] = [last_secs, first_secs].map(|secs| sample_joint(skeleton, clip, joint, secs));
             let change = JointChange::between(skeleton, joint, &from, &to);
-            JointSeam {
+            JointGap {
                 translation: change.translation,
                 rotation_degrees: change.rotation_radians.to_degrees(),
                 scale: change.scale,
@@ -89,7 +89,7 @@ pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [
     let visible = joints
         .iter()
         .any(|joint| joint.visibility >= 1.0 || joint.travel >= visible_travel);
-    Seam {
+    LoopGap {
         joints,
         worst,
         visible,
