@@ -41,7 +41,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     }
     let normal = normal_of(packed);
     let along = distance_of(packed);
-    // A little towards the viewer, since depth has steps.
+    // The point moves a little towards the viewer, since depth is rounded.
     let point = world_at(view.ndc, along - (camera.depth_far - camera.depth_near) * 3e-5);
     let to_eye = towards_eye(point);
     let size = vec2<f32>(textureDimensions(geometry_map));
@@ -73,6 +73,6 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
-    // Occluders beyond the radius are not found; deepening makes up for them.
+    // Occluders beyond the radius are not found. Darkening the rest makes up for them.
     return vec4<f32>(pow(clamp(open / f32(SLICES), 0.0, 1.0), DEEPENING));
 }

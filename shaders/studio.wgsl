@@ -58,12 +58,12 @@ fn studio_key(surface: StudioSurface, weights: Reflectance, n_dot_v: f32, lights
     let alpha = min(surface.roughness * surface.roughness + KEY_SIZE, 1.0);
     let lobe = specular_lobe(
         surface.normal, surface.to_eye, lights.to_key, n_dot_l, n_dot_v, surface.fresnel0, alpha);
-    // The Lambert 1/pi is in the light already; the lobe takes it back.
+    // The light already includes Lambert's 1/pi. The lobe does not want it, hence the PI.
     return lights.key_color * (lights.key_visible * n_dot_l) * (weights.diffuse + PI * weights.boost * lobe);
 }
 
-// The rim has no lobe: one so low would burn every flat top. It is an even sheen in all that the surface gives back, strongest where
-// it turns away from the viewer. It casts no shadows, so ambient occlusion keeps it out of creases.
+// The rim has no specular lobe: from so low it would overexpose every flat top. It scales with all that the surface reflects, and is
+// strongest where the surface turns away from the viewer. It casts no shadows, so ambient occlusion keeps it out of creases.
 fn studio_rim(surface: StudioSurface, weights: Reflectance, n_dot_v: f32, lights: StudioLights) -> vec3<f32> {
     let edge = 1.0 - n_dot_v;
     let facing = max(dot(surface.normal, lights.to_rim), 0.0) * (0.2 + 0.8 * edge * edge);

@@ -3,7 +3,7 @@
 //! # Map
 //! ```text
 //! bytes -> Document -> Model -> LocalPose -> ModelPose -> Palette -> RenderFrame -> pixels
-//!         format      model    anim::sample  local_to_model palette   scene          render
+//!         format      import   anim::sample  local_to_model palette   scene          render
 //! ```
 //! [`session`] holds what is open and how it is looked at; commands change it, time moves it. The `ui` and the `web` page, the
 //! command line and the tests are shells around that core, which knows no GPU, no window, no browser and no clock.

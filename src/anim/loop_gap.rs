@@ -1,4 +1,4 @@
-//! What is seen where a loop begins again: the pose in which it ends beside the one in which it begins.
+//! The jump that is seen where a loop begins again: how far its last pose is from its first.
 
 use super::activity::JointChange;
 use super::buffers::PoseBuffers;
@@ -7,7 +7,7 @@ use super::sample::sample_joint;
 use crate::model::{JointIndex, Skeleton};
 
 /// A jump of the surface by less than this fraction of the model's size is not seen: two pixels where the model fills a
-/// picture a thousand pixels high, which is what a moving edge is blurred by.
+/// picture a thousand pixels high. A moving edge is blurred by as much.
 pub const VISIBLE_FRACTION: f32 = 1.0 / 500.0;
 
 /// The jump of one joint from the last pose of a loop to the first, relative to its parent.
@@ -21,19 +21,19 @@ pub struct JointGap {
     pub scale: f32,
     /// How far the joint itself jumps in the model, all that its ancestors do included, in model units.
     pub travel: f32,
-    /// How many times the jump of its surface is what can just be seen ([`VISIBLE_FRACTION`]). The surface is taken to reach a
+    /// The jump of its surface as a multiple of what can just be seen ([`VISIBLE_FRACTION`]). The surface is taken to reach a
     /// tenth of the model's size from its joint, so that a turn by 1.15° and a scale by 2 % can just be seen too.
     pub visibility: f32,
 }
 
-/// The gap of a loop: how far its last pose is from its first.
+/// The gap of a loop, joint by joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoopGap {
     /// In the skeleton's order.
     pub joints: Vec<JointGap>,
     /// The joint whose own keys jump most; `None` when none jumps.
     pub worst: Option<JointIndex>,
-    /// Whether it is seen: a joint's own jump is, or what the jumps of its ancestors add up to.
+    /// Whether it is seen: some joint's own jump is large enough, or the sum with its ancestors'.
     pub visible: bool,
     /// The least travel that is seen, in model units: [`VISIBLE_FRACTION`] of the model's size.
     pub visible_travel: f32,

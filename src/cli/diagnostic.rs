@@ -7,7 +7,7 @@ use super::text::OneLine;
 use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
 
-/// `file:line:column: severity[code]: message`, then the lines it is about, and where others alike stand.
+/// Writes `file:line:column: severity[code]: message`, the lines that it is about, and the lines of others like it.
 pub(super) fn write_diagnostic(
     out: &mut dyn Write,
     path: &Path,

@@ -48,7 +48,7 @@ pub(super) enum Failure {
     },
     #[error("there is no code \"{asked}\"; the nearest is \"{nearest}\"")]
     UnknownCode { asked: String, nearest: &'static str },
-    /// A pose that cannot be said in numbers.
+    /// A pose whose numbers overflow.
     #[error(
         "{}: at {time_secs} s of \"{clip}\" {what} {number} is taken beyond what numbers hold",
         named(path)
@@ -85,9 +85,9 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// Tells it, and says how bad it is.
+    /// Writes it to `err`, and returns how bad it is.
     pub(super) fn report(&self, err: &mut dyn Write) -> Outcome {
-        // When standard error is closed too, the exit code is all that is left to say it.
+        // When standard error is closed too, only the exit code can tell.
         match self {
             Self::Refused { path, error } => {
                 let _ = write_diagnostic(err, path, &error.diagnostic, error.excerpt.as_ref());

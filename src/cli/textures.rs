@@ -12,7 +12,7 @@ use crate::image;
 use crate::model::Material;
 use crate::session::{File, MapNames, MapSlot, MapSource, Maps, find_maps};
 
-/// Entries of folders that are looked at, so that a whole disk given by mistake comes to an end.
+/// The most entries of folders that are looked at, so that a whole disk given by mistake does not take for ever.
 const MOST_ENTRIES: usize = 500_000;
 
 /// Pictures of folders and of the folders in them, as far as a model names them.
@@ -119,7 +119,7 @@ impl Textures {
                     textures.unopened.push(file);
                     textures.reasons.push(unreadable(&reason));
                 }
-                // Nobody asked for it.
+                // No material names it.
                 Err(_) => {}
             }
         }
@@ -228,7 +228,7 @@ fn without_name(diagnostic: &Diagnostic, path: &Path) -> Diagnostic {
     }
 }
 
-/// A warning whatever the code's usual severity: a map that is missing was asked for here.
+/// A warning, whatever the code's usual severity: the user asked for the map.
 fn warning(code: &Code, message: String) -> Diagnostic {
     Diagnostic {
         severity: Severity::Warning,
@@ -309,7 +309,7 @@ impl<'a> Walk<'a> {
             reason,
         })?;
         let mut ahead = first;
-        // Links to folders come last, so that a folder that lies here itself is met under its own name.
+        // Links to folders come last, so that a folder in this folder is met under its own name.
         let mut linked = Vec::new();
         loop {
             if let Some(entry) = ahead.pop() {
@@ -333,7 +333,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Takes up a picture. Gives back a folder.
+    /// Adds a picture, or returns a folder to walk through.
     fn visit(&mut self, entry: Entry) -> Option<Entry> {
         let kind = match fs::metadata(&entry.path) {
             Ok(metadata) => metadata.file_type(),
@@ -354,7 +354,7 @@ impl<'a> Walk<'a> {
         if !File::new(&name, []).is_image() {
             return None;
         }
-        // Only files end: to open a pipe is to wait for somebody who writes.
+        // Only regular files are opened: opening a pipe would wait for a writer.
         if kind.is_file() {
             self.pictures.push(entry.path);
         } else if self.names.fit(&name) {
@@ -392,7 +392,7 @@ impl<'a> Walk<'a> {
                 is_link: entry.file_type()?.is_symlink(),
             });
         }
-        // The order of a folder differs between systems; which of two pictures is taken should not.
+        // Systems list folders in different orders. The choice between two pictures must not depend on that.
         entries.sort_by(|a, b| b.path.cmp(&a.path));
         Ok(entries)
     }

@@ -14,7 +14,7 @@ use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
 use crate::session::{Command, File, LoadStep, PassChoice, RenderScale, Session};
 
-/// Why an opening came to nothing that was followed by another one, or by the viewer's end.
+/// Why an opening failed that was followed by another one, or by the viewer's end.
 const OVERTAKEN: &str = "another opening came after this one";
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
@@ -313,12 +313,11 @@ impl Shared {
 
 /// Has every panic reported as an uncaught error of the page, with the name `Panic` and the panic's words as message.
 ///
-/// A panic hook belongs to the whole program, as the memory does that a panic leaves in disorder. So it is told to the page, once, the way
-/// browsers tell of uncaught errors, and not to one viewer or to a list of them kept for this purpose. The `RuntimeError` that follows is
-/// its echo, and all that a browser without `reportError` hears of it.
+/// A panic ends the whole program, so the page is told once, as browsers tell of uncaught errors, and not each viewer. A `RuntimeError`
+/// follows. It is all that a browser without `reportError` tells.
 fn report_panics() {
     static INSTALLED: Once = Once::new();
-    // Before the first hook of eframe's: each runner installs one, which logs, stops that runner and then calls the one before.
+    // This hook must be older than those of eframe: each runner installs one, which logs, stops that runner and calls the hook before it.
     INSTALLED.call_once(|| {
         std::panic::set_hook(Box::new(|info| {
             let error = js_sys::Error::new(&info.to_string());
@@ -331,7 +330,7 @@ fn report_panics() {
     });
 }
 
-/// The bytes of the page as bytes of ours: copied once, to where they stay.
+/// Copies bytes of the page into the program's memory, once.
 fn copied(bytes: &Uint8Array) -> Arc<[u8]> {
     let mut copy: Arc<[u8]> = std::iter::repeat_n(0, bytes.length() as usize).collect();
     if let Some(copy) = Arc::get_mut(&mut copy) {
