@@ -11,8 +11,8 @@ use super::input;
 use crate::anim::CompiledClip;
 use crate::check;
 use crate::diagnostic::{Diagnostic, Severity, codes};
-use crate::format::{self, LineIndex};
-use crate::import::m3d;
+use crate::format::LineIndex;
+use crate::import;
 use crate::session::summary::Finding;
 
 /// List what is wrong with files, or was mended while reading them.
@@ -163,22 +163,16 @@ fn edits(from: &str, to: &str) -> usize {
     row[to.len()]
 }
 
-/// All diagnostics of both stages, in the order of the file; those without a place come first.
+/// All diagnostics of a file, in its order; those without a place come first.
 fn diagnostics_of(bytes: &[u8]) -> Vec<Diagnostic> {
-    let parsed = match format::parse(bytes) {
-        Ok(parsed) => parsed,
-        Err(error) => return vec![error.diagnostic()],
-    };
-    let of_model = match m3d::from_document(&parsed.document, &parsed.lines) {
-        Ok((model, mut diagnostics)) => {
-            let compiled = CompiledClip::all(&model.clips);
-            diagnostics.extend(check::motion(&model, &compiled, &parsed.lines.clip_lines()));
-            diagnostics
+    let mut diagnostics = match import::import(bytes) {
+        Ok(imported) => {
+            let compiled = CompiledClip::all(&imported.model.clips);
+            let of_motion = check::motion(&imported.model, &compiled, &imported.clip_lines);
+            imported.diagnostics.into_iter().chain(of_motion).collect::<Vec<_>>()
         }
-        Err(error) => vec![error.diagnostic()],
+        Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
     };
-    let mut diagnostics = parsed.diagnostics;
-    diagnostics.extend(of_model);
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     diagnostics
 }
