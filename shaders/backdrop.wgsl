@@ -1,5 +1,5 @@
-// Backdrop, ground grid and the shadows on the ground in one draw over the view, before the model. So nothing fights for depth, and
-// one dithered rounding takes the place of several blends in eight bits.
+// Backdrop, ground grid and the shadows on the ground in one draw over the view, before the model. One draw needs no depth test, and is
+// rounded and dithered once instead of blended several times in eight bits.
 
 // How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
 const BACKDROP_FALLOFF: f32 = 0.76;
@@ -8,7 +8,7 @@ const BACKDROP_ROW: f32 = 0.06;
 
 fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
     let offset = vec2<f32>(ndc.x * 0.16, ndc.y - BACKDROP_ROW);
-    // Rounded in the middle, so that no crease shows there.
+    // The gradient is flat in the middle, so that no crease shows there.
     let away = (sqrt(dot(offset, offset) + 0.012) - 0.11) * BACKDROP_FALLOFF;
     return mix(ground.backdrop_center_srgb.rgb, ground.backdrop_edge_srgb.rgb, clamp(away, 0.0, 1.0));
 }

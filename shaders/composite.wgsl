@@ -1,4 +1,4 @@
-// The finished picture onto a surface that wants encoded values, as egui's does.
+// Copies the finished picture onto a surface that takes encoded values, as egui's does.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 @group(0) @binding(1) var picture_sampler: sampler;

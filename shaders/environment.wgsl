@@ -18,7 +18,7 @@ struct Environment {
 // Scale and bias of fresnel0: the root of n·v to the right, roughness down; entries lie in the middles of texels, the first at
 // 0, the last at 1.
 @group(2) @binding(6) var brdf_table: texture_2d<f32>;
-// Linear in all ways, clamped: for both.
+// Linear and clamped, for both textures.
 @group(2) @binding(7) var environment_sampler: sampler;
 
 fn environment_from_world(direction: vec3<f32>) -> vec3<f32> {
@@ -37,7 +37,7 @@ fn environment_diffuse(normal: vec3<f32>) -> vec3<f32> {
     return max(environment.sh[0].rgb + linear + quadratic, vec3<f32>(0.0)) * environment.intensity;
 }
 
-// What a mirror of this roughness shows in a direction of any length: without the cube, the same in all of them.
+// What a mirror of this roughness shows in a direction of any length. Without the cube it is the same in all directions.
 fn environment_specular_light(direction: vec3<f32>, roughness: f32) -> vec3<f32> {
     if environment.specular_level_count < 1.0 {
         return max(environment.sh[0].rgb, vec3<f32>(0.0)) * environment.intensity;

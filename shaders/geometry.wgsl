@@ -1,5 +1,5 @@
-// Normals and depth of what is in view, packed for the passes of ambient occlusion. The texture has eight bits a channel, since
-// every device can draw into that. Red and green hold the normal as an octahedron, blue and alpha the depth in 16 bits.
+// Normals and depth of what is in view, packed for the passes of ambient occlusion. The texture has eight bits a channel: every
+// device can draw into that. Red and green hold the normal as an octahedron, blue and alpha the depth in 16 bits.
 
 fn octahedral_from_direction(direction: vec3<f32>) -> vec2<f32> {
     let flat = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));

@@ -1,4 +1,4 @@
-// The lights, the shadow of the first, and how surfaces take them. Twin: `shaders::Light`.
+// The lights, the shadow of the first, and how surfaces are lit. Twin: `shaders::Light`.
 
 struct Light {
     shadow_clip_from_world: mat4x4<f32>,

@@ -91,7 +91,7 @@ fn tangent_skinned(
     return line_vertex(world.position + world.tangent.xyz * line.length * f32(end), line.color_srgb);
 }
 
-// A vertex that is in the world already.
+// A vertex in world space.
 @vertex
 fn world_vertex(@location(0) position: vec3<f32>, @location(1) color_srgb: vec4<f32>) -> LineVertex {
     return line_vertex(position, color_srgb);

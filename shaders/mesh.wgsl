@@ -1,6 +1,6 @@
 // How a pixel of the model is stored.
 //
-// `surface_color` is the part in which the programs differ: the colour of a point as it is to be seen, sRGB-encoded.
+// The programs differ in `surface_color`: the final colour of a point, sRGB-encoded.
 
 // Lit colours are dithered. A property is not, since people read its value off the picture.
 fn stored(color_srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
@@ -21,7 +21,7 @@ fn fragment(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @locati
 fn fragment_cut(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
-    // Discarded after the derivatives: some devices lose those when a neighbour is discarded.
+    // The discard comes after the derivatives: some devices lose them when a neighbour is discarded.
     if point.diffuse_texel.a < material.alpha_clip {
         discard;
     }

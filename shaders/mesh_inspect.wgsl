@@ -29,7 +29,7 @@ fn checker(tex_coord: vec2<f32>) -> vec3<f32> {
     return mix(vec3<f32>(0.5), color, select(0.55, 1.0, is_first_tile)) * select(1.0, 0.55, is_dark);
 }
 
-// Gives a little shape to what would be one flat patch: brighter where it faces the viewer.
+// Shades a flat colour a little: brighter where the surface faces the viewer.
 fn facing_shade(point: SurfacePoint) -> f32 {
     return 0.62 + 0.38 * clamp(dot(point.smooth_normal, point.to_eye), 0.0, 1.0);
 }

@@ -8,8 +8,8 @@ const RIM_COLOR: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
 const LEAST_ROUGHNESS: f32 = 0.08;
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
-    // What faces away from the key lies in its own shadow. Towards there the light fades before the map says so: on coarse
-    // triangles with smooth normals the map would draw each triangle's edge, and draw it jagged.
+    // Surfaces that face away from the key shadow themselves. The light fades out before that angle, since on coarse triangles with
+    // smooth normals the map would show each triangle's edge, and jagged.
     var key_visible = 0.0;
     let facing_key = dot(point.smooth_normal, light.to_key);
     let own_light = smoothstep(0.0, 0.4, facing_key) * smoothstep(-0.1, 0.0, dot(point.flat_normal, light.to_key));
@@ -19,8 +19,8 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
     let surface = StudioSurface(
         material.albedo * point.diffuse_texel.rgb,
         material.fresnel0,
-        // What the book's shader takes for 1 - roughness is shininess: a material of this roughness and no gloss map shows the
-        // same there. It also is what glossiness means elsewhere (glTF's KHR_materials_pbrSpecularGlossiness: 1 - roughness).
+        // The alpha scales 1 - roughness, as in the book's shader. Other formats define glossiness the same way (glTF's
+        // KHR_materials_pbrSpecularGlossiness: 1 - roughness).
         max(1.0 - shininess(point), LEAST_ROUGHNESS),
         point.normal,
         point.smooth_normal,

@@ -6,7 +6,7 @@ fn mapped_normal(texel: vec3<f32>, normal: vec3<f32>, tangent: vec4<f32>) -> vec
     if material.normal_channels == 0u {
         return normal;
     }
-    // Interpolation has made it oblique to the normal.
+    // After interpolation it is not square to the normal.
     let along_u = tangent.xyz - normal * dot(normal, tangent.xyz);
     let length_squared = dot(along_u, along_u);
     // Also false for NaN.

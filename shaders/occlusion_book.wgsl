@@ -37,7 +37,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let normal = normal_of(packed);
     let along = distance_of(packed);
     let point = world_at(view.ndc, along);
-    // Two angles from one even noise: every pixel mirrors the offsets about a direction of its own.
+    // Each pixel mirrors the offsets about its own direction. Its two angles come from one evenly spread noise.
     let noise = pixel_noise(view.clip.xy);
     let turn = noise * 6.2831853;
     let lift = 2.0 * fract(noise * 17.0) - 1.0;
@@ -53,7 +53,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let found_along = distance_of(geometry_at(vec2<i32>(floor(pixel_of_ndc(probe_ndc)))));
         let found = world_at(probe_ndc, found_along);
         let occlusion = occlusion_of(along - found_along);
-        // Only what is well in front has a direction.
+        // A point that is hardly in front gives no reliable direction.
         if occlusion > 0.0 {
             sum += occlusion * max(dot(normal, normalize(found - point)), 0.0);
         }

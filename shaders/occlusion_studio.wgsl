@@ -18,9 +18,9 @@ fn open_arc(horizon: f32, normal_angle: f32) -> f32 {
 fn horizon_cosine(pixel: vec2<f32>, step: vec2<f32>, start: f32, point: vec3<f32>, to_eye: vec3<f32>, lowest: f32) -> f32 {
     var highest = lowest;
     for (var i = 0; i < STEPS; i++) {
-        let share = (f32(i) + start) / f32(STEPS);
+        let fraction = (f32(i) + start) / f32(STEPS);
         // Denser near the point, and never the point itself.
-        let at = pixel + step * share * share + normalize(step);
+        let at = pixel + step * fraction * fraction + normalize(step);
         let packed = geometry_at(vec2<i32>(floor(at)));
         let away = world_at(ndc_of_pixel(floor(at) + 0.5), distance_of(packed)) - point;
         let distance = length(away);
@@ -41,7 +41,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     }
     let normal = normal_of(packed);
     let along = distance_of(packed);
-    // A little towards the viewer, since depth has steps.
+    // The point moves a little towards the viewer, since depth is rounded.
     let point = world_at(view.ndc, along - (camera.depth_far - camera.depth_near) * 3e-5);
     let to_eye = towards_eye(point);
     let size = vec2<f32>(textureDimensions(geometry_map));
@@ -73,6 +73,6 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
-    // Occluders beyond the radius are not found; deepening makes up for them.
+    // Occluders beyond the radius are not found. Darkening the rest makes up for them.
     return vec4<f32>(pow(clamp(open / f32(SLICES), 0.0, 1.0), DEEPENING));
 }

@@ -1,12 +1,12 @@
-// How a surface gives light back: formulas alone, without bindings. Twin: `tests/common/twins/pbr.rs`.
+// How a surface reflects light: formulas alone, without bindings. Twin: `tests/common/twins/pbr.rs`.
 //
-// Roughness is perceptual; alpha, its square, is what the distribution of the micro-facets goes by.
+// Roughness is perceptual. Alpha is its square; the distribution of the micro-facets takes alpha.
 
 const PI: f32 = 3.14159265;
 
 // GGX (Walter et al. 2007): how densely micro-facets face `halfway`, per steradian. Both are of unit length.
 fn ggx_distribution(normal: vec3<f32>, halfway: vec3<f32>, alpha: f32) -> f32 {
-    // sin² by the cross product: 1 - cos² has no digits left where the lobe is narrow.
+    // sin² by the cross product: 1 - cos² loses all digits where the lobe is narrow.
     let sine = cross(normal, halfway);
     let scaled_cos = dot(normal, halfway) * alpha;
     let ratio = alpha / (dot(sine, sine) + scaled_cos * scaled_cos);
@@ -21,7 +21,7 @@ fn smith_visibility(n_dot_l: f32, n_dot_v: f32, alpha: f32) -> f32 {
     return 0.5 / (towards_light + towards_eye);
 }
 
-// What a surface mirrors at grazing angles: all, unless it mirrors less than anything in nature does face on.
+// What a surface mirrors at grazing angles: everything, unless it mirrors less than any real material does face on.
 fn fresnel90(fresnel0: vec3<f32>) -> f32 {
     return clamp(dot(fresnel0, vec3<f32>(50.0 / 3.0)), 0.0, 1.0);
 }
@@ -44,7 +44,7 @@ fn specular_lobe(
     alpha: f32,
 ) -> vec3<f32> {
     let sum = to_eye + to_light;
-    // They are opposite only where both graze.
+    // Their sum is zero only where both graze.
     let halfway = sum * inverseSqrt(max(dot(sum, sum), 1e-8));
     let lobe = ggx_distribution(normal, halfway, alpha) * smith_visibility(n_dot_l, n_dot_v, alpha);
     return fresnel_schlick(fresnel0, dot(to_eye, halfway)) * lobe;
@@ -68,9 +68,9 @@ fn reflectance(albedo: vec3<f32>, fresnel0: vec3<f32>, scale_bias: vec2<f32>) ->
     let single = fresnel0 * scale_bias.x + grazing * scale_bias.y;
     // The mean of Schlick's curve over the hemisphere.
     let average = fresnel0 + (grazing - fresnel0) / 21.0;
-    // What leaves a perfect mirror of this roughness only after the first bounce.
+    // The light that a perfect mirror of this roughness does not reflect in the first bounce.
     let trapped = 1.0 - min(scale_bias.x + scale_bias.y, 1.0);
-    // Each bounce more keeps `average * trapped` of the one before: a geometric series.
+    // Each further bounce has `average * trapped` of the one before: a geometric series.
     let boost = 1.0 / (1.0 - min(average, vec3<f32>(1.0)) * trapped);
     let multiple = single * (boost - 1.0);
     let diffuse = albedo * max(1.0 - single - multiple, vec3<f32>(0.0));
@@ -80,8 +80,8 @@ fn reflectance(albedo: vec3<f32>, fresnel0: vec3<f32>, scale_bias: vec2<f32>) ->
 // Where the lobe of a rough surface is strongest: from the mirrored direction towards the normal (Lagarde and de Rousiers
 // 2014). Not of unit length.
 fn dominant_direction(normal: vec3<f32>, mirrored: vec3<f32>, alpha: f32) -> vec3<f32> {
-    let smooth_share = 1.0 - alpha;
-    return mix(normal, mirrored, smooth_share * (sqrt(smooth_share) + alpha));
+    let smoothness = 1.0 - alpha;
+    return mix(normal, mirrored, smoothness * (sqrt(smoothness) + alpha));
 }
 
 // Fraction of the reflected environment that a point sees whose ambient occlusion is `occlusion`, 0 … 1 (Lagarde and de

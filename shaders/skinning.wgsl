@@ -36,7 +36,7 @@ fn transform(row_x: vec4<f32>, row_y: vec4<f32>, row_z: vec4<f32>, vertex: Skinn
     let position = vec4<f32>(vertex.position, 1.0);
     let determinant = dot(row_x.xyz, cross(row_y.xyz, row_z.xyz));
     let side = select(1.0, -1.0, determinant < 0.0);
-    // A matrix times a column vector is a sum over the columns; `cofactor` has rows, so the vector stands left.
+    // `cofactor` holds rows, so the vector stands on the left.
     let normal = vertex.normal * cofactor(row_x.xyz, row_y.xyz, row_z.xyz) * side;
     let tangent = vec3<f32>(
         dot(row_x.xyz, vertex.tangent.xyz),

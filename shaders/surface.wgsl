@@ -8,7 +8,7 @@ struct SurfacePoint {
     flat_normal: vec3<f32>,
     smooth_normal: vec3<f32>,
     normal: vec3<f32>,
-    // As it comes from the vertices.
+    // Interpolated from the vertices.
     tangent: vec4<f32>,
     tex_coord: vec2<f32>,
     diffuse_texel: vec4<f32>,
@@ -25,7 +25,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let side = select(-1.0, 1.0, clockwise) * mesh.front_sign;
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
-    // The relief has one shape: seen from behind, a bump is a dent.
+    // Seen from behind, a bump is a dent.
     let normal = mapped_normal(normal_texel.rgb, vertex_normal, mesh.world_tangent) * side;
     let in_view = mesh.clip.xy / camera.viewport_pixels;
     return SurfacePoint(

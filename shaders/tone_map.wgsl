@@ -1,12 +1,11 @@
-// From light to colours of a screen, linear 0 … 1. Twin: `tests/common/twins/tone_map.rs`.
+// Turns light into colours of a screen, linear 0 … 1. Twin: `tests/common/twins/tone_map.rs`.
 //
-// The Khronos PBR neutral tone mapper: base colours stay what they are, and what is brighter bends towards white without
-// turning its hue.
+// The Khronos PBR neutral tone mapper: base colours stay as they are. Brighter colours go towards white and keep their hue.
 
-// The light that a surface which mirrors 4 % adds to its base colour. The original has 0.04, for an environment of 1; the studio's
-// are 0.4 on the mean, and more than they add would leave base colours too deep.
-const VEIL: f32 = 0.016;
-// Where the shoulder begins: at 0.8, of which the veil is taken off.
+// The light that a surface with 4 % reflectance adds to its base colour. It is subtracted. The original has 0.04, for an environment
+// of 1. The studio's mean is 0.4: subtracting more would make base colours too dark.
+const OFFSET: f32 = 0.016;
+// Where the shoulder begins: at 0.8, less the offset.
 const SHOULDER: f32 = 0.784;
 // How fast what lies above the shoulder turns white.
 const DESATURATION: f32 = 0.15;
@@ -17,9 +16,9 @@ fn exposed(radiance: vec3<f32>, stops: f32) -> vec3<f32> {
 
 fn tone_mapped(radiance: vec3<f32>) -> vec3<f32> {
     let least = min(radiance.r, min(radiance.g, radiance.b));
-    // A parabola brings dark colours to 0 as the light does.
-    let veil = select(VEIL, least - least * least / (4.0 * VEIL), least < 2.0 * VEIL);
-    let color = radiance - veil;
+    // For dark colours a parabola is subtracted, so that 0 stays 0.
+    let offset = select(OFFSET, least - least * least / (4.0 * OFFSET), least < 2.0 * OFFSET);
+    let color = radiance - offset;
     let peak = max(color.r, max(color.g, color.b));
     if peak < SHOULDER {
         return color;

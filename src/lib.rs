@@ -3,7 +3,7 @@
 //! # Map
 //! ```text
 //! bytes -> Document -> Model -> LocalPose -> ModelPose -> Palette -> RenderFrame -> pixels
-//!         format      model    anim::sample  local_to_model palette   scene          render
+//!         format      import   anim::sample  local_to_model palette   scene          render
 //! ```
 //! [`session`] holds what is open and how it is looked at; commands change it, time moves it. The `ui` and the `web` page, the
 //! command line and the tests are shells around that core, which knows no GPU, no window, no browser and no clock.
@@ -23,8 +23,8 @@
 //!
 //! let bytes = std::fs::read("web/sample/figure.m3d")?;
 //! let parsed = format::parse(&bytes)?;
-//! let (model, notices) = m3d::from_document(&parsed.document, &parsed.lines)?;
-//! assert!(notices.is_empty());
+//! let (model, diagnostics) = m3d::from_document(&parsed.document, &parsed.lines)?;
+//! assert!(diagnostics.is_empty());
 //!
 //! let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
 //! pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), 0.25);

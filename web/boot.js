@@ -59,6 +59,8 @@ bindpose.reset = async () => {
 };
 
 const refuse = (words) => showNotice("Some files could not be read", words);
+/** Tells of a failed opening, but not of one that ended because the person opened something else meanwhile. */
+const refuseError = (error) => error.name === "AbortError" || refuse(wordsOf(error));
 const say = (words) => (element("spoken").textContent = words);
 const focusView = () => view.querySelector("canvas").focus();
 
@@ -75,7 +77,7 @@ const hand = async (files, addsClips) => {
     // Without a model to join, a file of clips is opened.
     await give(files, addsClips ? "addClips" : "open", (before, { error }) => sources.add(files, addsClips && Boolean(before.model), !error));
   } catch (error) {
-    refuse(wordsOf(error));
+    refuseError(error);
   }
 };
 
@@ -115,7 +117,7 @@ async function boot() {
   bindpose.ready.then(async () => {
     hideShell();
     const files = await opensAtOnce;
-    if (files && !wasUsed() && !received) await give(files, "open").catch((error) => refuse(wordsOf(error)));
+    if (files && !wasUsed() && !received) await give(files, "open").catch(refuseError);
     refreshTransport();
   }, () => {});
   onCanvas = keepOnCanvas(viewer, {

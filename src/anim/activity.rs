@@ -12,22 +12,22 @@ const STILL_FRACTION: f32 = 1e-5;
 /// What one joint does in a clip, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointActivity {
-    /// Length of the way of its surface, as a fraction of that of the joint that moves most: 0…1, 0 for constant joints.
+    /// How far its surface moves in all, as a fraction of the joint that moves most: 0…1, 0 for constant joints.
     pub fraction: f32,
-    /// Length of the way of the joint itself, in model units.
+    /// How far the joint itself moves in all, in model units.
     pub path: f32,
     /// Sum of the angles that it turns by, degrees.
     pub turned_degrees: f32,
     /// Sum of its changes of scale, each as a fraction of the greater scale.
     pub scaled: f32,
-    /// Whether all its keys say the same, or it has none.
+    /// Whether all its keys are equal, or it has none.
     pub constant: bool,
 }
 
 /// The activity of each joint, in the skeleton's order; `size` is the length of the model's diagonal in its own units.
 ///
-/// Between two keys a joint goes straight and turns along one arc, so the sums over the keys are the lengths of the whole
-/// ways. A turn and a scale count by what they move a surface that reaches a tenth of the size from its joint.
+/// Between two keys a joint moves in a straight line and turns along one arc, so a sum over the keys is the length of the whole
+/// path. Turns and scales count by how far they move a surface that reaches a tenth of the size from its joint.
 pub fn activity(skeleton: &Skeleton, clip: &Clip, size: f32) -> Vec<JointActivity> {
     let mut ways = Vec::with_capacity(clip.tracks.len());
     let mut joints: Vec<JointActivity> = (0u32..)
@@ -48,7 +48,7 @@ pub fn activity(skeleton: &Skeleton, clip: &Clip, size: f32) -> Vec<JointActivit
     joints
 }
 
-/// The activity of a joint without its fraction, and the length of its surface's way.
+/// The activity of a joint without its fraction, and the length of its surface's path.
 fn of_track(skeleton: &Skeleton, joint: JointIndex, track: &Track, size: f32) -> (JointActivity, f32) {
     let first = track.key(0);
     let mut before = first;
@@ -75,7 +75,7 @@ fn of_track(skeleton: &Skeleton, joint: JointIndex, track: &Track, size: f32) ->
 }
 
 /// How far the part of a surface that follows one joint reaches from it, as a fraction of the model's size: a forearm, a head
-/// or a foot is about a tenth of a figure. By it turns and scales become lengths.
+/// or a foot is about a tenth of a figure. It turns angles and scales into lengths.
 const REACH_FRACTION: f32 = 0.1;
 
 /// The way from one pose of a joint to another, relative to its parent.
@@ -90,8 +90,8 @@ pub(super) struct JointChange {
 }
 
 impl JointChange {
-    /// From one pose of a joint to another. Lengths are brought into model space by where the bind pose has the parent, whose
-    /// scale is often that of an exporter's units.
+    /// From one pose of a joint to another. The parent's bind pose brings lengths into model space: its scale is often that of an
+    /// exporter's units.
     pub(super) fn between(skeleton: &Skeleton, joint: JointIndex, from: &LocalJoint, to: &LocalJoint) -> Self {
         let way: Vec3A = (to.translation - from.translation).into();
         let parent = skeleton.parents().get(joint.index()).copied().flatten();

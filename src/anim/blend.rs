@@ -1,4 +1,4 @@
-//! Between two poses, and between a pose and the bind pose.
+//! Blends two poses, or a pose and the bind pose.
 
 use super::lanes::{ArcLanes, JointLanes};
 use super::pose::LocalPose;

@@ -10,8 +10,8 @@ const MOST_PROBE_TIMES: usize = 1_000;
 
 /// A clip as [`sample`](super::sample()) wants it: its joints in groups of four, with the arcs between their keys.
 ///
-/// It says the same as the [`Clip`] that it is made of, which has the tracks as the file has them. A clip is compiled once,
-/// when its model is made ready, and kept beside the model: compiling looks at each key, sampling at two.
+/// It has the same motion as its [`Clip`], which has the tracks as the file has them. A clip is compiled once, when its model is
+/// made ready, and kept beside the model: compiling reads every key, sampling reads two.
 #[derive(Clone, Debug, Default)]
 pub struct CompiledClip {
     start_secs: f32,

@@ -11,12 +11,12 @@ use crate::model::{JointIndex, LocalJoint, Skeleton};
 
 /// A joint turns by at most this from mark to mark: far less than the half turn, at which either way round is as short.
 const MARK_RADIANS: f64 = PI / 6.0;
-/// Marks between two keys at most. No eye follows a chain of joints that turns farther from key to key.
+/// The most marks between two keys. No eye follows a chain of joints that turns farther from key to key.
 const MOST_STEPS: f64 = 64.0;
 /// How often the distance between marks is halved near the poles of y.
 const MOST_HALVINGS: u32 = 8;
 
-/// Relative to what a curve shows a joint.
+/// What the values of a curve are relative to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CurveSpace {
     /// Its parent.
@@ -54,7 +54,7 @@ pub struct Curve {
     marks: Vec<Mark>,
 }
 
-/// What a curve shows at a time, for times from there to the next mark to follow.
+/// The rotation that a curve shows at a time. Times up to the next mark follow it.
 #[derive(Clone, Copy, Debug)]
 struct Mark {
     time_secs: f32,
@@ -199,8 +199,8 @@ fn model_joint(skeleton: &Skeleton, clip: &CompiledClip, joint: JointIndex, time
     LocalJoint::from_matrix(&model_from_joint)
 }
 
-/// Where the cosine of the turn about y is less, x and z turn about one axis and only their sum or difference is told: what
-/// f32 loses of a quaternion would be a visible part of either.
+/// Where the cosine of the turn about y is less, x and z turn about nearly one axis. Only their sum or difference is known then:
+/// the rounding of an f32 quaternion would be visible in either.
 const GIMBAL_COSINE: f64 = 1e-4;
 
 /// Turns about the fixed axes x, y, z of a unit rotation, radians: of all triples that give it the nearest to the one
@@ -236,7 +236,7 @@ fn euler_radians(rotation: DQuat, before: Option<DVec3>) -> DVec3 {
     }
 }
 
-/// Each angle by whole turns nearest to what it was.
+/// Adds whole turns to each angle, to bring it nearest to what it was.
 fn unwrapped(euler: DVec3, before: DVec3) -> DVec3 {
     let turns = ((before - euler) / (2.0 * PI)).round();
     euler + turns * (2.0 * PI)

@@ -8,7 +8,7 @@ use super::pose::Palette;
 use super::skin::skin_positions;
 use crate::model::{Aabb, Mesh, Model};
 
-/// Vertices skinned at most for one box: tens of milliseconds of work.
+/// The most vertices that are skinned for one box: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
 
 /// Lines along which the farthest points are kept, both ways. With 32 the hull of a round thing is short by about 3 %.

@@ -1,4 +1,4 @@
-//! Four joints side by side, and the way between four and four.
+//! Four joints side by side, and the blend between four and four.
 
 use std::array::from_fn;
 
@@ -143,7 +143,7 @@ impl ArcLanes {
     }
 
     /// Turns the quaternions of `to` to the side of those of `from`, and gives the arcs between them. q and −q are the same
-    /// rotation, but the way between them is the long one.
+    /// rotation, but the arc between them is the long one.
     pub(super) fn to_same_side(from: &JointLanes, to: &mut JointLanes) -> Self {
         let cosine = (0..4).fold(Vec4::ZERO, |sum, i| sum + from.rotation[i] * to.rotation[i]);
         let side = Vec4::select(cosine.cmplt(Vec4::ZERO), Vec4::NEG_ONE, Vec4::ONE);
@@ -168,7 +168,7 @@ impl ArcLanes {
 /// The angle between two unit quaternions, 0…π: half the angle of the turn from one rotation to the other, or half of what
 /// is left of a full turn where they are on different sides.
 pub(super) fn angle_between(from: DQuat, to: DQuat) -> f64 {
-    // Twice the half angle by its tangent: exact for small angles, where the cosine tells nothing.
+    // Twice the half angle, by its tangent: exact for small angles, where the cosine is nearly constant.
     2.0 * (to - from).length().atan2((to + from).length())
 }
 

@@ -26,10 +26,11 @@ modes! {
     /// How [`LoopMode::Loop`] goes on from the other end.
     #[derive(Default)]
     pub enum WrapMode {
-        /// By what was left of the step, so that a loop takes its length whatever the steps are.
+        /// The rest of the step goes on from there, so that a loop takes its length whatever the steps are.
         #[default]
         Wrap = "wrap", "Wrap";
-        /// At time 0, as the books' demo does: the rest of the step is lost. Where the range does not hold 0, at its start.
+        /// It goes on at time 0, as the books' demo does, and the rest of the step is lost. Where the range does not hold 0, it goes
+        /// on at its start.
         BookDemo = "book-demo", "As the book's demo";
     }
 }
@@ -41,7 +42,7 @@ modes! {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Playback {
     span: Span,
-    // Inside the span, longer than nothing, and not all of it.
+    // Inside the span, of some length, and not the whole span.
     range: Option<Span>,
     // In f64, so that thousands of small steps add up to the time that went by.
     time_secs: f64,
@@ -112,7 +113,7 @@ impl Playback {
 
     /// The two times between which a loop jumps, the earlier first: the ends of what plays, but that
     /// [`WrapMode::BookDemo`] goes on at 0 where it can. `None` where nothing loops.
-    pub fn seam_secs(&self) -> Option<[f32; 2]> {
+    pub fn loop_gap_secs(&self) -> Option<[f32; 2]> {
         let played = self.played();
         let goes_on_secs = match (self.wrap_mode, self.backward) {
             (WrapMode::BookDemo, false) => played.book_demo_start_secs(),
@@ -262,7 +263,7 @@ impl Playback {
         }
         let before = (self.time_secs, self.playing);
         self.enter_range();
-        // An endless dt is a very long one: its product with a speed stays finite in f64.
+        // An infinite dt becomes a very long one, so that its product with a speed stays finite in f64.
         let way_secs = f64::from(dt_secs.min(f32::MAX)) * f64::from(self.speed);
         let step_secs = if self.backward { -way_secs } else { way_secs };
         let played = self.played();

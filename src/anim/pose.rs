@@ -1,4 +1,4 @@
-//! A type for each space, so that poses cannot be swapped by mistake, and the way from one to the next.
+//! A type for each space, so that poses cannot be swapped by mistake, and the functions from one to the next.
 
 use glam::Affine3A;
 
@@ -70,7 +70,7 @@ pub fn local_to_model(skeleton: &Skeleton, local: &LocalPose, model: &mut ModelP
     }
 }
 
-/// Where the parent stands; a root stands on the model itself.
+/// The parent's transform; the identity for a root.
 #[inline]
 fn placed(model_from_joint: &[Affine3A], parent: Option<JointIndex>) -> &Affine3A {
     parent.map_or(&Affine3A::IDENTITY, |parent| &model_from_joint[parent.index()])

@@ -11,7 +11,7 @@ use crate::model::{JointIndex, LocalJoint, Skeleton};
 /// The result does not depend on earlier calls, so scrubbing costs the same as playing.
 pub fn sample(clip: &CompiledClip, time_secs: f32, local: &mut LocalPose) {
     local.resize(clip.joint_count());
-    // Tracks of a clip mostly share their key times: the place found for one group is where the next looks first.
+    // Tracks of a clip mostly share their key times, so each group begins its search where the one before found its key.
     let mut guess = 0;
     for (joints, group) in local.groups.iter_mut().zip(clip.groups()) {
         *joints = sample_group(group, time_secs, &mut guess);

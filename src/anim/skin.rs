@@ -88,7 +88,7 @@ fn blended(palette: &Palette, influences: &Influences) -> Affine3A {
     sum
 }
 
-/// The cofactor matrix is the inverse transpose times the determinant: it moves normals rightly under any scale and needs
+/// The cofactor matrix is the inverse transpose times the determinant: it is right for normals under any scale and needs
 /// no division. Where the matrix mirrors, the determinant's sign would turn the normal inside out.
 struct Cofactor {
     matrix: Mat3A,

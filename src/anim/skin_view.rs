@@ -66,8 +66,8 @@ pub fn dominant_joint(influences: &Influences) -> Option<JointIndex> {
 
 /// Edges of a mesh with their lengths in the bind pose, found once.
 ///
-/// Vertices at one place with one set of influences are one: where a file parts them for texture or normal, a stretch must
-/// not part.
+/// Vertices at one place with the same influences count as one: a file may split them for texture or normal, but their stretch
+/// is the same.
 #[derive(Clone, Debug, Default)]
 pub struct Stretch {
     /// Of each vertex: the first one that is the same.

@@ -1,4 +1,4 @@
-//! A stretch of time and the ways through it: plain arithmetic in f64.
+//! A span of time and steps through it: plain arithmetic in f64.
 //!
 //! Times and steps come from f32 numbers, and the product of two of those is exact in f64. What is rounded is each sum,
 //! by at most 2⁻⁵³ of the span's farther end: steps at 60 a second for ten hours lose less than 1e-9 s of a clip of some seconds.
@@ -60,8 +60,8 @@ impl Span {
         self.clamp(time_secs)
     }
 
-    /// A step as the books' demo does it: beyond the end the time is 0 again, and what was left of the step is lost. A span
-    /// that does not hold 0 before its end begins at its start. The demo knows no way back: it begins at the end.
+    /// A step as the books' demo does it: beyond the end the time is 0 again, and the rest of the step is lost. A span that does
+    /// not hold 0 before its end begins at its start. The demo never plays backward: here that begins at the end.
     pub(super) fn step_as_book_demo(&self, time_secs: f64, step_secs: f64) -> f64 {
         let stepped_secs = time_secs + step_secs;
         if self.contains(stepped_secs) {

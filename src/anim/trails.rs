@@ -1,4 +1,4 @@
-//! The ways of joints through a clip, and the times of its ghosts.
+//! The paths of joints through a clip, and the times of its ghosts.
 
 use glam::Vec3;
 
@@ -6,10 +6,10 @@ use super::buffers::PoseBuffers;
 use super::pose::Palette;
 use crate::model::{Clip, JointIndex};
 
-/// Points of a trail at most: a clip of more frames is looked at evenly over its span instead.
+/// The most points of a trail: a clip of more frames is sampled evenly over its span instead.
 const MOST_POINTS: u32 = 2_000;
 
-/// Ways of joints' origins through a clip, model space: one point a frame, from the first to the last.
+/// Paths of joints' origins through a clip, model space: one point a frame, from the first to the last.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trails {
     points: Vec<Vec3>,
@@ -82,7 +82,7 @@ impl Default for GhostPlan {
     }
 }
 
-/// Ghosts on either side at most.
+/// The most ghosts on either side.
 const MOST_GHOSTS: u32 = 32;
 
 /// Times of ghosts, in order: those before `time_secs` and those after, without `time_secs` itself and without what lies

@@ -7,13 +7,13 @@ use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Subject, codes};
 use crate::model::{Mesh, Model};
 
-/// Triangles looked at for a clip, spread over the mesh: enough for a fraction.
+/// Triangles looked at for a clip, spread over the mesh: enough to estimate a fraction.
 const LOOKED_AT: usize = 4_000;
 
 /// Triangles looked at for all clips together, so that thousands of clips do not look at the mesh thousands of times.
 const LOOKED_AT_IN_ALL: usize = 100 * LOOKED_AT;
 
-/// Triangles looked at for a clip however many there are.
+/// The least number of triangles looked at for a clip.
 const LEAST_LOOKED_AT: usize = 50;
 
 /// An edge is torn when it grew this many times more than the median edge of the pose.

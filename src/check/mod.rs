@@ -1,4 +1,4 @@
-//! What is wrong with a model, seen when it is posed. Loading does not depend on it: what it finds are warnings.
+//! Finds what is wrong with a model when it is posed. Its diagnostics are warnings: loading does not depend on them.
 
 mod exploded;
 mod overflow;

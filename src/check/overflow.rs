@@ -7,7 +7,7 @@ use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Subject, codes};
 use crate::model::{Clip, Model, Skeleton, Track};
 
-/// Beyond it a pose is taken to overflow. It leaves room for the sums that make a pose, each of which must fit into `f32`.
+/// Numbers above this count as overflow. That leaves room for the sums that make a pose: each must fit into `f32`.
 const MOST: f64 = 1e37;
 
 /// Notes the clips whose numbers overflow.
@@ -35,7 +35,7 @@ pub(super) fn note_overflows(
     }
 }
 
-/// For each joint the greatest x, y and z, without sign, of the vertices it moves in bind space.
+/// For each joint the greatest |x|, |y| and |z| of the vertices that it moves, in bind space.
 fn reaches(model: &Model) -> Vec<DVec3> {
     let mut reaches = vec![DVec3::ZERO; model.skeleton.joint_count()];
     for (influences, position) in model.mesh.influences.iter().zip(&model.mesh.positions) {
@@ -102,13 +102,13 @@ impl Bound {
     fn of_matrix(matrix: &DAffine3) -> Self {
         let DMat3 { x_axis, y_axis, z_axis } = matrix.matrix3;
         Self {
-            // Of Frobenius, which is no less than the greatest factor.
+            // The Frobenius norm is at least the greatest factor.
             scale: DVec3::new(x_axis.length(), y_axis.length(), z_axis.length()).length(),
             translation: matrix.translation.length(),
         }
     }
 
-    /// Of this matrix times another one.
+    /// The limits of this matrix times another one.
     fn after(self, first: Self) -> Self {
         Self {
             scale: self.scale * first.scale,

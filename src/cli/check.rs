@@ -5,14 +5,14 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::diagnostic::write_diagnostic;
 use super::failure::{Failure, Outcome};
-use super::finding::write_finding;
 use super::input;
 use crate::anim::CompiledClip;
 use crate::check;
 use crate::diagnostic::{Diagnostic, Severity, codes};
-use crate::format::{self, LineIndex};
-use crate::import::m3d;
+use crate::format::LineIndex;
+use crate::import;
 use crate::session::summary::Finding;
 
 /// List what is wrong with files, or was mended while reading them.
@@ -101,25 +101,30 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
                 continue;
             }
         };
-        let findings = findings(&file.bytes);
-        if findings.iter().any(|finding| finding.severity == Severity::Error) {
+        let diagnostics = diagnostics_of(&file.bytes);
+        if diagnostics
+            .iter()
+            .any(|diagnostic| diagnostic.severity == Severity::Error)
+        {
             outcome = outcome.max(Outcome::FileHasErrors);
         }
-        if !arguments.json && !findings.is_empty() {
+        if !arguments.json && !diagnostics.is_empty() {
             let lines = LineIndex::new(&file.bytes);
-            for finding in &findings {
-                let excerpt = finding.position.map(|position| lines.excerpt(position, finding.length));
-                write_finding(out, path, finding, excerpt.as_ref())?;
+            for diagnostic in &diagnostics {
+                let excerpt = diagnostic
+                    .position
+                    .map(|position| lines.excerpt(position, diagnostic.length));
+                write_diagnostic(out, path, diagnostic, excerpt.as_ref())?;
             }
         }
-        all.push((path, findings));
+        all.push((path, diagnostics));
     }
     if arguments.json {
         let checked: Vec<Checked<'_>> = all
             .iter()
-            .map(|(path, findings)| Checked {
+            .map(|(path, diagnostics)| Checked {
                 file: path.display().to_string(),
-                findings: findings.iter().map(Explained::from).collect(),
+                findings: diagnostics.iter().map(Explained::from).collect(),
             })
             .collect();
         serde_json::to_writer_pretty(&mut *out, &checked)?;
@@ -158,24 +163,18 @@ fn edits(from: &str, to: &str) -> usize {
     row[to.len()]
 }
 
-/// All findings of both stages, in the order of the file; those without a place come first.
-fn findings(bytes: &[u8]) -> Vec<Diagnostic> {
-    let parsed = match format::parse(bytes) {
-        Ok(parsed) => parsed,
-        Err(error) => return vec![error.diagnostic()],
-    };
-    let of_model = match m3d::from_document(&parsed.document, &parsed.lines) {
-        Ok((model, mut findings)) => {
-            let compiled = CompiledClip::all(&model.clips);
-            findings.extend(check::motion(&model, &compiled, &parsed.lines.clip_lines()));
-            findings
+/// All diagnostics of a file, in its order; those without a place come first.
+fn diagnostics_of(bytes: &[u8]) -> Vec<Diagnostic> {
+    let mut diagnostics = match import::import(bytes) {
+        Ok(imported) => {
+            let compiled = CompiledClip::all(&imported.model.clips);
+            let of_motion = check::motion(&imported.model, &compiled, &imported.clip_lines);
+            imported.diagnostics.into_iter().chain(of_motion).collect::<Vec<_>>()
         }
-        Err(error) => vec![error.diagnostic()],
+        Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
     };
-    let mut findings = parsed.diagnostics;
-    findings.extend(of_model);
-    findings.sort_by_key(|finding| finding.position);
-    findings
+    diagnostics.sort_by_key(|diagnostic| diagnostic.position);
+    diagnostics
 }
 
 #[cfg(test)]

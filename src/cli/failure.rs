@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::finding::write_finding;
+use super::diagnostic::write_diagnostic;
 use super::text::{OneLine, Plain};
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
@@ -37,7 +37,7 @@ impl From<Outcome> for ExitCode {
 pub(super) enum Failure {
     #[error("{} cannot be read: {reason}", named(path))]
     Unreadable { path: PathBuf, reason: io::Error },
-    /// Shown as a finding, see [`Failure::report`].
+    /// Shown as a diagnostic, see [`Failure::report`].
     #[error("{} has an error", named(path))]
     Refused { path: PathBuf, error: Box<LoadError> },
     #[error("there is no clip \"{asked}\" in {}; {}", named(path), listed(known))]
@@ -48,7 +48,7 @@ pub(super) enum Failure {
     },
     #[error("there is no code \"{asked}\"; the nearest is \"{nearest}\"")]
     UnknownCode { asked: String, nearest: &'static str },
-    /// A pose that cannot be said in numbers.
+    /// A pose whose numbers overflow.
     #[error(
         "{}: at {time_secs} s of \"{clip}\" {what} {number} is taken beyond what numbers hold",
         named(path)
@@ -85,12 +85,12 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// Tells it, and says how bad it is.
+    /// Writes it to `err`, and returns how bad it is.
     pub(super) fn report(&self, err: &mut dyn Write) -> Outcome {
-        // When standard error is closed too, the exit code is all that is left to say it.
+        // When standard error is closed too, only the exit code can tell.
         match self {
             Self::Refused { path, error } => {
-                let _ = write_finding(err, path, &error.diagnostic, error.excerpt.as_ref());
+                let _ = write_diagnostic(err, path, &error.diagnostic, error.excerpt.as_ref());
                 Outcome::FileHasErrors
             }
             _ => {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::diagnostic::worded_place;
 use super::failure::Failure;
-use super::finding::worded_place;
 use super::input;
 use super::text::{Plain, column_width, counted, grouped};
 use super::textures::{MapState, NamedMap, Textures, Wanted, by_name, named_maps};
@@ -131,7 +131,7 @@ impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
     fn from(map: &'a NamedMap<'_>) -> Self {
         let (path, problem) = match &map.state {
             Some(MapState::Found(path)) => (Some(*path), None),
-            Some(MapState::Unreadable(path, finding)) => (Some(*path), Some(finding.message.as_str())),
+            Some(MapState::Unreadable(path, diagnostic)) => (Some(*path), Some(diagnostic.message.as_str())),
             Some(MapState::Missing) | None => (None, None),
         };
         Self {
@@ -150,7 +150,7 @@ impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
 
 /// `None` when a clip overflows, since no box holds it then.
 fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
-    let overflows = |notice: &Diagnostic| notice.code == codes::POSE_OVERFLOWS.name;
+    let overflows = |diagnostic: &Diagnostic| diagnostic.code == codes::POSE_OVERFLOWS.name;
     if open.notices.iter().any(overflows) {
         return None;
     }
@@ -187,7 +187,7 @@ fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[Na
     write_materials(out, &open.model)?;
     write_maps(out, maps)?;
     write_clips(out, info)?;
-    write_notices(out, open)
+    write_diagnostics(out, open)
 }
 
 fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
@@ -267,11 +267,16 @@ fn write_clips(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
     Ok(())
 }
 
-fn write_notices(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
+fn write_diagnostics(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
     if open.notices.is_empty() {
         return Ok(());
     }
-    let count = |severity| open.notices.iter().filter(|notice| notice.severity == severity).count();
+    let count = |severity| {
+        open.notices
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == severity)
+            .count()
+    };
     let parts: Vec<String> = [(Severity::Warning, "warning"), (Severity::Note, "note")]
         .into_iter()
         .map(|(severity, word)| (count(severity), word))
@@ -279,8 +284,8 @@ fn write_notices(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
         .map(|(count, word)| counted(count, word))
         .collect();
     writeln!(out, "\n{}", parts.join(", "))?;
-    for notice in &open.notices {
-        writeln!(out, "  {}", Plain(&worded_place(notice)))?;
+    for diagnostic in &open.notices {
+        writeln!(out, "  {}", Plain(&worded_place(diagnostic)))?;
     }
     Ok(())
 }

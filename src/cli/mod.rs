@@ -1,12 +1,12 @@
-//! The native command `bindpose`: a terminal's way to the core and the renderer, which do all the computing.
+//! The native command `bindpose`: the core and the renderer for a terminal.
 //!
 //! Results go to standard output and failures to standard error. The exit code is 0 when all is well, 1 when a file has
 //! errors, 2 for wrong use, an unreadable file or a missing GPU; the worst of several files counts.
 
 mod appearance;
 mod check;
+mod diagnostic;
 mod failure;
-mod finding;
 mod info;
 mod input;
 mod output;
@@ -51,8 +51,7 @@ pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help asked for goes to standard output with code 0, wrong use to standard error with code 2. Nothing can
-            // be done when that stream is closed.
+            // Help goes to standard output with code 0, wrong use to standard error with code 2. A closed stream is ignored.
             let _ = error.print();
             return u8::try_from(error.exit_code()).map_or(Outcome::Failed.into(), ExitCode::from);
         }
@@ -64,7 +63,7 @@ pub fn main() -> ExitCode {
         Ok(outcome)
     });
     let outcome = outcome.unwrap_or_else(|failure| {
-        // What was written before the failure is shown before it; a second failure here is ignored.
+        // The output before the failure is shown first. A second failure is ignored.
         let _ = out.flush();
         failure.report(&mut err)
     });

@@ -15,7 +15,7 @@ impl<W: Write> UntilClosed<W> {
         Self { inner, closed: false }
     }
 
-    /// What the inner writer gave, or `swallowed` once the reader is gone.
+    /// The inner writer's result, or `swallowed` once the reader is gone.
     fn unless_closed<T>(&mut self, swallowed: T, write: impl FnOnce(&mut W) -> io::Result<T>) -> io::Result<T> {
         if self.closed {
             return Ok(swallowed);

@@ -13,7 +13,7 @@ pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
 
     use rustix::stdio::dup2_stderr;
 
-    /// The original stream, which is put back in the end, also after a panic.
+    /// The original stream. It is put back in the end, also after a panic.
     struct Aside(OwnedFd);
 
     impl Aside {
@@ -32,7 +32,7 @@ pub(super) fn quietly<T>(work: impl FnOnce() -> T) -> T {
         }
     }
 
-    // When the stream cannot be put aside, messages are shown.
+    // When the stream cannot be redirected, messages are shown.
     let _aside = Aside::put();
     work()
 }

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::appearance::AppearanceArguments;
+use super::diagnostic::write_diagnostic;
 use super::failure::{Failure, Outcome};
-use super::finding::write_finding;
 use super::input;
 use super::quiet::quietly;
 use super::text::Plain;
@@ -178,7 +178,7 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
                 session.apply(FileCommand::Add(vec![file]));
                 break;
             }
-            Err(warning) => write_finding(err, path, &warning, None)?,
+            Err(warning) => write_diagnostic(err, path, &warning, None)?,
         }
     }
     Ok(lacks_maps)

@@ -1,4 +1,4 @@
-//! Words and numbers as a terminal shows them.
+//! Words and numbers for a terminal.
 
 use std::fmt;
 

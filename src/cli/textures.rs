@@ -5,14 +5,14 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use super::diagnostic::write_diagnostic;
 use super::failure::Failure;
-use super::finding::write_finding;
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
 use crate::model::Material;
 use crate::session::{File, MapNames, MapSlot, MapSource, Maps, find_maps};
 
-/// Entries of folders that are looked at, so that a whole disk given by mistake comes to an end.
+/// The most entries of folders that are looked at, so that a whole disk given by mistake does not take for ever.
 const MOST_ENTRIES: usize = 500_000;
 
 /// Pictures of folders and of the folders in them, as far as a model names them.
@@ -119,7 +119,7 @@ impl Textures {
                     textures.unopened.push(file);
                     textures.reasons.push(unreadable(&reason));
                 }
-                // Nobody asked for it.
+                // No material names it.
                 Err(_) => {}
             }
         }
@@ -153,7 +153,7 @@ impl Textures {
         for (map, material) in all.iter_mut().zip(indices) {
             let slot = map.slot;
             map.state = Some(match (maps.file(material, slot), maps.finding(material, slot)) {
-                (Some(file), Some(finding)) => MapState::Unreadable(self.path(file), finding.clone()),
+                (Some(file), Some(diagnostic)) => MapState::Unreadable(self.path(file), diagnostic.clone()),
                 (Some(file), None) => MapState::Found(self.path(file)),
                 (None, _) => unopened(material, slot).unwrap_or(MapState::Missing),
             });
@@ -170,7 +170,7 @@ impl Textures {
     /// Tells what was skipped in the folders, a line each.
     pub(super) fn write_warnings(&self, err: &mut dyn Write) -> io::Result<()> {
         let mut warnings = self.warnings.iter();
-        warnings.try_for_each(|(path, warning)| write_finding(err, path, warning, None))
+        warnings.try_for_each(|(path, warning)| write_diagnostic(err, path, warning, None))
     }
 }
 
@@ -178,13 +178,13 @@ impl Textures {
 pub(super) fn write_missing(err: &mut dyn Write, file: &Path, maps: &[NamedMap<'_>]) -> io::Result<bool> {
     let mut any = false;
     for (map, count) in by_name(maps) {
-        let (path, finding) = match &map.state {
+        let (path, diagnostic) = match &map.state {
             Some(MapState::Missing) => (file, missing(map, count)),
-            Some(MapState::Unreadable(path, finding)) => (*path, without_name(finding, path)),
+            Some(MapState::Unreadable(path, diagnostic)) => (*path, without_name(diagnostic, path)),
             Some(MapState::Found(_)) | None => continue,
         };
         any = true;
-        write_finding(err, path, &finding, None)?;
+        write_diagnostic(err, path, &diagnostic, None)?;
     }
     Ok(any)
 }
@@ -217,18 +217,18 @@ fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
     )
 }
 
-/// A finding about a picture without the name that its message begins with, since the path stands before it.
-fn without_name(finding: &Diagnostic, path: &Path) -> Diagnostic {
+/// A diagnostic about a picture without the name that its message begins with, since the path stands before it.
+fn without_name(diagnostic: &Diagnostic, path: &Path) -> Diagnostic {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let message = finding.message.strip_prefix(&*name);
+    let message = diagnostic.message.strip_prefix(&*name);
     let message = message.and_then(|message| message.strip_prefix(": "));
     Diagnostic {
-        message: message.unwrap_or(&finding.message).to_owned(),
-        ..finding.clone()
+        message: message.unwrap_or(&diagnostic.message).to_owned(),
+        ..diagnostic.clone()
     }
 }
 
-/// A warning whatever the code's usual severity: a map that is missing was asked for here.
+/// A warning, whatever the code's usual severity: the user asked for the map.
 fn warning(code: &Code, message: String) -> Diagnostic {
     Diagnostic {
         severity: Severity::Warning,
@@ -309,7 +309,7 @@ impl<'a> Walk<'a> {
             reason,
         })?;
         let mut ahead = first;
-        // Links to folders come last, so that a folder that lies here itself is met under its own name.
+        // Links to folders come last, so that a folder in this folder is met under its own name.
         let mut linked = Vec::new();
         loop {
             if let Some(entry) = ahead.pop() {
@@ -333,7 +333,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Takes up a picture. Gives back a folder.
+    /// Adds a picture, or returns a folder to walk through.
     fn visit(&mut self, entry: Entry) -> Option<Entry> {
         let kind = match fs::metadata(&entry.path) {
             Ok(metadata) => metadata.file_type(),
@@ -354,7 +354,7 @@ impl<'a> Walk<'a> {
         if !File::new(&name, []).is_image() {
             return None;
         }
-        // Only files end: to open a pipe is to wait for somebody who writes.
+        // Only regular files are opened: opening a pipe would wait for a writer.
         if kind.is_file() {
             self.pictures.push(entry.path);
         } else if self.names.fit(&name) {
@@ -392,7 +392,7 @@ impl<'a> Walk<'a> {
                 is_link: entry.file_type()?.is_symlink(),
             });
         }
-        // The order of a folder differs between systems; which of two pictures is taken should not.
+        // Systems list folders in different orders. The choice between two pictures must not depend on that.
         entries.sort_by(|a, b| b.path.cmp(&a.path));
         Ok(entries)
     }

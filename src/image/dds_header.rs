@@ -1,7 +1,6 @@
 //! The header of a DDS file, field by field.
 //!
-//! Read here and not by a crate: those at hand know no `BC5U` and drop the masks of grey files, and neither says where
-//! a file is wrong.
+//! No crate reads it: the known ones lack `BC5U`, drop the masks of grey files, and do not say where a file is wrong.
 
 use super::error::ImageErrorKind;
 

@@ -48,7 +48,7 @@ impl Layout {
     }
 
     fn of_four_cc(code: u32) -> Result<Self, ImageErrorKind> {
-        /// Half floats have Direct3D 9's number in place of letters.
+        /// Half floats have a number of Direct3D 9 instead of letters.
         const A16B16G16R16F: u32 = 113;
         if code == A16B16G16R16F {
             return Ok(Self::verbatim(ImageFormat::Rgba16Float));

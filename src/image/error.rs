@@ -22,7 +22,7 @@ impl ImageError {
         self.kind.code()
     }
 
-    /// The finding for the panel. A model shows on without a map, so it is a warning.
+    /// The diagnostic for the panel. A model shows on without a map, so it is a warning.
     pub fn diagnostic(&self) -> Diagnostic {
         self.code().says(self.to_string())
     }

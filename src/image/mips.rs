@@ -1,4 +1,4 @@
-//! Smaller levels where a file has none.
+//! Makes smaller levels where a file has none.
 
 use super::format::{Channels, ImageFormat};
 use super::half;
@@ -22,7 +22,7 @@ type Texel = [f32; 4];
 const CLEAR_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Image {
-    /// The picture with all levels down to 1 × 1. A picture that brings more than one level is kept as it is.
+    /// The picture with all levels down to 1 × 1. A picture that has more than one level stays as it is.
     ///
     /// Compressed pictures become [`ImageFormat::Rgba8`], or [`ImageFormat::Rgba16Float`] where they hold floats, which
     /// are taken as linear colours whatever `map_kind` says. Each texel is the mean of the area that it covers, also
@@ -139,7 +139,7 @@ impl Coding {
         }
     }
 
-    /// A level that is there, as the bytes of this coding's format, and the next smaller one.
+    /// A level of the picture as bytes of this coding's format, and the values of the next smaller level.
     fn level_and_half(self, image: &Image, face: u32, level: u32) -> (Vec<u8>, Vec<Texel>) {
         let (width, height) = image.level_size(level);
         let halve_bytes = |read: &dyn Fn([u8; 4]) -> Texel| {

@@ -12,7 +12,7 @@ use super::picture::{Image, ImageKind, check_size};
 /// Bytes that decoding may take: a picture of 8192 × 8192 with 4 channels of 8 bits as the file has it, and as RGBA.
 const MAX_DECODED_LEN: u64 = 512 << 20;
 
-/// A byte of a file holds at most this many texels: deflate makes at most 1032 bytes of one, and a PNG has 8 texels in
+/// A byte of a file holds at most this many texels: deflate expands a byte to at most 1032, and a PNG packs 8 texels into
 /// a byte.
 const MAX_TEXELS_PER_BYTE: u64 = 8 * 1032;
 
@@ -77,7 +77,7 @@ fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErr
             bytes: bytes.len(),
         });
     }
-    // What the file holds, as it holds it, and beside it the same as RGBA.
+    // The texels as the file has them, and the same as RGBA.
     let decoded_len = decoder.total_bytes();
     let rgba8_len = 4 * texel_count;
     limits

@@ -4,6 +4,15 @@ use crate::diagnostic::Diagnostic;
 use crate::format::Dialect;
 use crate::model::Model;
 
+/// Why a file makes no model.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// What is wrong. It has a place in the file where there is one.
+    pub error: Diagnostic,
+    /// What was mended or is worth knowing of the part that was read before.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
 /// What came out of a file.
 #[derive(Clone, Debug)]
 pub struct Imported {

@@ -10,9 +10,7 @@ mod normals;
 mod tangents;
 
 pub use error::{ImportError, ImportErrorKind};
-pub use imported::Imported;
-
-use crate::diagnostic::Diagnostic;
+pub use imported::{Imported, Refused};
 
 /// Whether a file begins as one of the formats does, whatever its name.
 ///
@@ -24,8 +22,7 @@ pub fn begins_like_model(bytes: &[u8]) -> bool {
 /// Reads a model.
 ///
 /// # Errors
-/// When the bytes are of no format that is known here, or what they say makes no model. The diagnostic has a place in the file
-/// where there is one.
-pub fn import(bytes: &[u8]) -> Result<Imported, Box<Diagnostic>> {
+/// When the bytes are of no format that is known here, or what they say makes no model.
+pub fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
     m3d::import(bytes)
 }

@@ -69,8 +69,8 @@ fn area_weighted(mesh: &Mesh, handedness: Handedness) -> Vec<DVec3> {
     sums
 }
 
-/// Below this share of agreeing triangles the answer is a guess. Real files agree on more than 99 %.
-const CLEAR_SHARE: f64 = 0.8;
+/// Below this fraction of agreeing triangles the answer is a guess. Real files agree on more than 99 %.
+const CLEAR_FRACTION: f64 = 0.8;
 
 /// Compares the side that each triangle's winding faces with the side of its normals: both agree in a left-handed file
 /// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books.
@@ -92,7 +92,7 @@ pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Hande
         (Handedness::Left, agree)
     };
     let tested = agree + disagree;
-    if f64::from(majority) < CLEAR_SHARE * f64::from(tested) {
+    if f64::from(majority) < CLEAR_FRACTION * f64::from(tested) {
         diagnostics.add(
             &codes::HANDEDNESS_UNCLEAR,
             Place::default(),

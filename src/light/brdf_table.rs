@@ -72,7 +72,7 @@ pub fn brdf_table(side: usize) -> Vec<[f32; 2]> {
 }
 
 fn entry(n_dot_v: f32, roughness: f32) -> [f32; 2] {
-    // At exactly 0 all half vectors are the same.
+    // At exactly 0 all half vectors would be equal.
     let alpha = (roughness * roughness).max(1e-4);
     let cos = n_dot_v.max(1e-3);
     let to_eye = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);

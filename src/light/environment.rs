@@ -138,7 +138,7 @@ fn daylight(direction: Vec3) -> Vec3 {
 fn linear_texels(image: &Image, face: u32, level: u32) -> Option<Vec<Vec3>> {
     if image.format().is_float() {
         let texels = image.to_rgba32f(face, level)?;
-        // NaN, which is neither more nor less than 0, becomes 0 as well.
+        // `max` also turns NaN into 0.
         let sound = |value: f32| if value > 0.0 { value.min(MAX_RADIANCE) } else { 0.0 };
         let rgb = |&[red, green, blue, _]: &[f32; 4]| Vec3::new(sound(red), sound(green), sound(blue));
         return Some(texels.as_chunks().0.iter().map(rgb).collect());

@@ -18,7 +18,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// The share of alpha below which the books cut.
+    /// The alpha below which the books cut.
     pub const ALPHA_CLIP: f32 = 0.1;
 }
 

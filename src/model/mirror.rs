@@ -6,8 +6,8 @@ use glam::{Affine3A, Vec3};
 
 use super::{Aabb, JointIndex, JointTree, Skeleton};
 
-/// How far apart the ways of two partners from their parents may end, one of them mirrored: this share of the longest side of
-/// the box of all joints, and this share of the way. Bind poses of real figures lean a little, so that a hand is far from
+/// How far apart the ways of two partners from their parents may end, one of them mirrored: this fraction of the longest side of
+/// the box of all joints, and this fraction of the way. Bind poses of real figures lean a little, so that a hand is far from
 /// where the other's image is; from its own elbow it is not.
 const TOLERANCE: (f32, f32) = (0.01, 0.15);
 

@@ -71,7 +71,7 @@ impl Compositor {
             multiview_mask: None,
             cache: None,
         });
-        // Between sizes, while a window is dragged, the old picture is stretched; else each pixel meets its texel.
+        // While a window is resized, the old picture is stretched. Otherwise each pixel is one texel.
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("composite"),
             mag_filter: wgpu::FilterMode::Linear,
@@ -86,7 +86,7 @@ impl Compositor {
         }
     }
 
-    /// Says which picture to show. Makes something only when the target has another texture than before.
+    /// Sets the picture to show. Makes a bind group only when the target has another texture than before.
     pub fn prepare(&mut self, device: &wgpu::Device, target: &Target) {
         if self.source.as_ref().is_some_and(|(view, _)| view == target.view()) {
             return;

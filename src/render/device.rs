@@ -1,5 +1,4 @@
-//! Which GPU, what is asked of it, whether it can be trusted, and what it answers. Never more is asked than WebGL2 gives, so that
-//! no platform is special.
+//! Opens a GPU, tests whether it draws right, and reports its errors. Limits and features are WebGL2's on every platform.
 
 use std::future::Future;
 use std::pin::Pin;
@@ -255,7 +254,7 @@ pub fn watched<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> (T, GpuAns
     let others = [Box::pin(internal.pop()) as Answer, Box::pin(validation.pop())];
     let memory = memory.pop();
     let answer = async move {
-        // Asked first: what could not be allocated is also invalid.
+        // Out of memory is asked first: what could not be allocated is also invalid.
         if memory.await.is_some() {
             return Err(GpuError::OutOfMemory);
         }

@@ -10,7 +10,7 @@ use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
-/// Texels of a sky's side. More would hardly show: a sky is far behind the model, or mirrored in it.
+/// The most texels along a side of a sky. More would hardly show: a sky is far behind the model, or mirrored in it.
 const MAX_SKY_SIDE: u32 = 1024;
 
 // Made once for all renderers of a program.

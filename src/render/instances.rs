@@ -131,7 +131,7 @@ fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -
 /// Opacity of the highlight at a surface's edge.
 const HIGHLIGHT_OPACITY: f32 = 0.55;
 
-/// The instances of a frame, as a stream that is read an entry an instance. There are three kinds, one after another: the model
+/// The instances of a frame, as a vertex stream with one entry an instance. There are three kinds, one after another: the model
 /// itself; the model again in the colour of the highlight; the ghosts. The model has one instance; a second one would be a second
 /// entry of the first two kinds.
 pub(super) struct Instances {

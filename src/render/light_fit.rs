@@ -55,7 +55,7 @@ const BOOK_EDGE: f32 = 2.4 * BOOK_TEXEL;
 /// Width of a shadow's edge from 10 to 90 % when it is blurred evenly over a disc, in radii of the disc: a tenth of the disc's
 /// area lies beyond 0.687 radii on either side.
 const DISC_EDGE: f32 = 1.374;
-/// Texels in the radius of the book light's disc. With a larger one its 16 taps would leave steps in the edge.
+/// Texels in the radius of the book light's disc. In a larger disc its 16 taps would show steps in the edge.
 const BOOK_RADIUS_TEXELS: f32 = 3.5;
 
 /// Texels in the radius of the studio light's disc on the model: a soft box is never quite sharp.

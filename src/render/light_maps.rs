@@ -59,7 +59,7 @@ const NO_GEOMETRY: wgpu::Color = wgpu::Color {
     a: 1.0,
 };
 
-/// Texels beside the columns of a light that its blurs read: a radius for each of the book's four.
+/// Texels beside a light's columns that its blurs read: one radius for each of the book's four blurs.
 const BLUR_MARGIN: u32 = 4 * 5;
 
 /// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view. Its textures fit
@@ -214,7 +214,7 @@ impl ContactMap {
         }
         let rows = (Draw::ContactBlurRows, &self.map_group, &self.half_blurred);
         let columns = (Draw::ContactBlurColumns, &self.half_blurred_group, &self.map);
-        // Two narrow blurs are as wide as one that reads many more texels.
+        // Two narrow blurs read fewer texels than one wide blur.
         for (draw, source, target) in [rows, columns, rows, columns] {
             let mut pass = begin_pass(encoder, "contact blur", over_black(target));
             pass.set_pipeline(&posed.pipelines.get(draw));

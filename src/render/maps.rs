@@ -26,7 +26,7 @@ pub(super) struct MapTextures {
 }
 
 struct Held {
-    /// Keeps the address: while this lives, no other image has it.
+    /// Keeps the image's address from being used for another image.
     _image: Weak<Image>,
     view: wgpu::TextureView,
 }

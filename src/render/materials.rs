@@ -1,5 +1,5 @@
-//! The materials of a model in GPU memory: for each the values that shaders read, and a bind group with its maps or what stands
-//! for them.
+//! The materials of a model in GPU memory: for each the values that shaders read, and a bind group with its maps. A white texel
+//! stands in for a missing map.
 
 use super::buffers::{UploadError, Uploader, bind_group};
 use super::maps::{MapTextures, MaterialImages};
@@ -210,7 +210,7 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
         } => shaders::Material {
             fresnel0: std::array::from_fn(|channel| {
                 let of_lobe = specular[channel].clamp(0.0, 1.0) * PHONG_TO_FRESNEL;
-                // What mirrors the sky in the book mirrors the environment here.
+                // The book's mirrored sky becomes the mirrored environment.
                 of_lobe + (1.0 - of_lobe) * reflectivity[channel].clamp(0.0, 1.0)
             }),
             roughness: roughness_from_power(spec_power).clamp(0.0, 1.0),

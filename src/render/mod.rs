@@ -50,7 +50,7 @@ use overlays::Overlays;
 use pipelines::Pipelines;
 use recipe::{Cut, Draw, ModelDraw, Shading};
 
-/// Draws one model at a time. What a frame needs is made when it is needed first; later frames make nothing.
+/// Draws one model at a time. Resources are made when a frame first needs them; later frames make nothing.
 pub struct Renderer {
     common: Common,
     samples: SampleCount,
@@ -258,7 +258,7 @@ impl Renderer {
                     ViewMode::Lit => Shading::Lit(part.0),
                     _ => Shading::Inspect,
                 };
-                // Smooth edges need a background, which shows in the samples that alpha leaves out.
+                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
                 let cut = match options.background {
                     Background::None => Cut::Hard,
                     _ => Cut::Smooth,

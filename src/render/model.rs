@@ -137,7 +137,7 @@ impl GpuModel {
                 self.bind(pass, posed, draw(cut));
             }
             for range in ranges {
-                // Another cut triangle may be seen through the holes of a cut one.
+                // All cut triangles are drawn: one may be seen through the holes of another.
                 let parts = if is_cut {
                     drawn.missing(&range.indices)
                 } else {

@@ -17,7 +17,7 @@ pub enum PictureError {
         /// The largest that it draws, in words.
         largest: String,
     },
-    /// The device would draw it if it had the memory.
+    /// The device has too little memory for it.
     #[error(
         "a picture of {width} × {height} pixels needs about {megabytes} MB of the GPU's memory, and less is free: a smaller \
          one may be drawn"
@@ -43,8 +43,8 @@ pub struct Picture {
     size: [u32; 2],
     samples: SampleCount,
     answer: GpuAnswer,
-    /// A pixel of the same target, which was filled with white before anything was drawn. GL does not report when it has no
-    /// memory for a target: what is drawn into it vanishes, and so does the white.
+    /// A pixel of the same target, read after the target was filled with white. GL does not report when it has no memory for a
+    /// target: what is drawn into it is lost, and so is the white.
     proof: Pending,
     pixels: Pending,
 }

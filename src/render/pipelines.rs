@@ -24,7 +24,7 @@ pub(super) struct Layouts {
     pub(super) occlusion: wgpu::BindGroupLayout,
     /// One texture, read texel by texel.
     pub(super) texels: wgpu::BindGroupLayout,
-    /// Stands for a group that a program does not read.
+    /// Empty, for a group that a program does not read.
     pub(super) nothing: wgpu::BindGroupLayout,
 }
 

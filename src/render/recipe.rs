@@ -27,7 +27,7 @@ pub(super) enum Cut {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ModelDraw {
     Mesh(Shading, Cut),
-    /// In the colours of its vertices.
+    /// The model in the colours of its vertices.
     SkinView(Cut),
     Caster(Cut),
     Geometry(Cut),

@@ -36,7 +36,7 @@ pub(super) fn draw_ranges(mesh: &Mesh, material_count: usize) -> Vec<DrawRange> 
 }
 
 /// +1 when most triangles are clockwise seen from the side that their normals point to (left-handed), else −1. Each triangle
-/// votes with its area. So a file that is wound the other way is lit from the right side.
+/// votes with its area. A file that is wound the other way is then lit from the right side.
 pub(super) fn winding(mesh: &Mesh) -> f32 {
     let vote: f64 = mesh
         .indices

@@ -62,13 +62,13 @@ modes! {
         Depth = "depth", "Depth";
         /// Ambient occlusion: black where none of the environment is seen … white where all is.
         AmbientOcclusion = "ao", "Ambient occlusion";
-        /// How much of the first light arrives, before the surface's own turning away.
+        /// How much of the first light arrives, without the surface's angle to it.
         Shadow = "shadow", "Shadow";
     }
 }
 
 impl ViewMode {
-    /// The mode some places further in the menu, around the end.
+    /// The mode some places further in the menu; after the last comes the first.
     pub fn cycled(self, places: i32) -> Self {
         let here = Self::ALL.iter().position(|&mode| mode == self).unwrap_or(0) as i64;
         Self::ALL[(here + i64::from(places)).rem_euclid(Self::ALL.len() as i64) as usize]

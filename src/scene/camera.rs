@@ -11,7 +11,7 @@ use crate::modes::modes;
 /// Field of view of the perspective view: π/4, as in the books' demo.
 pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_4;
 
-/// The greatest lift of the eye, radians: a hair less than straight up, so that "right" stays defined while dragging.
+/// The greatest pitch, radians: a little less than straight up, so that "right" stays defined while dragging.
 pub const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
 
 /// Distances at which sizes in view stay finite.
@@ -57,7 +57,7 @@ impl ViewPreset {
     }
 }
 
-/// How depth becomes size.
+/// How size in the picture depends on depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Things far away look smaller.
@@ -80,7 +80,7 @@ pub struct Camera {
     pub yaw_radians: f32,
     /// Lift of the eye above the horizon, radians, −π/2…π/2.
     pub pitch_radians: f32,
-    /// How depth becomes size.
+    /// How size in the picture depends on depth.
     pub projection: Projection,
 }
 

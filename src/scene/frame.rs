@@ -60,8 +60,8 @@ impl FrameOptions {
 pub struct RenderFrame<'a> {
     /// The camera.
     pub camera: Camera,
-    /// Model space -> world. May mirror. The frame has one instance of the model: this is where it stands, and `palette` how it is
-    /// posed. A renderer draws ghosts and the highlighted submesh as further instances.
+    /// Model space -> world. May mirror. The frame has one instance of the model, posed by `palette`. A renderer draws ghosts and
+    /// the highlighted submesh as further instances.
     pub world_from_model: Affine3A,
     /// Box of everything the clip reaches, world space: depth range, grid, shadow.
     pub world_bounds: Aabb,

@@ -46,7 +46,7 @@ impl Camera {
         let reach_up = (fitted + middle_of_free).max(Vec2::splat(1e-3));
         let reach_down = (fitted - middle_of_free).max(Vec2::splat(1e-3));
 
-        // From this distance, only centring is left to do.
+        // The distance is right now; only the centre is left to find.
         let mut center = self.first_center(world_points, bounds.center(), fitted, middle_of_free);
         for round in 0..=FRAMING_ROUNDS {
             let mut distance = 0.0_f32;

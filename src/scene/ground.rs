@@ -11,9 +11,9 @@ pub struct Ground {
     pub cell: f32,
 }
 
-/// How far above y = 0 a model may float, in heights of its own, and still have its ground there, as in a leap.
+/// How far above y = 0 a model may be, in heights of its own, and still have its ground at y = 0, as in a leap.
 const FLOATING_SHARE: f32 = 1.0;
-/// Minor cells that fit the radius of the scene, about.
+/// About how many minor cells fit the radius of the scene.
 const CELLS_PER_RADIUS: f32 = 6.0;
 
 impl Ground {

@@ -109,7 +109,7 @@ const GOLDEN_TURN: f32 = 0.381_966;
 const NEIGHBOURS_APART: f32 = 0.125;
 /// How many siblings before a joint count as its neighbours.
 const SIBLINGS: usize = 2;
-/// Lightness and chroma in Oklab at which every hue is bright and has a place in sRGB, or nearly.
+/// Lightness and chroma in Oklab at which every hue is bright and inside sRGB, or nearly.
 const LIGHTNESS: f32 = 0.74;
 const CHROMA: f32 = 0.125;
 

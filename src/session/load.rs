@@ -81,13 +81,14 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
     let imported = import::import(&file.bytes);
     imported
         .map(|imported| OpenModel::new(file, imported))
-        .map_err(|diagnostic| {
+        .map_err(|refused| {
+            let diagnostic = refused.error;
             let excerpt = diagnostic
                 .position
                 .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
             Box::new(LoadError {
                 file_name: file.base_name().to_owned(),
-                diagnostic: *diagnostic,
+                diagnostic,
                 excerpt,
             })
         })

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use glam::Vec3;
 
 use super::files::File;
-use crate::anim::{self, CompiledClip, JointActivity, Seam};
+use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
 use crate::diagnostic::Diagnostic;
 use crate::format::{self, Dialect, Excerpt};
@@ -71,7 +71,7 @@ pub(super) struct ClipFacts {
     pub(super) joined: bool,
     extent: OnceLock<Extent>,
     key_times: OnceLock<Vec<f32>>,
-    seam: OnceLock<Seam>,
+    loop_gap: OnceLock<LoopGap>,
     activity: OnceLock<Vec<JointActivity>>,
 }
 
@@ -92,7 +92,7 @@ impl ClipFacts {
             joined: false,
             extent: OnceLock::new(),
             key_times: OnceLock::new(),
-            seam: OnceLock::new(),
+            loop_gap: OnceLock::new(),
             activity: OnceLock::new(),
         }
     }
@@ -197,17 +197,17 @@ impl OpenModel {
     }
 
     /// How the last pose of a clip differs from the first; `None` without such a clip.
-    pub fn seam(&self, clip: usize) -> Option<&Seam> {
+    pub fn loop_gap(&self, clip: usize) -> Option<&LoopGap> {
         let (clip, facts) = (self.compiled.get(clip)?, self.clip_facts.get(clip)?);
         Some(
             facts
-                .seam
-                .get_or_init(|| self.seam_between(clip, [clip.start_secs(), clip.end_secs()])),
+                .loop_gap
+                .get_or_init(|| self.loop_gap_between(clip, [clip.start_secs(), clip.end_secs()])),
         )
     }
 
-    pub(super) fn seam_between(&self, clip: &CompiledClip, span_secs: [f32; 2]) -> Seam {
-        anim::seam(&self.model.skeleton, clip, span_secs, self.size())
+    pub(super) fn loop_gap_between(&self, clip: &CompiledClip, span_secs: [f32; 2]) -> LoopGap {
+        anim::loop_gap(&self.model.skeleton, clip, span_secs, self.size())
     }
 
     /// How much each joint moves in a clip, in the skeleton's order; `None` without such a clip.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::actor::Actor;
 use super::{Blend, Event, SPEEDS, Session};
-use crate::anim::{Direction, LoopMode, Seam, WrapMode, next_key, previous_key};
+use crate::anim::{Direction, LoopGap, LoopMode, WrapMode, next_key, previous_key};
 use crate::model::JointIndex;
 
 /// A command about what plays and how.
@@ -274,15 +274,15 @@ impl Session {
         }
     }
 
-    /// The seam of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
+    /// The gap of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
     /// nothing loops.
-    pub fn loop_seam(&self) -> Option<Cow<'_, Seam>> {
+    pub fn loop_gap(&self) -> Option<Cow<'_, LoopGap>> {
         let (open, clip) = (self.content.open.as_ref()?, self.clip()?);
-        let span_secs = self.playback().seam_secs()?;
+        let span_secs = self.playback().loop_gap_secs()?;
         Some(if span_secs == [clip.start_secs, clip.end_secs] {
-            Cow::Borrowed(open.seam(self.clip_index()?)?)
+            Cow::Borrowed(open.loop_gap(self.clip_index()?)?)
         } else {
-            Cow::Owned(open.seam_between(open.compiled.get(self.clip_index()?)?, span_secs))
+            Cow::Owned(open.loop_gap_between(open.compiled.get(self.clip_index()?)?, span_secs))
         })
     }
 

@@ -36,7 +36,7 @@ pub(super) enum Chosen {
 }
 
 impl Chosen {
-    /// As `state().backend` says it.
+    /// The name in `state().backend`.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::WebGpu(_) => "webgpu",
@@ -62,10 +62,10 @@ impl Chosen {
     }
 }
 
-/// Decides.
+/// Chooses a backend.
 ///
 /// # Errors
-/// Only when WebGPU was asked for by name: why it is not to be had. A missing WebGL2 shows when the canvas is claimed.
+/// Only when WebGPU was asked for by name and cannot be used, with the reason. A missing WebGL2 shows when the canvas is claimed.
 pub(super) async fn choose(preference: Preference) -> Result<Chosen, String> {
     if preference == Preference::WebGl2 {
         return Ok(Chosen::WebGl2);
@@ -122,7 +122,7 @@ fn is_software(info: &wgpu::AdapterInfo) -> bool {
             .any(|word| name.contains(word))
 }
 
-/// A name for people; browsers often keep it to themselves.
+/// A name for people. Browsers often do not tell it.
 pub(super) fn adapter_name(adapter: &wgpu::Adapter) -> String {
     let info = adapter.get_info();
     if info.name.is_empty() {

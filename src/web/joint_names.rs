@@ -1,5 +1,5 @@
 //! Names of joints, kept in the browser by the hierarchy that they belong to, for all viewers of the site. When the browser keeps nothing or
-//! is full, nobody is told: the names are there until the page is closed.
+//! is full, nobody is told: the names last until the page is closed.
 
 use web_sys::Storage;
 
@@ -25,7 +25,7 @@ impl JointNames {
         let restored = opened && restore(session).is_some();
         let revision = session.joint_names_revision();
         if !opened && self.revision != revision {
-            // See above: a failure means nothing.
+            // A failure is ignored; see above.
             let _ = keep(session);
         }
         self.revision = revision;

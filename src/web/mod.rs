@@ -1,9 +1,9 @@
 //! The browser: viewers as handles, their interface for scripts, panics and lost devices. The only module with web code.
 //!
 //! A script makes a [`viewer::Viewer`], starts it on a canvas and calls its methods. A viewer owns what is open, and for each start its canvas'
-//! listeners and frames; several may run on one page. It knows no id of the page and listens at nothing beside its canvas but through
-//! eframe, which follows drags, the clipboard and the colour scheme on document and window, and only while its canvas or its hidden input is
-//! meant. After a lost GPU the page gives the viewer a fresh canvas, and what is open is there again.
+//! listeners and frames; several may run on one page. It knows no id of the page and adds listeners only to its canvas. eframe
+//! adds some to document and window, for drags, the clipboard and the colour scheme, and acts on those that are meant for its canvas or its hidden
+//! input. After a lost GPU the page gives the viewer a fresh canvas, which shows what was open.
 
 mod backend;
 mod joint_names;
@@ -16,8 +16,15 @@ use js_sys::{Object, Promise, Reflect};
 use wasm_bindgen::prelude::*;
 
 /// The promise of what `work` gives.
-fn promise(work: impl Future<Output = Result<JsValue, JsError>> + 'static) -> Promise {
-    wasm_bindgen_futures::future_to_promise(async { Ok(work.await?) })
+fn promise<E: Into<JsValue>>(work: impl Future<Output = Result<JsValue, E>> + 'static) -> Promise {
+    wasm_bindgen_futures::future_to_promise(async { work.await.map_err(Into::into) })
+}
+
+/// The error of what was ended because something newer took its place, with the name that browsers give it.
+fn abort_error(message: &str) -> JsValue {
+    let error = js_sys::Error::new(message);
+    error.set_name("AbortError");
+    error.into()
 }
 
 /// A field of an object; `undefined` where there is none.
@@ -43,12 +50,12 @@ fn text_of(value: &JsValue) -> String {
     value.as_string().unwrap_or_else(|| format!("{value:?}"))
 }
 
-/// Whether the person wants things to stand still.
+/// Whether the person asks the browser for reduced motion.
 fn reduced_motion() -> bool {
     matches_media("(prefers-reduced-motion: reduce)")
 }
 
-/// Whether the browser says that the first pointer is a finger.
+/// Whether the main pointer is a finger.
 fn coarse_pointer() -> bool {
     matches_media("(pointer: coarse)")
 }

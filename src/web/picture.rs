@@ -13,9 +13,9 @@ use crate::scene::{Background, FrameOptions, Light, Overlay, ViewMode};
 /// The app while it runs.
 pub(super) type AppSlot = Rc<RefCell<Option<App>>>;
 
-/// The picture that `Viewer::snapshot` promises; `canvas_size` where the options have none.
+/// The picture of `Viewer::snapshot`. It has `canvas_size` where the options have no size.
 pub(super) async fn snapshot(app: AppSlot, canvas_size: [u32; 2], options: JsValue) -> Result<JsValue, JsError> {
-    // Read before anything is borrowed: a getter is a script, and may call back.
+    // Options are read before anything is borrowed: a getter is a script, and may call the viewer.
     let wanted = PictureOptions::read(|name| field(&options, name))?;
     let sides = ["width", "height"].map(|name| (name, field(&options, name)));
     let longest = longest_side(&app)?;

@@ -16,14 +16,14 @@ use crate::app::App;
 use crate::session::Session;
 use crate::ui::{Request, picture_name};
 
-/// Why a start came to nothing that was followed by another one, or by a stop.
+/// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
 
 /// What a viewer shares with its callbacks.
 pub(super) struct Shared {
     pub(super) session: Rc<RefCell<Session>>,
     pub(super) running: RefCell<Option<Running>>,
-    /// Counts starts and stops, so that an earlier start and its device cannot speak for the present one.
+    /// Counts starts and stops, so that events of an earlier start or its device are ignored.
     starts: Cell<u32>,
     /// Hears of events until the viewer is dropped.
     listener: RefCell<Option<Function>>,
@@ -44,11 +44,11 @@ pub(super) struct Running {
 impl Running {
     /// Leaves the canvas with its listeners and frames, and frees what was made for it.
     ///
-    /// Later, since whoever wants it may have been called from within a frame, which holds all of it.
+    /// It happens later: the caller may run within a frame, which borrows all of it.
     pub(super) fn give_back(self) {
         wasm_bindgen_futures::spawn_local(async move {
             if self.runner.has_panicked() {
-                // What a frame held when it panicked it holds for ever; eframe has let go of the listeners.
+                // A frame that panicked never ends its borrows. eframe has removed the listeners.
                 std::mem::forget(self);
                 return;
             }
@@ -72,7 +72,7 @@ impl Shared {
     pub(super) fn emit(&self, kind: &str, detail: &JsValue) {
         let listener = self.listener.borrow().clone();
         if let Some(listener) = listener {
-            // What a listener throws is its own affair; the browser reports it.
+            // The browser reports what a listener throws.
             let _ = listener.call2(&JsValue::NULL, &kind.into(), detail);
         }
     }
@@ -93,7 +93,7 @@ impl Shared {
         }
     }
 
-    /// Tells nobody of events any more.
+    /// Stops telling of events.
     pub(super) fn silence(&self) {
         self.listener.take();
     }
@@ -139,7 +139,7 @@ pub(super) async fn start(
     let frames = Rc::clone(&running.frames_rendered);
     running.ctx.request_repaint();
     shared.running.replace(Some(running));
-    // A frame that never comes (a hidden tab) must not hold the page up.
+    // In a hidden tab no frame comes. The page does not wait for it for ever.
     for _ in 0..100 {
         if frames.get() > 0 {
             break;
@@ -211,7 +211,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
     })
 }
 
-/// What eframe runs: the app, and the page's part in what it asks for.
+/// What eframe runs: the app, and what the page does for it.
 struct Shell {
     app: AppSlot,
     shared: Rc<Shared>,
@@ -226,7 +226,7 @@ impl Shell {
     /// Draws a picture and hands it to the page, which saves it.
     fn save_picture(&self, size: [u32; 2], transparent: bool) {
         let shared = Rc::clone(&self.shared);
-        // The name is that of the moment when the picture was asked for.
+        // The name is made now: the clip and the time may change until the picture is drawn.
         let name = picture_name(&shared.session.borrow());
         let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
         wasm_bindgen_futures::spawn_local(async move {
@@ -258,7 +258,7 @@ impl eframe::App for Shell {
                 Request::ReadAgain => self.shared.emit("readagain", &JsValue::UNDEFINED),
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
                 Request::SavePicture { size, transparent } => self.save_picture(size, transparent),
-                // The app has done it.
+                // The app did this itself.
                 Request::UseTheme(_) => {}
             }
         }

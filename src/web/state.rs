@@ -161,7 +161,7 @@ fn model(session: &Session) -> Option<Model<'_>> {
         name: open.file.base_name(),
         path: &open.file.path,
         summary: summary::Model {
-            // As the person may have corrected them.
+            // The person may have corrected them.
             handedness: session.handedness().name(),
             up_axis: session.up_axis().name(),
             ..open.into()
@@ -250,7 +250,7 @@ pub(super) fn event_detail(session: &Session, event: Event) -> JsValue {
 /// A plain object with keys in camelCase; what is `None` is `null`.
 pub(super) fn to_js(value: &impl Serialize) -> JsValue {
     let value = value.serialize(&Serializer::json_compatible());
-    // None of our values refuses to be written.
+    // All of our values can be written.
     value.map_or(JsValue::NULL, with_camel_case_keys)
 }
 

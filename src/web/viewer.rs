@@ -9,14 +9,14 @@ use web_sys::HtmlCanvasElement;
 
 use super::backend::Preference;
 use super::run::{self, Shared};
-use super::{field, next_task, picture, promise, reduced_motion, state};
+use super::{abort_error, field, next_task, picture, promise, reduced_motion, state};
 use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
 use crate::session::{
     Command, File, FileCommand, LoadStep, PassChoice, PlayCommand, QualityCommand, RenderScale, Session,
 };
 
-/// Why an opening came to nothing that was followed by another one, or by the viewer's end.
+/// Why an opening failed that was followed by another one, or by the viewer's end.
 const OVERTAKEN: &str = "another opening came after this one";
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
@@ -85,10 +85,9 @@ impl Viewer {
     pub fn open(&self, files: &Array) -> Result<Promise, JsError> {
         let files = files_of(files)?;
         let shared = Rc::clone(&self.shared);
-        Ok(promise(async move {
-            shared.open(files).await?;
-            Ok(shared.state())
-        }))
+        Ok(promise(
+            async move { shared.open(files).await.map(|()| shared.state()) },
+        ))
     }
 
     /// Adds the clips of models with the same bones to the open one: an array as [`Viewer::open`] takes it. Without an open model it
@@ -266,7 +265,7 @@ impl Shared {
     }
 
     /// See [`Viewer::open`]. The session is borrowed only for a moment, never across a step.
-    async fn open(&self, files: Vec<File>) -> Result<(), JsError> {
+    async fn open(&self, files: Vec<File>) -> Result<(), JsValue> {
         let begun = self.session.borrow_mut().begin_opening(files.clone());
         let Some(mut job) = begun else {
             self.apply(FileCommand::Add(files));
@@ -280,7 +279,7 @@ impl Shared {
             }
             next_task().await;
             if self.is_silenced() || self.session.borrow().openings() != mine {
-                return Err(JsError::new(OVERTAKEN));
+                return Err(abort_error(OVERTAKEN));
             }
         };
         self.session.borrow_mut().end_opening(outcome);
@@ -318,12 +317,11 @@ impl Shared {
 
 /// Has every panic reported as an uncaught error of the page, with the name `Panic` and the panic's words as message.
 ///
-/// A panic hook belongs to the whole program, as the memory does that a panic leaves in disorder. So it is told to the page, once, the way
-/// browsers tell of uncaught errors, and not to one viewer or to a list of them kept for this purpose. The `RuntimeError` that follows is
-/// its echo, and all that a browser without `reportError` hears of it.
+/// A panic ends the whole program, so the page is told once, as browsers tell of uncaught errors, and not each viewer. A `RuntimeError`
+/// follows. It is all that a browser without `reportError` tells.
 fn report_panics() {
     static INSTALLED: Once = Once::new();
-    // Before the first hook of eframe's: each runner installs one, which logs, stops that runner and then calls the one before.
+    // This hook must be older than those of eframe: each runner installs one, which logs, stops that runner and calls the hook before it.
     INSTALLED.call_once(|| {
         std::panic::set_hook(Box::new(|info| {
             let error = js_sys::Error::new(&info.to_string());
@@ -336,7 +334,7 @@ fn report_panics() {
     });
 }
 
-/// The bytes of the page as bytes of ours: copied once, to where they stay.
+/// Copies bytes of the page into the program's memory, once.
 fn copied(bytes: &Uint8Array) -> Arc<[u8]> {
     let mut copy: Arc<[u8]> = std::iter::repeat_n(0, bytes.length() as usize).collect();
     if let Some(copy) = Arc::get_mut(&mut copy) {

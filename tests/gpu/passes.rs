@@ -125,7 +125,7 @@ on_both_backends! {
         }
     }
 
-    /// A metal shows the mean of its surroundings then, never black.
+    /// A metal shows the mean of its environment then, never black.
     fn without_reflections_metal_is_not_black(gpu) {
         let mut scene = on_ground(Theme::Dark);
         for material in &mut scene.model.materials {

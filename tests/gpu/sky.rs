@@ -1,4 +1,4 @@
-//! What is behind the model, and how the surroundings stand and turn.
+//! What is behind the model, and how the environment stands and turns.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -127,7 +127,7 @@ on_both_backends! {
     }
 
     /// Two viewers, as far to the left of a face as to its right, with the studio turned back by as much: the same studio in the
-    /// world, so the same light on what is matt. Key, rim and surroundings turn as one.
+    /// world, so the same light on what is matt. Key, rim and environment turn as one.
     fn the_studio_turns_as_one(gpu) {
         let seen = |yaw_radians: f32, turn_radians| {
             let mut scene = card_once();

@@ -5,7 +5,7 @@ use glam::{Affine3A, DMat3, DQuat, DVec3, EulerRot, Quat, Vec3};
 use super::table::{aligned, number};
 use crate::model::LocalJoint;
 
-/// Axes whose cosine is beyond this are no longer square to each other by rounding alone: long chains of f32 stay below.
+/// Axes whose cosine is above this are not square to each other. The rounding of long chains in f32 stays below.
 const SHEAR_FROM: f64 = 1e-4;
 
 /// Position, rotation, scale, and what these cannot say.
@@ -18,7 +18,7 @@ pub struct TransformParts {
     /// The same rotation as three turns in degrees: about x, then y, then z of the outer space's fixed axes. In row vectors
     /// Rx · Ry · Rz; "XYZ" in Blender. y is −90…90.
     pub euler_xyz_degrees: Vec3,
-    /// Length of each axis. A matrix that mirrors has a negative x: which axis was meant is not in a matrix.
+    /// Length of each axis. A matrix that mirrors has a negative x, since it does not tell which axis was meant.
     pub scale: Vec3,
     /// Cosines of the angles between the axes x and y, x and z, y and z: 0 where they are square to each other.
     pub shear: Vec3,
@@ -56,7 +56,7 @@ impl TransformParts {
     }
 
     fn of(position: Vec3, rotation: DQuat, scale: Vec3, shear: Vec3) -> Self {
-        // Near the poles the angles feel what an f32 quaternion lacks of unit length.
+        // Near the poles the angles are sensitive to the rounding of an f32 quaternion.
         let rotation = rotation.normalize();
         let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
         let (x, y, z) = rotation.to_euler(EulerRot::XYZEx);

@@ -12,7 +12,7 @@ mod influences;
 mod mesh;
 mod surfaces;
 
-use super::{ImportError, Imported};
+use super::{ImportError, Imported, Refused};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::collect::Diagnostics;
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
@@ -20,9 +20,11 @@ use crate::model::{Model, UpAxis};
 
 pub(super) use crate::format::begins_like_model;
 
-pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Diagnostic>> {
-    let parsed = format::parse(bytes).map_err(|error| Box::new(error.diagnostic()))?;
-    let (model, mut diagnostics) = from_parsed(&parsed).map_err(|error| Box::new(error.diagnostic()))?;
+pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
+    let refused = |error, diagnostics| Box::new(Refused { error, diagnostics });
+    let parsed = format::parse(bytes).map_err(|error| refused(error.diagnostic(), Vec::new()))?;
+    let (model, mut diagnostics) =
+        from_parsed(&parsed).map_err(|error| refused(error.diagnostic(), parsed.diagnostics.clone()))?;
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {
         dialect: parsed.document.dialect,

@@ -1,6 +1,6 @@
 //! The seam of a loop, where its last pose meets its first, in numbers and words. It is read again when the loop changed.
 
-use crate::anim::{JointSeam, Seam};
+use crate::anim::{JointGap, LoopGap};
 use crate::model::JointIndex;
 use crate::session::Session;
 use crate::ui::wording::measured;
@@ -16,7 +16,7 @@ const LEAST_SCALE: f32 = 5e-4;
 #[derive(Debug, Default)]
 pub(super) struct SeamReading {
     of: Option<ReadOf>,
-    seam: Seam,
+    seam: LoopGap,
     /// All joints, the farthest travelled first. Empty if nothing loops.
     order: Vec<JointIndex>,
     words: Option<String>,
@@ -40,13 +40,13 @@ impl SeamReading {
             clips: session.clips_revision(),
             names: session.joint_names_revision(),
             clip: session.clip_index(),
-            seam_secs: session.playback().seam_secs(),
+            seam_secs: session.playback().loop_gap_secs(),
         });
         if self.of == of {
             return;
         }
         self.of = of;
-        self.seam = session.loop_seam().map(|seam| seam.into_owned()).unwrap_or_default();
+        self.seam = session.loop_gap().map(|seam| seam.into_owned()).unwrap_or_default();
         self.order = self.seam.by_travel();
         let size = session.open_model().map_or(1.0, |open| open.size());
         self.decimals = (-(size * NO_FRACTION).log10()).ceil().clamp(0.0, 9.0) as usize;
@@ -85,12 +85,12 @@ impl SeamReading {
     }
 
     /// The jump of a joint. No jump for a joint that is not there.
-    pub(super) fn of_joint(&self, joint: JointIndex) -> JointSeam {
+    pub(super) fn of_joint(&self, joint: JointIndex) -> JointGap {
         self.seam.joints.get(joint.index()).copied().unwrap_or_default()
     }
 
     /// Whether a joint's travel alone makes the seam visible.
-    pub(super) fn travel_is_seen(&self, joint: &JointSeam) -> bool {
+    pub(super) fn travel_is_seen(&self, joint: &JointGap) -> bool {
         joint.travel >= self.seam.visible_travel
     }
 

@@ -15,7 +15,7 @@ pub(crate) const BOOK_AMBIENT: Vec3 = Vec3::new(0.25, 0.25, 0.35);
 pub(crate) struct BookSurface {
     /// Diffuse colour.
     pub(crate) albedo: Vec3,
-    /// Mirrored share, face on.
+    /// Mirrored fraction, face on.
     pub(crate) fresnel0: Vec3,
     /// What [`shininess`] gives.
     pub(crate) shininess: f32,
@@ -78,7 +78,7 @@ pub(crate) fn book_light(surface: &BookSurface, to_lights: [Vec3; 3], key_visibl
         + blinn_phong(surface, to_lights[2], BOOK_STRENGTHS[2])
 }
 
-/// Share of the sky that the DirectX 12 book mirrors. `mirrored` is where the mirrored ray goes, a unit vector.
+/// Fraction of the sky that the DirectX 12 book mirrors. `mirrored` is where the mirrored ray goes, a unit vector.
 pub(crate) fn book_reflectance(surface: &BookSurface, mirrored: Vec3) -> Vec3 {
     surface.shininess * schlick_fresnel(surface.fresnel0, surface.normal.dot(mirrored))
 }
@@ -94,7 +94,7 @@ pub(crate) fn phong(surface: &PhongSurface, to_light: Vec3, strength: Vec3) -> V
     strength * (lambert * surface.diffuse * surface.texel + lobe * surface.specular)
 }
 
-/// All lights of the DirectX 11 book; shares as in [`book_light`].
+/// All lights of the DirectX 11 book; fractions as in [`book_light`].
 pub(crate) fn phong_light(surface: &PhongSurface, to_lights: [Vec3; 3], key_visible: f32, occlusion: f32) -> Vec3 {
     occlusion * BOOK_AMBIENT * surface.ambient * surface.texel
         + phong(surface, to_lights[0], BOOK_STRENGTHS[0]) * key_visible

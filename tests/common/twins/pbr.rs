@@ -32,7 +32,7 @@ pub(crate) fn fresnel_schlick(fresnel0: Vec3, cos_angle: f32) -> Vec3 {
     fresnel0.lerp(Vec3::splat(fresnel90(fresnel0)), squared * squared * grazing)
 }
 
-/// The share of mirrored light of one direction, per steradian, after one bounce. `n_dot_l` and `n_dot_v` are above 0.
+/// The fraction of mirrored light of one direction, per steradian, after one bounce. `n_dot_l` and `n_dot_v` are above 0.
 pub(crate) fn specular_lobe(
     normal: Vec3,
     to_eye: Vec3,
@@ -48,7 +48,7 @@ pub(crate) fn specular_lobe(
     fresnel_schlick(fresnel0, to_eye.dot(halfway)) * lobe
 }
 
-/// What becomes of light that falls on a surface evenly from all around. With an albedo of 1 the shares sum to 1.
+/// What becomes of light that falls on a surface evenly from all around. With an albedo of 1 the weights sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reflectance {
     /// Mirrored in one bounce.
@@ -61,7 +61,7 @@ pub(crate) struct Reflectance {
     pub(crate) boost: Vec3,
 }
 
-/// The shares for one view and roughness, of which `scale_bias` comes from the [table](bindpose::light::BrdfTable).
+/// The weights for one view and roughness, of which `scale_bias` comes from the [table](bindpose::light::BrdfTable).
 pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Reflectance {
     let grazing = Vec3::splat(fresnel90(fresnel0));
     let single = fresnel0 * scale_bias.x + grazing * scale_bias.y;
@@ -80,8 +80,8 @@ pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Ref
 
 /// Where the lobe of a rough surface is strongest; not of unit length.
 pub(crate) fn dominant_direction(normal: Vec3, mirrored: Vec3, alpha: f32) -> Vec3 {
-    let smooth_share = 1.0 - alpha;
-    normal.lerp(mirrored, smooth_share * (smooth_share.sqrt() + alpha))
+    let smoothness = 1.0 - alpha;
+    normal.lerp(mirrored, smoothness * (smoothness.sqrt() + alpha))
 }
 
 /// Fraction of the reflected environment that a point sees whose ambient occlusion is `occlusion`, 0 … 1.

@@ -21,7 +21,7 @@ pub(crate) const RIM_COLOR: Vec3 = Vec3::new(0.50, 0.66, 0.95);
 pub(crate) struct StudioSurface {
     /// Diffuse colour.
     pub(crate) albedo: Vec3,
-    /// Mirrored share, face on.
+    /// Mirrored fraction, face on.
     pub(crate) fresnel0: Vec3,
     /// 0 smooth, 1 rough; with the gloss of the normal map, if it has any: 1 − [`shininess`](super::book::shininess).
     pub(crate) roughness: f32,
@@ -68,13 +68,13 @@ impl EnvironmentLight<'_> {
     pub(crate) fn studio_light(&self, surface: &StudioSurface, lights: &StudioLights) -> Vec3 {
         let n_dot_v = surface.normal.dot(surface.to_eye).clamp(1e-3, 1.0);
         let scale_bias = self.brdf_table.lookup(n_dot_v, surface.roughness);
-        let shares = reflectance(surface.albedo, surface.fresnel0, scale_bias);
-        self.studio_environment(surface, &shares, n_dot_v)
-            + studio_key(surface, &shares, n_dot_v, lights)
-            + studio_rim(surface, &shares, n_dot_v, lights)
+        let weights = reflectance(surface.albedo, surface.fresnel0, scale_bias);
+        self.studio_environment(surface, &weights, n_dot_v)
+            + studio_key(surface, &weights, n_dot_v, lights)
+            + studio_rim(surface, &weights, n_dot_v, lights)
     }
 
-    fn studio_environment(&self, surface: &StudioSurface, shares: &Reflectance, n_dot_v: f32) -> Vec3 {
+    fn studio_environment(&self, surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32) -> Vec3 {
         let alpha = surface.roughness * surface.roughness;
         let mirrored = (-surface.to_eye).reflect(surface.normal);
         let towards = dominant_direction(surface.normal, mirrored, alpha);
@@ -82,7 +82,7 @@ impl EnvironmentLight<'_> {
             * horizon_fade(mirrored, surface.smooth_normal);
         let mirror_light = self.environment_specular_light(towards, surface.roughness) * seen;
         let diffuse_light = self.environment_diffuse(surface.normal) * surface.ambient_occlusion;
-        shares.single * mirror_light + (shares.multiple + shares.diffuse) * diffuse_light
+        weights.single * mirror_light + (weights.multiple + weights.diffuse) * diffuse_light
     }
 
     /// What a white surface with this normal shows.
@@ -107,7 +107,7 @@ impl EnvironmentLight<'_> {
     }
 }
 
-fn studio_key(surface: &StudioSurface, shares: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
+fn studio_key(surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
     let n_dot_l = surface.normal.dot(lights.to_key);
     if n_dot_l <= 0.0 {
         return Vec3::ZERO;
@@ -120,12 +120,12 @@ fn studio_key(surface: &StudioSurface, shares: &Reflectance, n_dot_v: f32, light
         ..
     } = surface;
     let lobe = specular_lobe(normal, to_eye, lights.to_key, n_dot_l, n_dot_v, fresnel0, alpha);
-    lights.key_color * (lights.key_visible * n_dot_l) * (shares.diffuse + PI * shares.boost * lobe)
+    lights.key_color * (lights.key_visible * n_dot_l) * (weights.diffuse + PI * weights.boost * lobe)
 }
 
-fn studio_rim(surface: &StudioSurface, shares: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
+fn studio_rim(surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
     let edge = 1.0 - n_dot_v;
     let facing = surface.normal.dot(lights.to_rim).max(0.0) * (0.2 + 0.8 * edge * edge);
-    let given_back = shares.diffuse + shares.single + shares.multiple;
+    let given_back = weights.diffuse + weights.single + weights.multiple;
     lights.rim_color * (facing * surface.ambient_occlusion) * given_back
 }

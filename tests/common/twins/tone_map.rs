@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-const VEIL: f32 = 0.016;
-const SHOULDER: f32 = 0.8 - VEIL;
+const OFFSET: f32 = 0.016;
+const SHOULDER: f32 = 0.8 - OFFSET;
 const DESATURATION: f32 = 0.15;
 
 /// Light after an exposure of so many stops more.
@@ -11,15 +11,15 @@ pub(crate) fn exposed(radiance: Vec3, stops: f32) -> Vec3 {
     radiance * stops.exp2()
 }
 
-/// The Khronos PBR neutral tone mapper, its veil set for the studio. `radiance` is not negative.
+/// The Khronos PBR neutral tone mapper, its offset set for the studio. `radiance` is not negative.
 pub(crate) fn tone_mapped(radiance: Vec3) -> Vec3 {
     let least = radiance.min_element();
-    let veil = if least < 2.0 * VEIL {
-        least - least * least / (4.0 * VEIL)
+    let offset = if least < 2.0 * OFFSET {
+        least - least * least / (4.0 * OFFSET)
     } else {
-        VEIL
+        OFFSET
     };
-    let color = radiance - veil;
+    let color = radiance - offset;
     let peak = color.max_element();
     if peak < SHOULDER {
         return color;

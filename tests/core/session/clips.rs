@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use bindpose::anim::{CompiledClip, LoopMode, WrapMode, seam};
+use bindpose::anim::{CompiledClip, LoopMode, WrapMode, loop_gap};
 use bindpose::format::Document;
 use bindpose::model::JointIndex;
 use bindpose::session::PlayCommand;
@@ -25,7 +25,7 @@ fn a_row_of_the_list_says_span_keys_rate_and_file() {
         (1.5, 1.5, 3, 0)
     );
     assert_eq!(
-        (open.seam(2), open.activity(2), open.key_times(2, None)),
+        (open.loop_gap(2), open.activity(2), open.key_times(2, None)),
         (None, None, &[][..])
     );
 }
@@ -35,10 +35,10 @@ fn read_outs_are_found_once_and_lent_from_then_on() {
     let session = opened(models::file("a.m3d", &rigs::rig(300, vec![rigs::ragged("a", 300)])));
     let open = session.open_model().expect("open");
     let same = |a: Option<*const ()>, b: Option<*const ()>| a.is_some() && a == b;
-    let seam = || open.seam(0).map(|seam| std::ptr::from_ref(seam).cast());
+    let gap = || open.loop_gap(0).map(|gap| std::ptr::from_ref(gap).cast());
     let activity = || open.activity(0).map(|joints| joints.as_ptr().cast());
     let all_keys = || Some(session.key_times(None).as_ptr().cast());
-    assert!(same(seam(), seam()) && same(activity(), activity()) && same(all_keys(), all_keys()));
+    assert!(same(gap(), gap()) && same(activity(), activity()) && same(all_keys(), all_keys()));
     // The keys of a joint are those of its track.
     let track = open.model.clips[0].tracks[1].times_secs();
     assert!(std::ptr::eq(session.key_times(Some(JointIndex(1))), track));
@@ -80,28 +80,28 @@ fn the_seam_is_that_of_what_loops() {
             &rigs::rig(3, vec![rigs::even("even", 3, -1.0, 9, 4.0)]),
         ));
         let open = session.open_model().expect("open");
-        seam(
+        loop_gap(
             &open.model.skeleton,
             &CompiledClip::new(&open.model.clips[0]),
             span_secs,
             open.size(),
         )
     };
-    assert!(matches!(session.loop_seam(), Some(Cow::Borrowed(_))), "found once");
-    assert_eq!(session.loop_seam().as_deref(), Some(&between([-1.0, 1.0])));
+    assert!(matches!(session.loop_gap(), Some(Cow::Borrowed(_))), "found once");
+    assert_eq!(session.loop_gap().as_deref(), Some(&between([-1.0, 1.0])));
     session.apply(PlayCommand::SetRangeStart(Some(-0.3)));
     session.apply(PlayCommand::SetRangeEnd(Some(0.6)));
-    assert_eq!(session.loop_seam().as_deref(), Some(&between([-0.3, 0.6])));
+    assert_eq!(session.loop_gap().as_deref(), Some(&between([-0.3, 0.6])));
     // The demo begins again at 0, and backward at the end.
     session.apply(PlayCommand::SetWrapMode(WrapMode::BookDemo));
-    assert_eq!(session.playback().seam_secs(), Some([0.0, 0.6]));
+    assert_eq!(session.playback().loop_gap_secs(), Some([0.0, 0.6]));
     session.apply(PlayCommand::ToggleBackward);
-    assert_eq!(session.playback().seam_secs(), Some([-0.3, 0.6]));
+    assert_eq!(session.playback().loop_gap_secs(), Some([-0.3, 0.6]));
     for mode in [LoopMode::Once, LoopMode::PingPong] {
         session.apply(PlayCommand::SetLoopMode(mode));
-        assert_eq!(session.loop_seam(), None, "{mode:?} never jumps");
+        assert_eq!(session.loop_gap(), None, "{mode:?} never jumps");
     }
     session.apply(PlayCommand::SetLoopMode(LoopMode::Loop));
     session.apply(PlayCommand::SelectClip(1));
-    assert_eq!(session.loop_seam(), None, "one pose loops nowhere");
+    assert_eq!(session.loop_gap(), None, "one pose loops nowhere");
 }

@@ -87,7 +87,7 @@ fn clips_join_with_free_names_and_their_files_and_nothing_is_uploaded_again() {
         session.advance(0.1);
         assert!(session.is_animating() && session.frame().palette.0.len() == 12);
         let open = session.open_model().expect("open");
-        let joints = open.seam(clip).map(|seam| seam.joints.len());
+        let joints = open.loop_gap(clip).map(|gap| gap.joints.len());
         assert_eq!((joints, open.activity(clip).map(<[_]>::len)), (Some(12), Some(12)));
         assert!(!open.key_times(clip, None).is_empty());
     }

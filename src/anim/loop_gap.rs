@@ -1,4 +1,4 @@
-//! What is seen where a loop begins again: the pose in which it ends beside the one in which it begins.
+//! The jump that is seen where a loop begins again: how far its last pose is from its first.
 
 use super::activity::JointChange;
 use super::buffers::PoseBuffers;
@@ -7,12 +7,12 @@ use super::sample::sample_joint;
 use crate::model::{JointIndex, Skeleton};
 
 /// A jump of the surface by less than this fraction of the model's size is not seen: two pixels where the model fills a
-/// picture a thousand pixels high, which is what a moving edge is blurred by.
+/// picture a thousand pixels high. A moving edge is blurred by as much.
 pub const VISIBLE_FRACTION: f32 = 1.0 / 500.0;
 
 /// The jump of one joint from the last pose of a loop to the first, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JointSeam {
+pub struct JointGap {
     /// Distance of the joint's place, in model units.
     pub translation: f32,
     /// Angle of its turn, degrees, 0…180.
@@ -21,25 +21,25 @@ pub struct JointSeam {
     pub scale: f32,
     /// How far the joint itself jumps in the model, all that its ancestors do included, in model units.
     pub travel: f32,
-    /// How many times the jump of its surface is what can just be seen ([`VISIBLE_FRACTION`]). The surface is taken to reach a
+    /// The jump of its surface as a multiple of what can just be seen ([`VISIBLE_FRACTION`]). The surface is taken to reach a
     /// tenth of the model's size from its joint, so that a turn by 1.15° and a scale by 2 % can just be seen too.
     pub visibility: f32,
 }
 
-/// The seam of a loop.
+/// The gap of a loop, joint by joint.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Seam {
+pub struct LoopGap {
     /// In the skeleton's order.
-    pub joints: Vec<JointSeam>,
+    pub joints: Vec<JointGap>,
     /// The joint whose own keys jump most; `None` when none jumps.
     pub worst: Option<JointIndex>,
-    /// Whether it is seen: a joint's own jump is, or what the jumps of its ancestors add up to.
+    /// Whether it is seen: some joint's own jump is large enough, or the sum with its ancestors'.
     pub visible: bool,
     /// The least travel that is seen, in model units: [`VISIBLE_FRACTION`] of the model's size.
     pub visible_travel: f32,
 }
 
-impl Seam {
+impl LoopGap {
     /// All joints, the farthest travelled first. Of equal ways the greater turn is first, then the greater change of scale, then
     /// the skeleton's order.
     pub fn by_travel(&self) -> Vec<JointIndex> {
@@ -54,9 +54,9 @@ impl Seam {
     }
 }
 
-/// The seam of a loop through a clip of a skeleton, from `first_secs` to `last_secs` of the clip's time; `size` is the
+/// The gap of a loop through a clip of a skeleton, from `first_secs` to `last_secs` of the clip's time; `size` is the
 /// length of the model's diagonal in its own units. A loop without length has none.
-pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [f32; 2], size: f32) -> Seam {
+pub fn loop_gap(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [f32; 2], size: f32) -> LoopGap {
     let mut pose = PoseBuffers::default();
     let mut places = |time_secs| {
         pose.evaluate(skeleton, clip, time_secs);
@@ -64,13 +64,13 @@ pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [
     };
     let (last, first) = (places(last_secs), places(first_secs));
     let visible_travel = VISIBLE_FRACTION * size.max(f32::MIN_POSITIVE);
-    let joints: Vec<JointSeam> = (0u32..)
+    let joints: Vec<JointGap> = (0u32..)
         .map(JointIndex)
         .zip(last.into_iter().zip(first))
         .map(|(joint, (last, first))| {
             let [from, to] = [last_secs, first_secs].map(|secs| sample_joint(skeleton, clip, joint, secs));
             let change = JointChange::between(skeleton, joint, &from, &to);
-            JointSeam {
+            JointGap {
                 translation: change.translation,
                 rotation_degrees: change.rotation_radians.to_degrees(),
                 scale: change.scale,
@@ -89,7 +89,7 @@ pub fn seam(skeleton: &Skeleton, clip: &CompiledClip, [first_secs, last_secs]: [
     let visible = joints
         .iter()
         .any(|joint| joint.visibility >= 1.0 || joint.travel >= visible_travel);
-    Seam {
+    LoopGap {
         joints,
         worst,
         visible,

@@ -1,4 +1,4 @@
-//! Findings as lines.
+//! Diagnostics as lines.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -7,8 +7,8 @@ use super::text::OneLine;
 use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
 
-/// `file:line:column: severity[code]: message`, then the lines it is about, and where others alike stand.
-pub(super) fn write_finding(
+/// Writes `file:line:column: severity[code]: message`, the lines that it is about, and the lines of others like it.
+pub(super) fn write_diagnostic(
     out: &mut dyn Write,
     path: &Path,
     diagnostic: &Diagnostic,
@@ -26,7 +26,7 @@ pub(super) fn write_finding(
     }
 }
 
-/// The other lines of a finding: `line 12`, `lines 12, 16, 20, …`.
+/// The other lines of a diagnostic: `line 12`, `lines 12, 16, 20, …`.
 fn also_on(diagnostic: &Diagnostic) -> Option<String> {
     let mut lines: Vec<u32> = diagnostic.places.iter().map(|place| place.line).collect();
     lines.dedup();

@@ -1,6 +1,6 @@
 //! Where a loop begins again.
 
-use bindpose::anim::{CompiledClip, PoseBuffers, Seam, VISIBLE_FRACTION, seam};
+use bindpose::anim::{CompiledClip, LoopGap, PoseBuffers, VISIBLE_FRACTION, loop_gap};
 use bindpose::import::m3d;
 use bindpose::model::{JointIndex, Model};
 
@@ -22,13 +22,13 @@ fn arm_that_ends(translation: [[f32; 3]; 3], angle_radians: [f32; 3]) -> Model {
     model_of(&document).0
 }
 
-fn seam_of(model: &Model, size: f32) -> Seam {
-    whole_seam(model, 0, size)
+fn gap_of(model: &Model, size: f32) -> LoopGap {
+    whole_gap(model, 0, size)
 }
 
-fn whole_seam(model: &Model, clip: usize, size: f32) -> Seam {
+fn whole_gap(model: &Model, clip: usize, size: f32) -> LoopGap {
     let clip = &model.clips[clip];
-    seam(
+    loop_gap(
         &model.skeleton,
         &CompiledClip::new(clip),
         [clip.start_secs, clip.end_secs],
@@ -38,10 +38,10 @@ fn whole_seam(model: &Model, clip: usize, size: f32) -> Seam {
 
 #[test]
 fn a_clip_that_ends_as_it_began_has_no_seam() {
-    let seam = seam_of(&arm_that_ends([[0.0; 3]; 3], [0.0; 3]), 2.0);
-    assert_eq!((seam.visible, seam.worst, seam.joints.len()), (false, None, 3));
+    let gap = gap_of(&arm_that_ends([[0.0; 3]; 3], [0.0; 3]), 2.0);
+    assert_eq!((gap.visible, gap.worst, gap.joints.len()), (false, None, 3));
     assert!(
-        seam.joints
+        gap.joints
             .iter()
             .all(|joint| joint.visibility == 0.0 && joint.travel == 0.0)
     );
@@ -50,9 +50,9 @@ fn a_clip_that_ends_as_it_began_has_no_seam() {
 #[test]
 fn the_jump_is_told_of_the_joint_that_has_the_keys_for_it() {
     let model = arm_that_ends([[0.0; 3], [0.3, 0.0, 0.4], [0.0; 3]], [0.0; 3]);
-    let seam = seam_of(&model, 2.0);
-    assert_eq!((seam.visible, seam.worst), (true, Some(JointIndex(1))));
-    let [below, there, above] = &seam.joints[..] else {
+    let gap = gap_of(&model, 2.0);
+    assert_eq!((gap.visible, gap.worst), (true, Some(JointIndex(1))));
+    let [below, there, above] = &gap.joints[..] else {
         panic!("three joints")
     };
     assert_eq!((below.translation, below.travel, below.visibility), (0.0, 0.0, 0.0));
@@ -79,14 +79,14 @@ fn what_is_two_pixels_of_a_thousand_is_seen() {
         let still = [0.0; 3];
         // Nothing hangs on the last joint that would be carried farther.
         let model = arm_that_ends([still, still, [shift, 0.0, 0.0]], [0.0, 0.0, angle_radians]);
-        let seam = seam_of(&model, 2.0);
-        assert_eq!(seam.visible, visible, "{shift} {angle_radians}: {seam:?}");
-        assert_eq!(seam.worst, Some(JointIndex(2)));
-        assert!((seam.joints[2].rotation_degrees - angle_radians.to_degrees()).abs() < 1e-3);
+        let gap = gap_of(&model, 2.0);
+        assert_eq!(gap.visible, visible, "{shift} {angle_radians}: {gap:?}");
+        assert_eq!(gap.worst, Some(JointIndex(2)));
+        assert!((gap.joints[2].rotation_degrees - angle_radians.to_degrees()).abs() < 1e-3);
     }
     // A turn too small by itself that carries what is far away.
-    let seam = seam_of(&arm_that_ends([[0.0; 3]; 3], [limit_radians * 0.5, 0.0, 0.0]), 2.0);
-    assert!(seam.visible && seam.joints[2].visibility == 0.0 && seam.joints[0].visibility < 1.0);
+    let gap = gap_of(&arm_that_ends([[0.0; 3]; 3], [limit_radians * 0.5, 0.0, 0.0]), 2.0);
+    assert!(gap.visible && gap.joints[2].visibility == 0.0 && gap.joints[0].visibility < 1.0);
 }
 
 #[test]
@@ -102,9 +102,9 @@ fn lengths_are_those_of_the_model_where_a_parent_scales() {
     document.clips[0].bones[1] = track([key(0.0, [0.0, 100.0, 0.0]), key(1.0, [30.0, 100.0, 0.0])]);
     document.clips[0].bones[2] = track([key(0.0, [0.0, 1.0, 0.0])]);
     let (model, _) = model_of(&document);
-    let seam = seam_of(&model, 2.0);
-    assert!((seam.joints[1].translation - 0.3).abs() < 1e-6, "{seam:?}");
-    assert!((seam.joints[1].travel - 0.3).abs() < 1e-6, "{seam:?}");
+    let gap = gap_of(&model, 2.0);
+    assert!((gap.joints[1].translation - 0.3).abs() < 1e-6, "{gap:?}");
+    assert!((gap.joints[1].travel - 0.3).abs() < 1e-6, "{gap:?}");
 }
 
 #[test]
@@ -124,11 +124,11 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
     document.clips[0].bones[2] = track([key(0.0, [0.0, 1.0, 0.0])]);
     let (model, _) = model_of(&document);
     assert!(model.clips[0].tracks[0].rotations()[3].w < -0.99);
-    let seam = seam_of(&model, 2.0);
-    assert!(seam.joints[0].rotation_degrees < 1e-3, "a whole turn is none");
-    assert_eq!((seam.joints[1].scale, seam.worst), (0.5, Some(JointIndex(1))));
+    let gap = gap_of(&model, 2.0);
+    assert!(gap.joints[0].rotation_degrees < 1e-3, "a whole turn is none");
+    assert_eq!((gap.joints[1].scale, gap.worst), (0.5, Some(JointIndex(1))));
     assert_eq!(
-        seam.by_travel()[1],
+        gap.by_travel()[1],
         JointIndex(1),
         "after the first, whose turn is rounded"
     );
@@ -138,10 +138,10 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
 fn every_size_of_skeleton_has_its_seam() {
     for bones in JOINT_COUNTS {
         let model = rigs::model(bones);
-        let [ragged, single, even] = [0, 1, 2].map(|clip| whole_seam(&model, clip, 5.0));
+        let [ragged, single, even] = [0, 1, 2].map(|clip| whole_gap(&model, clip, 5.0));
         assert_eq!(ragged.joints.len(), bones as usize);
         assert!(ragged.visible && ragged.worst.is_some());
-        assert!(!single.visible && single.worst.is_none(), "one key has no seam");
+        assert!(!single.visible && single.worst.is_none(), "one key has no gap");
         // The first bone wanders two units; the others come back.
         assert_eq!(even.worst, Some(JointIndex(0)));
         assert!((even.joints[0].translation - 2.0).abs() < 1e-6);
@@ -156,30 +156,30 @@ fn the_figure_loops_without_a_seam_that_is_seen() {
     let bounds = model.bind_bounds();
     assert!(model.clips.len() > 1);
     for (index, clip) in model.clips.iter().enumerate() {
-        let seam = whole_seam(&model, index, bounds.min.distance(bounds.max));
+        let gap = whole_gap(&model, index, bounds.min.distance(bounds.max));
         assert!(
-            !seam.visible,
+            !gap.visible,
             "{}: {:?}",
             clip.name,
-            seam.worst.map(|joint| seam.joints[joint.index()])
+            gap.worst.map(|joint| gap.joints[joint.index()])
         );
     }
 }
 
 #[test]
-fn seams_of_real_files_are_those_of_their_poses() {
+fn gaps_of_real_files_are_those_of_their_poses() {
     for name in REAL_FILES {
         let Some(parsed) = real_file(name) else { continue };
         let (model, _) = m3d::from_parsed(&parsed).expect("sound");
         let bounds = model.bind_bounds();
         for (index, clip) in model.clips.iter().enumerate() {
-            let seam = whole_seam(&model, index, bounds.min.distance(bounds.max));
+            let gap = whole_gap(&model, index, bounds.min.distance(bounds.max));
             let places = |time_secs| {
                 let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
                 pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
                 pose.model.0
             };
-            for ((joint, first), last) in seam
+            for ((joint, first), last) in gap
                 .joints
                 .iter()
                 .zip(places(clip.start_secs))
@@ -197,13 +197,13 @@ fn a_range_has_the_seam_between_its_own_ends() {
     let model = rigs::model(12);
     let clip = &model.clips[2];
     let span_secs = [3.3, 4.1];
-    let seam = seam(&model.skeleton, &CompiledClip::new(clip), span_secs, 5.0);
+    let gap = loop_gap(&model.skeleton, &CompiledClip::new(clip), span_secs, 5.0);
     let [first, last] = span_secs.map(|time_secs| {
         let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
         pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
         pose
     });
-    for (joint, found) in seam.joints.iter().enumerate() {
+    for (joint, found) in gap.joints.iter().enumerate() {
         let [a, b] = [&first, &last].map(|pose| pose.model.0[joint].translation);
         assert_eq!(found.travel, a.distance(b));
         let [a, b] = [&first, &last].map(|pose| pose.local.joints().nth(joint).expect("a joint").rotation.as_dquat());
@@ -214,8 +214,8 @@ fn a_range_has_the_seam_between_its_own_ends() {
             "{joint}: {found:?} {turned}"
         );
     }
-    assert!(seam.visible && seam.joints[0].travel > 0.5);
-    let nothing = bindpose::anim::seam(&model.skeleton, &CompiledClip::new(clip), [3.3, 3.3], 5.0);
+    assert!(gap.visible && gap.joints[0].travel > 0.5);
+    let nothing = bindpose::anim::loop_gap(&model.skeleton, &CompiledClip::new(clip), [3.3, 3.3], 5.0);
     assert!(!nothing.visible && nothing.worst.is_none());
 }
 
@@ -223,14 +223,10 @@ fn a_range_has_the_seam_between_its_own_ends() {
 fn the_farthest_travelled_joint_is_first_and_of_equal_ones_the_one_that_turns_more() {
     let model = arm_that_ends([[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.2, 0.0]], [0.0, 0.0, 0.5]);
     let joints = |order: [u32; 3]| order.map(JointIndex);
-    assert_eq!(seam_of(&model, 2.0).by_travel(), joints([2, 1, 0]));
+    assert_eq!(gap_of(&model, 2.0).by_travel(), joints([2, 1, 0]));
     let model = arm_that_ends([[0.0; 3], [0.3, 0.0, 0.0], [0.0; 3]], [0.0, 0.0, 0.5]);
-    assert_eq!(
-        seam_of(&model, 2.0).by_travel(),
-        joints([2, 1, 0]),
-        "the last one turns"
-    );
+    assert_eq!(gap_of(&model, 2.0).by_travel(), joints([2, 1, 0]), "the last one turns");
     let model = arm_that_ends([[0.0; 3]; 3], [0.0; 3]);
-    assert_eq!(seam_of(&model, 2.0).by_travel(), joints([0, 1, 2]));
-    assert_eq!(seam_of(&model, 2.0).visible_travel, 2.0 * VISIBLE_FRACTION);
+    assert_eq!(gap_of(&model, 2.0).by_travel(), joints([0, 1, 2]));
+    assert_eq!(gap_of(&model, 2.0).visible_travel, 2.0 * VISIBLE_FRACTION);
 }
