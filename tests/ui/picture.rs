@@ -311,17 +311,17 @@ fn how_a_clip_plays_on_a_phone() {
 }
 
 #[test]
-fn the_seam_of_a_range() {
+fn the_loop_gap_of_a_range() {
     let then = || {
         [
             PlayCommand::SetRangeStart(Some(0.3)).into(),
             PlayCommand::SetRangeEnd(Some(0.9)).into(),
         ]
     };
-    let clicks = ["Speed ", "Seam of Bone "];
+    let clicks = ["Speed ", "Loop gap of Bone "];
     for (name, size, theme, touch) in [
-        ("wide-dark-seam", WIDE, Theme::Dark, false),
-        ("phone-light-seam", PHONE, Theme::Light, true),
+        ("wide-dark-loop-gap", WIDE, Theme::Dark, false),
+        ("phone-light-loop-gap", PHONE, Theme::Light, true),
     ] {
         compare(name, &draw_after(size, theme, touch, then().into(), &clicks));
     }

@@ -93,7 +93,7 @@ fn what_hangs_over_the_timeline_leaves_the_transport_free() {
         let open = if touch { touch_window } else { window };
         let mut window = open(size, vec![moving("a.m3d")]);
         window.apply(LookCommand::SetBonesVisible(true));
-        // A range whose seam is seen has the longest list.
+        // A range whose gap is seen has the longest list.
         window.apply(PlayCommand::SetRangeStart(Some(0.2)));
         window.apply(PlayCommand::SetRangeEnd(Some(0.7)));
         let mut buttons = vec!["Clip ", "Speed "];

@@ -249,16 +249,16 @@ fn the_ends_of_the_range_are_dragged_on_the_bar_from_frame_to_frame() {
 }
 
 #[test]
-fn a_seam_that_is_seen_is_told() {
+fn a_loop_gap_that_is_seen_is_told() {
     let window = window(WIDE, vec![moving("a.m3d")]);
-    let told = window.named(|name| name.starts_with("The loop's seam is seen: Bone 1 turns by "));
+    let told = window.named(|name| name.starts_with("The loop has a visible gap: Bone 1 turns by "));
     assert_eq!(told.len(), 1, "{:?}", window.widgets());
 }
 
 #[test]
-fn of_a_range_the_seam_between_its_ends_is_told_and_its_mark_stands_there() {
+fn of_a_range_the_loop_gap_between_its_ends_is_told_and_its_mark_stands_there() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    let whole = window.rect("The loop's seam is seen").center().x;
+    let whole = window.rect("The loop has a visible gap").center().x;
     window.apply(PlayCommand::SetRangeStart(Some(0.25)));
     window.apply(PlayCommand::SetRangeEnd(Some(0.5)));
     let told = window.named(|name| name.ends_with("from the range's last pose to its first"));
@@ -270,19 +270,27 @@ fn of_a_range_the_seam_between_its_ends_is_told_and_its_mark_stands_there() {
     window.apply(PlayCommand::ClearRange);
     window.apply(PlayCommand::SetRangeStart(Some(turning_secs - 0.2)));
     window.apply(PlayCommand::SetRangeEnd(Some(turning_secs + 0.2)));
-    assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
+    assert!(
+        window
+            .named(|name| name.starts_with("The loop has a visible gap"))
+            .is_empty()
+    );
     window.apply(PlayCommand::ClearRange);
     window.apply(PlayCommand::SetLoopMode(LoopMode::PingPong));
-    assert!(window.named(|name| name.starts_with("The loop's seam")).is_empty());
+    assert!(
+        window
+            .named(|name| name.starts_with("The loop has a visible gap"))
+            .is_empty()
+    );
 }
 
 #[test]
-fn the_seam_of_each_bone_is_listed_and_a_row_selects_its_bone() {
+fn the_loop_gap_of_each_bone_is_listed_and_a_row_selects_its_bone() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
         window.click("Speed 1×");
-        assert!(window.shows("Seam of the clip"));
+        assert!(window.shows("Loop gap of the clip"));
         let rows = |window: &Window| {
-            let mut rows = window.named(|name| name.starts_with("Seam of Bone "));
+            let mut rows = window.named(|name| name.starts_with("Loop gap of Bone "));
             rows.sort_by(|a, b| a.1.min.y.total_cmp(&b.1.min.y));
             rows.into_iter().map(|(name, _)| name).collect::<Vec<_>>()
         };
@@ -291,22 +299,22 @@ fn the_seam_of_each_bone_is_listed_and_a_row_selects_its_bone() {
         assert_eq!(
             rows(&window),
             [
-                format!("Seam of Bone 1: distance 0, angle {angle:.2}°"),
-                "Seam of Bone 0: distance 0, angle 0".to_owned(),
+                format!("Loop gap of Bone 1: distance 0, angle {angle:.2}°"),
+                "Loop gap of Bone 0: distance 0, angle 0".to_owned(),
             ]
         );
-        window.click("Seam of Bone 1");
+        window.click("Loop gap of Bone 1");
         assert_eq!(window.session().joints().selected(), Some(JointIndex(1)));
-        assert!(window.shows("Seam of the clip"), "it stays open");
+        assert!(window.shows("Loop gap of the clip"), "it stays open");
         window.apply(PlayCommand::SetRangeEnd(Some(0.5)));
-        assert!(window.shows("Seam of the range"));
+        assert!(window.shows("Loop gap of the range"));
         let angle = (1.2 * 3.0_f32.sin()).abs().to_degrees();
         assert_eq!(
             rows(&window)[0],
-            format!("Seam of Bone 1: distance 0, angle {angle:.2}°")
+            format!("Loop gap of Bone 1: distance 0, angle {angle:.2}°")
         );
         window.apply(PlayCommand::SetLoopMode(LoopMode::Once));
-        assert!(rows(&window).is_empty() && !window.shows("Seam of the range"));
+        assert!(rows(&window).is_empty() && !window.shows("Loop gap of the range"));
     }
 }
 
@@ -320,21 +328,21 @@ fn where_nothing_jumps_that_is_said() {
     assert!(window.shows("No jump from the last pose to the first is seen."));
     window.apply(PlayCommand::SelectClip(2));
     assert!(
-        window.named(|name| name.starts_with("Seam of")).is_empty(),
+        window.named(|name| name.starts_with("Loop gap of")).is_empty(),
         "one pose loops nowhere"
     );
     window.apply(FileCommand::Add(vec![growing()]));
-    assert!(window.shows("Seam of Bone 0: distance 0, angle 0, scales by 50.0 %"));
+    assert!(window.shows("Loop gap of Bone 0: distance 0, angle 0, scales by 50.0 %"));
     window.apply(FileCommand::Add(vec![rig(1, 31)]));
     assert!(window.shows("The last pose is the first one again."));
-    assert!(window.named(|name| name.starts_with("Seam of Bone ")).is_empty());
+    assert!(window.named(|name| name.starts_with("Loop gap of Bone ")).is_empty());
 }
 
 #[test]
 fn of_many_bones_only_the_rows_in_view_are_laid_out_and_the_pointer_lights_them_up() {
     let mut window = window(WIDE, vec![rig(2000, 31)]);
     window.click("Speed 1×");
-    let rows = window.named(|name| name.starts_with("Seam of Bone "));
+    let rows = window.named(|name| name.starts_with("Loop gap of Bone "));
     assert!((6..=8).contains(&rows.len()), "{}", rows.len());
     let distances: Vec<f32> = rows
         .iter()
@@ -354,7 +362,7 @@ fn of_many_bones_only_the_rows_in_view_are_laid_out_and_the_pointer_lights_them_
     window.pass_on();
     let hovered = window.session().joints().hovered().expect("it stands out");
     assert!(
-        name.starts_with(&format!("Seam of Bone {}:", hovered.0)),
+        name.starts_with(&format!("Loop gap of Bone {}:", hovered.0)),
         "{name} {hovered:?}"
     );
 }

@@ -3,8 +3,8 @@
 use egui::{CursorIcon, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::axis::TimeAxis;
+use super::loop_gap::LoopGapReading;
 use super::marks::{MarkShape, mark_radius};
-use super::seam::SeamReading;
 use super::time_area;
 use crate::actions;
 use crate::model::Clip;
@@ -28,7 +28,7 @@ enum End {
 }
 
 /// The bar of the open clip.
-pub(super) fn show(ui: &mut Ui, session: &Session, seam: &SeamReading, size: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, gap: &LoopGapReading, size: Vec2, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
@@ -53,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, seam: &SeamReading, size: Vec
     for end in [End::In, End::Out] {
         grip(ui, session, clip, end, &axis, rect, commands);
     }
-    seam_tick(ui, seam, &axis, rect);
+    loop_gap_tick(ui, gap, &axis, rect);
 }
 
 /// The range that plays, unless it is the whole clip.
@@ -141,9 +141,9 @@ fn paint_bracket(ui: &Ui, session: &Session, response: &Response, at: egui::Pos2
     ui.painter().add(Shape::line(points.into(), Stroke::new(1.6, color)));
 }
 
-/// A mark at the end of a loop whose seam is visible.
-fn seam_tick(ui: &Ui, seam: &SeamReading, axis: &TimeAxis, rect: Rect) {
-    let (Some(words), Some(at_secs)) = (seam.words(), seam.seen_at_secs()) else {
+/// A mark at the end of a loop whose gap is visible.
+fn loop_gap_tick(ui: &Ui, gap: &LoopGapReading, axis: &TimeAxis, rect: Rect) {
+    let (Some(words), Some(at_secs)) = (gap.words(), gap.seen_at_secs()) else {
         return;
     };
     let color = Tokens::of(ui).warning;
@@ -156,7 +156,7 @@ fn seam_tick(ui: &Ui, seam: &SeamReading, axis: &TimeAxis, rect: Rect) {
     ui.painter()
         .vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
     let target = Rect::from_center_size(at + vec2(0.0, 4.0), vec2(14.0, 12.0));
-    let response = ui.interact(target, ui.scope_id().with("seam"), Sense::hover());
+    let response = ui.interact(target, ui.scope_id().with("loop gap"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
     response.on_hover_text(words);
 }

@@ -1,9 +1,9 @@
-//! How a clip plays: speed, what happens at the end, the range, and the seam of a loop.
+//! How a clip plays: speed, what happens at the end, the range, and the loop gap.
 
 use egui::{Align, Align2, FontId, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::controls;
-use super::seam::{SeamReading, angle, scale};
+use super::loop_gap::{LoopGapReading, angle, scale};
 use super::state::TimelineState;
 use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
@@ -49,9 +49,9 @@ pub(super) fn show(
     at_the_end(ui, session, commands);
     popover_gap(ui);
     range(ui, session, commands);
-    if state.seam.loops() {
+    if state.loop_gap.loops() {
         popover_gap(ui);
-        seam_list(ui, session, state, commands);
+        loop_gap_list(ui, session, state, commands);
     }
 }
 
@@ -123,16 +123,16 @@ fn typed_row(ui: &mut Ui, name: &'static str, text: &str, typed: &str) -> Option
     .inner
 }
 
-/// The seam of a loop in words, and the jump of each joint.
-fn seam_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
-    let reading = std::mem::take(&mut state.seam);
+/// The loop gap in words, and the jump of each joint.
+fn loop_gap_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
+    let reading = std::mem::take(&mut state.loop_gap);
     let of_range = session.playback().range_secs().is_some();
     section_name(
         ui,
         if of_range {
-            "Seam of the range"
+            "Loop gap of the range"
         } else {
-            "Seam of the clip"
+            "Loop gap of the clip"
         },
     );
     let tokens = Tokens::of(ui);
@@ -146,13 +146,13 @@ fn seam_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands
         ui.add_space(4.0);
         joint_list(ui, session, &reading, state, commands);
     }
-    state.seam = reading;
+    state.loop_gap = reading;
 }
 
 fn joint_list(
     ui: &mut Ui,
     session: &Session,
-    reading: &SeamReading,
+    reading: &LoopGapReading,
     state: &mut TimelineState,
     commands: &mut Vec<Command>,
 ) {
@@ -160,16 +160,13 @@ fn joint_list(
     let height = pressed_row_height(ui);
     let rows = if is_touch(ui) { TOUCH_ROWS } else { ROWS };
     ui.spacing_mut().item_spacing.y = 0.0;
-    scrolled("seam", rows * height).auto_shrink([false, true]).show_rows(
-        ui,
-        height,
-        reading.order().len(),
-        |ui, seen| {
+    scrolled("loop gap", rows * height)
+        .auto_shrink([false, true])
+        .show_rows(ui, height, reading.order().len(), |ui, seen| {
             for &joint in &reading.order()[seen] {
                 joint_row(ui, session, reading, joint, state, commands);
             }
-        },
-    );
+        });
 }
 
 /// The right ends of the columns of distances and angles.
@@ -194,7 +191,7 @@ fn captions(ui: &mut Ui) {
 fn joint_row(
     ui: &mut Ui,
     session: &Session,
-    reading: &SeamReading,
+    reading: &LoopGapReading,
     joint: JointIndex,
     state: &mut TimelineState,
     commands: &mut Vec<Command>,
@@ -202,7 +199,7 @@ fn joint_row(
     let tokens = Tokens::of(ui);
     let size = vec2(ui.available_width(), pressed_row_height(ui));
     let (_, rect) = ui.allocate_space(size);
-    let response = ui.interact(rect, ui.scope_id().with(("seam of", joint.0)), Sense::click());
+    let response = ui.interact(rect, ui.scope_id().with(("loop gap of", joint.0)), Sense::click());
     let joints = session.joints();
     let selected = joints.selected() == Some(joint);
     if response.contains_pointer() && !is_touch(ui) {
@@ -244,7 +241,7 @@ fn joint_row(
     paint_elided(ui.painter(), at, &words, FontId::proportional(12.5), color, room);
 
     response.widget_info(|| {
-        let label = format!("Seam of {name}: {}", jump.words());
+        let label = format!("Loop gap of {name}: {}", jump.words());
         WidgetInfo::selected(Role::ListItem, true, selected, label)
     });
     if response.clicked() {
@@ -268,7 +265,7 @@ struct Jump {
 }
 
 impl Jump {
-    fn new(reading: &SeamReading, joint: JointIndex) -> Self {
+    fn new(reading: &LoopGapReading, joint: JointIndex) -> Self {
         let jump = reading.of_joint(joint);
         Self {
             distance: reading.distance(jump.travel),

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::axis::TimeWindow;
 use super::curves::Curves;
+use super::loop_gap::LoopGapReading;
 use super::rows::Rows;
-use super::seam::SeamReading;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
 
@@ -40,7 +40,7 @@ pub(in crate::ui) struct TimelineState {
     pub(super) rows: Rows,
     pub(super) curves: Curves,
     pub(super) key_box: Option<KeyBox>,
-    pub(super) seam: SeamReading,
+    pub(super) loop_gap: LoopGapReading,
     /// The joint whose row is under the pointer in this pass.
     pub(super) hovered: Option<JointIndex>,
     /// The selected joint to whose row the sheet has scrolled.
@@ -53,7 +53,7 @@ impl TimelineState {
     /// Resets what belonged to another clip or model, and follows the play head.
     pub(in crate::ui) fn update(&mut self, session: &Session) {
         self.hovered = None;
-        self.seam.update(session);
+        self.loop_gap.update(session);
         let (Some(index), Some(clip)) = (session.clip_index(), session.clip()) else {
             return;
         };

@@ -69,7 +69,7 @@ fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec
         let widths = ReadoutWidths::of(ui, clip);
         let right_width = widths.time + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
         let bar_width = (ui.available_width() - right_width).max(60.0);
-        bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 30.0), commands);
+        bar::show(ui, session, &state.timeline.loop_gap, vec2(bar_width, 30.0), commands);
         controls::time_readout(ui, session, widths.time, commands);
         controls::frame_readout(ui, session, clip, widths.frame, commands);
         speed_button(ui, session, &mut state.timeline, 48.0, !with_keys, commands);
@@ -110,7 +110,7 @@ pub(in crate::ui) fn narrow(
             clips::button(ui, session, state, Rangef::new(CLIP_WIDTH_NARROW, 140.0), commands);
             bar_width -= before - ui.available_width() + end.width + 10.0;
         }
-        bar::show(ui, session, &state.timeline.seam, vec2(bar_width, 44.0), commands);
+        bar::show(ui, session, &state.timeline.loop_gap, vec2(bar_width, 44.0), commands);
         if low {
             ui.scope(|ui| end.show(ui, session, clip, &mut state.timeline, commands));
         }
@@ -205,7 +205,7 @@ fn speed_button(
         .text(rect.center(), Align2::CENTER_CENTER, &text, font, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
     let hint = format!(
-        "Speed ({} slower, {} faster, {} as the file), range and seam",
+        "Speed ({} slower, {} faster, {} as the file), range and loop gap",
         actions::SLOWER.key(),
         actions::FASTER.key(),
         actions::NORMAL_SPEED.key(),

@@ -37,7 +37,7 @@ fn whole_gap(model: &Model, clip: usize, size: f32) -> LoopGap {
 }
 
 #[test]
-fn a_clip_that_ends_as_it_began_has_no_seam() {
+fn a_clip_that_ends_as_it_began_has_no_loop_gap() {
     let gap = gap_of(&arm_that_ends([[0.0; 3]; 3], [0.0; 3]), 2.0);
     assert_eq!((gap.visible, gap.worst, gap.joints.len()), (false, None, 3));
     assert!(
@@ -135,7 +135,7 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
 }
 
 #[test]
-fn every_size_of_skeleton_has_its_seam() {
+fn every_size_of_skeleton_has_its_loop_gap() {
     for bones in JOINT_COUNTS {
         let model = rigs::model(bones);
         let [ragged, single, even] = [0, 1, 2].map(|clip| whole_gap(&model, clip, 5.0));
@@ -151,7 +151,7 @@ fn every_size_of_skeleton_has_its_seam() {
 }
 
 #[test]
-fn the_figure_loops_without_a_seam_that_is_seen() {
+fn the_figure_loops_without_a_loop_gap_that_is_seen() {
     let (model, _) = model_of(&figure().document);
     let bounds = model.bind_bounds();
     assert!(model.clips.len() > 1);
@@ -193,7 +193,7 @@ fn gaps_of_real_files_are_those_of_their_poses() {
 }
 
 #[test]
-fn a_range_has_the_seam_between_its_own_ends() {
+fn a_range_has_the_loop_gap_between_its_own_ends() {
     let model = rigs::model(12);
     let clip = &model.clips[2];
     let span_secs = [3.3, 4.1];

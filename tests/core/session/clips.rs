@@ -71,7 +71,7 @@ fn a_model_has_a_size_with_a_mesh_and_without() {
 }
 
 #[test]
-fn the_seam_is_that_of_what_loops() {
+fn the_loop_gap_is_that_of_what_loops() {
     let clips = vec![rigs::even("even", 3, -1.0, 9, 4.0), rigs::single("one", 3)];
     let mut session = opened(models::file("a.m3d", &rigs::rig(3, clips)));
     let between = |span_secs| {

@@ -1,4 +1,4 @@
-//! The seam of a loop, where its last pose meets its first, in numbers and words. It is read again when the loop changed.
+//! The loop gap, where the last pose of a loop meets its first, in numbers and words. It is read again when the loop changed.
 
 use crate::anim::{JointGap, LoopGap};
 use crate::model::JointIndex;
@@ -12,11 +12,11 @@ const LEAST_DEGREES: f32 = 0.005;
 /// Smaller changes are 0 % with one decimal.
 const LEAST_SCALE: f32 = 5e-4;
 
-/// The seam of the loop.
+/// The gap of the loop.
 #[derive(Debug, Default)]
-pub(super) struct SeamReading {
+pub(super) struct LoopGapReading {
     of: Option<ReadOf>,
-    seam: LoopGap,
+    gap: LoopGap,
     /// All joints, the farthest travelled first. Empty if nothing loops.
     order: Vec<JointIndex>,
     words: Option<String>,
@@ -30,27 +30,27 @@ struct ReadOf {
     clips: u64,
     names: u64,
     clip: Option<usize>,
-    seam_secs: Option<[f32; 2]>,
+    span_secs: Option<[f32; 2]>,
 }
 
-impl SeamReading {
-    /// Reads the seam if the loop changed.
+impl LoopGapReading {
+    /// Reads the gap if the loop changed.
     pub(super) fn update(&mut self, session: &Session) {
         let of = Some(ReadOf {
             clips: session.clips_revision(),
             names: session.joint_names_revision(),
             clip: session.clip_index(),
-            seam_secs: session.playback().loop_gap_secs(),
+            span_secs: session.playback().loop_gap_secs(),
         });
         if self.of == of {
             return;
         }
         self.of = of;
-        self.seam = session.loop_gap().map(|seam| seam.into_owned()).unwrap_or_default();
-        self.order = self.seam.by_travel();
+        self.gap = session.loop_gap().map(|gap| gap.into_owned()).unwrap_or_default();
+        self.order = self.gap.by_travel();
         let size = session.open_model().map_or(1.0, |open| open.size());
         self.decimals = (-(size * NO_FRACTION).log10()).ceil().clamp(0.0, 9.0) as usize;
-        self.jumps = self.seam.joints.iter().any(|joint| {
+        self.jumps = self.gap.joints.iter().any(|joint| {
             joint.travel >= self.least_distance()
                 || joint.rotation_degrees >= LEAST_DEGREES
                 || joint.scale >= LEAST_SCALE
@@ -60,16 +60,16 @@ impl SeamReading {
 
     /// Whether something loops.
     pub(super) fn loops(&self) -> bool {
-        self.of.is_some_and(|of| of.seam_secs.is_some())
+        self.of.is_some_and(|of| of.span_secs.is_some())
     }
 
-    /// Where the loop ends, in seconds, if its seam is visible.
+    /// Where the loop ends, in seconds, if its gap is visible.
     pub(super) fn seen_at_secs(&self) -> Option<f32> {
-        let [_, last_secs] = self.of?.seam_secs?;
-        self.seam.visible.then_some(last_secs)
+        let [_, last_secs] = self.of?.span_secs?;
+        self.gap.visible.then_some(last_secs)
     }
 
-    /// The seam in words, if it is visible.
+    /// The gap in words, if it is visible.
     pub(super) fn words(&self) -> Option<&str> {
         self.words.as_deref()
     }
@@ -86,12 +86,12 @@ impl SeamReading {
 
     /// The jump of a joint. No jump for a joint that is not there.
     pub(super) fn of_joint(&self, joint: JointIndex) -> JointGap {
-        self.seam.joints.get(joint.index()).copied().unwrap_or_default()
+        self.gap.joints.get(joint.index()).copied().unwrap_or_default()
     }
 
-    /// Whether a joint's travel alone makes the seam visible.
+    /// Whether a joint's travel alone makes the gap visible.
     pub(super) fn travel_is_seen(&self, joint: &JointGap) -> bool {
-        joint.travel >= self.seam.visible_travel
+        joint.travel >= self.gap.visible_travel
     }
 
     /// A distance with the model's decimals. None if it rounds to zero.
@@ -106,7 +106,7 @@ impl SeamReading {
     }
 
     fn told(&self, session: &Session) -> Option<String> {
-        let worst = self.seam.worst.filter(|_| self.seam.visible)?;
+        let worst = self.gap.worst.filter(|_| self.gap.visible)?;
         let jump = self.of_joint(worst);
         let numbers = [
             (jump.rotation_degrees >= 0.05).then(|| format!("turns by {:.1}°", jump.rotation_degrees)),
@@ -120,7 +120,7 @@ impl SeamReading {
             "the last pose to the first"
         };
         Some(format!(
-            "The loop's seam is seen: {} {} from {poses}",
+            "The loop has a visible gap: {} {} from {poses}",
             session.joint_label(worst),
             numbers.join(", "),
         ))
