@@ -122,7 +122,7 @@ impl<'a> Info<'a> {
             model: open.into(),
             maps: maps.iter().map(Map::from).collect(),
             animated_bounds: bounds_of_all_clips(open).and_then(|bounds| Bounds::of(&bounds)),
-            notices: open.notices.iter().map(Finding::from).collect(),
+            notices: open.diagnostics.iter().map(Finding::from).collect(),
         }
     }
 }
@@ -151,7 +151,7 @@ impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
 /// `None` when a clip overflows, since no box holds it then.
 fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
     let overflows = |diagnostic: &Diagnostic| diagnostic.code == codes::POSE_OVERFLOWS.name;
-    if open.notices.iter().any(overflows) {
+    if open.diagnostics.iter().any(overflows) {
         return None;
     }
     let of_clips = open.compiled.iter().map(|clip| animated_bounds(&open.model, clip));
@@ -268,11 +268,11 @@ fn write_clips(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
 }
 
 fn write_diagnostics(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
-    if open.notices.is_empty() {
+    if open.diagnostics.is_empty() {
         return Ok(());
     }
     let count = |severity| {
-        open.notices
+        open.diagnostics
             .iter()
             .filter(|diagnostic| diagnostic.severity == severity)
             .count()
@@ -284,7 +284,7 @@ fn write_diagnostics(out: &mut dyn Write, open: &OpenModel) -> io::Result<()> {
         .map(|(count, word)| counted(count, word))
         .collect();
     writeln!(out, "\n{}", parts.join(", "))?;
-    for diagnostic in &open.notices {
+    for diagnostic in &open.diagnostics {
         writeln!(out, "  {}", Plain(&worded_place(diagnostic)))?;
     }
     Ok(())

@@ -152,7 +152,7 @@ impl Textures {
         let mut all: Vec<NamedMap<'a>> = named_maps(materials).collect();
         for (map, material) in all.iter_mut().zip(indices) {
             let slot = map.slot;
-            map.state = Some(match (maps.file(material, slot), maps.finding(material, slot)) {
+            map.state = Some(match (maps.file(material, slot), maps.diagnostic(material, slot)) {
                 (Some(file), Some(diagnostic)) => MapState::Unreadable(self.path(file), diagnostic.clone()),
                 (Some(file), None) => MapState::Found(self.path(file)),
                 (None, _) => unopened(material, slot).unwrap_or(MapState::Missing),

@@ -41,11 +41,11 @@ impl Content {
 
     /// What was mended or is worth knowing about the model, its maps and the sky.
     pub(super) fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
-        let of_file = self.open.iter().flat_map(|open| &open.notices);
-        let of_joined = self.open.iter().flat_map(|open| open.joined_notices());
+        let of_file = self.open.iter().flat_map(|open| &open.diagnostics);
+        let of_joined = self.open.iter().flat_map(|open| open.joined_diagnostics());
         of_file
             .chain(of_joined)
-            .chain(self.maps.notices())
-            .chain(self.sky.notices())
+            .chain(self.maps.diagnostics())
+            .chain(self.sky.diagnostics())
     }
 }

@@ -28,22 +28,22 @@ impl OpenModel {
         if other.model.clips.is_empty() {
             return refuse(&codes::CLIPS_NONE, format!("{theirs} has no clips to add."));
         }
-        let offsets_differ = self.offsets_notice(&other);
+        let offsets_differ = self.offsets_diagnostic(&other);
         let replaced = if replaces { self.remove_joined(theirs) } else { None };
         let kept = self.model.clips.len();
         let first = replaced.map_or(kept, |(first, _)| first);
         let all = self.model.clips.iter().chain(&other.model.clips);
         let names = unique_names(all.map(|clip| clip.name.as_str()), "clip", |_, _| {});
-        self.move_clip_notices(first, other.model.clips.len());
+        self.move_clip_diagnostics(first, other.model.clips.len());
         if let Some((first, before)) = replaced {
-            let notice = replaced_notice(theirs, first, other.model.clips.len(), before);
-            self.notices.push(notice);
+            let diagnostic = replaced_diagnostic(theirs, first, other.model.clips.len(), before);
+            self.diagnostics.push(diagnostic);
         }
-        self.notices.extend(
+        self.diagnostics.extend(
             other
-                .notices
+                .diagnostics
                 .into_iter()
-                .filter_map(|notice| joined_notice(notice, theirs, first)),
+                .filter_map(|diagnostic| joined_diagnostic(diagnostic, theirs, first)),
         );
         let mut clips = other.model.clips;
         for (clip, name) in clips.iter_mut().zip(names.into_iter().skip(kept)) {
@@ -66,11 +66,11 @@ impl OpenModel {
         Ok(replaced.is_some())
     }
 
-    /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a notice.
+    /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a diagnostic.
     pub(super) fn join_again<'a>(&mut self, files: impl Iterator<Item = &'a File>) {
         for file in files {
             if let Err(error) = self.join_clips(file, false) {
-                self.notices.push(Diagnostic {
+                self.diagnostics.push(Diagnostic {
                     severity: Severity::Warning,
                     position: None,
                     places: Vec::new(),
@@ -83,7 +83,7 @@ impl OpenModel {
     }
 
     /// What is noted of the files whose clips joined, beside what is noted of the clips.
-    pub(super) fn joined_notices(&self) -> impl Iterator<Item = &Diagnostic> {
+    pub(super) fn joined_diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.joined.iter().filter_map(|joined| joined.offsets_differ.as_ref())
     }
 
@@ -100,20 +100,20 @@ impl OpenModel {
         self.compiled.retain(|_| keeps.next().unwrap_or(true));
         self.clip_facts.retain(|facts| !is_gone(facts));
         let place_of = |clip: u32| gone.iter().take(clip as usize).filter(|&&gone| !gone).count() as u32;
-        self.notices.retain_mut(|notice| {
-            let Some(Subject::Clip(clip)) = notice.subject else {
+        self.diagnostics.retain_mut(|diagnostic| {
+            let Some(Subject::Clip(clip)) = diagnostic.subject else {
                 return true;
             };
-            notice.subject = Some(Subject::Clip(place_of(clip)));
+            diagnostic.subject = Some(Subject::Clip(place_of(clip)));
             gone.get(clip as usize) != Some(&true)
         });
         Some((first, count))
     }
 
     /// Adds `by` to the clip index of each diagnostic about a clip at index `from` or later.
-    fn move_clip_notices(&mut self, from: usize, by: usize) {
-        for notice in &mut self.notices {
-            if let Some(Subject::Clip(clip)) = &mut notice.subject
+    fn move_clip_diagnostics(&mut self, from: usize, by: usize) {
+        for diagnostic in &mut self.diagnostics {
+            if let Some(Subject::Clip(clip)) = &mut diagnostic.subject
                 && *clip as usize >= from
             {
                 *clip = clip.saturating_add(by as u32);
@@ -122,7 +122,7 @@ impl OpenModel {
     }
 
     /// A note when the other model was skinned in another pose, or in other proportions.
-    fn offsets_notice(&self, other: &Self) -> Option<Diagnostic> {
+    fn offsets_diagnostic(&self, other: &Self) -> Option<Diagnostic> {
         let size = self.size();
         let (ours, theirs) = (&self.model.skeleton, &other.model.skeleton);
         let pairs = ours.joint_from_bind().iter().zip(theirs.joint_from_bind());
@@ -188,28 +188,28 @@ fn are_same(ours: &Affine3A, theirs: &Affine3A, size: f32) -> bool {
         && ours.translation.abs_diff_eq(theirs.translation, tolerance * size)
 }
 
-/// What a finding about a clip of another file says in the list of this one. Findings about the rest of that file are of
+/// What a diagnostic about a clip of another file says in the list of this one. Diagnostics about the rest of that file are of
 /// no interest here.
-fn joined_notice(notice: Diagnostic, file_name: &str, first: usize) -> Option<Diagnostic> {
-    let Some(Subject::Clip(clip)) = notice.subject else {
+fn joined_diagnostic(diagnostic: Diagnostic, file_name: &str, first: usize) -> Option<Diagnostic> {
+    let Some(Subject::Clip(clip)) = diagnostic.subject else {
         return None;
     };
     // Names were made free anew for this list.
-    if notice.code == codes::DUPLICATE_CLIP_NAME.name {
+    if diagnostic.code == codes::DUPLICATE_CLIP_NAME.name {
         return None;
     }
     Some(Diagnostic {
-        message: format!("{file_name}: {}", notice.message),
+        message: format!("{file_name}: {}", diagnostic.message),
         position: None,
         places: Vec::new(),
         length: 0,
         subject: Some(Subject::Clip(clip.saturating_add(first as u32))),
-        ..notice
+        ..diagnostic
     })
 }
 
 /// A note that clips took the places of others.
-fn replaced_notice(file_name: &str, first: usize, count: usize, before: usize) -> Diagnostic {
+fn replaced_diagnostic(file_name: &str, first: usize, count: usize, before: usize) -> Diagnostic {
     let clips = |count: usize| format!("{count} clip{}", if count == 1 { "" } else { "s" });
     let replace = if count == 1 { "replaces" } else { "replace" };
     let (now, before) = (clips(count), clips(before));

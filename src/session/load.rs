@@ -53,7 +53,7 @@ impl LoadError {
         }
     }
 
-    /// The whole finding as text, for the clipboard: `file:line:column: error[code]: message` and the excerpt.
+    /// The whole diagnostic as text, for the clipboard: `file:line:column: error[code]: message` and the excerpt.
     pub fn to_text(&self) -> String {
         let Diagnostic {
             severity,

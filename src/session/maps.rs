@@ -8,7 +8,7 @@ use crate::image::{self, Image, MapKind};
 use crate::model::Material;
 
 use super::files::File;
-use super::textures::{Checklist, MapSlot, MaterialMaps, find_maps, map_notices, unused_notice};
+use super::textures::{Checklist, MapSlot, MaterialMaps, find_maps, map_diagnostics, unused_diagnostic};
 
 /// Pictures, and what the materials make of them. Only pictures that a material names are decoded; of the others it is known
 /// whether they could be.
@@ -26,7 +26,7 @@ pub struct Maps {
     /// Materials that each picture in use is for, and what for.
     users: BTreeMap<usize, Vec<(usize, MapSlot)>>,
     checklist: Checklist,
-    notices: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 /// What became of a picture.
@@ -74,14 +74,15 @@ impl Maps {
                 .filter(is_sound)
                 .map(|&index| &self.pictures[index])
                 .collect();
-            self.notices.extend(unused_notice(materials, &unused));
+            self.diagnostics.extend(unused_diagnostic(materials, &unused));
         }
         changed
     }
 
     /// Takes back what was noted about the last drop alone, since another one came.
     pub(super) fn forget_unused(&mut self) {
-        self.notices.retain(|notice| notice.code != codes::MAP_UNUSED.name);
+        self.diagnostics
+            .retain(|diagnostic| diagnostic.code != codes::MAP_UNUSED.name);
     }
 
     /// Keeps pictures as a drop of their own; one with a path that is there already takes its place. Their indices, and whether
@@ -187,10 +188,10 @@ impl Maps {
         let could_be_read = |index: usize| matches!(self.decoded[index], Decoded::Images(_));
         self.checklist = Checklist::new(materials, &self.of_materials, could_be_read);
         // What is missing stands in the checklist; a list of findings that repeats it would hide the others.
-        let ambiguous = map_notices(materials, &self.pictures, &self.of_materials);
-        self.notices = ambiguous
+        let ambiguous = map_diagnostics(materials, &self.pictures, &self.of_materials);
+        self.diagnostics = ambiguous
             .into_iter()
-            .filter(|notice| notice.code == codes::MAP_AMBIGUOUS.name)
+            .filter(|diagnostic| diagnostic.code == codes::MAP_AMBIGUOUS.name)
             .collect();
         // Where a picture of the same name that could be read is used in its place, one that could not is of no interest.
         let name = |index: usize| self.pictures[index].base_name().to_lowercase();
@@ -202,10 +203,12 @@ impl Maps {
             .map(name)
             .collect();
         let failed = (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
-            Decoded::Failed(finding) if self.is_used(index) || !read.contains(&name(index)) => Some(finding.clone()),
+            Decoded::Failed(diagnostic) if self.is_used(index) || !read.contains(&name(index)) => {
+                Some(diagnostic.clone())
+            }
             _ => None,
         });
-        self.notices.extend(failed.collect::<Vec<_>>());
+        self.diagnostics.extend(failed.collect::<Vec<_>>());
     }
 
     fn is_used(&self, index: usize) -> bool {
@@ -228,10 +231,10 @@ impl Maps {
     }
 
     /// Why the picture that was found for a material's map cannot be read.
-    pub fn finding(&self, material: usize, slot: MapSlot) -> Option<&Diagnostic> {
+    pub fn diagnostic(&self, material: usize, slot: MapSlot) -> Option<&Diagnostic> {
         let file = self.of_materials.get(material)?.slot(slot).file()?;
         match self.decoded.get(file)? {
-            Decoded::Failed(finding) => Some(finding),
+            Decoded::Failed(diagnostic) => Some(diagnostic),
             Decoded::New | Decoded::Unused | Decoded::Images(_) => None,
         }
     }
@@ -269,9 +272,9 @@ impl Maps {
         self.users
             .iter()
             .filter_map(|(&index, users)| match &self.decoded[index] {
-                Decoded::Failed(finding) => Some(UnreadableMap {
+                Decoded::Failed(diagnostic) => Some(UnreadableMap {
                     file: &self.pictures[index],
-                    finding,
+                    diagnostic,
                     users,
                 }),
                 _ => None,
@@ -284,8 +287,8 @@ impl Maps {
     }
 
     /// Pictures that could not be read, names that fit several files, and pictures of the last drop that fit none.
-    pub fn notices(&self) -> &[Diagnostic] {
-        &self.notices
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
     }
 }
 
@@ -319,7 +322,7 @@ pub struct UnreadableMap<'a> {
     /// Where it came from.
     pub file: &'a File,
     /// What is wrong with it.
-    pub finding: &'a Diagnostic,
+    pub diagnostic: &'a Diagnostic,
     /// Materials by index, and what for.
     pub users: &'a [(usize, MapSlot)],
 }

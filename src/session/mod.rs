@@ -57,7 +57,9 @@ pub use quality::{PassChoice, PassState, Quality, QualityCommand, RenderScale};
 pub use selecting::{JointCommand, SubsetCommand};
 pub use skeleton_cache::SkinColorsKey;
 pub use subsets::Subsets;
-pub use textures::{Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_notices};
+pub use textures::{
+    Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics,
+};
 pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 
 use actor::{Actor, Actors};
@@ -144,7 +146,7 @@ impl Session {
     }
 
     /// What was mended or is worth knowing about the model on screen, its maps and the sky.
-    pub fn notices(&self) -> impl Iterator<Item = &crate::diagnostic::Diagnostic> {
+    pub fn diagnostics(&self) -> impl Iterator<Item = &crate::diagnostic::Diagnostic> {
         self.content.diagnostics()
     }
 

@@ -24,7 +24,7 @@ pub struct OpenModel {
     /// The model, in the file's space.
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
-    pub notices: Vec<Diagnostic>,
+    pub diagnostics: Vec<Diagnostic>,
     /// Box of the bind pose, in the file's space.
     pub bind_bounds: Aabb,
     /// The model's clips, compiled for sampling, in their order.
@@ -130,7 +130,7 @@ impl OpenModel {
         Self {
             file: file.clone(),
             dialect,
-            notices: diagnostics,
+            diagnostics,
             compiled,
             bind_bounds: model.bind_bounds(),
             bind_points: anim::extreme_points(&model, None),
@@ -149,7 +149,7 @@ impl OpenModel {
         }
     }
 
-    /// Lines of the file around a finding.
+    /// Lines of the file around a diagnostic.
     pub fn excerpt(&self, diagnostic: &Diagnostic) -> Option<Excerpt> {
         let position = diagnostic.position?;
         Some(format::excerpt(&self.file.bytes, position, diagnostic.length))

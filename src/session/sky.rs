@@ -11,7 +11,7 @@ use crate::scene::Background;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sky {
     taken: Option<Taken>,
-    notices: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 #[derive(Clone, Debug)]
@@ -24,8 +24,8 @@ struct Taken {
 
 impl Sky {
     /// Cube maps that could not be read.
-    pub(super) fn notices(&self) -> &[Diagnostic] {
-        &self.notices
+    pub(super) fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
     }
 
     pub(super) fn image(&self) -> Option<&Arc<Image>> {
@@ -38,7 +38,7 @@ impl Sky {
 
     /// Makes what was found the sky, and the background of the view. Whether there is another sky now.
     pub(super) fn choose(&mut self, found: FoundSky, background: &mut Background) -> bool {
-        self.notices = found.notices;
+        self.diagnostics = found.diagnostics;
         let Some((file, image)) = found.image else { return false };
         let before = self.taken.take();
         self.taken = Some(Taken {
@@ -52,7 +52,7 @@ impl Sky {
 
     /// Takes the sky away. The background that was there before it comes back. Whether there was one.
     pub(super) fn clear(&mut self, background: &mut Background) -> bool {
-        self.notices.clear();
+        self.diagnostics.clear();
         let taken = self.taken.take();
         if let Some(taken) = &taken
             && *background == Background::Sky
@@ -71,7 +71,7 @@ pub(super) struct FoundSky {
     /// The largest that can be read is the sky already: the same folder was dropped again, and the background stays as chosen.
     is_kept: bool,
     /// Those that could not be read.
-    notices: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl FoundSky {
@@ -97,7 +97,9 @@ impl FoundSky {
                 image::decode(&file.bytes, file.base_name())
                     .map(|image| found.image = Some((file.clone(), Arc::new(image))))
             };
-            found.notices.extend(looked_at.err().map(|error| error.diagnostic()));
+            found
+                .diagnostics
+                .extend(looked_at.err().map(|error| error.diagnostic()));
         }
         Some(found)
     }

@@ -253,12 +253,12 @@ impl Checklist {
 }
 
 /// Names without a file, and names with more files than one, in the order of the materials.
-pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]) -> Vec<Diagnostic> {
-    let mut notices = Vec::new();
+pub fn map_diagnostics(materials: &[Material], files: &[File], maps: &[MaterialMaps]) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
     let path = |index: usize| files.get(index).map_or("", |file| file.path.as_str());
     for (number, (material, maps)) in materials.iter().zip(maps).enumerate() {
         let mut note = |code: &Code, message| {
-            notices.push(Diagnostic {
+            diagnostics.push(Diagnostic {
                 subject: Some(Subject::Material(number as u32)),
                 ..code.says(message)
             });
@@ -284,7 +284,7 @@ pub fn map_notices(materials: &[Material], files: &[File], maps: &[MaterialMaps]
             }
         }
     }
-    notices
+    diagnostics
 }
 
 /// Names of files that a note spells out before it counts the rest.
@@ -300,7 +300,7 @@ fn spelt(mut names: impl ExactSizeIterator<Item = String>) -> Vec<String> {
 }
 
 /// A note about pictures that were dropped for a model that uses none of them, if there are any.
-pub(super) fn unused_notice(materials: &[Material], pictures: &[&File]) -> Option<Diagnostic> {
+pub(super) fn unused_diagnostic(materials: &[Material], pictures: &[&File]) -> Option<Diagnostic> {
     let names = materials
         .iter()
         .flat_map(|material| MapSlot::ALL.map(|slot| slot.name_in(material)));

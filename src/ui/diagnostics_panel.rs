@@ -22,15 +22,15 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         state.diagnostics_open = false;
     }
     rule(ui, MARGIN);
-    if session.notices().next().is_none() {
+    if session.diagnostics().next().is_none() {
         ui.label(egui::RichText::new("Nothing was mended and nothing is odd.").color(tokens.muted));
         return;
     }
     scrolled("diagnostics list", ui.available_height())
         .auto_shrink([false, true])
         .show(ui, |ui| {
-            for notice in session.notices() {
-                diagnostic_row(ui, session, open, notice, state, commands);
+            for diagnostic in session.diagnostics() {
+                diagnostic_row(ui, session, open, diagnostic, state, commands);
             }
         });
 }
@@ -39,21 +39,21 @@ fn diagnostic_row(
     ui: &mut Ui,
     session: &Session,
     open: &OpenModel,
-    notice: &Diagnostic,
+    diagnostic: &Diagnostic,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
-    let color = match notice.severity {
+    let color = match diagnostic.severity {
         Severity::Error => tokens.error,
         Severity::Warning => tokens.warning,
         Severity::Note => tokens.accent,
     };
-    let goal = notice.subject.and_then(|subject| Goal::of(session, open, subject));
+    let goal = diagnostic.subject.and_then(|subject| Goal::of(session, open, subject));
     let shown = state
         .shown_diagnostic
         .as_ref()
-        .is_some_and(|shown| shown.diagnostic == *notice);
+        .is_some_and(|shown| shown.diagnostic == *diagnostic);
     let mut job = egui::text::LayoutJob::default();
     job.wrap.max_width = ui.available_width() - 16.0;
     let plain = |size: f32, color| egui::TextFormat {
@@ -61,17 +61,17 @@ fn diagnostic_row(
         color,
         ..Default::default()
     };
-    job.append(&notice.message, 0.0, plain(13.0, tokens.text));
+    job.append(&diagnostic.message, 0.0, plain(13.0, tokens.text));
     job.append("\n", 0.0, plain(11.5, tokens.muted));
     if let Some(goal) = &goal {
         job.append(&goal.words, 0.0, plain(11.5, tokens.accent));
         job.append(" · ", 0.0, plain(11.5, tokens.muted));
     }
-    let place = notice
+    let place = diagnostic
         .position
         .map(|p| format!("line {}, column {} · ", p.line, p.column))
         .unwrap_or_default();
-    job.append(&format!("{place}{}", notice.code), 0.0, plain(11.5, tokens.muted));
+    job.append(&format!("{place}{}", diagnostic.code), 0.0, plain(11.5, tokens.muted));
     let galley = ui.painter().layout_job(job);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), galley.size().y + 12.0), Sense::click());
     paint_row_ground(ui, rect, &response, false, response.contains_pointer() || shown);
@@ -81,13 +81,16 @@ fn diagnostic_row(
         .as_ref()
         .map(|goal| format!("\nGo to {}", goal.words))
         .unwrap_or_default();
-    let label = format!("{} {}: {}{about}", notice.severity, notice.code, notice.message);
+    let label = format!(
+        "{} {}: {}{about}",
+        diagnostic.severity, diagnostic.code, diagnostic.message
+    );
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     if response.clicked() {
         state.shown_diagnostic = (!shown).then(|| ShownDiagnostic {
-            diagnostic: notice.clone(),
-            excerpt: open.excerpt(notice),
+            diagnostic: diagnostic.clone(),
+            excerpt: open.excerpt(diagnostic),
         });
         if let Some(goal) = goal.filter(|_| !shown) {
             goal.go(session, state, commands);

@@ -158,7 +158,12 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
 
 /// `2 warnings`, `1 note`, `none`, in the colour of the worst.
 fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
-    let count = |severity| session.notices().filter(|notice| notice.severity == severity).count();
+    let count = |severity| {
+        session
+            .diagnostics()
+            .filter(|diagnostic| diagnostic.severity == severity)
+            .count()
+    };
     match (count(Severity::Warning), count(Severity::Note)) {
         (0, 0) => ("none".to_owned(), tokens.muted),
         (0, notes) => (counted(notes, "note"), tokens.muted),

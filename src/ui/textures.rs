@@ -97,7 +97,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, 
 fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) {
     let users = words_for(open, map.users).join("\n");
     let words = "could not be read";
-    let details = format!("{} {words}\n{}\n{users}", map.file.path, map.finding.message);
+    let details = format!("{} {words}\n{}\n{users}", map.file.path, map.diagnostic.message);
     let color = Tokens::of(ui).warning;
     absent_row(ui, [map.file.base_name(), words], color, &details);
 }

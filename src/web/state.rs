@@ -149,7 +149,7 @@ impl<'a> State<'a> {
             look: look(session),
             skeleton: skeleton(session),
             frames_rendered,
-            notices: session.notices().map(Finding::from).collect(),
+            notices: session.diagnostics().map(Finding::from).collect(),
             error: session.error().map(FileError::from),
         }
     }

@@ -62,7 +62,7 @@ fn the_file_has_a_finding_of_each_kind() {
     let window = opened();
     let subject_of = |start: &str| {
         let code = start.split([' ', ':']).nth(1).expect("severity and code");
-        let mut notices = window.session().notices().filter(|notice| notice.code == code);
+        let mut notices = window.session().diagnostics().filter(|notice| notice.code == code);
         notices.next().expect("it is found").subject
     };
     assert_eq!(subject_of(OF_MATERIAL), Some(Subject::Material(1)));

@@ -86,7 +86,7 @@ fn a_click_on_a_finding_shows_its_lines() {
         if !window.named(|name| name == "Model facts").is_empty() {
             window.click("Model facts");
         }
-        let notices = window.session().open_model().expect("open").notices.clone();
+        let notices = window.session().open_model().expect("open").diagnostics.clone();
         assert!(!notices.is_empty(), "the fixture is odd");
         window.click("Diagnostics: ");
         let shown = findings(&window);

@@ -402,6 +402,6 @@ fn clips_are_blended_faded_and_added() {
         assert_eq!(again, added, "the same file once more takes their places");
         window.press(Modifiers::NONE, Key::Escape);
         let told = "more.m3d was added before; its 3 clips replace the 3 clips from then.";
-        assert!(window.session().notices().any(|notice| notice.message == told));
+        assert!(window.session().diagnostics().any(|notice| notice.message == told));
     }
 }

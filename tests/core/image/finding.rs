@@ -2,7 +2,7 @@
 
 use bindpose::diagnostic::{Severity, Subject};
 use bindpose::model::{Material, Reflectance};
-use bindpose::session::{Checklist, File, MapNames, MapSlot, MapSource, find_map, find_maps, map_notices};
+use bindpose::session::{Checklist, File, MapNames, MapSlot, MapSource, find_map, find_maps, map_diagnostics};
 
 fn files(paths: &[&str]) -> Vec<File> {
     paths.iter().map(|path| File::new(path, [])).collect()
@@ -172,7 +172,7 @@ fn each_material_learns_of_both_maps() {
     assert_eq!((checklist.found(), checklist.missing.len()), (1, 2));
     assert_eq!(checklist.unreadable, ["jacket_norm.dds"]);
 
-    let notices = map_notices(&materials, &files, &maps);
+    let notices = map_diagnostics(&materials, &files, &maps);
     assert!(notices.iter().all(|notice| notice.severity == Severity::Note));
     let lines: Vec<_> = notices
         .iter()

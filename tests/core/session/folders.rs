@@ -75,7 +75,7 @@ fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
         session.apply(FileCommand::Add((0..FILES).map(strange).collect()))
     });
     let unused = session
-        .notices()
+        .diagnostics()
         .find(|notice| notice.code == "map-unused")
         .expect("a note");
     assert_eq!(
@@ -87,7 +87,7 @@ fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
     soon("damaged", || {
         session.apply(FileCommand::Add((0..FILES).map(damaged).collect()))
     });
-    let unreadable = session.notices().filter(|notice| notice.code.starts_with("image-"));
+    let unreadable = session.diagnostics().filter(|notice| notice.code.starts_with("image-"));
     assert_eq!(unreadable.count(), FILES);
 }
 
@@ -113,7 +113,7 @@ fn one_name_in_twenty_thousand_folders_is_found_soon_and_the_note_spells_out_a_f
     soon("rivals", || session.apply(FileCommand::Add(files)));
     assert_eq!(session.maps().used().count(), 1);
     let ambiguous = session
-        .notices()
+        .diagnostics()
         .find(|notice| notice.code == "map-ambiguous")
         .expect("a note");
     let name = &session.open_model().expect("open").model.materials[0].name;

@@ -159,7 +159,7 @@ fn other_proportions_are_noted() {
     session.apply(FileCommand::AddClips(vec![file("tall.m3d", &taller)]));
     assert_eq!((session.error(), list(&session).len()), (None, 2));
     let notice = session
-        .notices()
+        .diagnostics()
         .find(|notice| notice.code == "clips-offsets-differ")
         .expect("noted");
     assert_eq!(
@@ -175,7 +175,9 @@ fn other_proportions_are_noted() {
         "same.m3d",
         &rigs::rig(12, vec![rigs::single("s", 12)]),
     )]));
-    let notes = session.notices().filter(|notice| notice.code == "clips-offsets-differ");
+    let notes = session
+        .diagnostics()
+        .filter(|notice| notice.code == "clips-offsets-differ");
     assert_eq!(notes.count(), 1);
 }
 
@@ -186,7 +188,7 @@ fn what_was_mended_in_a_clip_is_noted_under_its_new_number() {
     clips[0].bones[3].keyframes.push(key(0.1, [0.0; 3]));
     session.apply(FileCommand::AddClips(vec![file("walk.m3d", &rigs::rig(12, clips))]));
     let notice = session
-        .notices()
+        .diagnostics()
         .find(|notice| notice.code == "keys-not-sorted")
         .expect("noted");
     assert!(
@@ -246,7 +248,7 @@ fn when_the_file_comes_again_its_guests_stay_if_they_still_fit() {
     )]));
     assert_eq!(list(&session), pairs(&[("idle", "hero.m3d")]));
     let notice = session
-        .notices()
+        .diagnostics()
         .find(|notice| notice.code == "clips-bones-differ")
         .expect("told");
     assert_eq!(notice.severity, Severity::Warning);
@@ -276,7 +278,11 @@ fn a_real_file_joins_itself() {
     let clips = list(&session).len();
     session.apply(FileCommand::AddClips(vec![File::new("again.m3d", bytes)]));
     assert_eq!((session.error(), list(&session).len()), (None, 2 * clips));
-    assert!(session.notices().all(|notice| notice.code != "clips-offsets-differ"));
+    assert!(
+        session
+            .diagnostics()
+            .all(|notice| notice.code != "clips-offsets-differ")
+    );
     session.apply(FileCommand::AddClips(vec![models::moving("box.m3d")]));
     assert!(session.error().is_some_and(|error| {
         error
@@ -326,7 +332,7 @@ fn a_file_that_is_added_again_replaces_its_clips_where_they_stood() {
     assert!(session.is_animating());
     assert_eq!(session.take_events(), [Event::PlaybackChange]);
     let told = |session: &Session| {
-        let notices = session.notices().filter(|notice| notice.code == "clips-replaced");
+        let notices = session.diagnostics().filter(|notice| notice.code == "clips-replaced");
         notices
             .map(|notice| (notice.severity, notice.subject, notice.message.clone()))
             .collect::<Vec<_>>()
@@ -401,7 +407,7 @@ fn findings_follow_the_clips_that_they_are_about() {
     session.apply(FileCommand::AddClips(vec![unsorted("b.m3d", "b")]));
     session.apply(FileCommand::AddClips(vec![guest("a.m3d", &["one", "two", "three"], 5)]));
     let subjects = |code: &str| {
-        let notices = session.notices().filter(|notice| notice.code == code);
+        let notices = session.diagnostics().filter(|notice| notice.code == code);
         notices
             .map(|notice| (notice.subject, notice.message[..5].to_owned()))
             .collect::<Vec<_>>()
@@ -429,7 +435,9 @@ fn what_is_noted_of_a_file_goes_with_it_and_with_no_other() {
     let (short, long) = ("walk.m3d", "walk.m3d, copied.m3d");
     session.apply(FileCommand::AddClips(vec![taller(short, "a"), taller(long, "b")]));
     let noted_of = |session: &Session| {
-        let of_offsets = session.notices().filter(|notice| notice.code == "clips-offsets-differ");
+        let of_offsets = session
+            .diagnostics()
+            .filter(|notice| notice.code == "clips-offsets-differ");
         of_offsets.map(|notice| notice.message.clone()).collect::<Vec<_>>()
     };
     assert_eq!(noted_of(&session).len(), 2);

@@ -119,7 +119,7 @@ fn a_picture_that_cannot_be_read_is_a_finding_and_the_model_shows_on() {
     let session = opened(vec![mapped("box.m3d", "a.png", "a.png"), file]);
     assert!(session.maps().image(0, MapSlot::Diffuse).is_none());
     let findings: Vec<_> = session
-        .notices()
+        .diagnostics()
         .filter(|notice| notice.message.contains("a.png"))
         .collect();
     assert_eq!(findings.len(), 1, "{findings:?}");
@@ -139,7 +139,7 @@ fn the_model_alone_dropped_again_keeps_its_maps_and_another_model_does_not() {
 }
 
 fn messages(session: &Session, code: &str) -> Vec<String> {
-    let notices = session.notices().filter(|notice| notice.code == code);
+    let notices = session.diagnostics().filter(|notice| notice.code == code);
     notices.map(|notice| notice.message.clone()).collect()
 }
 
@@ -187,7 +187,7 @@ fn what_cannot_be_read_is_noted_used_or_not_until_a_sound_one_takes_its_place() 
         vec![broken("in/a.png"), broken("stray.png"), File::new("empty.tga", [])],
     );
     let found = |session: &Session| -> Vec<String> {
-        let images = session.notices().filter(|notice| notice.code.starts_with("image-"));
+        let images = session.diagnostics().filter(|notice| notice.code.starts_with("image-"));
         images
             .map(|notice| notice.message.split(':').next().unwrap_or_default().to_owned())
             .collect()
@@ -203,7 +203,7 @@ fn what_cannot_be_read_is_noted_used_or_not_until_a_sound_one_takes_its_place() 
     let unreadable: Vec<_> = session
         .maps()
         .unreadable()
-        .map(|map| (map.file.path.clone(), map.finding.code, map.users.to_vec()))
+        .map(|map| (map.file.path.clone(), map.diagnostic.code, map.users.to_vec()))
         .collect();
     let users = vec![(0, MapSlot::Diffuse)];
     assert_eq!(unreadable, [("in/a.png".to_owned(), "image-undecodable", users)]);
@@ -244,7 +244,10 @@ fn every_malformed_texture_is_noted_though_no_material_names_it() {
     let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
     drop_pictures(&mut session, files.collect());
     for name in names {
-        let noted = session.notices().filter(|notice| notice.message.contains(name)).count();
+        let noted = session
+            .diagnostics()
+            .filter(|notice| notice.message.contains(name))
+            .count();
         assert_eq!(noted, 1, "{name}");
     }
 }

@@ -62,7 +62,7 @@ fn snapshot(session: &mut Session) -> String {
         session.picture_revision(),
     );
     let clips: Vec<_> = session.open_model().iter().flat_map(|open| open.clip_list()).collect();
-    let notices: Vec<_> = session.notices().collect();
+    let notices: Vec<_> = session.diagnostics().collect();
     format!(
         "{pose:?} {over} {events:?} {time:?} {:?} {:?} {view:?} {skeleton:?} {look:?} {revisions:?} {clips:?} {notices:?} {:?} {:?}",
         session.clip_index(),

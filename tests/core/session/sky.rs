@@ -41,7 +41,7 @@ fn first_texel(session: &Session) -> Option<Vec<u8>> {
 }
 
 fn codes(session: &Session) -> Vec<&'static str> {
-    session.notices().map(|notice| notice.code).collect()
+    session.diagnostics().map(|notice| notice.code).collect()
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn of_several_cubes_the_largest_that_can_be_read_is_taken() {
     ]));
     assert_eq!(sky_name(&session), Some("large.dds"));
     let noted: Vec<_> = session
-        .notices()
+        .diagnostics()
         .map(|notice| (notice.code, &notice.message[..6]))
         .collect();
     assert_eq!(

@@ -84,7 +84,7 @@ fn assert_close(ours: &[f32], theirs: &[f32]) {
 fn it_makes_a_left_handed_model_without_a_word() {
     let file = File::new("figure.m3d", format::write(&FIGURE).into_bytes());
     let open = load(&file).expect("the figure is sound");
-    assert!(open.notices.is_empty(), "{:?}", open.notices);
+    assert!(open.diagnostics.is_empty(), "{:?}", open.diagnostics);
     let model = &open.model;
     assert_eq!(model.handedness, Handedness::Left);
     assert_eq!(model.up_axis, UpAxis::Y);
