@@ -156,11 +156,27 @@ impl Panel {
             })
             .response
             .rect;
-        // egui places an area by its size in the last pass. Another pass of the same frame places all panels by their new sizes.
         if before.is_none_or(|before| before.size() != now.size()) {
-            ui.ctx().request_discard("a panel has another size");
+            self.place_again(ui);
         }
         now
+    }
+
+    /// egui places an area by its size in the last pass. Another pass of the same frame places all panels by their new sizes. While a
+    /// size changes in every frame, as in a drag, the next frame is soon enough: a second pass of each would take twice the time.
+    fn place_again(self, ui: &Ui) {
+        let frame = ui.ctx().cumulative_frame_nr();
+        let changed = id_of(self.name).with("changed");
+        let last: Option<u64> = ui.data_mut(|data| {
+            let last = data.get_temp(changed);
+            data.insert_temp(changed, frame);
+            last
+        });
+        if last.is_some_and(|last| last + 1 == frame) {
+            ui.ctx().request_repaint();
+        } else {
+            ui.ctx().request_discard("a panel has another size");
+        }
     }
 }
 

@@ -70,6 +70,26 @@ fn rows(window: &Window) -> Vec<String> {
 }
 
 #[test]
+fn while_the_edge_is_dragged_only_the_first_frames_have_a_second_pass() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    open(&mut window);
+    let edge = window.rect("Height of the dope sheet").center();
+    window.harness.hover_at(edge);
+    window.harness.drag_at(edge);
+    window.pass_on();
+    let passes = (1..=8).map(|step| {
+        window.harness.hover_at(edge - vec2(0.0, 10.0 * step as f32));
+        window.harness.step();
+        window.harness.output().platform_output.num_completed_passes
+    });
+    let passes: Vec<usize> = passes.collect();
+    assert!(passes[2..].iter().all(|&passes| passes == 1), "{passes:?}");
+    window.pass_on();
+    let timeline = window.rect("Height of the dope sheet");
+    assert!((timeline.center().y - (edge.y - 80.0)).abs() < 2.0, "it follows to the end: {timeline}");
+}
+
+#[test]
 fn a_button_opens_and_shuts_it_and_the_edge_sizes_it() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     assert!(!window.shows("Keys of all bones"));
