@@ -86,7 +86,10 @@ fn while_the_edge_is_dragged_only_the_first_frames_have_a_second_pass() {
     assert!(passes[2..].iter().all(|&passes| passes == 1), "{passes:?}");
     window.pass_on();
     let timeline = window.rect("Height of the dope sheet");
-    assert!((timeline.center().y - (edge.y - 80.0)).abs() < 2.0, "it follows to the end: {timeline}");
+    assert!(
+        (timeline.center().y - (edge.y - 80.0)).abs() < 2.0,
+        "it follows to the end: {timeline}"
+    );
 }
 
 #[test]
