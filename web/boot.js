@@ -212,6 +212,8 @@ function wantedBackend() {
 }
 
 function onEvent(type, detail) {
+  // What was under way when the viewer failed may still end.
+  if (hasFailed()) return;
   if (type === "devicelost") return void onCanvas.restart(detail.reason);
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
@@ -249,6 +251,7 @@ async function readSourcesAgain() {
     if (files.length) await give(files, "open");
     if (clips.length) await give(clips, "addClips");
   } catch (error) {
+    if (error.name === "AbortError") return;
     refuse(`${wordsOf(error)}\nA file that was changed after it was chosen in a dialog has to be chosen again.`);
   }
 }

@@ -72,7 +72,7 @@ impl Session {
         self.job(&Arc::new(FileSet::new(files)))
     }
 
-    /// Counts models that were asked for. A job whose number is no longer this one came too late: drop it.
+    /// Counts models that were asked for, and clips that joined one. A job whose number is no longer this one came too late: drop it.
     pub fn openings(&self) -> u64 {
         self.revisions.openings
     }
@@ -90,8 +90,8 @@ impl Session {
     /// The job that opens a drop's model; none without one. The old set stays while the new model is not there: its other models
     /// can still be opened.
     fn job(&mut self, files: &Arc<FileSet>) -> Option<LoadJob> {
-        self.revisions.openings += 1;
         let file = files.get(&self.wanted_model(files)?).cloned()?;
+        self.revisions.openings += 1;
         let job = LoadJob::new(Arc::clone(files), file).keeping_sky(self.sky_file().cloned());
         Some(self.reuse(job))
     }
@@ -233,6 +233,8 @@ impl Session {
         if self.content.open.is_none() {
             return self.add_files(files);
         }
+        // A model that is still being opened would replace this one and its new clips.
+        self.revisions.openings += 1;
         self.content.maps.forget_unused();
         let before = self.shown_clips();
         let Some(open) = &mut self.content.open else {

@@ -146,7 +146,9 @@ impl Panel {
             .default_size(room.size())
             .fade_in(false)
             .show(ui.ctx(), |ui| {
-                ui.set_max_size(vec2(self.width.unwrap_or(room.width()), room.height()));
+                // In a tiny window the panels before it may have left less than nothing.
+                let size = vec2(self.width.unwrap_or(room.width()), room.height());
+                ui.set_max_size(size.max(Vec2::ZERO));
                 frame.show(ui, |ui| {
                     if self.width.is_some() {
                         ui.take_available_width();

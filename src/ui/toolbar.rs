@@ -229,7 +229,7 @@ pub(super) fn title(ui: &mut Ui, session: &Session, with_dialect: bool) {
         } else {
             0.0
         };
-        let most = ui.available_width() - dialect_width;
+        let most = (ui.available_width() - dialect_width).max(0.0);
         ui.scope(|ui| {
             ui.set_max_width(most);
             let name = RichText::new(open.file.base_name()).color(tokens.muted);

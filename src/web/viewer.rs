@@ -13,7 +13,7 @@ use super::{abort_error, field, next_task, picture, promise, reduced_motion, sta
 use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
 use crate::session::{
-    Command, File, FileCommand, LoadStep, PassChoice, PlayCommand, QualityCommand, RenderScale, Session,
+    Command, File, FileCommand, LoadJob, LoadStep, PassChoice, PlayCommand, QualityCommand, RenderScale, Session,
 };
 
 /// Why an opening failed that was followed by another one, or by the viewer's end.
@@ -83,11 +83,14 @@ impl Viewer {
     /// # Errors
     /// When an entry is not of that shape.
     pub fn open(&self, files: &Array) -> Result<Promise, JsError> {
-        let files = files_of(files)?;
+        let opening = self.shared.begin_opening(files_of(files)?);
         let shared = Rc::clone(&self.shared);
-        Ok(promise(
-            async move { shared.open(files).await.map(|()| shared.state()) },
-        ))
+        Ok(promise(async move {
+            if let Some(opening) = opening {
+                shared.end_opening(opening).await?;
+            }
+            Ok::<_, JsValue>(shared.state())
+        }))
     }
 
     /// Adds the clips of models with the same bones to the open one: an array as [`Viewer::open`] takes it. Without an open model it
@@ -244,6 +247,12 @@ impl Viewer {
     }
 }
 
+/// A drop that is being opened, and its number among the openings of its session.
+struct Opening {
+    job: LoadJob,
+    number: u64,
+}
+
 impl Drop for Viewer {
     fn drop(&mut self) {
         self.shared.silence();
@@ -264,22 +273,26 @@ impl Shared {
         ))
     }
 
-    /// See [`Viewer::open`]. The session is borrowed only for a moment, never across a step.
-    async fn open(&self, files: Vec<File>) -> Result<(), JsValue> {
-        let begun = self.session.borrow_mut().begin_opening(files.clone());
-        let Some(mut job) = begun else {
+    /// Begins to open a drop, at once. A drop without a model is taken whole, and nothing is left to do.
+    fn begin_opening(&self, files: Vec<File>) -> Option<Opening> {
+        let job = self.session.borrow_mut().begin_opening(files.clone());
+        if job.is_none() {
             self.apply(FileCommand::Add(files));
-            return Ok(());
-        };
-        let mine = self.session.borrow().openings();
+        }
+        let number = self.session.borrow().openings();
+        job.map(|job| Opening { job, number })
+    }
+
+    /// Does the steps of an opening, each in a task of its own. The session is borrowed only for a moment, never across a step.
+    async fn end_opening(&self, Opening { mut job, number }: Opening) -> Result<(), JsValue> {
         let outcome = loop {
+            next_task().await;
+            if self.is_silenced() || self.session.borrow().openings() != number {
+                return Err(abort_error(OVERTAKEN));
+            }
             match job.step() {
                 LoadStep::Working(next) => job = *next,
                 LoadStep::Ended(outcome) => break outcome,
-            }
-            next_task().await;
-            if self.is_silenced() || self.session.borrow().openings() != mine {
-                return Err(abort_error(OVERTAKEN));
             }
         };
         self.session.borrow_mut().end_opening(outcome);

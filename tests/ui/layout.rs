@@ -370,6 +370,28 @@ fn what_opens_stands_in_its_place_from_its_first_frame_on() {
 }
 
 #[test]
+fn tiny_windows_are_drawn_with_everything_open() {
+    for size in [
+        vec2(200.0, 150.0),
+        vec2(320.0, 100.0),
+        vec2(700.0, 100.0),
+        vec2(700.0, 160.0),
+        vec2(901.0, 90.0),
+    ] {
+        let mut window = window(size, vec![models::file(LONG, &models::skinned(&[(LONG, 0.0, 31)]))]);
+        let page = window.harness.state_mut();
+        page.session.apply(SubsetCommand::Select(Some(0)));
+        page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
+        page.session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
+        page.state.sheet = Some(SheetPage::Timeline);
+        page.state.diagnostics_open = true;
+        page.state.help_open = true;
+        window.pass_on();
+        assert!(window.shows("Bindpose"), "{size}");
+    }
+}
+
+#[test]
 fn names_are_shortened_to_their_room_and_kept_for_readers() {
     let window = window(WIDE, vec![models::file(LONG, &models::skinned(&[(LONG, 0.0, 31)]))]);
     assert!(

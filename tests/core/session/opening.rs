@@ -309,14 +309,17 @@ fn a_drop_can_be_opened_in_steps_and_one_that_is_overtaken_is_known_by_its_numbe
         FileCommand::Add(vec![still("c.m3d")]),
         FileCommand::Open("c.m3d".to_owned()),
         FileCommand::Add(vec![broken("c.m3d")]),
+        FileCommand::AddClips(vec![moving("c.m3d")]),
     ] {
         assert!(session.begin_opening(vec![moving("a.m3d")]).is_some());
         let mine = session.openings();
         session.apply(overtake);
         assert_ne!(session.openings(), mine);
     }
+    let mine = session.openings();
     assert!(
         session.begin_opening(vec![picture("a.png")]).is_none(),
         "no model in it"
     );
+    assert_eq!(session.openings(), mine, "a picture overtakes no model");
 }
