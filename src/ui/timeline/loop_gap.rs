@@ -3,7 +3,6 @@
 use crate::anim::{JointGap, LoopGap};
 use crate::model::JointIndex;
 use crate::session::Session;
-use crate::ui::wording::measured;
 
 /// Distances below this fraction of the model's size count as zero, since files round to about six digits.
 const NO_FRACTION: f32 = 1e-5;
@@ -105,24 +104,33 @@ impl LoopGapReading {
         0.5 * 10.0_f32.powi(-(self.decimals as i32))
     }
 
+    /// The joint that jumps most relative to its parent, and the one that jumps farthest in the model. Numbers are as in the list.
     fn told(&self, session: &Session) -> Option<String> {
         let worst = self.gap.worst.filter(|_| self.gap.visible)?;
         let jump = self.of_joint(worst);
-        let numbers = [
-            (jump.rotation_degrees >= 0.05).then(|| format!("turns by {:.1}°", jump.rotation_degrees)),
-            (jump.translation > 0.0).then(|| format!("moves by {}", measured(jump.translation))),
+        let own = [
+            angle(jump.rotation_degrees).map(|angle| format!("turns by {angle}")),
+            self.distance(jump.translation)
+                .map(|distance| format!("moves by {distance}")),
             scale(jump.scale).map(|scale| format!("scales by {scale}")),
         ];
-        let numbers: Vec<String> = numbers.into_iter().flatten().collect();
+        let own: Vec<String> = own.into_iter().flatten().collect();
+        let name = session.joint_label(worst);
+        let own = (!own.is_empty()).then(|| format!("{name} {} relative to its parent", own.join(", ")));
+        let farthest = self.order.first().and_then(|&joint| {
+            let distance = self.distance(self.of_joint(joint).travel)?;
+            let name = session.joint_label(joint);
+            Some(format!("{name} moves by {distance} in the model"))
+        });
         let poses = if session.playback().range_secs().is_some() {
             "the range's last pose to its first"
         } else {
             "the last pose to the first"
         };
+        let joints: Vec<String> = own.into_iter().chain(farthest).collect();
         Some(format!(
-            "The loop has a visible gap: {} {} from {poses}",
-            session.joint_label(worst),
-            numbers.join(", "),
+            "The loop has a visible gap from {poses}: {}.",
+            joints.join("; ")
         ))
     }
 }

@@ -22,7 +22,7 @@ const ROWS: f32 = 6.0;
 const TOUCH_ROWS: f32 = 4.0;
 /// Width of a distance, and of an angle.
 const DISTANCE_WIDTH: f32 = 84.0;
-const ANGLE_WIDTH: f32 = 66.0;
+const ANGLE_WIDTH: f32 = 76.0;
 /// Margin inside a row.
 const INSIDE: f32 = 6.0;
 /// Width of the popover.
@@ -181,11 +181,13 @@ fn captions(ui: &mut Ui) {
     let y = rect.center().y;
     let at = pos2(rect.min.x + INSIDE, y);
     ui.painter().text(at, Align2::LEFT_CENTER, "Bone", font.clone(), color);
-    for (x, caption) in columns(rect).into_iter().zip(["Distance", "Angle"]) {
+    for (x, caption) in columns(rect).into_iter().zip(["In the model", "To its parent"]) {
         ui.painter()
             .text(pos2(x, y), Align2::RIGHT_CENTER, caption, font.clone(), color);
     }
-    response.on_hover_text("Distance in the model, in its units; angle relative to the parent");
+    response.on_hover_text(
+        "How far the bone moves in the model, in its units; by what angle it turns relative to its parent",
+    );
 }
 
 fn joint_row(
