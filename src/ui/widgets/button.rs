@@ -153,6 +153,9 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: boo
     response
 }
 
+/// The least room on either side of the label of a part.
+const SEGMENT_ROOM: f32 = 6.0;
+
 /// A switch with a segment for each choice, over the whole width. Returns a new choice. Painted here: in a row of egui's buttons on a
 /// common ground a finger would have less than the whole height.
 pub(crate) fn segmented<T: Copy + PartialEq>(
@@ -166,11 +169,23 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
     let inner = rect.shrink(2.0);
-    let width = inner.width() / choices.len().max(1) as f32;
+    let font = FontId::proportional(12.5);
+    let labels: Vec<_> = choices
+        .iter()
+        .map(|&(_, label)| ui.painter().layout_no_wrap(label.to_owned(), font.clone(), tokens.text))
+        .map(|label| label.size().x)
+        .collect();
+    let count = choices.len().max(1) as f32;
+    let equal = inner.width() / count;
+    // Parts are equally wide, unless a label needs more: then the room around the labels is.
+    let around = (inner.width() - labels.iter().sum::<f32>()) / count;
+    let all_fit = labels.iter().all(|&label| label + 2.0 * SEGMENT_ROOM <= equal);
     let mut chosen = None;
-    for (index, &(choice, label)) in choices.iter().enumerate() {
-        let left = inner.min.x + index as f32 * width;
+    let mut left = inner.min.x;
+    for (index, (&(choice, label), label_width)) in choices.iter().zip(labels).enumerate() {
+        let width = if all_fit { equal } else { label_width + around };
         let place = Rect::from_min_max(pos2(left, inner.min.y), pos2(left + width, inner.max.y));
+        left += width;
         // The target has the whole height.
         let target = Rect::from_x_y_ranges(place.x_range(), rect.y_range());
         let part = ui.interact(target, response.id.with(index), Sense::click());
@@ -185,9 +200,8 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
                 .rect_filled(place, CONTROL_RADIUS - 2, tokens.accent_ground);
         }
         focus_ring(ui, place, &part);
-        let font = FontId::proportional(12.5);
         ui.painter()
-            .text(place.center(), Align2::CENTER_CENTER, label, font, color);
+            .text(place.center(), Align2::CENTER_CENTER, label, font.clone(), color);
         part.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{name}: {label}")));
         if part.clicked() {
             chosen = Some(choice);
