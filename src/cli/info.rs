@@ -95,7 +95,7 @@ struct Map<'a> {
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), Failure> {
     let open = input::load(&arguments.file)?;
     let materials = &open.model.materials;
-    let mut found = Maps::default();
+    let mut found = Maps::without_mips();
     let mut textures;
     let maps = if arguments.textures.is_empty() {
         named_maps(materials).collect()

@@ -296,6 +296,12 @@ table! {
         STREAM_LENGTH = "stream-length", Error,
             "A stream of the mesh has not one entry for each vertex.",
             "Every vertex has a normal, a tangent and texture coordinates, and influences if there are joints.";
+        POSITION_NOT_FINITE = "position-not-finite", Error,
+            "A position holds a number that is not finite.",
+            "NaN and infinity have no place in the picture.";
+        INCOMPLETE_TRIANGLE = "incomplete-triangle", Error,
+            "The number of vertex indices is not a multiple of three.",
+            "Three indices make a triangle.";
         JOINT_OUT_OF_RANGE = "joint-out-of-range", Error,
             "A vertex names a joint that is not there.",
             "A slot without weight names joint 0.";

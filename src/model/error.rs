@@ -26,6 +26,18 @@ pub enum ModelError {
         /// Number of positions.
         vertex_count: usize,
     },
+    /// [`Mesh::check`](super::Mesh::check): NaN or infinity in a position.
+    #[error("The position of vertex {vertex} holds a number that is not finite.")]
+    PositionNotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// [`Mesh::check`](super::Mesh::check): the last triangle has less than three vertices.
+    #[error("There are {index_count} indices; three make a triangle.")]
+    IncompleteTriangle {
+        /// Number of indices.
+        index_count: usize,
+    },
     /// [`Model::checked`](super::Model::checked): a submesh has triangles or a material that are not there.
     #[error("Submesh {submesh} names triangles or a material that are not there.")]
     SubmeshOutOfRange {
@@ -109,6 +121,8 @@ impl ModelError {
         match self {
             Self::VertexOutOfRange { .. } => &codes::VERTEX_OUT_OF_RANGE,
             Self::StreamLength { .. } => &codes::STREAM_LENGTH,
+            Self::PositionNotFinite { .. } => &codes::POSITION_NOT_FINITE,
+            Self::IncompleteTriangle { .. } => &codes::INCOMPLETE_TRIANGLE,
             Self::SubmeshOutOfRange { .. } => &codes::SUBMESH_OUT_OF_RANGE,
             Self::JointOutOfRange { .. } => &codes::JOINT_OUT_OF_RANGE,
             Self::TrackCount { .. } => &codes::TRACK_COUNT,

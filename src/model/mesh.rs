@@ -19,7 +19,7 @@ pub struct Influences {
 /// the model has no joints.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
-    /// Positions in bind space.
+    /// Positions in bind space; finite.
     pub positions: Vec<Vec3>,
     /// Unit normals in bind space.
     pub normals: Vec<Vec3>,
@@ -57,7 +57,8 @@ impl Mesh {
         self.indices.len() / 3
     }
 
-    /// Proves that the streams of the vertices have one length, and that the triangles name vertices that are there.
+    /// Proves that positions are finite, that the streams of the vertices have one length, and that indices come in threes and
+    /// name vertices that are there.
     ///
     /// # Errors
     /// When one of them does not hold.
@@ -76,6 +77,14 @@ impl Mesh {
                     vertex_count,
                 });
             }
+        }
+        if let Some(vertex) = self.positions.iter().position(|position| !position.is_finite()) {
+            return Err(ModelError::PositionNotFinite { vertex });
+        }
+        if !self.indices.len().is_multiple_of(3) {
+            return Err(ModelError::IncompleteTriangle {
+                index_count: self.indices.len(),
+            });
         }
         let out_of_range = self.indices.iter().position(|&vertex| vertex as usize >= vertex_count);
         out_of_range.map_or(Ok(()), |place| {

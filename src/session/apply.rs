@@ -32,7 +32,7 @@ impl Session {
             Command::Camera(command) => self.apply_to_camera(command),
             Command::Joint(command) => self.apply_to_joints(command),
             Command::Name(command) => self.apply_to_names(command),
-            Command::Subset(command) => self.apply_to_subsets(command),
+            Command::Submesh(command) => self.apply_to_submeshes(command),
             Command::Look(command) => self.view.look.apply(command, self.selection.joints.count()),
             Command::Material(command) => {
                 let open = self.content.open.as_ref();
@@ -83,7 +83,7 @@ impl Session {
     fn changes_since(&mut self, before: &Before) -> Changes {
         let mut changes = self.content.changes.take();
         changes.picture |= self.selection.joints.take_redraw();
-        changes.picture |= self.selection.subsets.take_redraw();
+        changes.picture |= self.selection.submeshes.take_redraw();
         let poses: Vec<_> = self.actors.iter().map(Actor::pose_inputs).collect();
         changes.pose |= poses != before.poses;
         for actor in self.actors.iter_mut() {

@@ -34,7 +34,7 @@ pub enum CameraCommand {
     },
     /// Frames all that the clip reaches.
     FrameModel,
-    /// Frames what is selected as it is posed now: what a joint moves, the neighbourhood of a vertex, or a subset; all that the
+    /// Frames what is selected as it is posed now: what a joint moves, the neighbourhood of a vertex, or a submesh; all that the
     /// clip reaches when nothing is selected.
     FrameSelection,
     /// Looks from a named direction and frames.

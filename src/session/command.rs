@@ -9,7 +9,7 @@ use super::naming::NameCommand;
 use super::opening::FileCommand;
 use super::playing::PlayCommand;
 use super::quality::QualityCommand;
-use super::selecting::{JointCommand, SubsetCommand};
+use super::selecting::{JointCommand, SubmeshCommand};
 use super::view_state::ViewState;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::Theme;
@@ -27,8 +27,8 @@ pub enum Command {
     Joint(JointCommand),
     /// What joints are called.
     Name(NameCommand),
-    /// Which subsets are drawn, selected, hovered.
-    Subset(SubsetCommand),
+    /// Which submeshes are drawn, selected, hovered.
+    Submesh(SubmeshCommand),
     /// Light, view mode, background, lines, ghosts, bones, colours of the skin, trails.
     Look(LookCommand),
     /// The values of materials.
@@ -36,7 +36,7 @@ pub enum Command {
     /// Which costly passes are drawn, and how fine the picture is.
     Quality(QualityCommand),
 
-    /// Selects the bone, the vertex or the subset that is shown at a point of the picture: x right, y up, −1…1. Either a subset
+    /// Selects the bone, the vertex or the submesh that is shown at a point of the picture: x right, y up, −1…1. Either a submesh
     /// is selected, or a joint and a vertex: selecting one kind clears the other.
     SelectAt(Vec2),
     /// Takes the file as left- or right-handed; `None` is what was found.
@@ -45,7 +45,7 @@ pub enum Command {
     SetUpAxis(Option<UpAxis>),
     /// The dark or the light theme.
     SetTheme(Theme),
-    /// Looks at the open model as a state says; see [`super::Session::view_state`]. Clips, bones and subsets that the model does
+    /// Looks at the open model as a state says; see [`super::Session::view_state`]. Clips, bones and submeshes that the model does
     /// not have are ignored, and numbers are clamped to their ranges.
     Restore(Box<ViewState>),
 }
@@ -67,7 +67,7 @@ groups! {
     Camera(CameraCommand),
     Joint(JointCommand),
     Name(NameCommand),
-    Subset(SubsetCommand),
+    Submesh(SubmeshCommand),
     Look(LookCommand),
     Material(MaterialCommand),
     Quality(QualityCommand),

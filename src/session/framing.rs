@@ -33,7 +33,7 @@ impl Session {
     }
 
     /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex with a little
-    /// around it; or those of the selected subset. World space, as they are posed now.
+    /// around it; or those of the selected submesh. World space, as they are posed now.
     fn selected_points(&mut self) -> Vec<Vec3> {
         self.pose_vertices();
         let around_vertex = VERTEX_ROOM * self.world_bounds().radius();
@@ -49,7 +49,7 @@ impl Session {
         let mesh = &open.model.mesh;
         let positions = self.caches.picker.positions();
         let in_world = |vertex: usize| Some(world_from_model.transform_point3(*positions.get(vertex)?));
-        let submesh = self.selection.subsets.selected();
+        let submesh = self.selection.submeshes.selected();
         if let Some(joint) = joint {
             let moved = mesh.influences.iter().enumerate().filter(|(_, influences)| {
                 let slots = influences.joints.into_iter().zip(influences.weights);

@@ -27,6 +27,7 @@ pub struct Maps {
     users: BTreeMap<usize, Vec<(usize, MapSlot)>>,
     checklist: Checklist,
     diagnostics: Vec<Diagnostic>,
+    without_mips: bool,
 }
 
 /// What became of a picture.
@@ -46,6 +47,14 @@ enum Decoded {
 type ForSlots = [Option<Arc<Image>>; MapSlot::ALL.len()];
 
 impl Maps {
+    /// Maps that are looked at but not drawn: no mips are made.
+    pub fn without_mips() -> Self {
+        Self {
+            without_mips: true,
+            ..Self::default()
+        }
+    }
+
     /// Adds pictures that came with the model of these materials, which may be another one than before. Those that are there
     /// already keep their turn: the drop may be one that was read again.
     pub fn add(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
@@ -174,7 +183,10 @@ impl Maps {
             _ => ForSlots::default(),
         };
         let image = Arc::new(image);
-        let with_mips = |kind| image.mipped(kind).map_or_else(|| Arc::clone(&image), Arc::new);
+        let with_mips = |kind| {
+            let mipped = if self.without_mips { None } else { image.mipped(kind) };
+            mipped.map_or_else(|| Arc::clone(&image), Arc::new)
+        };
         let [diffuse, normal] = before;
         let is_used = |slot| self.is_used_as(index, slot);
         [

@@ -31,7 +31,7 @@ mod selecting;
 mod showing;
 mod skeleton_cache;
 mod sky;
-mod subsets;
+mod submeshes;
 pub mod summary;
 mod textures;
 mod view;
@@ -54,9 +54,9 @@ pub use open_model::{ClipSummary, OpenModel};
 pub use opening::FileCommand;
 pub use playing::PlayCommand;
 pub use quality::{PassChoice, PassState, Quality, QualityCommand, RenderScale};
-pub use selecting::{JointCommand, SubsetCommand};
+pub use selecting::{JointCommand, SubmeshCommand};
 pub use skeleton_cache::SkinColorsKey;
-pub use subsets::Subsets;
+pub use submeshes::Submeshes;
 pub use textures::{
     Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics,
 };
@@ -102,7 +102,7 @@ pub struct Session {
 /// What is selected and hovered.
 #[derive(Clone, Debug, Default)]
 struct Selection {
-    subsets: Subsets,
+    submeshes: Submeshes,
     joints: Joints,
 }
 

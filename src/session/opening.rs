@@ -177,8 +177,8 @@ impl Session {
             Some(before) => Materials::of_file_again(of_file, old.materials, &before.model.materials),
             None => Materials::of_file(of_file),
         };
-        let subset_count = open.model.mesh.submeshes.len();
-        self.selection.subsets.reset_for_model(subset_count, again);
+        let submesh_count = open.model.mesh.submeshes.len();
+        self.selection.submeshes.reset_for_model(submesh_count, again);
         let same_joints = self.selection.joints.reset_for_model(&open.model, again);
         let names = if same_joints { old.names } else { JointNames::default() };
         if !same_joints {

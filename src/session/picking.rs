@@ -6,7 +6,7 @@ use glam::{Affine3A, Vec2, Vec3};
 
 use super::content::Content;
 use super::maps::Maps;
-use super::subsets::Subsets;
+use super::submeshes::Submeshes;
 use super::textures::MapSlot;
 use crate::anim::{self, Palette};
 use crate::image::Image;
@@ -37,12 +37,12 @@ impl Picker {
         }
     }
 
-    /// What a ray of the world meets first of the vertices as they were posed last. Subsets that are left out are looked through,
+    /// What a ray of the world meets first of the vertices as they were posed last. Submeshes that are left out are looked through,
     /// and what alpha cuts away too.
     pub(super) fn pick(
         &mut self,
         content: &Content,
-        subsets: &Subsets,
+        submeshes: &Submeshes,
         world_from_model: Affine3A,
         ray: Ray,
         maps_revision: u64,
@@ -64,7 +64,7 @@ impl Picker {
         let is_solid = |hit: &Hit| {
             let material = mesh.submeshes[hit.submesh].material as usize;
             let is_cut = || alpha_clips(material) && cutouts.is_cut(material, tex_coord_at(mesh, hit));
-            subsets.is_visible(hit.submesh) && !is_cut()
+            submeshes.is_visible(hit.submesh) && !is_cut()
         };
         pick(mesh, &self.positions, world_from_model, ray, &mut self.in_ray, is_solid)
     }

@@ -2,7 +2,7 @@
 
 use super::look::LookCommand;
 use super::mixer::Blend;
-use super::selecting::{JointCommand, SubsetCommand};
+use super::selecting::{JointCommand, SubmeshCommand};
 use super::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 use super::{Event, Session};
 use crate::model::JointIndex;
@@ -11,7 +11,7 @@ use crate::scene::Overlays;
 impl Session {
     /// How the model is looked at now, for [`Command::Restore`](super::Command::Restore).
     pub fn view_state(&self) -> ViewState {
-        let (joints, subsets) = (self.joints(), self.subsets());
+        let (joints, submeshes) = (self.joints(), self.submeshes());
         let open = self.open_model();
         let file_bones = open.map_or(&[][..], |open| open.model.skeleton.file_bones());
         ViewState {
@@ -21,16 +21,16 @@ impl Session {
             selection: SelectionState {
                 bone: joints.selected().map(|joint| self.bone_number(joint)),
                 vertex: joints.selected_vertex().map(|selected| selected.vertex),
-                subset: subsets.selected(),
-                hidden_subsets: (0..subsets.count())
-                    .filter(|&subset| subsets.is_hidden(subset))
+                subset: submeshes.selected(),
+                hidden_subsets: (0..submeshes.count())
+                    .filter(|&submesh| submeshes.is_hidden(submesh))
                     .collect(),
-                solo_subset: subsets.solo(),
+                solo_subset: submeshes.solo(),
             },
         }
     }
 
-    /// Looks at the open model as a state says. Clips, bones and subsets that the model does not have are ignored, and numbers are
+    /// Looks at the open model as a state says. Clips, bones and submeshes that the model does not have are ignored, and numbers are
     /// clamped to their ranges.
     pub(super) fn restore(&mut self, state: &ViewState) {
         self.restore_appearance(&state.appearance);
@@ -115,15 +115,18 @@ impl Session {
     }
 
     fn restore_selection(&mut self, state: &SelectionState) {
-        self.apply_to_subsets(SubsetCommand::ShowAll);
-        for &subset in &state.hidden_subsets {
-            self.apply_to_subsets(SubsetCommand::SetVisible { subset, visible: false });
+        self.apply_to_submeshes(SubmeshCommand::ShowAll);
+        for &submesh in &state.hidden_subsets {
+            self.apply_to_submeshes(SubmeshCommand::SetVisible {
+                submesh,
+                visible: false,
+            });
         }
-        if let Some(subset) = state.solo_subset {
-            self.apply_to_subsets(SubsetCommand::Solo(subset));
+        if let Some(submesh) = state.solo_subset {
+            self.apply_to_submeshes(SubmeshCommand::Solo(submesh));
         }
         let joint = state.bone.and_then(|bone| self.joint_of_bone(bone));
-        self.apply_to_subsets(SubsetCommand::Select(state.subset));
+        self.apply_to_submeshes(SubmeshCommand::Select(state.subset));
         self.apply_to_joints(JointCommand::Select(joint));
         self.apply_to_joints(JointCommand::SelectVertex(state.vertex));
     }

@@ -1,11 +1,11 @@
-//! What is at a point of the picture, and which joints, vertices and subsets are selected, hovered, folded.
+//! What is at a point of the picture, and which joints, vertices and submeshes are selected, hovered, folded.
 
 use glam::{Vec2, Vec3};
 
 use super::Session;
 use super::joint_rows::{JointRow, joint_rows};
 use super::joints::{Joints, SelectedVertex};
-use super::subsets::Subsets;
+use super::submeshes::Submeshes;
 use crate::anim::dominant_joint;
 use crate::model::JointIndex;
 use crate::scene::{Hit, pick_joint};
@@ -44,13 +44,13 @@ pub enum JointCommand {
     SetAllFolded(bool),
 }
 
-/// A command about a subset, by its index. An index without a subset is ignored.
+/// A command about a submesh, by its index. An index without a submesh is ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SubsetCommand {
+pub enum SubmeshCommand {
     /// Shows or hides one. A solo ends; the others stay shown or hidden as they are on screen.
     SetVisible {
         /// Which.
-        subset: usize,
+        submesh: usize,
         /// Whether it is drawn.
         visible: bool,
     },
@@ -80,7 +80,7 @@ impl Session {
         }
     }
 
-    /// What is at a point of the picture: x right, y up, −1…1. Subsets that are left out are looked through, and what alpha
+    /// What is at a point of the picture: x right, y up, −1…1. Submeshes that are left out are looked through, and what alpha
     /// cuts away too. Skins the mesh once a pose.
     pub fn pick(&mut self, pointer: Vec2) -> Option<Hit> {
         if !pointer.is_finite() {
@@ -92,7 +92,7 @@ impl Session {
         self.pose_vertices();
         self.caches.picker.pick(
             &self.content,
-            &self.selection.subsets,
+            &self.selection.submeshes,
             world_from_model,
             ray,
             self.revisions.maps,
@@ -109,7 +109,7 @@ impl Session {
     }
 
     /// Selects what is shown at a point of the picture (x right, y up, −1…1): a bone while bones are drawn, a vertex while the
-    /// skin is coloured, else a subset. Beside all of them nothing is selected, but for the bone whose weights are shown.
+    /// skin is coloured, else a submesh. Beside all of them nothing is selected, but for the bone whose weights are shown.
     pub(super) fn select_at(&mut self, pointer: Vec2) {
         let bone = self.view.look.bones_visible.then(|| self.joint_at(pointer));
         if let Some(bone) = bone.flatten() {
@@ -117,7 +117,7 @@ impl Session {
         } else if self.view.look.skin_view.is_some() {
             self.apply_to_joints(JointCommand::SelectVertexAt(pointer));
         } else {
-            self.apply_to_subsets(SubsetCommand::SelectAt(pointer));
+            self.apply_to_submeshes(SubmeshCommand::SelectAt(pointer));
             self.selection.joints.clear_selection();
         }
     }
@@ -129,28 +129,28 @@ impl Session {
         self.screen().place(world).map(Vec3::truncate)
     }
 
-    /// Which subsets are drawn, selected, hovered.
-    pub fn subsets(&self) -> &Subsets {
-        &self.selection.subsets
+    /// Which submeshes are drawn, selected, hovered.
+    pub fn submeshes(&self) -> &Submeshes {
+        &self.selection.submeshes
     }
 
-    pub(super) fn apply_to_subsets(&mut self, command: SubsetCommand) {
+    pub(super) fn apply_to_submeshes(&mut self, command: SubmeshCommand) {
         match command {
-            SubsetCommand::SetVisible { subset, visible } => self.selection.subsets.set_visible(subset, visible),
-            SubsetCommand::Solo(subset) => self.selection.subsets.toggle_solo(subset),
-            SubsetCommand::ShowAll => self.selection.subsets.show_all(),
-            SubsetCommand::Select(subset) => self.selection.subsets.select(subset, None),
-            SubsetCommand::SelectAt(pointer) => {
+            SubmeshCommand::SetVisible { submesh, visible } => self.selection.submeshes.set_visible(submesh, visible),
+            SubmeshCommand::Solo(submesh) => self.selection.submeshes.toggle_solo(submesh),
+            SubmeshCommand::ShowAll => self.selection.submeshes.show_all(),
+            SubmeshCommand::Select(submesh) => self.selection.submeshes.select(submesh, None),
+            SubmeshCommand::SelectAt(pointer) => {
                 let hit = self.pick(pointer);
-                self.selection.subsets.select(hit.map(|hit| hit.submesh), hit);
+                self.selection.submeshes.select(hit.map(|hit| hit.submesh), hit);
             }
-            SubsetCommand::Hover(subset) => self.selection.subsets.hover(subset),
-            SubsetCommand::HoverAt(pointer) => {
+            SubmeshCommand::Hover(submesh) => self.selection.submeshes.hover(submesh),
+            SubmeshCommand::HoverAt(pointer) => {
                 let hit = pointer.and_then(|pointer| self.pick(pointer));
-                self.selection.subsets.hover(hit.map(|hit| hit.submesh));
+                self.selection.submeshes.hover(hit.map(|hit| hit.submesh));
             }
         }
-        if self.selection.subsets.selected().is_some() {
+        if self.selection.submeshes.selected().is_some() {
             self.selection.joints.clear_selection();
         }
     }
@@ -200,7 +200,7 @@ impl Session {
             JointCommand::SetAllFolded(folded) => self.selection.joints.set_all_folded(folded),
         }
         if self.selection.joints.selected().is_some() || self.selection.joints.selected_vertex().is_some() {
-            self.selection.subsets.select(None, None);
+            self.selection.submeshes.select(None, None);
         }
     }
 

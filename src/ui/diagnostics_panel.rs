@@ -12,7 +12,7 @@ use super::widgets::{closable_heading, paint_row_ground, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubsetCommand};
+use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubmeshCommand};
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -105,7 +105,7 @@ fn diagnostic_row(
 
 /// A part of the open model, and how to show it.
 struct Goal {
-    /// What it is called: `Bone 3`, `Subset 0`, `Clip walk`.
+    /// What it is called: `Bone 3`, `Submesh 0`, `Clip walk`.
     words: String,
     /// Select and show it.
     commands: Vec<Command>,
@@ -125,15 +125,15 @@ impl Goal {
             Subject::Vertex(vertex) => ((vertex as usize) < mesh.vertex_count()).then(|| Self::vertex(vertex)),
             // A triangle cannot be selected; its first corner can.
             Subject::Triangle(triangle) => Some(Self::vertex(*mesh.indices.get(triangle as usize * 3)?)),
-            Subject::Subset(subset) => {
-                let subset = subset as usize;
-                (subset < mesh.submeshes.len()).then(|| Self::subset(session, subset, format!("Subset {subset}")))
+            Subject::Subset(submesh) => {
+                let submesh = submesh as usize;
+                (submesh < mesh.submeshes.len()).then(|| Self::submesh(session, submesh, format!("Subset {submesh}")))
             }
             Subject::Material(material) => {
                 let has_it = |submesh: &crate::model::Submesh| submesh.material == material;
-                let subset = mesh.submeshes.iter().position(has_it)?;
+                let submesh = mesh.submeshes.iter().position(has_it)?;
                 let name = &open.model.materials.get(material as usize)?.name;
-                Some(Self::subset(session, subset, format!("Material {name}")))
+                Some(Self::submesh(session, submesh, format!("Material {name}")))
             }
             Subject::Clip(clip) => {
                 let name = &open.model.clips.get(clip as usize)?.name;
@@ -170,10 +170,10 @@ impl Goal {
         }
     }
 
-    fn subset(session: &Session, subset: usize, words: String) -> Self {
-        let mut commands = vec![SubsetCommand::Select(Some(subset)).into()];
-        if !session.subsets().is_visible(subset) {
-            commands.push(SubsetCommand::SetVisible { subset, visible: true }.into());
+    fn submesh(session: &Session, submesh: usize, words: String) -> Self {
+        let mut commands = vec![SubmeshCommand::Select(Some(submesh)).into()];
+        if !session.submeshes().is_visible(submesh) {
+            commands.push(SubmeshCommand::SetVisible { submesh, visible: true }.into());
         }
         Self {
             words,
@@ -187,7 +187,7 @@ impl Goal {
         state.frames_selection = self
             .commands
             .iter()
-            .any(|command| matches!(command, Command::Joint(_) | Command::Subset(_)));
+            .any(|command| matches!(command, Command::Joint(_) | Command::Submesh(_)));
         if let Some(page) = self.page {
             state.skeleton.show_page(session, page);
         }

@@ -13,7 +13,7 @@ use super::widgets::{
 use super::wording::grouped;
 use crate::model::{Material, Reflectance};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
-use crate::session::{Command, MAX_SPEC_POWER, MapSlot, MaterialCommand, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, MAX_SPEC_POWER, MapSlot, MaterialCommand, OpenModel, Session, SubmeshCommand};
 
 /// Width of the labels of values.
 const LABEL_WIDTH: f32 = 90.0;
@@ -22,11 +22,11 @@ const SPACING: f32 = 5.0;
 
 /// The panel's contents. Nothing while nothing is selected.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let (Some(open), Some(subset)) = (session.open_model(), session.subsets().selected()) else {
+    let (Some(open), Some(index)) = (session.open_model(), session.submeshes().selected()) else {
         return;
     };
     let mesh = &open.model.mesh;
-    let Some(submesh) = mesh.submeshes.get(subset) else {
+    let Some(submesh) = mesh.submeshes.get(index) else {
         return;
     };
     let material = submesh.material as usize;
@@ -36,11 +36,11 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 
     let swatch = Some(shown_color(session, material));
     if selected_heading(ui, &values.name, Tokens::of(ui).text, swatch) {
-        commands.push(SubsetCommand::Select(None).into());
+        commands.push(SubmeshCommand::Select(None).into());
     }
     rule(ui, MARGIN);
-    let vertices = state.vertex_count.of(session.model_revision(), subset, mesh, submesh);
-    value_row(ui, "Subset", &format!("{} of {}", subset + 1, mesh.submeshes.len()));
+    let vertices = state.vertex_count.of(session.model_revision(), index, mesh, submesh);
+    value_row(ui, "Subset", &format!("{} of {}", index + 1, mesh.submeshes.len()));
     value_row(ui, "Triangles", &grouped(submesh.triangle_count as usize));
     value_row(ui, "Vertices", &grouped(vertices));
     rule(ui, MARGIN);

@@ -5,7 +5,7 @@ use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 use super::state::UiState;
 use super::viewport::FLIGHT_KEYS;
 use crate::actions::{self, Action, Ask};
-use crate::session::{Command, FileCommand, JointCommand, Session, SubsetCommand};
+use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
@@ -134,7 +134,7 @@ pub fn escape_shuts(ctx: &Context, session: &Session, state: &UiState) -> bool {
         || escape_shuts_panel(session, state)
 }
 
-/// Clears what was selected last: the vertex before the joint before the subset.
+/// Clears what was selected last: the vertex before the joint before the submesh.
 fn clears_selection(session: &Session) -> Option<Command> {
     let joints = session.joints();
     if joints.selected_vertex().is_some() {
@@ -142,8 +142,8 @@ fn clears_selection(session: &Session) -> Option<Command> {
     } else if joints.selected().is_some() {
         Some(JointCommand::Select(None).into())
     } else {
-        let subset = session.subsets().selected();
-        subset.map(|_| SubsetCommand::Select(None).into())
+        let submesh = session.submeshes().selected();
+        submesh.map(|_| SubmeshCommand::Select(None).into())
     }
 }
 

@@ -119,7 +119,7 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
 
     let mut beside = free;
     let inspects_joint = is_inspected(session);
-    if inspects_joint || session.subsets().selected().is_some() {
+    if inspects_joint || session.submeshes().selected().is_some() {
         let inspector = Panel::new("inspector", Align2::RIGHT_TOP)
             .width(INSPECTOR_WIDTH)
             .show(ui, free.room(), |ui| {
@@ -270,8 +270,8 @@ fn page_width(page: SheetPage, window: Rect) -> f32 {
 
 /// A page of the sheet, no higher than what is available.
 fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let selects_subset = session.subsets().selected().is_some();
-    let inspects = selects_subset || is_inspected(session);
+    let selects_submesh = session.submeshes().selected().is_some();
+    let inspects = selects_submesh || is_inspected(session);
     let scroll = scrolled("sheet", ui.available_height());
     match page {
         SheetPage::Model if state.diagnostics_open => diagnostics_panel::show(ui, session, state, commands),
@@ -281,7 +281,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::Timeline => timeline::page(ui, session, state, commands),
         _ => {
             scroll.show(ui, |ui| match page {
-                SheetPage::Model if selects_subset => inspector::show(ui, session, state, commands),
+                SheetPage::Model if selects_submesh => inspector::show(ui, session, state, commands),
                 SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
                 SheetPage::ViewMode => {
                     widgets::section_name(ui, "View mode");

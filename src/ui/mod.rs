@@ -32,7 +32,7 @@ pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 
 use crate::scene::{Insets, Theme};
-use crate::session::{CameraCommand, Command, Session, SubsetCommand};
+use crate::session::{CameraCommand, Command, Session, SubmeshCommand};
 use input::{InputOrder, MOST_PASSES};
 use state::Framed;
 use theme::MARGIN;
@@ -69,7 +69,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let typed = state.keyboard.was_typing(ui.ctx());
     viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
     skeleton::show_marks(ui, session, &state.skeleton, window);
-    state.hovered_subset = None;
+    state.hovered_submesh = None;
     state.timeline.update(session);
     let free = layout::show(ui, session, state, &mut commands).rect;
     split::show(ui, session, window, free, &mut commands);
@@ -81,8 +81,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
             commands.push(CameraCommand::Glide(Box::new(CameraCommand::FrameSelection)).into());
         }
     }
-    if session.subsets().hovered() != state.hovered_subset {
-        commands.push(SubsetCommand::Hover(state.hovered_subset).into());
+    if session.submeshes().hovered() != state.hovered_submesh {
+        commands.push(SubmeshCommand::Hover(state.hovered_submesh).into());
     }
     state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
     state.skeleton.settle_naming(ui, &mut commands);

@@ -16,7 +16,7 @@ use super::wording::{counted, dialect_name, grouped, measured, shortened};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, Submesh, UpAxis};
 use crate::scene::display_color;
-use crate::session::{Command, FileCommand, MapSlot, OpenModel, Session, SubsetCommand};
+use crate::session::{Command, FileCommand, MapSlot, OpenModel, Session, SubmeshCommand};
 
 /// Submeshes listed before the list scrolls.
 const ROWS: f32 = 8.0;
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     bounds_row(ui, open);
     diagnostics_row(ui, session, state);
     rule(ui, MARGIN);
-    subset_list(ui, session, open, state, commands);
+    submesh_list(ui, session, open, state, commands);
     if session.maps().checklist().named > 0 {
         rule(ui, MARGIN);
         textures::show(ui, session, open, state);
@@ -176,18 +176,18 @@ fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
 }
 
 /// The submeshes: which are drawn, which one is selected.
-fn subset_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
-    let all_drawn = !session.subsets().left_out().contains(&true);
+fn submesh_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
+    let all_drawn = !session.submeshes().left_out().contains(&true);
     let action = (!all_drawn).then_some("Show all");
     if section_with_action(ui, "Subsets", action) {
-        commands.push(SubsetCommand::ShowAll.into());
+        commands.push(SubmeshCommand::ShowAll.into());
     }
     let list = scrolled("subsets", ROWS * pressed_row_height(ui));
     list.auto_shrink([false, true]).show(ui, |ui| {
         for (index, submesh) in open.model.mesh.submeshes.iter().enumerate() {
-            let subset = Subset::new(session, index, submesh);
-            if subset.show(ui, commands) {
-                state.hovered_subset = Some(index);
+            let submesh = SubmeshRow::new(session, index, submesh);
+            if submesh.show(ui, commands) {
+                state.hovered_submesh = Some(index);
             }
         }
     });
@@ -205,7 +205,7 @@ pub(super) fn shown_color(session: &Session, material: usize) -> [f32; 3] {
 }
 
 /// One row.
-struct Subset<'a> {
+struct SubmeshRow<'a> {
     index: usize,
     name: &'a str,
     triangles: String,
@@ -215,18 +215,18 @@ struct Subset<'a> {
     selected: bool,
 }
 
-impl<'a> Subset<'a> {
+impl<'a> SubmeshRow<'a> {
     fn new(session: &'a Session, index: usize, submesh: &Submesh) -> Self {
         let material = submesh.material as usize;
-        let subsets = session.subsets();
+        let submeshes = session.submeshes();
         Self {
             index,
             name: session.materials().get(material).map_or("", |values| &values.name),
             triangles: grouped(submesh.triangle_count as usize),
             color: shown_color(session, material),
-            visible: subsets.is_visible(index),
-            alone: subsets.solo() == Some(index),
-            selected: subsets.selected() == Some(index),
+            visible: submeshes.is_visible(index),
+            alone: submeshes.solo() == Some(index),
+            selected: submeshes.selected() == Some(index),
         }
     }
 
@@ -262,9 +262,9 @@ impl<'a> Subset<'a> {
             let alone = ui.input(|input| input.modifiers.alt);
             let selected = (!self.selected).then_some(self.index);
             let asked = if alone {
-                SubsetCommand::Solo(self.index)
+                SubmeshCommand::Solo(self.index)
             } else {
-                SubsetCommand::Select(selected)
+                SubmeshCommand::Select(selected)
             };
             commands.push(asked.into());
         }
@@ -277,11 +277,11 @@ impl<'a> Subset<'a> {
         let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
         let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };
         let verb = if self.visible { "Hide" } else { "Show" };
-        let visible = SubsetCommand::SetVisible {
-            subset: self.index,
+        let visible = SubmeshCommand::SetVisible {
+            submesh: self.index,
             visible: !self.visible,
         };
-        let alone = SubsetCommand::Solo(self.index);
+        let alone = SubmeshCommand::Solo(self.index);
         let icons = [
             (
                 all || !self.visible,

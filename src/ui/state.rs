@@ -83,7 +83,7 @@ pub struct UiState {
     pub(super) picture: PictureChoice,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
-    pub(super) hovered_subset: Option<usize>,
+    pub(super) hovered_submesh: Option<usize>,
     pub(super) vertex_count: VertexCount,
     pub(super) skeleton: SkeletonState,
     pub(super) keyboard: Keyboard,
@@ -139,15 +139,15 @@ pub(super) struct VertexCount {
 
 impl VertexCount {
     /// How many vertices the triangles of a submesh use.
-    pub(super) fn of(&mut self, model_revision: u64, subset: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
-        if self.of != Some((model_revision, subset)) {
+    pub(super) fn of(&mut self, model_revision: u64, index: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
+        if self.of != Some((model_revision, index)) {
             let start = submesh.triangle_start as usize * 3;
             let end = start + submesh.triangle_count as usize * 3;
             let mut used: Vec<u32> = mesh.indices.get(start..end).unwrap_or_default().to_vec();
             used.sort_unstable();
             used.dedup();
             *self = Self {
-                of: Some((model_revision, subset)),
+                of: Some((model_revision, index)),
                 count: used.len(),
             };
         }

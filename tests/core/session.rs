@@ -19,7 +19,7 @@ mod random;
 mod replay;
 mod sky;
 mod slowness;
-mod subsets;
+mod submeshes;
 mod transport;
 mod view_state;
 

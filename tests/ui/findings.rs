@@ -3,7 +3,7 @@
 use bindpose::diagnostic::Subject;
 use bindpose::format::{Document, Subset};
 use bindpose::model::JointIndex;
-use bindpose::session::{File, JointCommand, PlayCommand, SubsetCommand};
+use bindpose::session::{File, JointCommand, PlayCommand, SubmeshCommand};
 use egui::{CursorIcon, Key, Modifiers};
 
 use crate::models;
@@ -127,10 +127,13 @@ fn a_finding_about_a_subset_leads_to_the_subset_even_when_it_is_hidden() {
     let mut window = opened();
     window.click("Panel: Skeleton");
     let (subset, visible) = (1, false);
-    window.apply(SubsetCommand::SetVisible { subset, visible });
+    window.apply(SubmeshCommand::SetVisible {
+        submesh: subset,
+        visible,
+    });
     let before = *window.session().camera();
     window.click(OF_SUBSET);
-    let subsets = window.session().subsets();
+    let subsets = window.session().submeshes();
     assert_eq!((subsets.selected(), subsets.is_visible(1)), (Some(1), true));
     assert!(
         window.shows("Subset 2 of 2") && window.shows("Subsets"),
@@ -144,7 +147,7 @@ fn a_finding_about_a_subset_leads_to_the_subset_even_when_it_is_hidden() {
 fn a_finding_about_a_material_leads_to_the_first_subset_that_has_it() {
     let mut window = opened();
     window.click(OF_MATERIAL);
-    assert_eq!(window.session().subsets().selected(), Some(1));
+    assert_eq!(window.session().submeshes().selected(), Some(1));
     assert!(window.shows("Selected: Painted (2)"));
 }
 
@@ -177,7 +180,7 @@ fn a_finding_about_no_part_shows_its_lines_alone() {
     let camera = *window.session().camera();
     window.click(OF_NOTHING);
     let session = window.session();
-    assert_eq!((session.subsets().selected(), selected(&window)), (None, None));
+    assert_eq!((session.submeshes().selected(), selected(&window)), (None, None));
     assert_eq!(*window.session().camera(), camera);
     assert!(
         window

@@ -3,7 +3,7 @@
 use bindpose::actions::{self, Group};
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
-use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, PlayCommand, SPEEDS, SubsetCommand};
+use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, PlayCommand, SPEEDS, SubmeshCommand};
 use bindpose::ui::{Request, escape_shuts};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
 
@@ -263,12 +263,12 @@ fn p_asks_for_a_picture_as_large_as_the_window_and_shift_leaves_the_ground_out()
 #[test]
 fn escape_clears_the_selection_last_of_all() {
     let mut window = open();
-    window.apply(SubsetCommand::Select(Some(0)));
+    window.apply(SubmeshCommand::Select(Some(0)));
     window.click("Lighting");
     window.press(PLAIN, Key::Escape);
-    assert!(!window.shows("Exposure") && window.session().subsets().selected().is_some());
+    assert!(!window.shows("Exposure") && window.session().submeshes().selected().is_some());
     window.press(PLAIN, Key::Escape);
-    assert_eq!(window.session().subsets().selected(), None);
+    assert_eq!(window.session().submeshes().selected(), None);
 }
 
 #[test]
@@ -636,10 +636,10 @@ fn what_hung_from_a_button_gives_it_the_keyboard_back() {
 #[test]
 fn esc_that_shuts_something_leaves_the_keyboard_where_it_is() {
     let mut window = open();
-    window.apply(SubsetCommand::Select(Some(0)));
+    window.apply(SubmeshCommand::Select(Some(0)));
     tab_to(&mut window, "Turntable");
     window.press(PLAIN, Key::Escape);
-    assert_eq!(window.session().subsets().selected(), None);
+    assert_eq!(window.session().submeshes().selected(), None);
     assert_eq!(window.focused().as_deref(), Some("Turntable"));
     window.press(PLAIN, Key::Escape);
     assert_eq!(window.focused(), None, "there was nothing to shut");

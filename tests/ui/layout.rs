@@ -2,7 +2,7 @@
 
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
-use bindpose::session::{FileCommand, JointCommand, LookCommand, PlayCommand, SubsetCommand};
+use bindpose::session::{FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
 use bindpose::ui::SheetPage;
 use egui::{Rect, Vec2, pos2, vec2};
 
@@ -114,7 +114,7 @@ fn in_a_wide_window_nothing_is_cut_and_no_panel_lies_on_another() {
                 window.click("Diagnostics");
                 assert_inside(&window, size);
                 assert_apart(&window, &["title", "toolbar", "model", "diagnostics", "timeline"]);
-                window.apply(SubsetCommand::Select(Some(0)));
+                window.apply(SubmeshCommand::Select(Some(0)));
                 assert_inside(&window, size);
                 let all = ["title", "toolbar", "model", "inspector", "diagnostics", "timeline"];
                 assert_apart(&window, &all);
@@ -353,7 +353,7 @@ fn what_opens_stands_in_its_place_from_its_first_frame_on() {
             assert_eq!(window.widgets(), first, "{what} of {size}");
         };
         assert_in_place("inspector", &|page| {
-            page.session.apply(SubsetCommand::Select(Some(0)));
+            page.session.apply(SubmeshCommand::Select(Some(0)));
         });
         assert_in_place("legend", &|page| {
             page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
@@ -380,7 +380,7 @@ fn tiny_windows_are_drawn_with_everything_open() {
     ] {
         let mut window = window(size, vec![models::file(LONG, &models::skinned(&[(LONG, 0.0, 31)]))]);
         let page = window.harness.state_mut();
-        page.session.apply(SubsetCommand::Select(Some(0)));
+        page.session.apply(SubmeshCommand::Select(Some(0)));
         page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
         page.session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
         page.state.sheet = Some(SheetPage::Timeline);

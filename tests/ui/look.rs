@@ -226,10 +226,10 @@ fn a_click_beside_a_popover_shuts_it_and_selects_nothing() {
         window.wait(0.6);
     };
     click(&mut window);
-    assert!(!window.shows("Exposure") && window.session().subsets().selected().is_none());
+    assert!(!window.shows("Exposure") && window.session().submeshes().selected().is_none());
     click(&mut window);
     assert_eq!(
-        window.session().subsets().selected(),
+        window.session().submeshes().selected(),
         Some(0),
         "the model is in the middle"
     );

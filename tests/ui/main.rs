@@ -31,5 +31,5 @@ mod saving;
 mod shared;
 mod skeleton;
 mod split;
-mod subsets;
+mod submeshes;
 mod timeline;

@@ -9,7 +9,7 @@ use bindpose::anim::SkinView;
 use bindpose::app::App;
 use bindpose::model::JointIndex;
 use bindpose::session::{
-    Command, File, FileCommand, JointCommand, LookCommand, NameCommand, PlayCommand, Session, SubsetCommand,
+    Command, File, FileCommand, JointCommand, LookCommand, NameCommand, PlayCommand, Session, SubmeshCommand,
 };
 use bindpose::ui;
 use egui::{Theme, Vec2};
@@ -205,8 +205,8 @@ fn the_bytes_of_a_file_that_is_no_text() {
 #[test]
 fn a_subset_inspected_in_a_small_window() {
     let size = Vec2::new(900.0, 700.0);
-    let hidden = SubsetCommand::SetVisible {
-        subset: 3,
+    let hidden = SubmeshCommand::SetVisible {
+        submesh: 3,
         visible: false,
     };
     let then = vec![hidden.into()];

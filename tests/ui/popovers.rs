@@ -1,7 +1,7 @@
 //! What the toolbar opens: inside the window, off the panels, large enough for fingers.
 
 use bindpose::scene::ViewMode;
-use bindpose::session::{LookCommand, PlayCommand, SubsetCommand};
+use bindpose::session::{LookCommand, PlayCommand, SubmeshCommand};
 use egui::{Order, Rect, vec2};
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside, shown_panel};
@@ -61,7 +61,7 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
             assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{inside}: {rect}");
             window.click("Close the sheet");
         }
-        window.apply(SubsetCommand::Select(Some(0)));
+        window.apply(SubmeshCommand::Select(Some(0)));
         window.click("Model facts");
         assert!(window.shows("Selected: Painted"));
         let last = window.rect("Fresnel R0: blue");

@@ -159,7 +159,7 @@ fn a_click_in_the_view_means_what_is_shown_there() {
     let center = window.harness.ctx.content_rect().center();
     let at = corner + 0.12 * (center - corner);
     click_at(&mut window, at);
-    assert_eq!(window.session().subsets().selected(), Some(0), "plainly a subset");
+    assert_eq!(window.session().submeshes().selected(), Some(0), "plainly a subset");
     window.press(Modifiers::NONE, Key::W);
     // Else it would be a double click.
     window.wait(1.0);
@@ -167,7 +167,7 @@ fn a_click_in_the_view_means_what_is_shown_there() {
     let vertex = window.session().joints().selected_vertex();
     assert!(vertex.is_some(), "a vertex of a coloured skin");
     assert_eq!(
-        window.session().subsets().selected(),
+        window.session().submeshes().selected(),
         None,
         "one thing is selected at a time"
     );

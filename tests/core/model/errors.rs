@@ -173,11 +173,23 @@ fn constructors_refuse_what_later_stages_rely_on() {
 #[test]
 fn parts_that_do_not_fit_make_no_model() {
     type Change = fn(&mut Model);
-    let cases: [(Change, &str, &str); 8] = [
+    let cases: [(Change, &str, &str); 10] = [
         (
             |model| model.mesh.indices[4] = 14,
             "vertex-out-of-range",
             "Triangle 1 names vertex 14, but there are 14 vertices.",
+        ),
+        (
+            |model| model.mesh.positions[7].y = f32::INFINITY,
+            "position-not-finite",
+            "The position of vertex 7 holds a number that is not finite.",
+        ),
+        (
+            |model| {
+                model.mesh.indices.pop();
+            },
+            "incomplete-triangle",
+            "There are 35 indices; three make a triangle.",
         ),
         (
             |model| model.mesh.normals.truncate(13),

@@ -7,7 +7,7 @@ use bindpose::model::{JointIndex, SavedNames};
 use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
 use bindpose::session::{
     CameraCommand, Command, File, FileCommand, JointCommand, JointRow, LookCommand, NameCommand, PlayCommand, Session,
-    SubsetCommand,
+    SubmeshCommand,
 };
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -564,7 +564,7 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
     let selected = |session: &Session| {
         let joints = session.joints();
         (
-            session.subsets().selected(),
+            session.submeshes().selected(),
             joints.selected_vertex().is_some(),
             joints.selected(),
         )
@@ -587,7 +587,7 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
     session.apply(Command::SelectAt(nowhere));
     assert_eq!(selected(&session), (None, false, None));
     session.apply(Select(Some(JointIndex(1))));
-    session.apply(SubsetCommand::Select(Some(0)));
+    session.apply(SubmeshCommand::Select(Some(0)));
     assert_eq!(selected(&session), (Some(0), false, None));
 }
 
@@ -662,7 +662,7 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     session.apply(CameraCommand::FrameModel);
     assert!(session.camera().distance > 1.5 * near.distance);
     session.apply(Select(None));
-    session.apply(SubsetCommand::Select(Some(0)));
+    session.apply(SubmeshCommand::Select(Some(0)));
     session.apply(CameraCommand::Zoom {
         factor: 8.0,
         pointer: Vec2::ZERO,

@@ -6,7 +6,7 @@ use bindpose::session::{File, FileCommand, MaterialCommand, Session};
 
 use super::models::{self, document};
 use super::opened;
-use super::subsets::parted;
+use super::submeshes::parted;
 
 fn three_materials(path: &str) -> File {
     models::file(path, &parted(document()))

@@ -4,12 +4,12 @@ use bindpose::anim;
 use bindpose::image::encode_png;
 use bindpose::model::Mesh;
 use bindpose::scene::{Hit, ViewPreset};
-use bindpose::session::{CameraCommand, File, FileCommand, MaterialCommand, PlayCommand, Session, SubsetCommand};
+use bindpose::session::{CameraCommand, File, FileCommand, MaterialCommand, PlayCommand, Session, SubmeshCommand};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::models::{self, document, moving};
 use super::opened;
-use super::subsets::parted;
+use super::submeshes::parted;
 use crate::documents::shared_bytes;
 
 /// The vertices of now, world space.
@@ -194,7 +194,7 @@ fn what_is_hidden_is_looked_through() {
     assert_eq!(front.submesh, 2);
     assert!((front.position.z + 1.0).abs() < 1e-4);
     let visible = false;
-    session.apply(SubsetCommand::SetVisible { subset: 2, visible });
+    session.apply(SubmeshCommand::SetVisible { submesh: 2, visible });
     assert_eq!(session.pick(Vec2::ZERO), None, "front and back are one subset");
 }
 

@@ -7,7 +7,7 @@ use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames,
 use bindpose::scene::{BoneStyle, Insets, Overlay, Theme, ViewPreset};
 use bindpose::session::{
     CameraCommand, Command, Event, File, FileCommand, JointCommand, LookCommand, MaterialCommand, NameCommand,
-    PlayCommand, Session, SubsetCommand,
+    PlayCommand, Session, SubmeshCommand,
 };
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ use proptest::prelude::*;
 use super::joints::{over_model, skin_colors};
 use super::models::{self, broken, jointed, moving, still};
 use super::sky::cube;
-use super::subsets::parted;
+use super::submeshes::parted;
 use crate::chains::mirrored;
 
 /// Numbers as pointers and programs give them, and those that they should not.
@@ -67,15 +67,15 @@ fn moving_camera() -> impl Strategy<Value = CameraCommand> {
     ]
 }
 
-fn subset_command() -> impl Strategy<Value = SubsetCommand> {
+fn submesh_command() -> impl Strategy<Value = SubmeshCommand> {
     prop_oneof![
-        (0usize..4, any::<bool>()).prop_map(|(subset, visible)| SubsetCommand::SetVisible { subset, visible }),
-        (0usize..4).prop_map(SubsetCommand::Solo),
-        Just(SubsetCommand::ShowAll),
-        prop::option::of(0usize..4).prop_map(SubsetCommand::Select),
-        vector().prop_map(SubsetCommand::SelectAt),
-        prop::option::of(0usize..4).prop_map(SubsetCommand::Hover),
-        prop::option::of(vector()).prop_map(SubsetCommand::HoverAt),
+        (0usize..4, any::<bool>()).prop_map(|(submesh, visible)| SubmeshCommand::SetVisible { submesh, visible }),
+        (0usize..4).prop_map(SubmeshCommand::Solo),
+        Just(SubmeshCommand::ShowAll),
+        prop::option::of(0usize..4).prop_map(SubmeshCommand::Select),
+        vector().prop_map(SubmeshCommand::SelectAt),
+        prop::option::of(0usize..4).prop_map(SubmeshCommand::Hover),
+        prop::option::of(vector()).prop_map(SubmeshCommand::HoverAt),
     ]
 }
 
@@ -252,7 +252,7 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         2 => pose.prop_map(Command::Play),
         8 => camera.prop_map(Command::Camera),
         3 => alone,
-        4 => subset_command().prop_map(Command::Subset),
+        4 => submesh_command().prop_map(Command::Submesh),
         4 => joint_command().prop_map(Command::Joint),
         2 => name_command().prop_map(Command::Name),
         2 => skeleton_look().prop_map(Command::Look),
@@ -312,7 +312,7 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     }
 
     let submeshes = session.open_model().map_or(0, |open| open.model.mesh.submeshes.len());
-    let subsets = session.subsets();
+    let subsets = session.submeshes();
     prop_assert_eq!(subsets.count(), submeshes);
     prop_assert!(subsets.selected().is_none_or(|selected| selected < submeshes));
     let frame = session.frame();
@@ -323,7 +323,7 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
             .is_none_or(|submesh| !frame.hidden_submeshes[submesh])
     );
     if let Some(hit) = session.pick(Vec2::new(0.1, -0.2)) {
-        prop_assert!(session.subsets().is_visible(hit.submesh), "{hit:?}");
+        prop_assert!(session.submeshes().is_visible(hit.submesh), "{hit:?}");
         prop_assert!(hit.position.is_finite() && hit.distance >= 0.0, "{hit:?}");
     }
 

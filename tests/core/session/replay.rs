@@ -45,7 +45,7 @@ fn snapshot(session: &mut Session) -> String {
         session.camera(),
         session.handedness(),
         session.up_axis(),
-        session.subsets(),
+        session.submeshes(),
         session.quality(),
     );
     let skeleton = (

@@ -1,7 +1,7 @@
 //! What is looked at, as plain data that brings the same view back.
 
 use bindpose::anim::GhostPlan;
-use bindpose::session::{Command, FileCommand, JointCommand, PlayCommand, Session, SubsetCommand, ViewState};
+use bindpose::session::{Command, FileCommand, JointCommand, PlayCommand, Session, SubmeshCommand, ViewState};
 use proptest::prelude::*;
 
 use super::models::{moving, still};
@@ -91,8 +91,8 @@ fn clips_and_bones_go_by_what_a_person_calls_them() {
     let mut session = opened(moving("a.m3d"));
     session.apply(PlayCommand::SelectClip(1));
     session.apply(JointCommand::Select(Some(bindpose::model::JointIndex(1))));
-    session.apply(SubsetCommand::SetVisible {
-        subset: 0,
+    session.apply(SubmeshCommand::SetVisible {
+        submesh: 0,
         visible: false,
     });
     let state = session.view_state();

@@ -46,11 +46,11 @@ fn a_row_under_the_pointer_stands_out_in_the_view_and_offers_its_icons() {
     let mut window = open();
     assert!(!window.shows("Hide Bare"));
     hover(&mut window, "Bare, 6 triangles");
-    assert_eq!(window.session().subsets().highlighted(), Some(1));
+    assert_eq!(window.session().submeshes().highlighted(), Some(1));
     assert!(window.shows("Hide Bare") && window.shows("Show Bare alone (Alt click)"));
     window.harness.event(Event::PointerGone);
     window.pass_on();
-    assert_eq!(window.session().subsets().highlighted(), None);
+    assert_eq!(window.session().submeshes().highlighted(), None);
     assert!(!window.shows("Hide Bare"));
 }
 
@@ -59,15 +59,15 @@ fn the_eye_hides_and_shows_and_one_word_shows_all() {
     let mut window = open();
     hover(&mut window, "Bare, 6 triangles");
     window.click("Hide Bare");
-    assert_eq!(window.session().subsets().left_out(), [false, true]);
+    assert_eq!(window.session().submeshes().left_out(), [false, true]);
     window.harness.event(Event::PointerGone);
     window.pass_on();
     window.click("Show Bare");
-    assert_eq!(window.session().subsets().left_out(), [false, false]);
+    assert_eq!(window.session().submeshes().left_out(), [false, false]);
     hover(&mut window, "Painted, 6 triangles");
     window.click("Hide Painted");
     window.click("Show all");
-    assert_eq!(window.session().subsets().left_out(), [false, false]);
+    assert_eq!(window.session().submeshes().left_out(), [false, false]);
     assert!(!window.shows("Show all"));
 }
 
@@ -76,9 +76,9 @@ fn alone_by_the_icon_or_by_an_alt_click() {
     let mut window = open();
     hover(&mut window, "Bare, 6 triangles");
     window.click("Show Bare alone");
-    assert_eq!(window.session().subsets().left_out(), [true, false]);
+    assert_eq!(window.session().submeshes().left_out(), [true, false]);
     window.click("Show Bare alone");
-    assert_eq!(window.session().subsets().left_out(), [false, false]);
+    assert_eq!(window.session().submeshes().left_out(), [false, false]);
 
     let at = window.rect("Painted, 6").left_center() + Vec2::new(40.0, 0.0);
     let modifiers = Modifiers::ALT;
@@ -93,20 +93,20 @@ fn alone_by_the_icon_or_by_an_alt_click() {
         });
     }
     window.pass_on();
-    assert_eq!(window.session().subsets().left_out(), [false, true]);
-    assert_eq!(window.session().subsets().selected(), None);
+    assert_eq!(window.session().submeshes().left_out(), [false, true]);
+    assert_eq!(window.session().submeshes().selected(), None);
 }
 
 #[test]
 fn a_click_in_the_list_or_in_the_view_selects() {
     let mut window = open();
     window.click("Bare, 6 triangles");
-    assert_eq!(window.session().subsets().selected(), Some(1));
+    assert_eq!(window.session().submeshes().selected(), Some(1));
     for words in ["Selected: Bare", "Subset 2 of 2", "Triangles 6", "Vertices 12"] {
         assert!(window.shows(words), "{words}");
     }
     window.click("Bare, 6 triangles");
-    assert_eq!(window.session().subsets().selected(), None, "a second click lets go");
+    assert_eq!(window.session().submeshes().selected(), None, "a second click lets go");
 
     let click_at = |window: &mut Window, at| {
         window.harness.hover_at(at);
@@ -116,10 +116,10 @@ fn a_click_in_the_list_or_in_the_view_selects() {
         window.wait(0.6);
     };
     click_at(&mut window, pos2(WIDE.x * 0.5, WIDE.y * 0.5));
-    let selected = window.session().subsets().selected();
-    assert!(selected.is_some() && window.session().subsets().selected_at().is_some());
+    let selected = window.session().submeshes().selected();
+    assert!(selected.is_some() && window.session().submeshes().selected_at().is_some());
     click_at(&mut window, pos2(WIDE.x * 0.3, WIDE.y * 0.85));
-    assert_eq!(window.session().subsets().selected(), None, "there is nothing");
+    assert_eq!(window.session().submeshes().selected(), None, "there is nothing");
 }
 
 /// Types a number into a field.
@@ -199,7 +199,7 @@ fn a_colour_is_chosen_by_eye() {
     window.press(Modifiers::NONE, Key::Escape);
     assert!(!window.shows("Diffuse: number"));
     assert!(
-        window.session().subsets().selected().is_some(),
+        window.session().submeshes().selected().is_some(),
         "the picker alone was shut"
     );
 }
@@ -210,7 +210,7 @@ fn maps_that_are_missing_say_so() {
     window.click("Bare, 6 triangles");
     assert!(window.shows("Diffuse map: bare_diff.dds, missing"));
     window.click("Clear the selection");
-    assert_eq!(window.session().subsets().selected(), None);
+    assert_eq!(window.session().submeshes().selected(), None);
     window.click("Painted, 6 triangles");
     assert!(!window.shows("Maps"), "it names none");
 }

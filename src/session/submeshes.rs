@@ -1,10 +1,10 @@
-//! Which subsets of the model are drawn, and which one is selected or hovered.
+//! Which submeshes of the model are drawn, and which one is selected or hovered.
 
 use crate::scene::Hit;
 
-/// The subsets of the open model, as they are looked at.
+/// The submeshes of the open model, as they are looked at.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Subsets {
+pub struct Submeshes {
     hidden: Vec<bool>,
     solo: Option<usize>,
     /// Those that are not drawn, from both.
@@ -12,24 +12,24 @@ pub struct Subsets {
     selected: Option<usize>,
     selected_at: Option<Hit>,
     hovered: Option<usize>,
-    /// Other subsets are drawn, or stand out, since the last [`Subsets::take_redraw`].
+    /// Other submeshes are drawn, or stand out, since the last [`Submeshes::take_redraw`].
     redraw: bool,
 }
 
-impl Subsets {
+impl Submeshes {
     /// How many the model has.
     pub fn count(&self) -> usize {
         self.hidden.len()
     }
 
     /// Whether one is drawn.
-    pub fn is_visible(&self, subset: usize) -> bool {
-        self.left_out.get(subset) == Some(&false)
+    pub fn is_visible(&self, submesh: usize) -> bool {
+        self.left_out.get(submesh) == Some(&false)
     }
 
     /// Whether one was hidden by itself, whatever is shown alone now.
-    pub fn is_hidden(&self, subset: usize) -> bool {
-        self.hidden.get(subset) == Some(&true)
+    pub fn is_hidden(&self, submesh: usize) -> bool {
+        self.hidden.get(submesh) == Some(&true)
     }
 
     /// For each whether it is left out of the picture.
@@ -60,15 +60,15 @@ impl Subsets {
     /// The one that stands out in the picture: hovered and drawn. A selected one does not, so that its colours
     /// can be seen as they are.
     pub fn highlighted(&self) -> Option<usize> {
-        self.hovered.filter(|&subset| self.is_visible(subset))
+        self.hovered.filter(|&submesh| self.is_visible(submesh))
     }
 
-    /// Whether other subsets are drawn, or stand out, since the last call.
+    /// Whether other submeshes are drawn, or stand out, since the last call.
     pub(super) fn take_redraw(&mut self) -> bool {
         std::mem::take(&mut self.redraw)
     }
 
-    /// Resets to the subsets of another model. With `keeps` set and as many subsets as before, all stays as it is.
+    /// Resets to the submeshes of another model. With `keeps` set and as many submeshes as before, all stays as it is.
     pub(super) fn reset_for_model(&mut self, count: usize, keeps: bool) {
         if keeps && count == self.count() {
             // The place belongs to the vertices of the old file.
@@ -82,19 +82,23 @@ impl Subsets {
         };
     }
 
-    pub(super) fn set_visible(&mut self, subset: usize, visible: bool) {
-        if subset < self.count() {
+    pub(super) fn set_visible(&mut self, submesh: usize, visible: bool) {
+        if submesh < self.count() {
             if self.solo.take().is_some() {
                 self.hidden.clone_from(&self.left_out);
             }
-            self.hidden[subset] = !visible;
+            self.hidden[submesh] = !visible;
             self.update();
         }
     }
 
-    pub(super) fn toggle_solo(&mut self, subset: usize) {
-        if subset < self.count() {
-            self.solo = if self.solo == Some(subset) { None } else { Some(subset) };
+    pub(super) fn toggle_solo(&mut self, submesh: usize) {
+        if submesh < self.count() {
+            self.solo = if self.solo == Some(submesh) {
+                None
+            } else {
+                Some(submesh)
+            };
             self.update();
         }
     }
@@ -105,22 +109,22 @@ impl Subsets {
         self.update();
     }
 
-    pub(super) fn select(&mut self, subset: Option<usize>, at: Option<Hit>) {
-        if subset.is_none_or(|subset| subset < self.count()) {
-            (self.selected, self.selected_at) = (subset, at);
+    pub(super) fn select(&mut self, submesh: Option<usize>, at: Option<Hit>) {
+        if submesh.is_none_or(|submesh| submesh < self.count()) {
+            (self.selected, self.selected_at) = (submesh, at);
         }
     }
 
-    pub(super) fn hover(&mut self, subset: Option<usize>) {
-        if subset.is_none_or(|subset| subset < self.count()) && subset != self.hovered {
+    pub(super) fn hover(&mut self, submesh: Option<usize>) {
+        if submesh.is_none_or(|submesh| submesh < self.count()) && submesh != self.hovered {
             let before = self.highlighted();
-            self.hovered = subset;
+            self.hovered = submesh;
             self.redraw |= self.highlighted() != before;
         }
     }
 
     fn update(&mut self) {
-        let left_out = |(subset, &hidden): (usize, &bool)| self.solo.map_or(hidden, |solo| solo != subset);
+        let left_out = |(submesh, &hidden): (usize, &bool)| self.solo.map_or(hidden, |solo| solo != submesh);
         let left_out: Vec<bool> = self.hidden.iter().enumerate().map(left_out).collect();
         if left_out != self.left_out {
             self.left_out = left_out;
