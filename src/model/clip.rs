@@ -13,7 +13,7 @@ const ON_FRAME: f64 = 0.01;
 /// Its unit of time is the frame, the usual step between keys. Frames count from 0 at `start_secs` to
 /// [`Clip::last_frame`] at `end_secs`. Where a key stands on a frame, the frame's time is the key's to the bit, so that what
 /// is seen there is the key and no blend.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Clip {
     /// Name to show, unique in the model.
     pub name: String,

@@ -7,7 +7,7 @@ use super::{LocalJoint, ModelError};
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
 /// all streams have one length. Outside its range a track holds its first or last value, since the tracks of a clip may
 /// end at different times. Rotations are unit quaternions, neighbours on the same side.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     times_secs: Vec<f32>,
     translations: Vec<Vec3>,

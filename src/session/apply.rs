@@ -14,7 +14,13 @@ impl Session {
             Command::File(command) if command.opens() => self.to_go_back_to(),
             _ => None,
         };
+        let before = command.is_undoable().then(|| self.undoable());
         let changes = self.track(|session| session.perform(command));
+        if let Some(before) = before
+            && !changes.model
+        {
+            self.record_step(&before);
+        }
         if changes.need_upload() && to_go_back_to.is_some() {
             self.before = to_go_back_to;
         }
@@ -40,6 +46,7 @@ impl Session {
                 self.content.changes.materials |= self.content.materials.apply(command, of_file);
             }
             Command::Quality(command) => self.quality.apply(command),
+            Command::History(command) => self.apply_to_history(command),
             Command::SelectAt(pointer) => self.select_at(pointer),
             Command::SetHandedness(handedness) => {
                 self.view.handedness = handedness;
@@ -85,7 +92,7 @@ impl Session {
         changes.picture |= self.selection.joints.take_redraw();
         changes.picture |= self.selection.submeshes.take_redraw();
         let poses: Vec<_> = self.actors.iter().map(Actor::pose_inputs).collect();
-        changes.pose |= poses != before.poses;
+        changes.pose |= changes.clips || poses != before.poses;
         for actor in self.actors.iter_mut() {
             changes.pose |= actor.mixer.take_changed();
         }

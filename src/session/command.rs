@@ -3,6 +3,7 @@
 use glam::Vec2;
 
 use super::camera::CameraCommand;
+use super::history::HistoryCommand;
 use super::look::LookCommand;
 use super::materials::MaterialCommand;
 use super::naming::NameCommand;
@@ -35,6 +36,8 @@ pub enum Command {
     Material(MaterialCommand),
     /// Which costly passes are drawn, and how fine the picture is.
     Quality(QualityCommand),
+    /// Undo and redo.
+    History(HistoryCommand),
 
     /// Selects the bone, the vertex or the submesh that is shown at a point of the picture: x right, y up, −1…1. Either a submesh
     /// is selected, or a joint and a vertex: selecting one kind clears the other.
@@ -71,4 +74,12 @@ groups! {
     Look(LookCommand),
     Material(MaterialCommand),
     Quality(QualityCommand),
+    History(HistoryCommand),
+}
+
+impl Command {
+    /// Whether what it changes can be undone. Names that are read from where they were kept were no change of the person's.
+    pub(super) fn is_undoable(&self) -> bool {
+        !matches!(self, Self::History(_) | Self::Name(NameCommand::Import(_)))
+    }
 }

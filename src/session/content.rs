@@ -22,7 +22,7 @@ pub(super) struct Content {
     pub(super) maps: Maps,
     pub(super) materials: Materials,
     /// What joints are called.
-    pub(super) names: JointNames,
+    pub(super) names: Arc<JointNames>,
     pub(super) sky: Sky,
     /// Why the last load failed.
     pub(super) error: Option<LoadError>,

@@ -1,5 +1,7 @@
 //! Materials as they are drawn: those of the file, with the values that were edited.
 
+use std::sync::Arc;
+
 use crate::model::{Material, Reflectance};
 
 /// The greatest specular exponent that can be asked for: a highlight a few pixels wide.
@@ -20,10 +22,10 @@ pub enum MaterialCommand {
     Reset(usize),
 }
 
-/// The materials of the open model as they are drawn.
+/// The materials of the open model as they are drawn. A copy of them is cheap.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Materials {
-    drawn: Vec<Material>,
+    drawn: Arc<[Material]>,
 }
 
 impl Materials {
@@ -37,19 +39,18 @@ impl Materials {
 
     /// A model's, as its file has them.
     pub(super) fn of_file(of_file: &[Material]) -> Self {
-        Self {
-            drawn: of_file.to_vec(),
-        }
+        Self { drawn: of_file.into() }
     }
 
     /// Those of a file that was read again. Materials that were edited, unlike those of the `file_before`, stay edited, by their
     /// names.
-    pub(super) fn of_file_again(of_file: &[Material], before: Self, file_before: &[Material]) -> Self {
+    pub(super) fn of_file_again(of_file: &[Material], before: &Self, file_before: &[Material]) -> Self {
         let mut materials = Self::of_file(of_file);
-        let drawn_before = before.drawn.into_iter().zip(file_before);
-        for (edited, _) in drawn_before.filter(|(drawn, of_file)| drawn != *of_file) {
-            if let Some(drawn) = materials.drawn.iter_mut().find(|drawn| drawn.name == edited.name) {
-                *drawn = with_values(drawn, &edited);
+        let drawn_before = before.drawn.iter().zip(file_before);
+        for (edited, _) in drawn_before.filter(|(drawn, of_file)| drawn != of_file) {
+            let mut all = Arc::make_mut(&mut materials.drawn).iter_mut();
+            if let Some(drawn) = all.find(|drawn| drawn.name == edited.name) {
+                *drawn = with_values(drawn, edited);
             }
         }
         materials
@@ -66,14 +67,13 @@ impl Materials {
         material.is_some_and(|material| self.replace(index, material))
     }
 
-    fn replace(&mut self, index: usize, material: Material) -> bool {
-        match self.drawn.get_mut(index) {
-            Some(drawn) if *drawn != material => {
-                *drawn = material;
-                true
-            }
-            _ => false,
+    /// Draws a material with all of another. Returns whether that changed it.
+    pub(super) fn replace(&mut self, index: usize, material: Material) -> bool {
+        let changes = self.get(index).is_some_and(|drawn| *drawn != material);
+        if changes {
+            Arc::make_mut(&mut self.drawn)[index] = material;
         }
+        changes
     }
 }
 

@@ -4,12 +4,14 @@ mod actor;
 mod apply;
 mod camera;
 mod changes;
+mod clip_swap;
 mod command;
 mod content;
 mod event;
 mod files;
 mod framing;
 mod going_back;
+mod history;
 mod joining;
 mod joint_rows;
 mod joints;
@@ -34,6 +36,7 @@ mod sky;
 mod submeshes;
 pub mod summary;
 mod textures;
+mod undoable;
 mod view;
 mod view_state;
 
@@ -42,6 +45,7 @@ pub use changes::Changes;
 pub use command::Command;
 pub use event::Event;
 pub use files::{File, FileSet};
+pub use history::{History, HistoryCommand};
 pub use joint_rows::JointRow;
 pub use joints::{Joints, SelectedVertex};
 pub use load::{LoadError, LoadJob, LoadStep, Loaded, Progress, load};
@@ -90,6 +94,7 @@ pub struct Session {
     view: View,
     selection: Selection,
     quality: Quality,
+    history: History,
     /// Made from the parts above, and from nothing else.
     caches: Caches,
     revisions: Revisions,

@@ -1,6 +1,7 @@
 //! What joints are called.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::Session;
 use crate::model::{JointIndex, JointNames, MirrorPair, SavedNames, mirror_pairs};
@@ -25,7 +26,7 @@ pub enum NameCommand {
 
 impl Session {
     pub(super) fn apply_to_names(&mut self, command: NameCommand) {
-        let mut names = self.content.names.clone();
+        let mut names = JointNames::clone(&self.content.names);
         match command {
             NameCommand::Rename { joint, name } => {
                 if let Some(bone) = self.bone_of(joint) {
@@ -45,8 +46,12 @@ impl Session {
             }
             NameCommand::Clear => names = JointNames::default(),
         }
-        if names != self.content.names {
-            self.content.names = names;
+        self.replace_names(names);
+    }
+
+    pub(super) fn replace_names(&mut self, names: JointNames) {
+        if names != *self.content.names {
+            self.content.names = Arc::new(names);
             self.content.changes.names = true;
         }
     }

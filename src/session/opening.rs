@@ -12,7 +12,6 @@ use super::materials::Materials;
 use super::mixer::Blend;
 use super::sky::FoundSky;
 use super::{Event, Session};
-use crate::model::JointNames;
 
 /// A command about files.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +38,7 @@ impl FileCommand {
 
 /// What plays, by the names of clips.
 #[derive(Clone, Debug)]
-struct ShownClips {
+pub(super) struct ShownClips {
     shown: Option<String>,
     blended: Option<(String, f32)>,
 }
@@ -171,16 +170,19 @@ impl Session {
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
         let again = before.is_some();
+        if !before.as_ref().is_some_and(|before| self.history.fits(before, &open)) {
+            self.history.clear();
+        }
 
         let of_file = &open.model.materials;
         let materials = match before {
-            Some(before) => Materials::of_file_again(of_file, old.materials, &before.model.materials),
+            Some(before) => Materials::of_file_again(of_file, &old.materials, &before.model.materials),
             None => Materials::of_file(of_file),
         };
         let submesh_count = open.model.mesh.submeshes.len();
         self.selection.submeshes.reset_for_model(submesh_count, again);
         let same_joints = self.selection.joints.reset_for_model(&open.model, again);
-        let names = if same_joints { old.names } else { JointNames::default() };
+        let names = if same_joints { old.names } else { Arc::default() };
         if !same_joints {
             self.view.look.trails.clear();
         }
@@ -268,16 +270,21 @@ impl Session {
             self.show_clips_again(&before);
         }
         if !had_clips && self.content.clip_count() > 0 {
-            self.show_first_clip();
-            if self.playback().is_playing() {
-                self.note(Event::Play);
-            }
-            self.note(Event::TimeUpdate);
+            self.begin_first_clip();
         }
     }
 
+    /// Shows the first clip of a model that had none, and plays it unless motion is reduced.
+    pub(super) fn begin_first_clip(&mut self) {
+        self.show_first_clip();
+        if self.playback().is_playing() {
+            self.note(Event::Play);
+        }
+        self.note(Event::TimeUpdate);
+    }
+
     /// What plays, to be found again among other clips.
-    fn shown_clips(&self) -> ShownClips {
+    pub(super) fn shown_clips(&self) -> ShownClips {
         let name = |index: usize| Some(self.content.clips().get(index)?.name.clone());
         ShownClips {
             shown: self.clip_index().and_then(name),
@@ -287,7 +294,7 @@ impl Session {
 
     /// Finds what played among clips that took the places of others. Time and range stay as far as the clip has them; when its
     /// name is gone, the clip in its place is shown.
-    fn show_clips_again(&mut self, before: &ShownClips) {
+    pub(super) fn show_clips_again(&mut self, before: &ShownClips) {
         self.content.changes.clips = true;
         let Some(open) = &self.content.open else { return };
         let actor = self.actors.picked_mut();

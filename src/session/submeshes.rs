@@ -2,12 +2,28 @@
 
 use crate::scene::Hit;
 
+/// Which submeshes are shown and hidden.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Visibility {
+    /// For each whether it was hidden by itself.
+    pub(super) hidden: Vec<bool>,
+    /// The one that is shown alone.
+    pub(super) solo: Option<usize>,
+}
+
+impl Visibility {
+    /// For each whether it is left out of the picture.
+    pub(super) fn left_out(&self) -> Vec<bool> {
+        let left_out = |(submesh, &hidden): (usize, &bool)| self.solo.map_or(hidden, |solo| solo != submesh);
+        self.hidden.iter().enumerate().map(left_out).collect()
+    }
+}
+
 /// The submeshes of the open model, as they are looked at.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Submeshes {
-    hidden: Vec<bool>,
-    solo: Option<usize>,
-    /// Those that are not drawn, from both.
+    visibility: Visibility,
+    /// Those that are not drawn.
     left_out: Vec<bool>,
     selected: Option<usize>,
     selected_at: Option<Hit>,
@@ -19,7 +35,7 @@ pub struct Submeshes {
 impl Submeshes {
     /// How many the model has.
     pub fn count(&self) -> usize {
-        self.hidden.len()
+        self.visibility.hidden.len()
     }
 
     /// Whether one is drawn.
@@ -29,7 +45,7 @@ impl Submeshes {
 
     /// Whether one was hidden by itself, whatever is shown alone now.
     pub fn is_hidden(&self, submesh: usize) -> bool {
-        self.hidden.get(submesh) == Some(&true)
+        self.visibility.hidden.get(submesh) == Some(&true)
     }
 
     /// For each whether it is left out of the picture.
@@ -39,7 +55,7 @@ impl Submeshes {
 
     /// The one that is shown alone.
     pub fn solo(&self) -> Option<usize> {
-        self.solo
+        self.visibility.solo
     }
 
     /// The one that was selected.
@@ -76,25 +92,37 @@ impl Submeshes {
             return;
         }
         *self = Self {
-            hidden: vec![false; count],
+            visibility: Visibility {
+                hidden: vec![false; count],
+                solo: None,
+            },
             left_out: vec![false; count],
             ..Self::default()
         };
     }
 
+    pub(super) fn visibility(&self) -> &Visibility {
+        &self.visibility
+    }
+
+    pub(super) fn set_visibility(&mut self, visibility: Visibility) {
+        self.visibility = visibility;
+        self.update();
+    }
+
     pub(super) fn set_visible(&mut self, submesh: usize, visible: bool) {
         if submesh < self.count() {
-            if self.solo.take().is_some() {
-                self.hidden.clone_from(&self.left_out);
+            if self.visibility.solo.take().is_some() {
+                self.visibility.hidden.clone_from(&self.left_out);
             }
-            self.hidden[submesh] = !visible;
+            self.visibility.hidden[submesh] = !visible;
             self.update();
         }
     }
 
     pub(super) fn toggle_solo(&mut self, submesh: usize) {
         if submesh < self.count() {
-            self.solo = if self.solo == Some(submesh) {
+            self.visibility.solo = if self.visibility.solo == Some(submesh) {
                 None
             } else {
                 Some(submesh)
@@ -104,8 +132,8 @@ impl Submeshes {
     }
 
     pub(super) fn show_all(&mut self) {
-        self.hidden.fill(false);
-        self.solo = None;
+        self.visibility.hidden.fill(false);
+        self.visibility.solo = None;
         self.update();
     }
 
@@ -124,8 +152,7 @@ impl Submeshes {
     }
 
     fn update(&mut self) {
-        let left_out = |(submesh, &hidden): (usize, &bool)| self.solo.map_or(hidden, |solo| solo != submesh);
-        let left_out: Vec<bool> = self.hidden.iter().enumerate().map(left_out).collect();
+        let left_out = self.visibility.left_out();
         if left_out != self.left_out {
             self.left_out = left_out;
             self.redraw = true;

@@ -3,6 +3,7 @@
 mod clips;
 mod folders;
 mod going_back;
+mod history;
 mod joining;
 mod joints;
 mod loading;

@@ -6,8 +6,8 @@ use bindpose::anim::{Direction, GhostPlan, LoopMode, MAX_SPEED, MIN_SPEED, SkinV
 use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
 use bindpose::scene::{BoneStyle, Insets, Overlay, Theme, ViewPreset};
 use bindpose::session::{
-    CameraCommand, Command, Event, File, FileCommand, JointCommand, LookCommand, MaterialCommand, NameCommand,
-    PlayCommand, Session, SubmeshCommand,
+    CameraCommand, Command, Event, File, FileCommand, HistoryCommand, JointCommand, LookCommand, MaterialCommand,
+    NameCommand, PlayCommand, Session, SubmeshCommand,
 };
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -246,6 +246,12 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         prop::sample::select(vec![Theme::Dark, Theme::Light]).prop_map(Command::SetTheme),
         vector().prop_map(Command::SelectAt),
     ];
+    let history = prop::sample::select(vec![
+        HistoryCommand::Undo,
+        HistoryCommand::Redo,
+        HistoryCommand::BeginEdit,
+        HistoryCommand::EndEdit,
+    ]);
     prop_oneof![
         6 => playing.prop_map(Command::Play),
         4 => timeline().prop_map(Command::Play),
@@ -259,6 +265,7 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         3 => look.prop_map(Command::Look),
         2 => material_command().prop_map(Command::Material),
         5 => files.prop_map(Command::File),
+        4 => history.prop_map(Command::History),
     ]
 }
 
