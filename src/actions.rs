@@ -1,11 +1,20 @@
 //! The table of actions: what a person can ask for by a key, a button or a line of a menu. Keys, the table of keys, tooltips, menus
 //! and the README's table all read it, so a new action with its key is one entry here.
 //!
-//! Keys are words as people read them: `Shift Space`, `Ctrl 1`, `←`. This module knows no window.
+//! Keys are words as people read them: `Shift Space`, `Ctrl Z`, `←`. This module knows no window.
+
+use glam::Vec2;
 
 use crate::anim::{Direction, SkinView};
 use crate::scene::{Overlay, Projection, ViewPreset};
-use crate::session::{CameraCommand, Command, LookCommand, PlayCommand, Session};
+use crate::session::{CameraCommand, Command, HistoryCommand, LookCommand, PlayCommand, Session};
+
+/// A key turns the camera by 5 degrees: fine enough for one press, and held it goes half round the model in a second.
+const ORBIT_STEP_RADIANS: f32 = std::f32::consts::PI / 36.0;
+/// A key moves the camera by this fraction of the picture's height.
+const PAN_STEP: f32 = 0.04;
+/// A key scales the distance by this, or by its inverse.
+const ZOOM_STEP: f32 = 1.08;
 
 /// What an action asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,7 +159,7 @@ pub fn rows(group: Group) -> impl Iterator<Item = Row> {
         .filter(move |row| row[0].group == group && !row[0].key().is_empty())
 }
 
-/// The keys of a row: `← →`, `Shift ← →`, `F, Shift F`.
+/// The keys of a row: `[ ]`, `Shift ←→`, `F, Shift F`.
 pub fn keys_of(row: Row) -> String {
     let keys: Vec<&str> = row.iter().map(Action::key).collect();
     let split = |key: &&'static str| key.rsplit_once(' ').unwrap_or(("", key));
@@ -159,7 +168,9 @@ pub fn keys_of(row: Row) -> String {
         return keys.join(", ");
     }
     let keys: Vec<&str> = row.iter().map(|action| split(&action.key()).1).collect();
-    format!("{first_modifier} {}", keys.join(" ")).trim().to_owned()
+    let are_arrows = keys.iter().all(|key| "←→↑↓".contains(key));
+    let keys = keys.join(if are_arrows { "" } else { " " });
+    format!("{first_modifier} {keys}").trim().to_owned()
 }
 
 /// The key that asks for a command now; empty if none does.
@@ -189,6 +200,32 @@ fn ask(command: impl Into<Command>) -> Option<Ask> {
 
 fn glide(command: CameraCommand) -> Option<Ask> {
     ask(CameraCommand::Glide(Box::new(command)))
+}
+
+/// Looks from a side; if the camera does so already, from the opposite side.
+fn look_from(session: &Session, side: ViewPreset, opposite: ViewPreset) -> Option<Ask> {
+    let preset = if session.looks_from(side) { opposite } else { side };
+    glide(CameraCommand::LookFrom(preset))
+}
+
+/// Turns the camera by steps to its left and up.
+fn orbit(left: f32, up: f32) -> Option<Ask> {
+    glide(CameraCommand::Orbit {
+        yaw_radians: left * ORBIT_STEP_RADIANS,
+        pitch_radians: up * ORBIT_STEP_RADIANS,
+    })
+}
+
+/// Moves the camera by steps to its left and up.
+fn pan(left: f32, up: f32) -> Option<Ask> {
+    glide(CameraCommand::Pan {
+        drag: Vec2::new(left, up) * PAN_STEP,
+    })
+}
+
+fn zoom(factor: f32) -> Option<Ask> {
+    let pointer = Vec2::ZERO;
+    glide(CameraCommand::Zoom { factor, pointer })
 }
 
 /// Asks only for a model that has bones.
@@ -296,6 +333,26 @@ actions! {
     /// To the previous clip.
     PREVIOUS_CLIP: Action::new(Group::Time, &["Shift C"], "previous clip", "Previous clip", |_| ask(PlayCommand::CycleClip(-1)));
 
+    /// Turn the camera to its left.
+    ORBIT_LEFT: Action::new(Group::Camera, &["Alt ←"], "orbit", "Orbit left", |_| orbit(1.0, 0.0)).repeats();
+    /// Turn the camera to its right.
+    ORBIT_RIGHT: Action::new(Group::Camera, &["Alt →"], "orbit", "Orbit right", |_| orbit(-1.0, 0.0)).repeats();
+    /// Lift the camera.
+    ORBIT_UP: Action::new(Group::Camera, &["Alt ↑"], "orbit", "Orbit up", |_| orbit(0.0, 1.0)).repeats();
+    /// Lower the camera.
+    ORBIT_DOWN: Action::new(Group::Camera, &["Alt ↓"], "orbit", "Orbit down", |_| orbit(0.0, -1.0)).repeats();
+    /// Move the camera to its left.
+    PAN_LEFT: Action::new(Group::Camera, &["Alt Shift ←"], "pan", "Pan left", |_| pan(1.0, 0.0)).repeats();
+    /// Move the camera to its right.
+    PAN_RIGHT: Action::new(Group::Camera, &["Alt Shift →"], "pan", "Pan right", |_| pan(-1.0, 0.0)).repeats();
+    /// Move the camera up.
+    PAN_UP: Action::new(Group::Camera, &["Alt Shift ↑"], "pan", "Pan up", |_| pan(0.0, 1.0)).repeats();
+    /// Move the camera down.
+    PAN_DOWN: Action::new(Group::Camera, &["Alt Shift ↓"], "pan", "Pan down", |_| pan(0.0, -1.0)).repeats();
+    /// Bring the camera nearer.
+    ZOOM_IN: Action::new(Group::Camera, &["+", "="], "zoom in, out", "Zoom in", |_| zoom(1.0 / ZOOM_STEP)).repeats();
+    /// Take the camera farther away.
+    ZOOM_OUT: Action::new(Group::Camera, &["−"], "zoom in, out", "Zoom out", |_| zoom(ZOOM_STEP)).repeats();
     /// Frame what is selected, or the model.
     FRAME_SELECTION: Action::new(Group::Camera, &["F"], "frame the selection, all", "Frame the selection", |_| {
         glide(CameraCommand::FrameSelection)
@@ -304,19 +361,17 @@ actions! {
     FRAME_MODEL: Action::new(Group::Camera, &["Shift F"], "frame the selection, all", "Frame the model", |_| {
         glide(CameraCommand::FrameModel)
     });
-    /// View from the front.
-    FRONT: Action::new(Group::Camera, &["1"], "front, right, top", "Front", |_| glide(CameraCommand::LookFrom(ViewPreset::Front)));
-    /// View from the right.
-    RIGHT: Action::new(Group::Camera, &["3"], "front, right, top", "Right", |_| glide(CameraCommand::LookFrom(ViewPreset::Right)));
-    /// View from above.
-    TOP: Action::new(Group::Camera, &["7"], "front, right, top", "Top", |_| glide(CameraCommand::LookFrom(ViewPreset::Top)));
-    /// View from the back.
-    BACK: Action::new(Group::Camera, &["Ctrl 1"], "the opposite side", "Back", |_| glide(CameraCommand::LookFrom(ViewPreset::Back)));
-    /// View from the left.
-    LEFT: Action::new(Group::Camera, &["Ctrl 3"], "the opposite side", "Left", |_| glide(CameraCommand::LookFrom(ViewPreset::Left)));
-    /// View from below.
-    BOTTOM: Action::new(Group::Camera, &["Ctrl 7"], "the opposite side", "Bottom", |_| {
-        glide(CameraCommand::LookFrom(ViewPreset::Bottom))
+    /// View from the front, or else from the back.
+    FRONT: Action::new(Group::Camera, &["1"], "front; again: back", "Front", |session| {
+        look_from(session, ViewPreset::Front, ViewPreset::Back)
+    });
+    /// View from the right, or else from the left.
+    RIGHT: Action::new(Group::Camera, &["3"], "right; again: left", "Right", |session| {
+        look_from(session, ViewPreset::Right, ViewPreset::Left)
+    });
+    /// View from above, or else from below.
+    TOP: Action::new(Group::Camera, &["7"], "top; again: bottom", "Top", |session| {
+        look_from(session, ViewPreset::Top, ViewPreset::Bottom)
     });
     /// Orthographic or perspective.
     ORTHOGRAPHIC: Action::new(Group::Camera, &["5"], "orthographic", "Orthographic", |_| ask(CameraCommand::ToggleProjection))
@@ -385,6 +440,20 @@ actions! {
     /// Axes of the world.
     AXES: Action::new(Group::Picture, &["X"], "axes", "Axes", |_| ask(LookCommand::ToggleOverlay(Overlay::Axes)))
         .now(|session| overlay_on(session, Overlay::Axes));
+    /// Take the last edit back.
+    UNDO: Action::new(Group::Picture, &["Ctrl Z"], "undo", "Undo", |session| {
+        session.history().undo_label()?;
+        ask(HistoryCommand::Undo)
+    })
+    .repeats()
+    .without_shift();
+    /// Do again what was undone.
+    REDO: Action::new(Group::Picture, &["Ctrl Shift Z", "Ctrl Y"], "redo", "Redo", |session| {
+        session.history().redo_label()?;
+        ask(HistoryCommand::Redo)
+    })
+    .repeats()
+    .without_shift();
     /// Read the open files again.
     READ_AGAIN: Action::new(Group::Picture, &["R"], "read the files again", "Read the files again", |_| Some(Ask::ReadAgain))
         .without_shift();
@@ -421,10 +490,11 @@ mod tests {
             let mut all = Group::ALL.into_iter().flat_map(rows);
             keys_of(all.find(|row| row[0].does == does).expect("a row"))
         };
-        assert_eq!(row_of("one frame"), "← →");
-        assert_eq!(row_of("ten frames"), "Shift ← →");
+        assert_eq!(row_of("one frame"), "←→");
+        assert_eq!(row_of("ten frames"), "Shift ←→");
+        assert_eq!(row_of("first, last frame"), "Home End");
         assert_eq!(row_of("frame the selection, all"), "F, Shift F");
-        assert_eq!(row_of("the opposite side"), "Ctrl 1 3 7");
+        assert_eq!(row_of("pan"), "Alt Shift ←→↑↓");
     }
 
     #[test]

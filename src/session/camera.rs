@@ -10,6 +10,9 @@ use crate::scene::{Camera, Insets, Projection, ViewPreset};
 /// Flight ends this far from the scene's middle, in radii of the scene: where zooming ends too.
 const FARTHEST_RADII: f32 = 100.0;
 
+/// Directions that differ by less, as unit vectors, are the same: a hundredth of what a key turns the camera by.
+const LOOKS_FROM_TOLERANCE: f32 = 1e-3;
+
 /// A command about the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraCommand {
@@ -208,6 +211,14 @@ impl Session {
         let distance = (camera.distance * factor).clamp(radius * 1e-2, radius * 100.0);
         camera.zoom(distance / camera.distance, pointer);
         *framed = false;
+    }
+
+    /// Whether the camera looks from a named direction, or is on its way there.
+    pub fn looks_from(&self, preset: ViewPreset) -> bool {
+        let camera = self.view.motion.goal().unwrap_or(self.view.camera);
+        let mut from = camera;
+        from.look_from(preset);
+        camera.forward().abs_diff_eq(from.forward(), LOOKS_FROM_TOLERANCE)
     }
 
     /// Whether the camera turns about the model by itself.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
+use super::undoable::brief;
 use super::{Event, Session};
 use crate::anim::{CompiledClip, Playback};
 use crate::diagnostic::Diagnostic;
@@ -75,7 +76,7 @@ impl ClipSwap {
             }
         };
         match (count, first) {
-            (1, Some(clip)) => format!("{verb} clip {}", clip.name),
+            (1, Some(clip)) => format!("{verb} clip {}", brief(&clip.name)),
             _ => format!("{verb} {count} clips"),
         }
     }

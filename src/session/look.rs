@@ -63,7 +63,7 @@ pub enum LookCommand {
     SetSplit(Option<f32>),
     /// What of a surface is shown.
     SetViewMode(ViewMode),
-    /// The view mode some places further in the menu.
+    /// The view mode some places further in the menu. While the skin is shown in colours, the view mode without them.
     CycleViewMode(i32),
     /// What is behind the model.
     SetBackground(Background),
@@ -113,7 +113,11 @@ impl Look {
             LookCommand::ToggleLight => self.light = self.light.other(),
             LookCommand::SetSplit(split) => self.split = split.filter(|at| at.is_finite()).map(|at| at.clamp(0.0, 1.0)),
             LookCommand::SetViewMode(mode) => self.view_mode = mode,
-            LookCommand::CycleViewMode(places) => self.view_mode = self.view_mode.cycled(places),
+            // The colours of the skin cover the view mode: they go first, so that something visible happens.
+            LookCommand::CycleViewMode(places) => match self.skin_view.take() {
+                Some(_) => {}
+                None => self.view_mode = self.view_mode.cycled(places),
+            },
             LookCommand::SetBackground(background) => self.background = background,
             LookCommand::SetOverlay(overlay, visible) => self.overlays.set(overlay, visible),
             LookCommand::ToggleOverlay(overlay) => self.overlays.set(overlay, !self.overlays.has(overlay)),

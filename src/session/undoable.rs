@@ -49,6 +49,17 @@ pub(super) enum Value {
     NormalGreenFlipped(bool),
 }
 
+/// A name, cut where it is too long for a line of a menu.
+pub(super) fn brief(name: &str) -> String {
+    const MOST_CHARS: usize = 24;
+    if name.chars().count() <= MOST_CHARS {
+        return name.to_owned();
+    }
+    let mut cut: String = name.chars().take(MOST_CHARS - 1).collect();
+    cut.push('…');
+    cut
+}
+
 impl Value {
     /// Whether both are values of one thing.
     pub(super) fn is_of_the_same_thing_as(&self, other: &Self) -> bool {
@@ -174,11 +185,11 @@ impl Session {
         match value {
             Value::Material { index, material } => {
                 let verb = if self.is_edited(*index) { "edit" } else { "reset" };
-                format!("{verb} {}", material.name)
+                format!("{verb} {}", brief(&material.name))
             }
             Value::Names(names) => match names.first_key_value() {
                 Some((&bone, _)) if names.len() == 1 => match self.joint_names().get(bone as u32) {
-                    Some(name) => format!("name bone {bone} {name}"),
+                    Some(name) => format!("name bone {bone} {}", brief(name)),
                     None => format!("remove the name of bone {bone}"),
                 },
                 _ => format!("name {} bones", names.len()),
@@ -198,7 +209,7 @@ impl Session {
         let name = |index: usize| {
             let open = self.open_model()?;
             let submesh = open.model.mesh.submeshes.get(index)?;
-            Some(self.materials().get(submesh.material as usize)?.name.as_str())
+            Some(brief(&self.materials().get(submesh.material as usize)?.name))
         };
         let name = |index| name(index).unwrap_or_default();
         let was_left_out = then.left_out();

@@ -1,5 +1,7 @@
 //! One family of icons, drawn with lines of one weight in a box of 16 units.
 
+use std::f32::consts::FRAC_PI_2;
+
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
 /// Line weight in points.
@@ -64,6 +66,10 @@ pub(super) enum Icon {
     EyeOff,
     /// Nothing but this.
     Solo,
+    /// Take the last edit back.
+    Undo,
+    /// Do again what was undone.
+    Redo,
     /// What keys do.
     Help,
     /// Take away.
@@ -218,6 +224,18 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             for (x, y) in [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)] {
                 line(&[(8.0 + 4.6 * x, 8.0 + 4.6 * y), (8.0 + 6.6 * x, 8.0 + 6.6 * y)]);
             }
+        }
+        Icon::Undo => {
+            line(&[(5.8, 2.6), (2.6, 5.8), (5.8, 9.0)]);
+            line(&[(2.6, 5.8), (9.8, 5.8)]);
+            arc(9.8, 9.4, 3.6, -FRAC_PI_2, FRAC_PI_2);
+            line(&[(9.8, 13.0), (5.4, 13.0)]);
+        }
+        Icon::Redo => {
+            line(&[(10.2, 2.6), (13.4, 5.8), (10.2, 9.0)]);
+            line(&[(13.4, 5.8), (6.2, 5.8)]);
+            arc(6.2, 9.4, 3.6, FRAC_PI_2, 3.0 * FRAC_PI_2);
+            line(&[(6.2, 13.0), (10.6, 13.0)]);
         }
         Icon::Help => {
             arc(8.0, 5.9, 2.9, 2.0, 4.9);

@@ -98,6 +98,34 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
     events.iter().position(waits).unwrap_or(events.len())
 }
 
+/// What holds a value while it changes. What changes until it lets go is one step to undo.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Grip {
+    /// A button of the pointer, or a finger.
+    Pointer,
+    /// The text field that has the focus.
+    Field(Id),
+    /// An arrow key in the control that has the focus.
+    Arrow(Id),
+}
+
+impl Grip {
+    /// What holds a value as a pass begins.
+    pub(super) fn now(ctx: &Context) -> Option<Self> {
+        const ARROWS: [Key; 4] = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+        if ctx.input(|input| input.pointer.any_down()) {
+            return Some(Self::Pointer);
+        }
+        let focused = ctx.memory(|memory| memory.focused())?;
+        if ctx.text_edit_focused() {
+            Some(Self::Field(focused))
+        } else {
+            let held = ctx.input(|input| ARROWS.into_iter().any(|key| input.key_down(key)));
+            held.then_some(Self::Arrow(focused))
+        }
+    }
+}
+
 /// Which widget had the focus when the last pass ended, and which button opened the popover.
 #[derive(Debug, Default)]
 pub(super) struct Keyboard {

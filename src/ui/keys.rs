@@ -43,13 +43,20 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
 
 /// The action of a key that is pressed. Shift is ignored where it has no meaning of its own.
 fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
-    if modifiers.alt {
+    // The Mac's Command and Y are the browser's.
+    if modifiers.mac_cmd && key == Key::Y {
         return None;
     }
     let with = |shift: bool| {
+        let pressed = Shortcut {
+            shift,
+            ctrl: modifiers.command,
+            alt: modifiers.alt,
+            key,
+        };
         actions::ALL.iter().find(|action| {
             let mut shortcuts = action.keys.iter().filter_map(|words| shortcut(words));
-            shortcuts.any(|(of_shift, ctrl, of_key)| (of_shift, ctrl, of_key) == (shift, modifiers.command, key))
+            shortcuts.any(|shortcut| shortcut == pressed)
         })
     };
     with(modifiers.shift).or_else(|| {
@@ -58,10 +65,19 @@ fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
     })
 }
 
-/// A key of the table, `Ctrl 1`: whether Shift and Ctrl (or the Mac's Command) are held, and the key. None for `?`, which is typed
-/// as a text.
-fn shortcut(words: &str) -> Option<(bool, bool, Key)> {
-    let (modifier, key) = words.rsplit_once(' ').unwrap_or(("", words));
+/// A key with what is held beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shortcut {
+    shift: bool,
+    /// Ctrl, or the Mac's Command.
+    ctrl: bool,
+    alt: bool,
+    key: Key,
+}
+
+/// A key of the table, `Ctrl Shift Z`. None for `?`, which is typed as a text.
+fn shortcut(words: &str) -> Option<Shortcut> {
+    let (modifiers, key) = words.rsplit_once(' ').unwrap_or(("", words));
     let key = match key {
         "←" => Key::ArrowLeft,
         "→" => Key::ArrowRight,
@@ -70,7 +86,13 @@ fn shortcut(words: &str) -> Option<(bool, bool, Key)> {
         "?" => return None,
         name => Key::from_name(name)?,
     };
-    Some((modifier == "Shift", modifier == "Ctrl", key))
+    let has = |modifier: &str| modifiers.split(' ').any(|word| word == modifier);
+    Some(Shortcut {
+        shift: has("Shift"),
+        ctrl: has("Ctrl"),
+        alt: has("Alt"),
+        key,
+    })
 }
 
 /// Does what a key or a button asks for.
@@ -186,9 +208,9 @@ mod tests {
             Key::P,
             Key::V,
             Key::X,
-            Key::Z,
+            Key::Num1,
             Key::Num5,
-            Key::ArrowLeft,
+            Key::Home,
         ];
         for key in keys {
             for modifiers in [Modifiers::COMMAND, Modifiers::ALT] {
@@ -222,14 +244,44 @@ mod tests {
     }
 
     #[test]
-    fn ctrl_looks_from_the_opposite_side() {
+    fn alt_and_arrows_move_the_camera_and_alone_they_step() {
+        let camera = |modifiers| match command_for(Key::ArrowLeft, modifiers) {
+            Some(Command::Camera(CameraCommand::Glide(command))) => Some(*command),
+            _ => None,
+        };
+        assert!(matches!(camera(Modifiers::ALT), Some(CameraCommand::Orbit { yaw_radians, .. }) if yaw_radians > 0.0));
+        let pans = camera(Modifiers::ALT | Modifiers::SHIFT);
+        assert!(matches!(pans, Some(CameraCommand::Pan { drag }) if drag.x > 0.0));
+        assert!(owns_key(Key::ArrowLeft, Modifiers::ALT), "the browser would go back");
+        let ctrl_alt = Modifiers::ALT | Modifiers::COMMAND;
+        assert!(camera(Modifiers::NONE).is_none() && camera(ctrl_alt).is_none());
+        // Plus needs Shift on some keyboards.
+        for (key, modifiers) in [
+            (Key::Plus, Modifiers::SHIFT),
+            (Key::Equals, Modifiers::NONE),
+            (Key::Minus, Modifiers::NONE),
+        ] {
+            assert!(
+                matches!(command_for(key, modifiers), Some(Command::Camera(_))),
+                "{key:?}"
+            );
+            assert!(!owns_key(key, Modifiers::COMMAND), "the browser zooms the page");
+        }
+    }
+
+    #[test]
+    fn undo_and_redo_have_their_usual_keys() {
+        let shift = Modifiers::COMMAND | Modifiers::SHIFT;
+        let label = |key, modifiers| action_of(key, modifiers).map(|action| action.label);
+        assert_eq!(label(Key::Z, Modifiers::COMMAND), Some("Undo"));
+        assert_eq!(label(Key::Z, shift), Some("Redo"));
+        assert_eq!(label(Key::Y, Modifiers::COMMAND), Some("Redo"));
         assert_eq!(
-            command_for(Key::Num1, Modifiers::NONE),
-            Some(CameraCommand::Glide(Box::new(CameraCommand::LookFrom(ViewPreset::Front))).into())
+            label(Key::Y, Modifiers::COMMAND | Modifiers::MAC_CMD),
+            None,
+            "the browser's history"
         );
-        assert_eq!(
-            command_for(Key::Num1, Modifiers::COMMAND),
-            Some(CameraCommand::Glide(Box::new(CameraCommand::LookFrom(ViewPreset::Back))).into())
-        );
+        assert_eq!(label(Key::Y, shift), None);
+        assert_eq!(label(Key::Z, Modifiers::NONE), Some("Wireframe"));
     }
 }

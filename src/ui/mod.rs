@@ -32,8 +32,8 @@ pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 
 use crate::scene::{Insets, Theme};
-use crate::session::{CameraCommand, Command, Session, SubmeshCommand};
-use input::{InputOrder, MOST_PASSES};
+use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCommand};
+use input::{Grip, InputOrder, MOST_PASSES};
 use state::Framed;
 use theme::MARGIN;
 
@@ -62,6 +62,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.skeleton.read(ui, session, window);
     let session = &*session;
     commands.push(set_theme(ui));
+    let grip = Grip::now(ui.ctx());
+    begin_edit(state, grip, &mut commands);
     // It was set in an earlier pass. By now the panels about the selection are open.
     let frames_selection = std::mem::take(&mut state.frames_selection);
     // A click outside of a popover closes it and does nothing else. So does Esc.
@@ -95,7 +97,24 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     }
     let escape_shut = escape_shuts && ui.input(|input| input.key_pressed(egui::Key::Escape));
     state.keyboard.give_back(ui.ctx(), popover_open, escape_shut);
+    end_edit(state, grip, &mut commands);
     commands
+}
+
+/// Begins a step to undo if something else holds a value than in the pass before.
+fn begin_edit(state: &mut UiState, grip: Option<Grip>, commands: &mut Vec<Command>) {
+    if grip.is_some() && state.grip != grip {
+        end_edit(state, None, commands);
+        commands.push(HistoryCommand::BeginEdit.into());
+        state.grip = grip;
+    }
+}
+
+/// Ends the step if nothing holds a value any more. The pass in which the pointer is released may still change it.
+fn end_edit(state: &mut UiState, grip: Option<Grip>, commands: &mut Vec<Command>) {
+    if grip.is_none() && state.grip.take().is_some() {
+        commands.push(HistoryCommand::EndEdit.into());
+    }
 }
 
 fn set_theme(ui: &Ui) -> Command {

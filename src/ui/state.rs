@@ -2,7 +2,7 @@
 
 use egui::{Rect, Ui};
 
-use super::input::Keyboard;
+use super::input::{Grip, Keyboard};
 use super::skeleton::state::SkeletonState;
 use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
@@ -87,6 +87,7 @@ pub struct UiState {
     pub(super) vertex_count: VertexCount,
     pub(super) skeleton: SkeletonState,
     pub(super) keyboard: Keyboard,
+    pub(super) grip: Option<Grip>,
     pub(super) requests: Vec<Request>,
 }
 

@@ -9,11 +9,12 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, Tokens};
 use super::widgets::{
-    TextButton, action_button, chip, chip_size, icon_button, keyed_menu_item, menu_item, section_name, valued_menu_item,
+    TextButton, action_button, chip, chip_size, control_size, icon_button, keyed_menu_item, menu_item, section_name,
+    valued_menu_item,
 };
 use super::wording::dialect_name;
 use super::{light, overlays, picture};
-use crate::actions;
+use crate::actions::{self, Action};
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
 use crate::session::{CameraCommand, Command, LookCommand, Session};
@@ -26,6 +27,8 @@ const LIGHT_WIDTH: f32 = 288.0;
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
 /// Width of the menus of view modes and directions.
 const MENU_WIDTH: f32 = 190.0;
+/// The least room for undo and redo too, in buttons: the title has its place beside them.
+const LEAST_WITH_HISTORY: f32 = 22.0;
 /// Room between buttons.
 const SPACING: f32 = 4.0;
 
@@ -33,6 +36,15 @@ const SPACING: f32 = 4.0;
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = SPACING;
+        let has_room = ui.available_width() >= LEAST_WITH_HISTORY * control_size(ui);
+        for (action, icon, label) in history(session).into_iter().filter(|_| has_room) {
+            let hint = action.hint_of(&label);
+            ui.add_enabled_ui(action.ask(session).is_some(), |ui| {
+                if icon_button(ui, icon, &hint, false).clicked() {
+                    commands.extend(action.command(session));
+                }
+            });
+        }
         view_mode_menu(ui, session, commands);
         light_button(ui, session, commands);
         overlays_button(ui, session, &mut state.skeleton, commands);
@@ -47,6 +59,19 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
             state.help_open = !state.help_open;
         }
     });
+}
+
+/// Undo and redo, with what they would do: `Undo: hide head`.
+fn history(session: &Session) -> [(&'static Action, Icon, String); 2] {
+    let history = session.history();
+    let labelled = |action: &'static Action, icon, label: Option<&str>| {
+        let label = label.map_or(action.label.to_owned(), |label| format!("{}: {label}", action.label));
+        (action, icon, label)
+    };
+    [
+        labelled(&actions::UNDO, Icon::Undo, history.undo_label()),
+        labelled(&actions::REDO, Icon::Redo, history.redo_label()),
+    ]
 }
 
 /// In a narrow window, from the right edge. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
@@ -166,6 +191,14 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
             ui.close();
         }
     }
+    for (action, _, label) in history(session) {
+        if let Some(command) = action.command(session)
+            && menu_item(ui, &label, false).clicked()
+        {
+            commands.push(command);
+            ui.close();
+        }
+    }
     for action in [&actions::FRAME_MODEL, &actions::TURNTABLE] {
         if menu_item(ui, action.label, action.is_on(session)).clicked() {
             commands.extend(action.command(session));
@@ -188,8 +221,8 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     let (in_force, skin_view) = (session.look().view_mode, session.look().skin_view);
     let mut chosen = false;
     for mode in ViewMode::ALL {
-        // The key chooses the next mode.
-        let key = if mode == in_force.cycled(1) {
+        // The key chooses the next mode. From a view of the skin it goes back to the mode.
+        let key = if mode == in_force.cycled(i32::from(skin_view.is_none())) {
             actions::NEXT_VIEW_MODE.key()
         } else {
             ""

@@ -183,19 +183,23 @@ fn l_and_c_go_round() {
 }
 
 #[test]
-fn digits_look_from_named_sides() {
+fn digits_look_from_named_sides_and_again_from_the_opposite_ones() {
     let mut window = open();
-    for (modifiers, key, preset) in [
-        (PLAIN, Key::Num1, ViewPreset::Front),
-        (PLAIN, Key::Num3, ViewPreset::Right),
-        (PLAIN, Key::Num7, ViewPreset::Top),
-        (CTRL, Key::Num1, ViewPreset::Back),
-        (CTRL, Key::Num3, ViewPreset::Left),
-        (CTRL, Key::Num7, ViewPreset::Bottom),
-        (PLAIN, Key::Num9, ViewPreset::Isometric),
-        (PLAIN, Key::Num0, ViewPreset::ThreeQuarter),
+    for (key, preset) in [
+        (Key::Num1, ViewPreset::Front),
+        (Key::Num1, ViewPreset::Back),
+        (Key::Num1, ViewPreset::Front),
+        (Key::Num3, ViewPreset::Right),
+        (Key::Num3, ViewPreset::Left),
+        (Key::Num7, ViewPreset::Top),
+        (Key::Num7, ViewPreset::Bottom),
+        (Key::Num7, ViewPreset::Top),
+        (Key::Num1, ViewPreset::Front),
+        (Key::Num9, ViewPreset::Isometric),
+        (Key::Num9, ViewPreset::Isometric),
+        (Key::Num0, ViewPreset::ThreeQuarter),
     ] {
-        window.press(modifiers, key);
+        window.press(PLAIN, key);
         let camera = window.session().camera();
         assert_eq!(
             (camera.yaw_radians, camera.pitch_radians),
@@ -207,6 +211,72 @@ fn digits_look_from_named_sides() {
     assert_eq!(window.session().camera().projection, Projection::Orthographic);
     window.press(PLAIN, Key::Num0);
     assert_ne!(window.session().camera().projection, Projection::Orthographic);
+}
+
+#[test]
+fn alt_and_arrows_orbit_and_pan_and_plus_and_minus_zoom() {
+    let mut window = open();
+    let alt_shift = Modifiers::ALT | Modifiers::SHIFT;
+    let change = |window: &mut Window, modifiers, key| {
+        let before = *window.session().camera();
+        window.press(modifiers, key);
+        (before, *window.session().camera())
+    };
+    for (key, right, up) in [
+        (Key::ArrowLeft, -1.0, 0.0),
+        (Key::ArrowRight, 1.0, 0.0),
+        (Key::ArrowUp, 0.0, 1.0),
+        (Key::ArrowDown, 0.0, -1.0),
+    ] {
+        let wanted = vec2(right, up);
+        let (before, after) = change(&mut window, Modifiers::ALT, key);
+        let way = after.eye() - before.eye();
+        let turned = vec2(way.dot(before.right()), way.dot(before.up())).normalized();
+        assert!((turned - wanted).length() < 0.2, "{key:?} takes the eye {turned:?}");
+        assert_eq!(after.target, before.target);
+
+        let (before, after) = change(&mut window, alt_shift, key);
+        let way = after.target - before.target;
+        let moved = vec2(way.dot(before.right()), way.dot(before.up())).normalized();
+        assert!((moved - wanted).length() < 1e-3, "{key:?} takes the camera {moved:?}");
+        assert_eq!(
+            (after.yaw_radians, after.distance),
+            (before.yaw_radians, before.distance)
+        );
+    }
+    for (modifiers, key, nearer) in [
+        (PLAIN, Key::Plus, true),
+        (SHIFT, Key::Plus, true),
+        (PLAIN, Key::Equals, true),
+        (PLAIN, Key::Minus, false),
+    ] {
+        let (before, after) = change(&mut window, modifiers, key);
+        assert_eq!(after.distance < before.distance, nearer, "{key:?}");
+        assert_ne!(after.distance, before.distance, "{key:?}");
+    }
+    assert_eq!(window.time_secs(), 0.0, "no frame was stepped");
+}
+
+#[test]
+fn t_shows_the_view_mode_again_before_it_goes_on() {
+    let mut window = open();
+    window.press(PLAIN, Key::W);
+    assert!(window.session().look().skin_view.is_some());
+    let mode = window.session().look().view_mode;
+    window.press(PLAIN, Key::T);
+    let look = window.session().look();
+    assert_eq!(
+        (look.skin_view, look.view_mode),
+        (None, mode),
+        "the colours of the skin go"
+    );
+    window.press(PLAIN, Key::T);
+    assert_eq!(window.session().look().view_mode, mode.cycled(1));
+    window.press(PLAIN, Key::W);
+    window.press(SHIFT, Key::T);
+    window.press(SHIFT, Key::T);
+    let look = window.session().look();
+    assert_eq!((look.skin_view, look.view_mode), (None, mode));
 }
 
 #[test]
@@ -357,7 +427,7 @@ fn keys_of_the_browser_do_nothing_here() {
         Key::N,
         Key::P,
         Key::V,
-        Key::Z,
+        Key::Num1,
         Key::Num5,
         Key::Home,
     ] {

@@ -33,3 +33,4 @@ mod skeleton;
 mod split;
 mod submeshes;
 mod timeline;
+mod undo;

@@ -28,7 +28,7 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Res
     let place = vec2(side - 2.0 * ui.spacing().button_padding.x, ICON_SIZE);
     let response = ui.add(Button::selectable(on, icon_atom(icon, place)).min_size(Vec2::splat(side)));
     focus_ring(ui, response.rect, &response);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, label));
     response.on_hover_text(label)
 }
 

@@ -107,7 +107,10 @@ fn each_kind_of_edit_is_a_step_with_its_words() {
         (PlayCommand::SetRangeStart(Some(0.25)).into(), "set the range"),
         (PlayCommand::SetRangeEnd(Some(0.5)).into(), "set the range"),
         (PlayCommand::SelectClip(1).into(), "clear the range"),
-        (PlayCommand::SetWrapMode(WrapMode::BookDemo).into(), "loop: As the book's demo"),
+        (
+            PlayCommand::SetWrapMode(WrapMode::BookDemo).into(),
+            "loop: As the book's demo",
+        ),
         (Command::SetHandedness(Some(Handedness::Right)), "set the handedness"),
         (Command::SetUpAxis(Some(UpAxis::Z)), "set the up axis"),
         (
