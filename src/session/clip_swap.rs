@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
-use super::undoable::brief;
-use super::{Event, Session};
-use crate::anim::{CompiledClip, Playback};
+use crate::anim::CompiledClip;
 use crate::diagnostic::Diagnostic;
 use crate::model::Clip;
 
@@ -66,18 +64,14 @@ impl ClipSwap {
         })
     }
 
-    /// What the step did, in words: `add clip walk`, `add 3 clips`.
-    pub(super) fn label(&self, now: &OpenModel) -> String {
-        let (verb, count, first) = match (self.clips.first(), self.count_now) {
-            (Some(kept), 0) => ("remove", self.clips.len(), Some(&kept.clip)),
-            (first, count) => {
-                let verb = if first.is_some() { "replace" } else { "add" };
-                (verb, count, now.model.clips.get(self.at))
-            }
-        };
-        match (count, first) {
-            (1, Some(clip)) => format!("{verb} clip {}", brief(&clip.name)),
-            _ => format!("{verb} {count} clips"),
+    /// What the step did to how many clips, and the name of the first: `add`, 3, `walk`.
+    pub(super) fn deed<'a>(&'a self, now: &'a OpenModel) -> (&'static str, usize, &'a str) {
+        let name = |clip: Option<&'a Clip>| clip.map_or("", |clip| clip.name.as_str());
+        let of_now = name(now.model.clips.get(self.at));
+        match self.clips.first() {
+            Some(kept) if self.count_now == 0 => ("remove", self.clips.len(), name(Some(&kept.clip))),
+            Some(_) => ("replace", self.count_now, of_now),
+            None => ("add", self.count_now, of_now),
         }
     }
 }
@@ -95,7 +89,7 @@ impl OpenModel {
     }
 
     /// Puts the clips back. Returns those that stood in their place.
-    fn swap_clips(&mut self, swap: ClipSwap) -> ClipSwap {
+    pub(super) fn swap_clips(&mut self, swap: ClipSwap) -> ClipSwap {
         let places = swap.at..swap.at + swap.count_now;
         let removed = self.kept_clips(swap.at, swap.count_now);
         let count_now = swap.clips.len();
@@ -116,32 +110,5 @@ impl OpenModel {
             joined: std::mem::replace(&mut self.joined, swap.joined),
             diagnostics: std::mem::replace(&mut self.diagnostics, swap.diagnostics),
         }
-    }
-}
-
-impl Session {
-    /// Puts clips back in the list. What plays goes on as far as it is still there. Returns what does the reverse.
-    pub(super) fn swap_clips(&mut self, swap: ClipSwap) -> ClipSwap {
-        let before = self.shown_clips();
-        let had_clips = self.content.clip_count() > 0;
-        let Some(open) = &mut self.content.open else {
-            return swap;
-        };
-        let back = Arc::make_mut(open).swap_clips(swap);
-        if self.content.clip_count() == 0 {
-            self.set_playing(false);
-            let actor = self.actors.picked_mut();
-            actor.mixer.end_fades();
-            actor.mixer.set_blend(None);
-            (actor.clip, actor.playback) = (None, Playback::default());
-            self.content.changes.clips = true;
-            self.note(Event::TimeUpdate);
-        } else if had_clips {
-            self.show_clips_again(&before);
-        } else {
-            self.content.changes.clips = true;
-            self.begin_first_clip();
-        }
-        back
     }
 }

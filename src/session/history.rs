@@ -1,10 +1,13 @@
-//! Undo and redo: the steps that can be taken back, and those that were.
+//! The steps that can be undone and redone, as plain data.
 
-use super::Session;
+use std::collections::BTreeMap;
+use std::mem::discriminant;
+
 use super::clip_swap::ClipSwap;
 use super::open_model::OpenModel;
-use super::undoable::{Undoable, Value};
-use crate::model::hierarchy_fingerprint;
+use super::submeshes::Visibility;
+use crate::anim::WrapMode;
+use crate::model::{Handedness, Material, UpAxis, hierarchy_fingerprint};
 
 /// Older steps are forgotten.
 const MOST_STEPS: usize = 100;
@@ -40,11 +43,11 @@ pub struct History {
 
 /// A change in the words of a person, and what brings it back. Undoing turns it into the step that does it again.
 #[derive(Clone, Debug)]
-struct Step {
-    label: String,
+pub(super) struct Step {
+    pub(super) label: String,
     /// They come first: what else is restored may name a clip by its index.
-    clips: Option<ClipSwap>,
-    values: Vec<Value>,
+    pub(super) clips: Option<ClipSwap>,
+    pub(super) values: Vec<Value>,
 }
 
 impl Step {
@@ -55,6 +58,41 @@ impl Step {
             && other.clips.is_none()
             && self.values.len() == other.values.len()
             && self.values.iter().zip(&other.values).all(same)
+    }
+}
+
+/// The range, which belongs to the clip on show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ClipRange {
+    pub(super) clip: Option<usize>,
+    pub(super) secs: Option<[f32; 2]>,
+}
+
+/// A thing that was changed, with the value that it had.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Value {
+    Material {
+        index: usize,
+        material: Material,
+    },
+    /// Names of bones, by their numbers in the file.
+    Names(BTreeMap<usize, Option<String>>),
+    Visibility(Visibility),
+    Range(ClipRange),
+    WrapMode(WrapMode),
+    Handedness(Option<Handedness>),
+    UpAxis(Option<UpAxis>),
+    NormalGreenFlipped(bool),
+}
+
+impl Value {
+    /// Whether both are values of one thing.
+    fn is_of_the_same_thing_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Material { index, .. }, Self::Material { index: of_other, .. }) => index == of_other,
+            (Self::Names(names), Self::Names(of_other)) => names.keys().eq(of_other.keys()),
+            _ => discriminant(self) == discriminant(other),
+        }
     }
 }
 
@@ -102,7 +140,7 @@ impl History {
             && !self.undo.iter().chain(&self.redo).any(|step| step.clips.is_some())
     }
 
-    fn record(&mut self, step: Step) {
+    pub(super) fn record(&mut self, step: Step) {
         self.redo.clear();
         self.last = None;
         match self.undo.last_mut() {
@@ -116,69 +154,49 @@ impl History {
         self.grows = self.held;
     }
 
+    /// Takes the last step, which will be undone.
+    pub(super) fn begin_undo(&mut self) -> Option<Step> {
+        let step = self.undo.pop()?;
+        self.tell("Undone", &step.label);
+        Some(step)
+    }
+
+    /// Keeps what does an undone step again.
+    pub(super) fn end_undo(&mut self, back: Step) {
+        self.redo.push(back);
+    }
+
+    /// Takes the step that was undone last, which will be redone.
+    pub(super) fn begin_redo(&mut self) -> Option<Step> {
+        let step = self.redo.pop()?;
+        self.tell("Redone", &step.label);
+        Some(step)
+    }
+
+    /// Keeps what undoes a redone step again.
+    pub(super) fn end_redo(&mut self, back: Step) {
+        self.undo.push(back);
+    }
+
+    pub(super) fn begin_edit(&mut self) {
+        (self.held, self.grows) = (true, false);
+    }
+
+    /// Returns the step that was done by what was held, if there is one.
+    pub(super) fn end_edit(&mut self) -> Option<&Step> {
+        self.held = false;
+        let grew = std::mem::take(&mut self.grows);
+        self.undo.last().filter(|_| grew)
+    }
+
+    /// Forgets the last step: it changed nothing in the end.
+    pub(super) fn forget_last(&mut self) {
+        self.undo.pop();
+    }
+
     fn tell(&mut self, words: &str, label: &str) {
         self.last = Some(format!("{words}: {label}"));
         self.revision += 1;
         self.grows = false;
-    }
-}
-
-impl Session {
-    /// What can be undone and redone.
-    pub fn history(&self) -> &History {
-        &self.history
-    }
-
-    pub(super) fn apply_to_history(&mut self, command: HistoryCommand) {
-        match command {
-            HistoryCommand::Undo => {
-                if let Some(step) = self.history.undo.pop() {
-                    self.history.tell("Undone", &step.label);
-                    let step = self.swap(step);
-                    self.history.redo.push(step);
-                }
-            }
-            HistoryCommand::Redo => {
-                if let Some(step) = self.history.redo.pop() {
-                    self.history.tell("Redone", &step.label);
-                    let step = self.swap(step);
-                    self.history.undo.push(step);
-                }
-            }
-            HistoryCommand::BeginEdit => (self.history.held, self.history.grows) = (true, false),
-            HistoryCommand::EndEdit => {
-                let grew = std::mem::take(&mut self.history.grows);
-                self.history.held = false;
-                if let Some(last) = self.history.undo.last()
-                    && grew
-                    && last.clips.is_none()
-                    && last.values.iter().all(|value| value.now(self) == *value)
-                {
-                    self.history.undo.pop();
-                }
-            }
-        }
-    }
-
-    /// Records what differs from before as a step.
-    pub(super) fn record_step(&mut self, before: &Undoable) {
-        let clips = self.clips_to(before);
-        let values = self.values_to(before);
-        if clips.is_some() || !values.is_empty() {
-            let label = self.label_since(clips.as_ref(), &values);
-            self.history.record(Step { label, clips, values });
-        }
-    }
-
-    /// Restores what a step holds. Returns the step back.
-    fn swap(&mut self, step: Step) -> Step {
-        let clips = step.clips.map(|clips| self.swap_clips(clips));
-        let swap = |value: Value| {
-            let now = value.now(self);
-            value.restore(self);
-            now
-        };
-        let values = step.values.into_iter().map(swap).collect();
-        Step { clips, values, ..step }
     }
 }

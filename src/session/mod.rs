@@ -33,10 +33,11 @@ mod selecting;
 mod showing;
 mod skeleton_cache;
 mod sky;
+mod step_labels;
 mod submeshes;
 pub mod summary;
 mod textures;
-mod undoable;
+mod undoing;
 mod view;
 mod view_state;
 

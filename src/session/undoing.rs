@@ -1,0 +1,232 @@
+//! Undo and redo: what a command changed becomes a step, and a step is taken back.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::clip_swap::ClipSwap;
+use super::history::{ClipRange, History, HistoryCommand, Step, Value};
+use super::materials::Materials;
+use super::open_model::OpenModel;
+use super::submeshes::Visibility;
+use super::{Event, Session};
+use crate::anim::WrapMode;
+use crate::model::{Handedness, JointNames, UpAxis};
+
+/// A copy of all that can be undone. Large parts are shared with the session.
+pub(super) struct Undoable {
+    open: Option<Arc<OpenModel>>,
+    materials: Materials,
+    names: Arc<JointNames>,
+    visibility: Visibility,
+    range: ClipRange,
+    wrap_mode: WrapMode,
+    handedness: Option<Handedness>,
+    up_axis: Option<UpAxis>,
+    normal_green_flipped: bool,
+}
+
+impl Session {
+    /// What can be undone and redone.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    pub(super) fn apply_to_history(&mut self, command: HistoryCommand) {
+        match command {
+            HistoryCommand::Undo => {
+                if let Some(step) = self.history.begin_undo() {
+                    let back = self.swap(step);
+                    self.history.end_undo(back);
+                }
+            }
+            HistoryCommand::Redo => {
+                if let Some(step) = self.history.begin_redo() {
+                    let back = self.swap(step);
+                    self.history.end_redo(back);
+                }
+            }
+            HistoryCommand::BeginEdit => self.history.begin_edit(),
+            HistoryCommand::EndEdit => {
+                let values = self.history.end_edit().map_or(Vec::new(), |step| step.values.clone());
+                if !values.is_empty() && values.iter().all(|value| self.now(value) == *value) {
+                    self.history.forget_last();
+                }
+            }
+        }
+    }
+
+    /// Records what differs from before as a step.
+    pub(super) fn record_step(&mut self, before: &Undoable) {
+        let clips = self.clips_to(before);
+        let values = self.values_to(before);
+        if clips.is_some() || !values.is_empty() {
+            let label = self.label_of_step(clips.as_ref(), &values);
+            self.history.record(Step { label, clips, values });
+        }
+    }
+
+    /// Restores what a step holds. Returns the step back.
+    fn swap(&mut self, step: Step) -> Step {
+        let clips = step.clips.map(|clips| self.swap_clips(clips));
+        let swap = |value: Value| {
+            let now = self.now(&value);
+            self.set(value);
+            now
+        };
+        let values = step.values.into_iter().map(swap).collect();
+        Step { clips, values, ..step }
+    }
+
+    /// The present value of the same thing.
+    fn now(&self, value: &Value) -> Value {
+        match value {
+            Value::Material { index, material } => Value::Material {
+                index: *index,
+                material: self.materials().get(*index).unwrap_or(material).clone(),
+            },
+            Value::Names(names) => {
+                let all = self.joint_names().all();
+                Value::Names(names.keys().map(|bone| (*bone, all.get(bone).cloned())).collect())
+            }
+            Value::Visibility(_) => Value::Visibility(self.submeshes().visibility().clone()),
+            Value::Range(_) => Value::Range(self.clip_range()),
+            Value::WrapMode(_) => Value::WrapMode(self.playback().wrap_mode()),
+            Value::Handedness(_) => Value::Handedness(self.handedness_override()),
+            Value::UpAxis(_) => Value::UpAxis(self.up_axis_override()),
+            Value::NormalGreenFlipped(_) => Value::NormalGreenFlipped(self.look().normal_green_flipped),
+        }
+    }
+
+    /// Gives a thing this value.
+    fn set(&mut self, value: Value) {
+        match value {
+            Value::Material { index, material } => {
+                self.content.changes.materials |= self.content.materials.replace(index, material);
+            }
+            Value::Names(names) => {
+                let mut all = self.joint_names().clone();
+                for (bone, name) in names {
+                    all.set(bone as u32, &name.unwrap_or_default());
+                }
+                self.replace_names(all);
+            }
+            Value::Visibility(visibility) => self.selection.submeshes.set_visibility(visibility),
+            Value::Range(range) => self.set_clip_range(range),
+            Value::WrapMode(mode) => self.actors.picked_mut().playback.set_wrap_mode(mode),
+            Value::Handedness(handedness) => {
+                self.view.handedness = handedness;
+                self.change_goal(Self::frame_model);
+            }
+            Value::UpAxis(up_axis) => {
+                self.view.up_axis = up_axis;
+                self.change_goal(Self::frame_model);
+            }
+            Value::NormalGreenFlipped(flipped) => self.view.look.normal_green_flipped = flipped,
+        }
+    }
+
+    /// A copy of what can be undone, to compare with what is after a command.
+    pub(super) fn undoable(&self) -> Undoable {
+        Undoable {
+            open: self.content.open.clone(),
+            materials: self.content.materials.clone(),
+            names: Arc::clone(&self.content.names),
+            visibility: self.submeshes().visibility().clone(),
+            range: self.clip_range(),
+            wrap_mode: self.playback().wrap_mode(),
+            handedness: self.handedness_override(),
+            up_axis: self.up_axis_override(),
+            normal_green_flipped: self.look().normal_green_flipped,
+        }
+    }
+
+    /// The values that lead back to what was before.
+    fn values_to(&self, before: &Undoable) -> Vec<Value> {
+        let mut values = Vec::new();
+        for (index, (now, then)) in self.materials().iter().zip(before.materials.drawn()).enumerate() {
+            if now != then {
+                let material = then.clone();
+                values.push(Value::Material { index, material });
+            }
+        }
+        if self.content.names != before.names {
+            let (now, then) = (self.joint_names().all(), before.names.all());
+            let bones: BTreeSet<usize> = now.keys().chain(then.keys()).copied().collect();
+            let changed = bones.into_iter().filter(|bone| now.get(bone) != then.get(bone));
+            values.push(Value::Names(
+                changed.map(|bone| (bone, then.get(&bone).cloned())).collect(),
+            ));
+        }
+        let others = [
+            Value::Visibility(before.visibility.clone()),
+            Value::WrapMode(before.wrap_mode),
+            Value::Handedness(before.handedness),
+            Value::UpAxis(before.up_axis),
+            Value::NormalGreenFlipped(before.normal_green_flipped),
+        ];
+        values.extend(others.into_iter().filter(|value| self.now(value) != *value));
+        if self.clip_range().secs != before.range.secs {
+            values.push(Value::Range(before.range));
+        }
+        values
+    }
+
+    /// The clips that lead back to what was before; `None` where they are the same.
+    fn clips_to(&self, before: &Undoable) -> Option<ClipSwap> {
+        let (now, then) = (self.content.open.as_ref()?, before.open.as_ref()?);
+        let same = Arc::ptr_eq(now, then);
+        (!same).then(|| ClipSwap::between(now, then)).flatten()
+    }
+
+    fn clip_range(&self) -> ClipRange {
+        ClipRange {
+            clip: self.clip_index(),
+            secs: self.playback().range_secs(),
+        }
+    }
+
+    /// Shows the clip of the range, if another is on show, with the range.
+    fn set_clip_range(&mut self, ClipRange { clip, secs }: ClipRange) {
+        if let (Some(clip), Some(open)) = (clip, self.content.open.clone())
+            && self.clip_index() != Some(clip)
+        {
+            let actor = self.actors.picked_mut();
+            actor.fade_to(clip, true);
+            actor.show_clip(&open, clip);
+            self.note(Event::TimeUpdate);
+        }
+        let playback = &mut self.actors.picked_mut().playback;
+        playback.clear_range();
+        if let Some([start_secs, end_secs]) = secs {
+            playback.set_range_end(end_secs);
+            playback.set_range_start(start_secs);
+        }
+    }
+
+    /// Puts clips back in the list. What plays goes on as far as it is still there. Returns what does the reverse.
+    fn swap_clips(&mut self, swap: ClipSwap) -> ClipSwap {
+        let before = self.shown_clips();
+        let had_clips = self.content.clip_count() > 0;
+        let Some(open) = &mut self.content.open else {
+            return swap;
+        };
+        let back = Arc::make_mut(open).swap_clips(swap);
+        if self.content.clip_count() == 0 {
+            self.set_playing(false);
+            let actor = self.actors.picked_mut();
+            actor.mixer.end_fades();
+            actor.mixer.set_blend(None);
+            // Speed, loop and wrap mode stay.
+            actor.playback.set_span(0.0, 0.0);
+            actor.clip = None;
+            self.content.changes.clips = true;
+            self.note(Event::TimeUpdate);
+        } else if had_clips {
+            self.show_clips_again(&before);
+        } else {
+            self.content.changes.clips = true;
+            self.begin_first_clip();
+        }
+        back
+    }
+}
