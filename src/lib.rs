@@ -49,6 +49,7 @@ mod modes;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod scene;
+pub mod script;
 pub mod session;
 pub mod shaders;
 #[cfg(feature = "viewer")]

@@ -203,7 +203,8 @@ function showDrop(words) {
 
 /** The render scale that the address asks for. */
 function addressedScale() {
-  return Number(options.get("scale") ?? 1);
+  const scale = Number(options.get("scale"));
+  return scale > 0 && scale < Infinity ? scale : 1;
 }
 
 function wantedBackend() {

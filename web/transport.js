@@ -53,7 +53,8 @@ export function mirrorTransport(bindpose, { section, control, say, focusView }) 
   clip.addEventListener("change", () => bindpose.selectClip(clip.value));
   time.addEventListener("input", () => bindpose.seek(time.valueAsNumber));
   speed.addEventListener("change", () => {
-    bindpose.setSpeed(speed.valueAsNumber);
+    // An empty field has no number.
+    if (speed.valueAsNumber > 0) bindpose.setSpeed(speed.valueAsNumber);
     speed.value = rounded(bindpose.state().speed);
   });
   loop.addEventListener("change", () => bindpose.setLoop(loop.value));

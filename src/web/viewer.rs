@@ -3,17 +3,19 @@
 use std::rc::Rc;
 use std::sync::{Arc, Once};
 
-use js_sys::{Array, Function, Promise, Uint8Array};
+use js_sys::{Array, Function, Promise, RangeError, TypeError, Uint8Array};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
 use super::backend::Preference;
 use super::run::{self, Shared};
-use super::{abort_error, field, next_task, picture, promise, reduced_motion, state};
+use super::{abort_error, field, is_absent, next_task, picture, promise, reduced_motion, state};
 use crate::anim::{Direction, LoopMode, WrapMode};
 use crate::scene::Pass;
+use crate::script::{self, Given, Misuse};
 use crate::session::{
-    Command, File, FileCommand, LoadJob, LoadStep, PassChoice, PlayCommand, QualityCommand, RenderScale, Session,
+    Command, File, FileCommand, HistoryCommand, LoadJob, LoadStep, PassChoice, PlayCommand, QualityCommand,
+    RenderScale, Session,
 };
 
 /// Why an opening failed that was followed by another one, or by the viewer's end.
@@ -139,8 +141,13 @@ impl Viewer {
     }
 
     /// Goes to a time in seconds, clamped to the clip.
-    pub fn seek(&self, secs: f32) {
-        self.shared.apply(PlayCommand::Seek { time_secs: secs });
+    ///
+    /// # Errors
+    /// When it is no finite number.
+    pub fn seek(&self, secs: &JsValue) -> Result<(), JsValue> {
+        let time_secs = checked(script::secs("seek", &given(secs)))?;
+        self.shared.apply(PlayCommand::Seek { time_secs });
+        Ok(())
     }
 
     /// Plays on.
@@ -154,19 +161,29 @@ impl Viewer {
     }
 
     /// Shows the clip with this name. Returns whether there is one.
+    ///
+    /// # Errors
+    /// When the name is no text.
     #[wasm_bindgen(js_name = selectClip)]
-    pub fn select_clip(&self, name: &str) -> bool {
+    pub fn select_clip(&self, name: &JsValue) -> Result<bool, JsValue> {
+        let given = given(name);
+        let name = checked(script::name("selectClip", &given))?;
         let index = self.shared.session.borrow().open_model().and_then(|open| {
             let clips = &open.model.clips;
             clips.iter().position(|clip| clip.name == name)
         });
-        self.shared.apply_named(index, PlayCommand::SelectClip)
+        Ok(self.shared.apply_to(index, PlayCommand::SelectClip))
     }
 
     /// Pauses and goes some frames on, or back where the number is below 0, to a whole frame.
+    ///
+    /// # Errors
+    /// When it is no whole number.
     #[wasm_bindgen(js_name = stepFrames)]
-    pub fn step_frames(&self, frames: i32) {
+    pub fn step_frames(&self, frames: &JsValue) -> Result<(), JsValue> {
+        let frames = checked(script::whole("stepFrames", &given(frames)))?;
         self.shared.apply(PlayCommand::StepFrames(frames));
+        Ok(())
     }
 
     /// Pauses and goes to the next key: of the selected bone, or of any.
@@ -193,16 +210,26 @@ impl Viewer {
         self.shared.apply(PlayCommand::SeekEnd);
     }
 
-    /// Lets playing begin at a time in seconds, or at the present one.
+    /// Lets playing begin at a time in seconds, clamped to the clip, or at the present one.
+    ///
+    /// # Errors
+    /// When a time is given that is no finite number.
     #[wasm_bindgen(js_name = setRangeStart)]
-    pub fn set_range_start(&self, secs: Option<f32>) {
+    pub fn set_range_start(&self, secs: &JsValue) -> Result<(), JsValue> {
+        let secs = optional_secs("setRangeStart", secs)?;
         self.shared.apply(PlayCommand::SetRangeStart(secs));
+        Ok(())
     }
 
-    /// Lets playing end at a time in seconds, or at the present one.
+    /// Lets playing end at a time in seconds, clamped to the clip, or at the present one.
+    ///
+    /// # Errors
+    /// When a time is given that is no finite number.
     #[wasm_bindgen(js_name = setRangeEnd)]
-    pub fn set_range_end(&self, secs: Option<f32>) {
+    pub fn set_range_end(&self, secs: &JsValue) -> Result<(), JsValue> {
+        let secs = optional_secs("setRangeEnd", secs)?;
         self.shared.apply(PlayCommand::SetRangeEnd(secs));
+        Ok(())
     }
 
     /// Lets the whole clip play.
@@ -211,39 +238,68 @@ impl Viewer {
         self.shared.apply(PlayCommand::ClearRange);
     }
 
-    /// Sets the speed, 1 as the file has it, within the limits of the viewer.
+    /// Sets the speed, 1 as the file has it, clamped to the limits of the viewer.
+    ///
+    /// # Errors
+    /// When it is no finite number above 0.
     #[wasm_bindgen(js_name = setSpeed)]
-    pub fn set_speed(&self, speed: f32) {
+    pub fn set_speed(&self, speed: &JsValue) -> Result<(), JsValue> {
+        let speed = checked(script::factor("setSpeed", &given(speed)))?;
         self.shared.apply(PlayCommand::SetSpeed(speed));
+        Ok(())
     }
 
     /// Sets what happens at the end: `once`, `loop` or `pingpong`. Returns whether the name is one of these.
+    ///
+    /// # Errors
+    /// When the name is no text.
     #[wasm_bindgen(js_name = setLoop)]
-    pub fn set_loop(&self, name: &str) -> bool {
+    pub fn set_loop(&self, name: &JsValue) -> Result<bool, JsValue> {
         self.shared
-            .apply_named(LoopMode::from_name(name), PlayCommand::SetLoopMode)
+            .apply_named("setLoop", name, LoopMode::from_name, PlayCommand::SetLoopMode)
     }
 
     /// Sets how a loop goes on: `wrap` or `book-demo`. Returns whether the name is one of these.
+    ///
+    /// # Errors
+    /// When the name is no text.
     #[wasm_bindgen(js_name = setWrap)]
-    pub fn set_wrap(&self, name: &str) -> bool {
+    pub fn set_wrap(&self, name: &JsValue) -> Result<bool, JsValue> {
         self.shared
-            .apply_named(WrapMode::from_name(name), PlayCommand::SetWrapMode)
+            .apply_named("setWrap", name, WrapMode::from_name, PlayCommand::SetWrapMode)
     }
 
     /// Draws a pass or leaves it out: `shadow`, `reflections`, `contact` or `ao`. Returns whether the name is one of these.
+    ///
+    /// # Errors
+    /// When the name is no text.
     #[wasm_bindgen(js_name = setPass)]
-    pub fn set_pass(&self, name: &str, drawn: bool) -> bool {
+    pub fn set_pass(&self, name: &JsValue, drawn: bool) -> Result<bool, JsValue> {
         let choice = if drawn { PassChoice::On } else { PassChoice::Off };
-        self.shared
-            .apply_named(Pass::from_name(name), |pass| QualityCommand::SetPass(pass, choice))
+        let command = |pass| QualityCommand::SetPass(pass, choice);
+        self.shared.apply_named("setPass", name, Pass::from_name, command)
     }
 
-    /// Draws the view in the window with this fraction of its width and height in pixels, from 0.1 to 1.
+    /// Draws the view in the window with this fraction of its width and height in pixels, clamped to 0.1 … 1.
+    ///
+    /// # Errors
+    /// When it is no finite number above 0.
     #[wasm_bindgen(js_name = setRenderScale)]
-    pub fn set_render_scale(&self, fraction: f32) {
+    pub fn set_render_scale(&self, fraction: &JsValue) -> Result<(), JsValue> {
+        let fraction = checked(script::factor("setRenderScale", &given(fraction)))?;
         self.shared
             .apply(QualityCommand::SetRenderScale(RenderScale::new(fraction)));
+        Ok(())
+    }
+
+    /// Takes the last edit back. Returns whether there was one.
+    pub fn undo(&self) -> bool {
+        self.shared.step_in_history(HistoryCommand::Undo)
+    }
+
+    /// Does the edit again that was undone last. Returns whether there was one.
+    pub fn redo(&self) -> bool {
+        self.shared.step_in_history(HistoryCommand::Redo)
     }
 }
 
@@ -318,14 +374,66 @@ impl Shared {
         self.apply(PlayCommand::StepKey { direction, joint });
     }
 
-    /// Applies a command with the value that has this name. Returns whether there is one.
-    fn apply_named<T, C: Into<Command>>(&self, value: Option<T>, command: impl FnOnce(T) -> C) -> bool {
+    /// Applies a command with the value of this name. Returns whether there is one.
+    fn apply_named<T, C: Into<Command>>(
+        &self,
+        call: &str,
+        name: &JsValue,
+        value: impl FnOnce(&str) -> Option<T>,
+        command: impl FnOnce(T) -> C,
+    ) -> Result<bool, JsValue> {
+        let given = given(name);
+        let name = checked(script::name(call, &given))?;
+        Ok(self.apply_to(value(name), command))
+    }
+
+    /// Applies a command with a value, if there is one. Returns whether there is.
+    fn apply_to<T, C: Into<Command>>(&self, value: Option<T>, command: impl FnOnce(T) -> C) -> bool {
         let is_there = value.is_some();
         if let Some(value) = value {
             self.apply(command(value));
         }
         is_there
     }
+
+    /// Undoes or redoes. Returns whether there was a step.
+    fn step_in_history(&self, command: HistoryCommand) -> bool {
+        let revision = || self.session.borrow().history().revision();
+        let before = revision();
+        self.apply(command);
+        revision() != before
+    }
+}
+
+/// What a script gave, to be checked.
+fn given(value: &JsValue) -> Given {
+    if let Some(number) = value.as_f64() {
+        Given::Number(number)
+    } else if let Some(text) = value.as_string() {
+        Given::Text(text)
+    } else if value.is_object() {
+        Given::Other("an object".to_owned())
+    } else {
+        // Such as `JsValue(undefined)`.
+        let words = format!("{value:?}");
+        let inner = words.strip_prefix("JsValue(").and_then(|words| words.strip_suffix(')'));
+        Given::Other(inner.unwrap_or(&words).to_owned())
+    }
+}
+
+fn optional_secs(call: &str, secs: &JsValue) -> Result<Option<f32>, JsValue> {
+    if is_absent(secs) {
+        return Ok(None);
+    }
+    checked(script::secs(call, &given(secs))).map(Some)
+}
+
+/// The value, or the error that the call throws.
+fn checked<T>(value: Result<T, Misuse>) -> Result<T, JsValue> {
+    value.map_err(|misuse| match misuse {
+        Misuse::Type(message) => TypeError::new(&message).into(),
+        Misuse::Range(message) => RangeError::new(&message).into(),
+    })
 }
 
 /// Has every panic reported as an uncaught error of the page, with the name `Panic` and the panic's words as message.

@@ -150,16 +150,55 @@ test("the keys for the camera", SMALL, async (page) => {
   const steep = ({ camera }) => Math.abs(camera.pitchRadians) > 1.5;
   await presses(page, [
     ["1", "front", from(0, 0)],
-    ["Control+1", "back", from(Math.PI, 0)],
+    ["1", "again: back", from(Math.PI, 0)],
     ["3", "right", from(Math.PI / 2, 0)],
-    ["Control+3", "left", from(-Math.PI / 2, 0)],
+    ["3", "again: left", from(-Math.PI / 2, 0)],
     ["7", "top", (now) => steep(now) && now.camera.pitchRadians > 0],
-    ["Control+7", "below", (now) => steep(now) && now.camera.pitchRadians < 0],
+    ["7", "again: below", (now) => steep(now) && now.camera.pitchRadians < 0],
     ["9", "isometric", from(-Math.PI / 4, Math.atan(Math.SQRT1_2))],
     ["5", "orthographic", ({ camera }) => camera.orthographic],
     ["5", "perspective", ({ camera }) => !camera.orthographic],
     ["0", "as at first", (now) => sameView(now, first)],
+    ["+", "nearer", ({ camera }) => camera.distance < 0.99 * first.camera.distance],
+    ["-", "as far as before", ({ camera }) => near(camera.distance, first.camera.distance)],
+    ["Alt+ArrowLeft", "to its left", ({ camera }) => camera.yawRadians > first.camera.yawRadians + 0.05],
+    ["Alt+ArrowRight", "back", ({ camera }) => near(camera.yawRadians, first.camera.yawRadians)],
+    ["Alt+ArrowUp", "up", ({ camera }) => camera.pitchRadians > first.camera.pitchRadians + 0.05],
+    ["Alt+Shift+ArrowUp", "the target moves up", ({ camera }) => camera.target[1] > first.camera.target[1]],
+    ["0", "as at first again", (now) => sameView(now, first)],
   ]);
+  assert.equal((await state(page)).timeSecs, first.timeSecs, "no frame was stepped");
+});
+
+test("the browser does not go back in its history by Alt and an arrow", SMALL, async (page) => {
+  await page.evaluate(() => history.pushState(null, "", "#there"));
+  await focusView(page);
+  await page.keyboard.press("Alt+ArrowLeft");
+  await atRest(page);
+  assert.equal(await page.evaluate(() => location.hash), "#there");
+});
+
+test("Ctrl+Z takes an edit back and Ctrl+Shift+Z does it again, as calls do", SMALL, async (page) => {
+  await focusView(page);
+  const { undo, redo } = await state(page);
+  assert.deepEqual([undo, redo], [null, null]);
+  await page.keyboard.press("i");
+  assert.equal((await state(page)).undo, null, "a range from the start is the whole clip");
+  await call(page, "setRangeStart", 0.2);
+  await call(page, "setRangeEnd", 0.6);
+  const { rangeSecs } = await until(page, (now) => now.undo === "set the range");
+  await page.keyboard.press("Control+z");
+  await until(page, (now) => now.redo === "set the range" && now.rangeSecs[1] > rangeSecs[1]);
+  await page.keyboard.press("Control+z");
+  await until(page, (now) => now.undo === null && now.rangeSecs === null);
+  await page.keyboard.press("Control+Shift+z");
+  await page.keyboard.press("Control+y");
+  assert.deepEqual((await until(page, (now) => now.redo === null)).rangeSecs, rangeSecs);
+  await call(page, "undo");
+  await call(page, "undo");
+  assert.equal((await state(page)).rangeSecs, null);
+  await call(page, "redo");
+  assert.equal((await state(page)).undo, "set the range");
 });
 
 test("the mouse orbits, pans and zooms, and F frames the model again", SMALL, async (page) => {

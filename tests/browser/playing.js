@@ -226,6 +226,59 @@ test("all that moves the time is there for screen readers, and stays in step", {
   assert.equal((await state(page)).loop, "once", "a name that is none changes nothing");
 });
 
+test("calls that make no sense throw, say what they take, and change nothing", {}, async (page) => {
+  const before = await state(page);
+  const thrown = await page.evaluate(() => {
+    const calls = {
+      seek: [NaN, Infinity, "x", undefined],
+      stepFrames: [1.5, NaN, "1"],
+      setRangeStart: [NaN, {}],
+      setRangeEnd: [-Infinity, "0.5"],
+      setSpeed: [-3, 0, NaN, "fast"],
+      setRenderScale: [0, NaN],
+      setLoop: [5],
+      selectClip: [undefined],
+    };
+    const outcome = (name, value) => {
+      try {
+        bindpose[name](value);
+        return `${name} took ${String(value)}`;
+      } catch (error) {
+        return `${error.name}: ${error.message}`;
+      }
+    };
+    return Object.entries(calls).flatMap(([name, values]) => values.map((value) => outcome(name, value)));
+  });
+  assert.deepEqual(thrown, [
+    "RangeError: seek takes a finite number of seconds, not NaN",
+    "RangeError: seek takes a finite number of seconds, not Infinity",
+    'TypeError: seek takes a finite number of seconds, not "x"',
+    "TypeError: seek takes a finite number of seconds, not undefined",
+    "RangeError: stepFrames takes a whole number, not 1.5",
+    "RangeError: stepFrames takes a whole number, not NaN",
+    'TypeError: stepFrames takes a whole number, not "1"',
+    "RangeError: setRangeStart takes a finite number of seconds, not NaN",
+    "TypeError: setRangeStart takes a finite number of seconds, not an object",
+    "RangeError: setRangeEnd takes a finite number of seconds, not -Infinity",
+    'TypeError: setRangeEnd takes a finite number of seconds, not "0.5"',
+    "RangeError: setSpeed takes a finite number above 0, not -3",
+    "RangeError: setSpeed takes a finite number above 0, not 0",
+    "RangeError: setSpeed takes a finite number above 0, not NaN",
+    'TypeError: setSpeed takes a finite number above 0, not "fast"',
+    "RangeError: setRenderScale takes a finite number above 0, not 0",
+    "RangeError: setRenderScale takes a finite number above 0, not NaN",
+    "TypeError: setLoop takes a name, not 5",
+    "TypeError: selectClip takes a name, not undefined",
+  ]);
+  const { timeSecs, rangeSecs, speed, clip, look } = await state(page);
+  assert.deepEqual(
+    { timeSecs, rangeSecs, speed, clip, look },
+    { timeSecs: before.timeSecs, rangeSecs: before.rangeSecs, speed: before.speed, clip: before.clip, look: before.look },
+  );
+  await call(page, "setSpeed", 100);
+  assert.equal((await state(page)).speed, 4, "a speed that means something is clamped");
+});
+
 test("a clip is blended into another with the mouse, more and less, and no longer", {}, async (page) => {
   const { model } = await state(page);
   const alone = await picture(page);
