@@ -170,7 +170,7 @@ test("the keys for the camera", SMALL, async (page) => {
   assert.equal((await state(page)).timeSecs, first.timeSecs, "no frame was stepped");
 });
 
-test("the browser does not go back in its history by Alt and an arrow", SMALL, async (page) => {
+test("the browser does not go back in its history by Alt and an arrow", { ...SMALL, own: true }, async (page) => {
   await page.evaluate(() => history.pushState(null, "", "#there"));
   await focusView(page);
   await page.keyboard.press("Alt+ArrowLeft");
@@ -182,8 +182,6 @@ test("Ctrl+Z takes an edit back and Ctrl+Shift+Z does it again, as calls do", SM
   await focusView(page);
   const { undo, redo } = await state(page);
   assert.deepEqual([undo, redo], [null, null]);
-  await page.keyboard.press("i");
-  assert.equal((await state(page)).undo, null, "a range from the start is the whole clip");
   await call(page, "setRangeStart", 0.2);
   await call(page, "setRangeEnd", 0.6);
   const { rangeSecs } = await until(page, (now) => now.undo === "set the range");

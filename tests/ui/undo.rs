@@ -174,6 +174,15 @@ fn a_phone_has_them_in_its_menu_while_there_is_something_to_undo() {
 }
 
 #[test]
+fn fingers_have_the_buttons_where_the_title_keeps_its_place() {
+    let shows = |width: f32| {
+        let window = touch_window(vec2(width, 768.0), vec![moving("a.m3d")]);
+        window.shows("Undo (Ctrl Z)") && window.shows("Redo (Ctrl Shift Z)")
+    };
+    assert!(shows(1024.0) && !shows(900.0));
+}
+
+#[test]
 fn a_bracket_of_the_range_that_is_dragged_is_one_step() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let range = window.rect("Range out");

@@ -359,6 +359,33 @@ fn clips_that_were_replaced_come_back_with_their_keys_and_pose() {
 }
 
 #[test]
+fn a_range_comes_back_with_its_clip() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(PlayCommand::SetRangeEnd(Some(1.5)));
+    let range_secs = session.playback().range_secs();
+    session.apply(PlayCommand::ClearRange);
+    session.apply(PlayCommand::SelectClip(0));
+    session.apply(Undo);
+    assert_eq!(
+        (session.clip_index(), session.playback().range_secs()),
+        (Some(1), range_secs)
+    );
+    session.apply(Redo);
+    assert_eq!((session.clip_index(), session.playback().range_secs()), (Some(0), None));
+}
+
+#[test]
+fn long_names_are_cut_in_labels() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(name(0, &"x".repeat(64)));
+    assert_eq!(
+        session.history().undo_label(),
+        Some(&*format!("name bone 0 {}…", "x".repeat(23)))
+    );
+}
+
+#[test]
 fn old_steps_are_forgotten() {
     let mut session = opened(three_parts("a.m3d"));
     for step in 0..250 {
