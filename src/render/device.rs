@@ -207,7 +207,7 @@ pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl Async
     let target = Target::with_samples(device, PROBE_SIDE, PROBE_SIDE, SampleCount::Four);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("probe") });
     {
-        let mut pass = target.begin_pass(&mut encoder);
+        let mut pass = target.begin_pass(&mut encoder, wgpu::Color::TRANSPARENT);
         pass.set_pipeline(&pipeline);
         pass.draw(0..3, 0..1);
     }

@@ -227,7 +227,16 @@ impl Renderer {
             nothing,
             ..
         } = &self.common;
-        let mut pass = target.begin_pass(encoder);
+        // A background covers all that the model leaves, but smooth edges store no alpha: it is there from the beginning.
+        let has_background = options.background != Background::None;
+        let mut pass = target.begin_pass(
+            encoder,
+            if has_background {
+                wgpu::Color::BLACK
+            } else {
+                wgpu::Color::TRANSPARENT
+            },
+        );
         let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
             let passes = self.lights.iter().find(|passes| passes.light() == *light);
             let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
@@ -238,9 +247,26 @@ impl Renderer {
             pass.set_bind_group(2, lighting, &[]);
             true
         };
-        // First all backgrounds, from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle,
-        // and would wipe out the model there.
-        if options.background != Background::None {
+        for part in parts {
+            if let Some((model, posed)) = model
+                && begin_part(&mut pass, part)
+            {
+                let shading = match options.view_mode {
+                    ViewMode::Lit => Shading::Lit(part.0),
+                    _ => Shading::Inspect,
+                };
+                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
+                let cut = if has_background { Cut::Smooth } else { Cut::Hard };
+                if frame.vertex_colors.is_some() {
+                    pass.set_bind_group(2, nothing, &[]);
+                    model.draw(&mut pass, posed, Cut::Hard, ModelDraw::SkinView);
+                } else {
+                    model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                }
+            }
+        }
+        // Backgrounds from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle.
+        if has_background {
             for part in parts.iter().rev() {
                 if begin_part(&mut pass, part) {
                     pass.set_pipeline(&pipelines.get(Draw::Backdrop));
@@ -254,21 +280,6 @@ impl Renderer {
                 continue;
             }
             if let Some((model, posed)) = model {
-                let shading = match options.view_mode {
-                    ViewMode::Lit => Shading::Lit(part.0),
-                    _ => Shading::Inspect,
-                };
-                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
-                let cut = match options.background {
-                    Background::None => Cut::Hard,
-                    _ => Cut::Smooth,
-                };
-                if frame.vertex_colors.is_some() {
-                    pass.set_bind_group(2, nothing, &[]);
-                    model.draw(&mut pass, posed, Cut::Hard, ModelDraw::SkinView);
-                } else {
-                    model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
-                }
                 pass.set_bind_group(2, nothing, &[]);
                 self.overlays
                     .draw_over_model(device, &mut pass, frame, (model, posed), &self.instances);

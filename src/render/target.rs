@@ -194,16 +194,12 @@ impl Target {
     /// Fills the picture with a colour, through the same pass that a frame is drawn with.
     pub(super) fn fill(&self, device: &wgpu::Device, queue: &wgpu::Queue, color: wgpu::Color) {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fill") });
-        drop(self.begin_cleared_pass(&mut encoder, color));
+        drop(self.begin_pass(&mut encoder, color));
         queue.submit([encoder.finish()]);
     }
 
-    /// A pass over a transparent picture.
-    pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        self.begin_cleared_pass(encoder, wgpu::Color::TRANSPARENT)
-    }
-
-    fn begin_cleared_pass<'a>(
+    /// A pass over a picture of this colour.
+    pub(super) fn begin_pass<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
         color: wgpu::Color,
