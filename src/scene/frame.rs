@@ -81,6 +81,14 @@ pub struct RenderFrame<'a> {
     pub options: FrameOptions,
 }
 
+impl RenderFrame<'_> {
+    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the model's colours show its result.
+    pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
+        let is_read = pass != Pass::AmbientOcclusion || self.vertex_colors.is_none();
+        is_read && self.options.draws_under(pass, light)
+    }
+}
+
 /// A vertex of the lines and triangles over the model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
