@@ -3,7 +3,7 @@
 use super::target::Target;
 use crate::shaders;
 
-/// Draws a target's picture into someone else's render pass, encoded, premultiplied: as egui's surface wants it.
+/// Draws a target's picture into someone else's render pass, encoded as egui's surface wants it, over black.
 /// [`Compositor::prepare`] comes before the pass, [`Compositor::paint`] inside it.
 pub struct Compositor {
     pipeline: wgpu::RenderPipeline,
@@ -64,7 +64,7 @@ impl Compositor {
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format,
-                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    blend: None,
                     write_mask: wgpu::ColorWrites::ALL,
                 })],
             }),
