@@ -146,6 +146,7 @@ struct OcclusionSource {
     /// Lengths of the light, world units.
     radius: f32,
     book_unit: f32,
+    fine: u32,
 }
 
 /// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view.
@@ -203,6 +204,7 @@ impl AmbientOcclusion {
             columns: columns.clone(),
             radius: uniform.occlusion_radius,
             book_unit: uniform.book_unit,
+            fine: uniform.fine_occlusion,
         };
         if !self.drawn_from.update(source) {
             return;

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Vec3};
 
-use super::appearance::{Background, Light, Overlays, Pass, Passes, Theme, ViewMode};
+use super::appearance::{Background, Detail, Light, Overlays, Pass, Passes, Theme, ViewMode};
 use super::{Aabb, Camera};
 use crate::anim::Palette;
 
@@ -24,6 +24,10 @@ pub struct FrameOptions {
     pub overlays: Overlays,
     /// Which costly steps are drawn.
     pub passes: Passes,
+    /// Samples of ambient occlusion.
+    pub occlusion_detail: Detail,
+    /// Taps of shadows.
+    pub shadow_detail: Detail,
     /// Turn of the environment about y, radians.
     pub environment_turn_radians: f32,
     /// Exposure of the studio light: each stop doubles it.

@@ -42,6 +42,9 @@ pub struct Light {
     pub reflections: f32,
     pub is_book: u32,
     pub normal_green_sign: f32,
+    pub fine_occlusion: u32,
+    pub shadow_taps: u32,
+    pub unused: [u32; 2],
 }
 
 /// Twin of `Ground` in `ground.wgsl`, which says what each member means.
