@@ -96,7 +96,7 @@ impl Compositor {
             pipeline,
             layout,
             sampler,
-            filled: uniform_buffer::<[f32; 4]>(device, "filled"),
+            filled: uniform_buffer::<shaders::Filled>(device, "filled"),
             source: None,
         }
     }
@@ -105,7 +105,10 @@ impl Compositor {
     pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, target: &Target) {
         let (texture, [width, height]) = (target.texture(), target.filled());
         let half_texel = [texture.width(), texture.height()].map(|side| 0.5 / side as f32);
-        let filled = [width, height, width - half_texel[0], height - half_texel[1]];
+        let filled = shaders::Filled {
+            part: [width, height],
+            last: [width - half_texel[0], height - half_texel[1]],
+        };
         queue.write_buffer(&self.filled, 0, bytemuck::bytes_of(&filled));
         if self.source.as_ref().is_some_and(|(view, _)| view == target.view()) {
             return;

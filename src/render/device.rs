@@ -231,6 +231,23 @@ fn expect_pixel(pixels: &[u8], x: u32, y: u32, expected: [u8; 4]) -> Result<(), 
     }
 }
 
+/// Whether an adapter draws with the CPU. Browsers do not always mark it.
+pub fn is_software(info: &wgpu::AdapterInfo) -> bool {
+    let name = info.name.to_lowercase();
+    info.device_type == wgpu::DeviceType::Cpu
+        || [
+            "swiftshader",
+            "llvmpipe",
+            "lavapipe",
+            "softpipe",
+            "software",
+            "basic render",
+            "warp",
+        ]
+        .iter()
+        .any(|word| name.contains(word))
+}
+
 /// Why a device could not do what it was asked for.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {

@@ -132,6 +132,7 @@ impl Session {
         new.view.insets = self.view.insets;
         new.view.theme = self.view.theme;
         new.revisions = self.revisions;
+        new.quality = self.quality.on_same_device();
         *self = new;
         self.commit(Changes::CONTENT);
     }

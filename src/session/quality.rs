@@ -237,6 +237,16 @@ impl Quality {
         }
     }
 
+    /// As at first, on this device.
+    pub(super) fn on_same_device(&self) -> Self {
+        let mut pacer = self.pacer.clone();
+        pacer.restart();
+        Self {
+            pacer,
+            ..Self::default()
+        }
+    }
+
     pub(super) fn apply(&mut self, command: QualityCommand) {
         match command {
             QualityCommand::SetMode(mode) => {

@@ -106,6 +106,16 @@ pub struct Environment {
     pub specular_level_count: f32,
 }
 
+/// Twin of `Filled` in `composite.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Filled {
+    /// The part of a texture that its picture fills, from the top left.
+    pub part: [f32; 2],
+    /// The centre of the picture's last texel, in the texture's coordinates.
+    pub last: [f32; 2],
+}
+
 /// Twin of `Line` in `lines.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]

@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::render::{Compositor, Renderer, SampleCount, Target};
-use bindpose::scene::{Background, Projection, Theme};
+use bindpose::scene::{Background, Light, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
 use crate::gpu::{Gpu, Picture, difference};
@@ -144,22 +144,6 @@ on_both_backends! {
         }
     }
 
-    fn textures_are_kept_while_a_window_is_resized(gpu) {
-        let device = &gpu.open.device;
-        let mut target = gpu.target(1, 1);
-        let kept = (500..600).filter(|&width| target.resize(device, [width, 300], [width, 300])).count();
-        assert_eq!(kept, 98, "new ones for 500 and for 513");
-        assert!(target.resize(device, [400, 300], [400, 300]), "a little too large is no harm");
-        assert!(!target.resize(device, [100, 100], [100, 100]), "much too large is");
-    }
-
-    fn a_picture_of_4k_is_drawn_smaller_and_a_usual_one_is_not(_gpu) {
-        for (size, least, most) in [([1920, 1080], 1.0, 1.0), ([2560, 1440], 1.0, 1.0), ([3840, 2160], 0.75, 0.9)] {
-            let scale = Target::affordable_scale(size, SampleCount::Four);
-            assert!((least..=most).contains(&scale), "{size:?}: {scale}");
-        }
-    }
-
     /// Where a device has no multisampling: the same picture but for edges.
     fn one_sample_a_pixel_is_enough_for_a_picture(gpu) {
         let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
@@ -277,7 +261,7 @@ on_both_backends! {
         assert_eq!(surface.share_that_differs(&gpu.read(&target), 1), 0.0);
     }
 
-    /// What lies beside the picture in its textures does not shine in.
+    /// What lies beside the picture in its textures does not shine in. Dither is what differs.
     fn the_compositor_stretches_a_part_of_a_texture(gpu) {
         let mut scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
         scene.options.background = Background::Color([200, 100, 50]);
@@ -288,9 +272,37 @@ on_both_backends! {
         let surface = composite(gpu, &target);
         assert_eq!([surface.width, surface.height], [128, 128]);
         for pixel in surface.rgba.chunks_exact(4) {
-            assert!(pixel[0].abs_diff(200) <= 1 && pixel[2].abs_diff(50) <= 1 && pixel[3] == 255, "{pixel:?}");
+            assert!(pixel[0].abs_diff(200) <= 3 && pixel[2].abs_diff(50) <= 3 && pixel[3] == 255, "{pixel:?}");
         }
     }
+}
+
+#[test]
+fn a_picture_of_4k_is_drawn_smaller_and_a_usual_one_is_not() {
+    for (size, least, most) in [
+        ([1920, 1080], 1.0, 1.0),
+        ([2560, 1440], 1.0, 1.0),
+        ([3840, 2160], 0.75, 0.9),
+    ] {
+        let scale = Target::affordable_scale(size, SampleCount::Four);
+        assert!((least..=most).contains(&scale), "{size:?}: {scale}");
+    }
+}
+
+#[test]
+fn textures_are_kept_while_a_window_is_resized() {
+    let gpu = crate::gpu::vulkan();
+    let device = &gpu.open.device;
+    let mut target = gpu.target(1, 1);
+    let kept = (500..600)
+        .filter(|&width| target.resize(device, [width, 300], [width, 300]))
+        .count();
+    assert_eq!(kept, 98, "new ones for 500 and for 513");
+    assert!(
+        target.resize(device, [400, 300], [400, 300]),
+        "a little too large is no harm"
+    );
+    assert!(!target.resize(device, [100, 100], [100, 100]), "much too large is");
 }
 
 /// Composites onto a surface as egui's, which is not sRGB, and reads that.
