@@ -1,5 +1,6 @@
 //! Frame time of the renderer on software GPUs, Vulkan's and GL's: with everything, with one pass left out at a time, under each
-//! light, split, and as a property. A software GPU draws with the CPU, so only the ratios of one run tell something.
+//! light, split, as a property, and still; in the others the pose moves, as while a clip plays. A software GPU draws with the CPU,
+//! so only the ratios of one run tell something.
 //!
 //! criterion repeats too often for frames of a tenth of a second; this takes the ways in turn, so that what else the machine does
 //! falls on all of them, and shows the least time of each, which it disturbed least, beside the median.
@@ -18,6 +19,8 @@ const ROUNDS: usize = 9;
 /// One way to draw the frame.
 struct Way {
     name: String,
+    /// The pose is that of the frame before.
+    is_still: bool,
     options: FrameOptions,
     millis: Vec<f64>,
 }
@@ -28,6 +31,7 @@ fn ways(options: FrameOptions) -> Vec<Way> {
         change(&mut options);
         Way {
             name: name.to_owned(),
+            is_still: false,
             options,
             millis: Vec::new(),
         }
@@ -51,6 +55,20 @@ fn ways(options: FrameOptions) -> Vec<Way> {
         }
     }
     ways.push(way("split in the middle", &|options| options.split = Some(0.5)));
+    for light in Light::ALL {
+        let all = |options: &mut FrameOptions| {
+            options.light = light;
+            options.passes = Passes::all();
+        };
+        // The first of two still frames draws the maps of the light.
+        for name in ["moved", "still"] {
+            let way = way(&format!("{}, {name}", light.name()), &all);
+            ways.push(Way {
+                is_still: name == "still",
+                ..way
+            });
+        }
+    }
     for mode in [ViewMode::BaseColor, ViewMode::AmbientOcclusion] {
         ways.push(way(&format!("property {}", mode.name()), &|options| {
             options.view_mode = mode;
@@ -112,12 +130,16 @@ fn measure(backend: Backend) {
     let [width, height] = SIZE;
     let mut target = Target::with_samples(&gpu.device, width, height, gpu.samples);
 
-    let frame = session.frame();
-    let mut ways = ways(frame.options);
+    let mut ways = ways(session.frame().options);
+    let mut time_secs = 1.0;
     // The first round makes pipelines and textures.
     for round in 0..=ROUNDS {
         for way in &mut ways {
-            let mut frame = frame.clone();
+            if !way.is_still {
+                time_secs += 1e-3;
+                session.apply(PlayCommand::Seek { time_secs });
+            }
+            let mut frame = session.frame();
             frame.options = way.options;
             let start = Instant::now();
             renderer.render(&frame, &mut target);

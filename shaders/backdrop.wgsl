@@ -1,5 +1,5 @@
-// Backdrop, ground grid and the shadows on the ground in one draw over the view, before the model. One draw needs no depth test, and is
-// rounded and dithered once instead of blended several times in eight bits.
+// Backdrop, ground grid and the shadows on the ground in one draw wherever the model is not, after it. One draw is rounded and dithered
+// once instead of blended several times in eight bits.
 
 // How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
 const BACKDROP_FALLOFF: f32 = 0.76;

@@ -1,4 +1,4 @@
-// One triangle that covers the view.
+// One triangle that covers the view, behind everything.
 
 struct FullscreenVertex {
     @builtin(position) clip: vec4<f32>,
@@ -9,5 +9,5 @@ struct FullscreenVertex {
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> FullscreenVertex {
     let ndc = vec2<f32>(f32((index << 1u) & 2u), f32(index & 2u)) * 2.0 - 1.0;
-    return FullscreenVertex(vec4<f32>(ndc, 0.0, 1.0), ndc);
+    return FullscreenVertex(vec4<f32>(ndc, 1.0, 1.0), ndc);
 }

@@ -23,6 +23,10 @@ struct Light {
     is_book: u32,
     // +1 when the green of normal maps points along the bitangent, -1 when against it.
     normal_green_sign: f32,
+    // 1 when ambient occlusion is to be sampled finely, 0 coarsely.
+    fine_occlusion: u32,
+    // Samples of the shadow map for each point.
+    @size(12) shadow_taps: u32,
 }
 
 @group(0) @binding(1) var<uniform> light: Light;

@@ -7,6 +7,10 @@ const BLUR_SIGMA: f32 = 2.5;
 
 fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
     let packed = geometry_at(pixel);
+    // Nothing is there, and nobody reads it.
+    if depth_of(packed) >= 1.0 {
+        return vec4<f32>(1.0);
+    }
     let normal = normal_of(packed);
     let along = distance_of(packed);
     let last = vec2<i32>(textureDimensions(rough_map)) - 1;

@@ -2,6 +2,8 @@
 // with the depth in view. Its lengths are those of the demo, in proportion to the model.
 
 const OFFSET_COUNT: i32 = 14;
+// The corners alone.
+const FEW_OFFSETS: i32 = 8;
 const OFFSET_RADIUS: f32 = 0.5;
 const FADE_START: f32 = 0.2;
 const FADE_END: f32 = 2.0;
@@ -43,8 +45,9 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let lift = 2.0 * fract(noise * 17.0) - 1.0;
     let mirror = vec3<f32>(sqrt(1.0 - lift * lift) * vec2<f32>(cos(turn), sin(turn)), lift);
 
+    let offset_count = select(FEW_OFFSETS, OFFSET_COUNT, light.fine_occlusion == 1u);
     var sum = 0.0;
-    for (var i = 0; i < OFFSET_COUNT; i++) {
+    for (var i = 0; i < offset_count; i++) {
         let offset = reflect(offset_vector(i), mirror);
         let outward = sign(dot(offset, normal));
         let probe = point + outward * OFFSET_RADIUS * light.book_unit * offset;
@@ -58,6 +61,6 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             sum += occlusion * max(dot(normal, normalize(found - point)), 0.0);
         }
     }
-    let access = 1.0 - sum / f32(OFFSET_COUNT);
+    let access = 1.0 - sum / f32(offset_count);
     return vec4<f32>(clamp(access * access, 0.0, 1.0));
 }

@@ -4,6 +4,8 @@
 
 const SLICES: i32 = 3;
 const STEPS: i32 = 5;
+const FEW_SLICES: i32 = 2;
+const FEW_STEPS: i32 = 3;
 const DEEPENING: f32 = 1.6;
 const HALF_PI: f32 = 1.5707963;
 // Farther pixels would cost more than they add.
@@ -16,9 +18,10 @@ fn open_arc(horizon: f32, normal_angle: f32) -> f32 {
 
 // Cosine of the highest occluder from the view ray, on one side of a slice.
 fn horizon_cosine(pixel: vec2<f32>, step: vec2<f32>, start: f32, point: vec3<f32>, to_eye: vec3<f32>, lowest: f32) -> f32 {
+    let steps = select(FEW_STEPS, STEPS, light.fine_occlusion == 1u);
     var highest = lowest;
-    for (var i = 0; i < STEPS; i++) {
-        let fraction = (f32(i) + start) / f32(STEPS);
+    for (var i = 0; i < steps; i++) {
+        let fraction = (f32(i) + start) / f32(steps);
         // Denser near the point, and never the point itself.
         let at = pixel + step * fraction * fraction + normalize(step);
         let packed = geometry_at(vec2<i32>(floor(at)));
@@ -52,9 +55,10 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let noise = pixel_noise(view.clip.xy);
     let start = 0.25 + 0.75 * fract(noise * 7.0 + 0.37);
 
+    let slices = select(FEW_SLICES, SLICES, light.fine_occlusion == 1u);
     var open = 0.0;
-    for (var i = 0; i < SLICES; i++) {
-        let angle = (f32(i) + noise) * (3.14159265 / f32(SLICES));
+    for (var i = 0; i < slices; i++) {
+        let angle = (f32(i) + noise) * (3.14159265 / f32(slices));
         let heading = vec2<f32>(cos(angle), sin(angle));
         let across = right * heading.x + up * heading.y;
         let in_slice = across - to_eye * dot(across, to_eye);
@@ -74,5 +78,5 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
     // Occluders beyond the radius are not found. Darkening the rest makes up for them.
-    return vec4<f32>(pow(clamp(open / f32(SLICES), 0.0, 1.0), DEEPENING));
+    return vec4<f32>(pow(clamp(open / f32(slices), 0.0, 1.0), DEEPENING));
 }

@@ -1,7 +1,6 @@
 // How much of the key light reaches a point.
 
 // Sunflower disc: each tap turns on by the golden angle, so that the density is even.
-const SHADOW_TAPS: u32 = 16u;
 const GOLDEN_COS: f32 = -0.73736888;
 const GOLDEN_SIN: f32 = 0.67549029;
 
@@ -21,10 +20,10 @@ fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
     let radius = radius_texels / f32(textureDimensions(shadow_map).x);
     var lit = 0.0;
     var direction = vec2<f32>(1.0, 0.0);
-    for (var i = 0u; i < SHADOW_TAPS; i++) {
-        let offset = sqrt((f32(i) + 0.5) / f32(SHADOW_TAPS)) * direction;
+    for (var i = 0u; i < light.shadow_taps; i++) {
+        let offset = sqrt((f32(i) + 0.5) / f32(light.shadow_taps)) * direction;
         direction = mat2x2<f32>(GOLDEN_COS, GOLDEN_SIN, -GOLDEN_SIN, GOLDEN_COS) * direction;
         lit += textureSampleCompareLevel(shadow_map, shadow_sampler, center + offset * radius, depth);
     }
-    return lit / f32(SHADOW_TAPS);
+    return lit / f32(light.shadow_taps);
 }

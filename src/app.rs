@@ -8,10 +8,11 @@ use std::task::{Context, Poll, Wake, Waker};
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
 use crate::render::{
-    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, Target, UploadError, device, watched,
+    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, SampleCount, Target, UploadError, device,
+    watched,
 };
 use crate::scene::{FrameOptions, Theme};
-use crate::session::Session;
+use crate::session::{Quality, Session};
 use crate::ui::{self, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
@@ -79,12 +80,12 @@ impl App {
             // Only the frame's last pass draws.
             return requests;
         }
-        let points_to_pixels = ui.pixels_per_point() * session.quality().render_scale().fraction();
-        let pixels = |points: f32| (points * points_to_pixels).round().max(1.0) as u32;
-        let told = (session.model_revision(), session.error().is_some());
-        let drawn = self
+        session.follow_motion();
+        let size = self
             .painter
-            .draw(&mut session, [pixels(window.width()), pixels(window.height())]);
+            .sizes(session.quality(), window.size() * ui.pixels_per_point());
+        let told = (session.model_revision(), session.error().is_some());
+        let drawn = self.painter.draw(&mut session, size);
         let goes_on = drawn && session.frame_drawn();
 
         self.painter.was_moving = session.is_moving();
@@ -95,6 +96,8 @@ impl App {
             || (session.model_revision(), session.error().is_some()) != told
         {
             ui.ctx().request_repaint();
+        } else if let Some(secs) = session.quality().rests_in_secs() {
+            ui.ctx().request_repaint_after_secs(secs);
         }
         requests
     }
@@ -149,9 +152,17 @@ struct Drawn {
     size: [u32; 2],
 }
 
+/// Sizes of the picture in the window, pixels.
+#[derive(Clone, Copy)]
+struct Sizes {
+    now: [u32; 2],
+    at_rest: [u32; 2],
+}
+
 /// Draws the session: the renderer, the window's target, and the revisions of what was uploaded and drawn.
 struct SessionPainter {
     gpu: RenderState,
+    samples: SampleCount,
     renderer: Renderer,
     target: Target,
     model: Option<u64>,
@@ -185,6 +196,7 @@ impl SessionPainter {
             renderer: Renderer::with_samples(&gpu.device, &gpu.queue, samples),
             target: Target::with_samples(&gpu.device, 1, 1, samples),
             gpu: gpu.clone(),
+            samples,
             model: None,
             maps: None,
             materials: None,
@@ -198,30 +210,44 @@ impl SessionPainter {
         }
     }
 
+    /// How large the picture is to be now, and at rest, in a window of this size in pixels.
+    fn sizes(&self, quality: &Quality, window: egui::Vec2) -> Sizes {
+        let affordable = Target::affordable_scale([window.x as u32, window.y as u32], self.samples);
+        let scaled = |scale: f32| [window.x, window.y].map(|side| (side * scale * affordable).round().max(1.0) as u32);
+        Sizes {
+            now: scaled(quality.scale_now()),
+            at_rest: scaled(quality.render_scale().fraction()),
+        }
+    }
+
     /// Draws if the picture would differ from the last one. Returns whether it drew.
-    fn draw(&mut self, session: &mut Session, size: [u32; 2]) -> bool {
+    fn draw(&mut self, session: &mut Session, sizes: Sizes) -> bool {
         self.update(session);
         let wanted = Drawn {
             picture: session.picture_revision(),
-            size,
+            size: sizes.now,
         };
         self.poll_target(session);
         if self.drawn == Some(wanted) {
             return false;
         }
-        if self.target.size() == size {
+        if self.target.size() == sizes.now {
             self.renderer.render(&session.frame(), &mut self.target);
         } else {
             let device = self.gpu.device.clone();
-            let ((), answer) = watched(&device, || {
-                self.target.resize(&device, size[0], size[1]);
+            let (stayed, answer) = watched(&device, || {
+                let stayed = self.target.resize(&device, sizes.now, sizes.at_rest);
                 self.renderer.render(&session.frame(), &mut self.target);
+                stayed
             });
-            self.target_answer = Some(answer);
-            self.poll_target(session);
+            // Maps of the light have the picture's size, but they are small.
+            if !stayed {
+                self.target_answer = Some(answer);
+                self.poll_target(session);
+            }
         }
         if let Some(compositor) = self.gpu.renderer.write().callback_resources.get_mut::<Compositor>() {
-            compositor.prepare(&self.gpu.device, &self.target);
+            compositor.prepare(&self.gpu.device, &self.gpu.queue, &self.target);
         }
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
@@ -250,6 +276,7 @@ impl SessionPainter {
         let passes = session.quality().wanted();
         let mut frame = session.frame();
         frame.options.passes = passes;
+        (frame.options.occlusion_detail, frame.options.shadow_detail) = Default::default();
         adjust(&mut frame.options);
         self.renderer.picture(&frame, size)
     }

@@ -55,6 +55,7 @@ bindpose.reset = async () => {
   const files = (await fetchOpening()) ?? [];
   await give(files, "startOver");
   bindpose.setRenderScale(addressedScale());
+  bindpose.setQuality(addressedQuality());
   return bindpose.state();
 };
 
@@ -103,11 +104,12 @@ async function boot() {
   }
   const opensAtOnce = fetchOpening();
   const backend = wantedBackend();
+  const displaySecs = watchDisplay();
   addEventListener("error", ({ error }) => isPanic(error) && onPanic(wordsOf(error)));
   addEventListener("unhandledrejection", ({ reason }) => isPanic(reason) && onPanic(wordsOf(reason)));
   try {
     const { Viewer } = await load();
-    viewer = new Viewer({ renderScale: addressedScale() }, onEvent);
+    viewer = new Viewer({ renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs() }, onEvent);
   } catch (error) {
     fail(error);
     showDownloadFailure(error);
@@ -205,6 +207,31 @@ function showDrop(words) {
 function addressedScale() {
   const scale = Number(options.get("scale"));
   return scale > 0 && scale < Infinity ? scale : 1;
+}
+
+/** How finely the address asks for a moving picture to be drawn. */
+function addressedQuality() {
+  return options.get("quality") ?? "auto";
+}
+
+/**
+ * Watches how often the display shows a picture, while nothing is drawn yet. Returns a function that ends it and tells the seconds
+ * between two, or nothing when it saw too few: in a hidden tab none comes.
+ */
+function watchDisplay() {
+  const intervals = [];
+  let last;
+  let request = requestAnimationFrame(function note(now) {
+    if (last !== undefined && intervals.length < 60) intervals.push(now - last);
+    last = now;
+    request = requestAnimationFrame(note);
+  });
+  return () => {
+    cancelAnimationFrame(request);
+    intervals.sort((a, b) => a - b);
+    // While the program arrives, the page is busy now and then: what the display can do shows in the quick ones.
+    return intervals.length >= 8 ? intervals[intervals.length >> 2] / 1000 : undefined;
+  };
 }
 
 function wantedBackend() {

@@ -1,14 +1,17 @@
 //! Brings a finished picture onto a surface.
 
+use super::buffers::uniform_buffer;
 use super::target::Target;
 use crate::shaders;
 
-/// Draws a target's picture into someone else's render pass, encoded, premultiplied: as egui's surface wants it.
+/// Draws a target's picture into someone else's render pass, encoded as egui's surface wants it, over black.
 /// [`Compositor::prepare`] comes before the pass, [`Compositor::paint`] inside it.
 pub struct Compositor {
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
+    /// The part of the texture that the picture fills, and where its last texels are.
+    filled: wgpu::Buffer,
     /// The view that the group shows, and the group.
     source: Option<(wgpu::TextureView, wgpu::BindGroup)>,
 }
@@ -33,6 +36,16 @@ impl Compositor {
                     binding: 1,
                     visibility: wgpu::ShaderStages::FRAGMENT,
                     ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+                    count: None,
+                },
+                wgpu::BindGroupLayoutEntry {
+                    binding: 2,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Buffer {
+                        ty: wgpu::BufferBindingType::Uniform,
+                        has_dynamic_offset: false,
+                        min_binding_size: None,
+                    },
                     count: None,
                 },
             ],
@@ -64,14 +77,15 @@ impl Compositor {
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format,
-                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    blend: None,
                     write_mask: wgpu::ColorWrites::ALL,
                 })],
             }),
             multiview_mask: None,
             cache: None,
         });
-        // While a window is resized, the old picture is stretched. Otherwise each pixel is one texel.
+        // While a window is resized, the old picture is stretched, and so is one that is drawn with fewer pixels. Otherwise each pixel
+        // is one texel.
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("composite"),
             mag_filter: wgpu::FilterMode::Linear,
@@ -82,12 +96,20 @@ impl Compositor {
             pipeline,
             layout,
             sampler,
+            filled: uniform_buffer::<shaders::Filled>(device, "filled"),
             source: None,
         }
     }
 
     /// Sets the picture to show. Makes a bind group only when the target has another texture than before.
-    pub fn prepare(&mut self, device: &wgpu::Device, target: &Target) {
+    pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, target: &Target) {
+        let (texture, [width, height]) = (target.texture(), target.filled());
+        let half_texel = [texture.width(), texture.height()].map(|side| 0.5 / side as f32);
+        let filled = shaders::Filled {
+            part: [width, height],
+            last: [width - half_texel[0], height - half_texel[1]],
+        };
+        queue.write_buffer(&self.filled, 0, bytemuck::bytes_of(&filled));
         if self.source.as_ref().is_some_and(|(view, _)| view == target.view()) {
             return;
         }
@@ -102,6 +124,10 @@ impl Compositor {
                 wgpu::BindGroupEntry {
                     binding: 1,
                     resource: wgpu::BindingResource::Sampler(&self.sampler),
+                },
+                wgpu::BindGroupEntry {
+                    binding: 2,
+                    resource: self.filled.as_entire_binding(),
                 },
             ],
         });

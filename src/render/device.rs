@@ -207,7 +207,7 @@ pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl Async
     let target = Target::with_samples(device, PROBE_SIDE, PROBE_SIDE, SampleCount::Four);
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("probe") });
     {
-        let mut pass = target.begin_pass(&mut encoder);
+        let mut pass = target.begin_pass(&mut encoder, wgpu::Color::TRANSPARENT);
         pass.set_pipeline(&pipeline);
         pass.draw(0..3, 0..1);
     }
@@ -229,6 +229,23 @@ fn expect_pixel(pixels: &[u8], x: u32, y: u32, expected: [u8; 4]) -> Result<(), 
     } else {
         Err(ProbeError::WrongPicture { x, y, found, expected })
     }
+}
+
+/// Whether an adapter draws with the CPU. Browsers do not always mark it.
+pub fn is_software(info: &wgpu::AdapterInfo) -> bool {
+    let name = info.name.to_lowercase();
+    info.device_type == wgpu::DeviceType::Cpu
+        || [
+            "swiftshader",
+            "llvmpipe",
+            "lavapipe",
+            "softpipe",
+            "software",
+            "basic render",
+            "warp",
+        ]
+        .iter()
+        .any(|word| name.contains(word))
 }
 
 /// Why a device could not do what it was asked for.

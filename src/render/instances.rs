@@ -26,8 +26,10 @@ pub struct BoneTexture {
     /// Joints of one palette.
     joint_count: usize,
     palette_count: usize,
-    /// Texels as they are uploaded, whole rows.
+    /// Texels as they were uploaded last, whole rows.
     texels: Vec<[f32; 4]>,
+    /// Those of the upload before, as a buffer for the next.
+    texels_before: Vec<[f32; 4]>,
 }
 
 impl BoneTexture {
@@ -65,6 +67,7 @@ impl BoneTexture {
             joint_count,
             palette_count: 0,
             texels: Vec::new(),
+            texels_before: Vec::new(),
         }
     }
 
@@ -73,10 +76,11 @@ impl BoneTexture {
         &self.group
     }
 
-    /// Uploads palettes, as many as fit the device. Matrices that a palette lacks are identities; those beyond the joint count are
-    /// left out.
+    /// Uploads palettes, as many as fit the device, unless they are there already. Matrices that a palette lacks are identities;
+    /// those beyond the joint count are left out.
     pub fn write<'a>(&mut self, queue: &wgpu::Queue, palettes: impl IntoIterator<Item = &'a Palette>) {
         let most = Self::max_joints(&self.device.limits()) / self.joint_count.max(1);
+        std::mem::swap(&mut self.texels, &mut self.texels_before);
         self.texels.clear();
         self.palette_count = 0;
         for palette in palettes.into_iter().take(most) {
@@ -84,11 +88,11 @@ impl BoneTexture {
             self.texels.extend(matrices.take(self.joint_count).flat_map(rows));
             self.palette_count += 1;
         }
-        if self.texels.is_empty() {
-            return;
-        }
         let height = (self.texels.len() as u32).div_ceil(TEXELS_PER_ROW);
         self.texels.resize((height * TEXELS_PER_ROW) as usize, [0.0; 4]);
+        if self.texels == self.texels_before {
+            return;
+        }
         if height > self.texture.height() {
             (self.texture, self.group) = texture(&self.device, &self.layout, height);
         }

@@ -1,4 +1,5 @@
-//! The maps of one light, which passes draw before the picture reads them: shadow map, ambient occlusion and contact map.
+//! The maps that passes draw before the picture reads them: shadow map, ambient occlusion and contact map of one light, and the
+//! geometry in view. A map is drawn again only when something that it shows is different.
 
 use std::ops::Range;
 
@@ -9,19 +10,35 @@ use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
 use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture};
 use crate::scene::Light;
+use crate::shaders;
 
 const DRAWN_AND_READ: wgpu::TextureUsages =
     wgpu::TextureUsages::RENDER_ATTACHMENT.union(wgpu::TextureUsages::TEXTURE_BINDING);
 
+/// What a map was last drawn from.
+struct DrawnFrom<T>(Option<T>);
+
+impl<T: PartialEq> DrawnFrom<T> {
+    /// Whether the map has to be drawn, since it was drawn from something else or never.
+    fn update(&mut self, source: T) -> bool {
+        let differs = self.0.as_ref() != Some(&source);
+        self.0 = Some(source);
+        differs
+    }
+}
+
 /// The depth of the model from the key light.
 pub(super) struct ShadowMap {
     view: wgpu::TextureView,
+    /// Revision of the shape, and `shadow_clip_from_world`.
+    drawn_from: DrawnFrom<(u64, [[f32; 4]; 4])>,
 }
 
 impl ShadowMap {
     pub(super) fn new(device: &wgpu::Device) -> Self {
         Self {
             view: flat_texture(device, "shadow map", [SHADOW_MAP_SIZE; 2], DEPTH_FORMAT, DRAWN_AND_READ),
+            drawn_from: DrawnFrom(None),
         }
     }
 
@@ -31,12 +48,15 @@ impl ShadowMap {
 
     /// Without a model the map is empty.
     pub(super) fn draw(
-        &self,
+        &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        frame_group: &wgpu::BindGroup,
-        model: Option<(&GpuModel, Posed<'_>)>,
+        (frame_group, light): (&wgpu::BindGroup, &shaders::Light),
+        (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),
         nothing: &wgpu::BindGroup,
     ) {
+        if !self.drawn_from.update((shape_revision, light.shadow_clip_from_world)) {
+            return;
+        }
         let targets = PassTargets {
             depth: Some(&self.view),
             depth_is_kept: true,
@@ -62,50 +82,107 @@ const NO_GEOMETRY: wgpu::Color = wgpu::Color {
 /// Texels beside a light's columns that its blurs read: one radius for each of the book's four blurs.
 const BLUR_MARGIN: u32 = 4 * 5;
 
-/// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view. Its textures fit
-/// pictures of one size.
-pub(super) struct AmbientOcclusion {
+/// Normals and depth of the model in view, at half the resolution of pictures of one size. Both lights read it.
+pub(super) struct GeometryMap {
     size: [u32; 2],
     geometry: wgpu::TextureView,
     depth: wgpu::TextureView,
-    occlusion: wgpu::TextureView,
-    half_blurred: wgpu::TextureView,
-    /// Reads the geometry and `occlusion`.
-    occlusion_group: wgpu::BindGroup,
-    /// Reads the geometry and `half_blurred`.
-    half_blurred_group: wgpu::BindGroup,
+    /// Revision of the shape, and the camera.
+    drawn_from: DrawnFrom<(u64, shaders::Camera)>,
+    /// Counts how often it was drawn.
+    revision: u64,
 }
 
-impl AmbientOcclusion {
-    pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, size: [u32; 2]) -> Self {
-        let texture = |label, format| flat_texture(device, label, half(size), format, DRAWN_AND_READ);
-        let geometry = texture("geometry", GEOMETRY_FORMAT);
-        let occlusion = texture("occlusion", FRACTION_FORMAT);
-        let half_blurred = texture("occlusion, half blurred", FRACTION_FORMAT);
-        let group = |rough| {
-            let resources = [&geometry, rough].map(wgpu::BindingResource::TextureView);
-            bind_group(device, "occlusion", &pipelines.layouts.occlusion, resources)
-        };
+impl GeometryMap {
+    pub(super) fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let depth = wgpu::TextureUsages::RENDER_ATTACHMENT;
         Self {
             size,
-            depth: flat_texture(
-                device,
-                "geometry depth",
-                half(size),
-                DEPTH_FORMAT,
-                wgpu::TextureUsages::RENDER_ATTACHMENT,
-            ),
-            occlusion_group: group(&occlusion),
-            half_blurred_group: group(&half_blurred),
-            geometry,
-            occlusion,
-            half_blurred,
+            geometry: flat_texture(device, "geometry", half(size), GEOMETRY_FORMAT, DRAWN_AND_READ),
+            depth: flat_texture(device, "geometry depth", half(size), DEPTH_FORMAT, depth),
+            drawn_from: DrawnFrom(None),
+            revision: 0,
         }
     }
 
     /// Size of the pictures that it fits, pixels.
     pub(super) fn size(&self) -> [u32; 2] {
         self.size
+    }
+
+    pub(super) fn draw(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        (frame_group, camera): (&wgpu::BindGroup, &shaders::Camera),
+        (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
+        nothing: &wgpu::BindGroup,
+    ) {
+        let place = shaders::Camera {
+            exposure_stops: 0.0,
+            view_mode: 0,
+            ..*camera
+        };
+        if !self.drawn_from.update((shape_revision, place)) {
+            return;
+        }
+        self.revision += 1;
+        let targets = PassTargets {
+            color: Some((&self.geometry, NO_GEOMETRY)),
+            depth: Some(&self.depth),
+            ..PassTargets::default()
+        };
+        let mut pass = begin_pass(encoder, "geometry", targets);
+        pass.set_bind_group(0, frame_group, &[]);
+        pass.set_bind_group(2, nothing, &[]);
+        model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
+    }
+}
+
+/// What ambient occlusion is drawn from, beside the geometry of this revision.
+#[derive(PartialEq)]
+struct OcclusionSource {
+    geometry_revision: u64,
+    columns: Range<u32>,
+    /// Lengths of the light, world units.
+    radius: f32,
+    book_unit: f32,
+    fine: u32,
+}
+
+/// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view.
+pub(super) struct AmbientOcclusion {
+    /// The geometry that it reads.
+    geometry: wgpu::TextureView,
+    occlusion: wgpu::TextureView,
+    half_blurred: wgpu::TextureView,
+    /// Reads the geometry and `occlusion`.
+    occlusion_group: wgpu::BindGroup,
+    /// Reads the geometry and `half_blurred`.
+    half_blurred_group: wgpu::BindGroup,
+    drawn_from: DrawnFrom<OcclusionSource>,
+}
+
+impl AmbientOcclusion {
+    pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, map: &GeometryMap) -> Self {
+        let texture = |label| flat_texture(device, label, half(map.size), FRACTION_FORMAT, DRAWN_AND_READ);
+        let (occlusion, half_blurred) = (texture("occlusion"), texture("occlusion, half blurred"));
+        let group = |rough| {
+            let resources = [&map.geometry, rough].map(wgpu::BindingResource::TextureView);
+            bind_group(device, "occlusion", &pipelines.layouts.occlusion, resources)
+        };
+        Self {
+            geometry: map.geometry.clone(),
+            occlusion_group: group(&occlusion),
+            half_blurred_group: group(&half_blurred),
+            occlusion,
+            half_blurred,
+            drawn_from: DrawnFrom(None),
+        }
+    }
+
+    /// Whether it reads this map.
+    pub(super) fn reads(&self, map: &GeometryMap) -> bool {
+        self.geometry == map.geometry
     }
 
     /// Once drawn: the fraction of the environment that reaches each pixel.
@@ -115,25 +192,24 @@ impl AmbientOcclusion {
 
     /// `columns` of the picture are this light's.
     pub(super) fn draw(
-        &self,
+        &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        frame_group: &wgpu::BindGroup,
-        (model, posed): (&GpuModel, Posed<'_>),
+        pipelines: &Pipelines,
+        (frame_group, uniform): (&wgpu::BindGroup, &shaders::Light),
         (light, columns): (Light, &Range<u32>),
-        nothing: &wgpu::BindGroup,
+        map: &GeometryMap,
     ) {
-        {
-            let targets = PassTargets {
-                color: Some((&self.geometry, NO_GEOMETRY)),
-                depth: Some(&self.depth),
-                ..PassTargets::default()
-            };
-            let mut pass = begin_pass(encoder, "geometry", targets);
-            pass.set_bind_group(0, frame_group, &[]);
-            pass.set_bind_group(2, nothing, &[]);
-            model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
+        let source = OcclusionSource {
+            geometry_revision: map.revision,
+            columns: columns.clone(),
+            radius: uniform.occlusion_radius,
+            book_unit: uniform.book_unit,
+            fine: uniform.fine_occlusion,
+        };
+        if !self.drawn_from.update(source) {
+            return;
         }
-        let [width, height] = half(self.size);
+        let [width, height] = half(map.size);
         let start = (columns.start / 2).saturating_sub(BLUR_MARGIN);
         let end = (columns.end.div_ceil(2) + BLUR_MARGIN).min(width);
         let mut fill = |draw, source: &wgpu::BindGroup, target: &wgpu::TextureView| {
@@ -143,7 +219,7 @@ impl AmbientOcclusion {
                 ..PassTargets::default()
             };
             let mut pass = begin_pass(encoder, "occlusion", targets);
-            pass.set_pipeline(&posed.pipelines.get(draw));
+            pass.set_pipeline(&pipelines.get(draw));
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(1, source, &[]);
             pass.draw(0..3, 0..1);
@@ -175,6 +251,17 @@ pub(super) struct ContactMap {
     half_blurred: wgpu::TextureView,
     map_group: wgpu::BindGroup,
     half_blurred_group: wgpu::BindGroup,
+    drawn_from: DrawnFrom<ContactSource>,
+}
+
+/// What the contact map is drawn from: the shape of this revision, and where the map lies, world units.
+#[derive(PartialEq)]
+struct ContactSource {
+    shape_revision: u64,
+    center: [f32; 2],
+    half_width: f32,
+    ground_height: f32,
+    book_unit: f32,
 }
 
 impl ContactMap {
@@ -190,6 +277,7 @@ impl ContactMap {
             half_blurred_group: group(&half_blurred),
             map,
             half_blurred,
+            drawn_from: DrawnFrom(None),
         }
     }
 
@@ -198,11 +286,21 @@ impl ContactMap {
     }
 
     pub(super) fn draw(
-        &self,
+        &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        frame_group: &wgpu::BindGroup,
-        (model, posed): (&GpuModel, Posed<'_>),
+        (frame_group, light, ground): (&wgpu::BindGroup, &shaders::Light, &shaders::Ground),
+        (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
     ) {
+        let source = ContactSource {
+            shape_revision,
+            center: ground.contact_center,
+            half_width: ground.contact_half_width,
+            ground_height: ground.height,
+            book_unit: light.book_unit,
+        };
+        if !self.drawn_from.update(source) {
+            return;
+        }
         let over_black = |view| PassTargets {
             color: Some((view, wgpu::Color::BLACK)),
             ..PassTargets::default()

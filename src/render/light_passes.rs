@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::buffers::{bind_group, uniform_buffer};
 use super::environment::Environments;
-use super::light_maps::{AmbientOcclusion, ContactMap, ShadowMap};
+use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::uniforms::{camera_uniform, ground_uniform, light_uniform};
@@ -63,6 +63,8 @@ pub(super) struct LightPasses {
     camera: wgpu::Buffer,
     light_uniform: wgpu::Buffer,
     ground: wgpu::Buffer,
+    /// What the buffers hold.
+    written: (shaders::Camera, shaders::Light, shaders::Ground),
     frame_group: wgpu::BindGroup,
     shadow: ShadowMap,
     occlusion: Option<AmbientOcclusion>,
@@ -84,6 +86,7 @@ impl LightPasses {
             camera,
             light_uniform,
             ground,
+            written: Default::default(),
             shadow: ShadowMap::new(device),
             occlusion: None,
             contact: None,
@@ -105,48 +108,65 @@ impl LightPasses {
         self.lighting.as_ref().map(|(_, group)| group)
     }
 
-    /// Writes the uniforms, and draws the maps that the picture will read. `size` is the picture's, `columns` are those of this
-    /// light.
+    /// Writes the uniforms for a picture of this size, pixels.
+    pub(super) fn write(&mut self, queue: &wgpu::Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
+        let camera = camera_uniform(frame, size);
+        let light = light_uniform(frame, self.light);
+        let ground = ground_uniform(frame, self.light);
+        queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
+        queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
+        queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));
+        self.written = (camera, light, ground);
+    }
+
+    /// Draws the geometry in view, which both lights read. After [`LightPasses::write`].
+    pub(super) fn draw_geometry(
+        &self,
+        common: &Common,
+        encoder: &mut wgpu::CommandEncoder,
+        map: &mut GeometryMap,
+        model: (u64, (&GpuModel, Posed<'_>)),
+    ) {
+        map.draw(encoder, (&self.frame_group, &self.written.0), model, &common.nothing);
+    }
+
+    /// Draws the maps that the picture will read. `columns` of the picture are those of this light; `geometry` is there when
+    /// ambient occlusion is wanted. After [`LightPasses::write`].
     pub(super) fn draw(
         &mut self,
         common: &Common,
         encoder: &mut wgpu::CommandEncoder,
         frame: &RenderFrame<'_>,
-        (size, columns): ([u32; 2], &Range<u32>),
-        model: Option<(&GpuModel, Posed<'_>)>,
+        (columns, geometry): (&Range<u32>, Option<&GeometryMap>),
+        (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),
     ) {
         let Common {
             device,
-            queue,
             pipelines,
             environments,
             nothing,
             ..
         } = common;
-        let camera = camera_uniform(frame, size);
-        queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
-        let light = light_uniform(frame, self.light);
-        queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
-        let ground = ground_uniform(frame, self.light);
-        queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));
-
-        let draws = |pass| frame.options.draws_under(pass, self.light);
+        let (_, light, ground) = &self.written;
+        let group = &self.frame_group;
+        let draws = |pass| frame.draws_under(pass, self.light);
         if draws(Pass::Shadow) {
-            self.shadow.draw(encoder, &self.frame_group, model, nothing);
+            self.shadow
+                .draw(encoder, (group, light), (shape_revision, model), nothing);
         }
         let mut occlusion = &common.white;
         let mut contact = &common.black;
         if let Some(model) = model {
-            if draws(Pass::AmbientOcclusion) {
-                let kept = self.occlusion.take().filter(|occlusion| occlusion.size() == size);
-                let fresh = || AmbientOcclusion::new(device, pipelines, size);
+            if let (true, Some(geometry)) = (draws(Pass::AmbientOcclusion), geometry) {
+                let kept = self.occlusion.take().filter(|occlusion| occlusion.reads(geometry));
+                let fresh = || AmbientOcclusion::new(device, pipelines, geometry);
                 let map = self.occlusion.insert(kept.unwrap_or_else(fresh));
-                map.draw(encoder, &self.frame_group, model, (self.light, columns), nothing);
+                map.draw(encoder, pipelines, (group, light), (self.light, columns), geometry);
                 occlusion = map.view();
             }
             if draws(Pass::ContactShadow) {
                 let map = self.contact.get_or_insert_with(|| ContactMap::new(device, pipelines));
-                map.draw(encoder, &self.frame_group, model);
+                map.draw(encoder, (group, light, ground), (shape_revision, model));
                 contact = map.view();
             }
         }

@@ -2,6 +2,7 @@
 //! stands in for a missing map.
 
 use super::buffers::{UploadError, Uploader, bind_group};
+use super::device::is_software;
 use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
 use crate::image::{Channels, MapKind};
@@ -142,7 +143,7 @@ impl GpuMaterials {
 /// Repeats, trilinear. Devices without anisotropic filtering treat the number as 1. It is off on software devices, where it would
 /// cost many times as much as the rest of the frame.
 fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
-    let is_software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+    let is_software = is_software(&device.adapter_info());
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("maps"),
         address_mode_u: wgpu::AddressMode::Repeat,

@@ -37,12 +37,15 @@ pub use picture::{Picture, PictureError};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
+use glam::Affine3A;
+
 use crate::image::Image;
 use crate::model::{Material, Model};
-use crate::scene::{Background, Light, RenderFrame, ViewMode};
+use crate::scene::{Background, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
 use instances::Instances;
+use light_maps::GeometryMap;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
@@ -62,6 +65,42 @@ pub struct Renderer {
     no_bones: BoneTexture,
     maps: MapTextures,
     model: Option<GpuModel>,
+    shape: Shape,
+    /// For ambient occlusion; fits the last size of the picture.
+    geometry: Option<GeometryMap>,
+}
+
+/// What of the model the maps show: all but its colours. Kept to see when it changes.
+#[derive(Default)]
+struct Shape {
+    palette: Vec<Affine3A>,
+    hidden: Vec<bool>,
+    world_from_model: Affine3A,
+    /// Counts changes.
+    revision: u64,
+}
+
+impl Shape {
+    /// Another model, or other holes in it.
+    fn replace(&mut self) {
+        self.revision += 1;
+    }
+
+    /// Follows the frame's pose.
+    fn update(&mut self, frame: &RenderFrame<'_>) {
+        let palette = &frame.palette.0;
+        if self.palette == *palette
+            && self.hidden == frame.hidden_submeshes
+            && self.world_from_model == frame.world_from_model
+        {
+            return;
+        }
+        self.palette.clone_from(palette);
+        self.hidden.clear();
+        self.hidden.extend_from_slice(frame.hidden_submeshes);
+        self.world_from_model = frame.world_from_model;
+        self.revision += 1;
+    }
 }
 
 /// A range of columns of the picture, pixels, under one light.
@@ -95,6 +134,8 @@ impl Renderer {
                 black: one_texel(device, queue, "black", [0; 4]),
             },
             model: None,
+            shape: Shape::default(),
+            geometry: None,
         }
     }
 
@@ -107,6 +148,7 @@ impl Renderer {
             ..
         } = &self.common;
         self.model = Some(GpuModel::upload(device, queue, &pipelines.layouts, &self.maps, model)?);
+        self.shape.replace();
         Ok(())
     }
 
@@ -121,6 +163,7 @@ impl Renderer {
             ..
         } = &self.common;
         let Some(model) = &mut self.model else { return 0 };
+        self.shape.replace();
         let uploaded = self.maps.update(device, queue, maps);
         model
             .materials
@@ -132,6 +175,7 @@ impl Renderer {
     pub fn set_materials(&mut self, materials: &[Material]) {
         if let Some(model) = &mut self.model {
             model.materials.set_values(&self.common.queue, materials);
+            self.shape.replace();
         }
     }
 
@@ -151,6 +195,7 @@ impl Renderer {
     pub fn clear_model(&mut self) {
         self.model = None;
         self.maps.clear();
+        self.shape.replace();
     }
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space.
@@ -168,6 +213,7 @@ impl Renderer {
                 .write(device, queue, frame, model.bones.as_ref(), model.winding);
         }
         self.overlays.write(device, queue, frame);
+        self.shape.update(frame);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
@@ -191,10 +237,25 @@ impl Renderer {
             };
             (model, posed)
         });
+        let columns_of = |light| parts.iter().find(|part| part.0 == light).map(|(_, columns)| columns);
+        let mut geometry = None;
         for passes in &mut self.lights {
-            if let Some((_, columns)) = parts.iter().find(|(light, _)| *light == passes.light()) {
-                let place = (target.size(), columns);
-                passes.draw(&self.common, &mut encoder, frame, place, model);
+            if columns_of(passes.light()).is_none() {
+                continue;
+            }
+            passes.write(&self.common.queue, frame, target.size());
+            if let (true, Some(model)) = (frame.draws_under(Pass::AmbientOcclusion, passes.light()), model) {
+                let kept = self.geometry.take().filter(|map| map.size() == target.size());
+                let fresh = || GeometryMap::new(&self.common.device, target.size());
+                let map = self.geometry.insert(kept.unwrap_or_else(fresh));
+                passes.draw_geometry(&self.common, &mut encoder, map, (self.shape.revision, model));
+                geometry = Some(&*map);
+            }
+        }
+        for passes in &mut self.lights {
+            if let Some(columns) = columns_of(passes.light()) {
+                let shape = (self.shape.revision, model);
+                passes.draw(&self.common, &mut encoder, frame, (columns, geometry), shape);
             }
         }
         self.draw_picture(frame, target, &parts, model, &mut encoder);
@@ -227,7 +288,16 @@ impl Renderer {
             nothing,
             ..
         } = &self.common;
-        let mut pass = target.begin_pass(encoder);
+        // A background covers all that the model leaves, but smooth edges store no alpha: it is there from the beginning.
+        let has_background = options.background != Background::None;
+        let mut pass = target.begin_pass(
+            encoder,
+            if has_background {
+                wgpu::Color::BLACK
+            } else {
+                wgpu::Color::TRANSPARENT
+            },
+        );
         let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
             let passes = self.lights.iter().find(|passes| passes.light() == *light);
             let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
@@ -238,9 +308,26 @@ impl Renderer {
             pass.set_bind_group(2, lighting, &[]);
             true
         };
-        // First all backgrounds, from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle,
-        // and would wipe out the model there.
-        if options.background != Background::None {
+        for part in parts {
+            if let Some((model, posed)) = model
+                && begin_part(&mut pass, part)
+            {
+                let shading = match options.view_mode {
+                    ViewMode::Lit => Shading::Lit(part.0),
+                    _ => Shading::Inspect,
+                };
+                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
+                let cut = if has_background { Cut::Smooth } else { Cut::Hard };
+                if frame.vertex_colors.is_some() {
+                    pass.set_bind_group(2, nothing, &[]);
+                    model.draw(&mut pass, posed, Cut::Hard, ModelDraw::SkinView);
+                } else {
+                    model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                }
+            }
+        }
+        // Backgrounds from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle.
+        if has_background {
             for part in parts.iter().rev() {
                 if begin_part(&mut pass, part) {
                     pass.set_pipeline(&pipelines.get(Draw::Backdrop));
@@ -254,21 +341,6 @@ impl Renderer {
                 continue;
             }
             if let Some((model, posed)) = model {
-                let shading = match options.view_mode {
-                    ViewMode::Lit => Shading::Lit(part.0),
-                    _ => Shading::Inspect,
-                };
-                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
-                let cut = match options.background {
-                    Background::None => Cut::Hard,
-                    _ => Cut::Smooth,
-                };
-                if frame.vertex_colors.is_some() {
-                    pass.set_bind_group(2, nothing, &[]);
-                    model.draw(&mut pass, posed, Cut::Hard, ModelDraw::SkinView);
-                } else {
-                    model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
-                }
                 pass.set_bind_group(2, nothing, &[]);
                 self.overlays
                     .draw_over_model(device, &mut pass, frame, (model, posed), &self.instances);

@@ -115,7 +115,8 @@ impl Recipe {
             Draw::Model { draw, skinned } => Self::of_model(draw, skinned, samples),
             Draw::Backdrop => Recipe {
                 color: Some(COLOR_FORMAT.into()),
-                depth: Some(depth(false, wgpu::CompareFunction::Always)),
+                // It lies at the farthest depth: what the model covers is not shaded.
+                depth: Some(depth(false, wgpu::CompareFunction::LessEqual)),
                 samples: samples.count(),
                 ..fullscreen(shaders::BACKDROP, "fragment")
             },

@@ -112,9 +112,20 @@ pub(super) fn begin_pass<'a>(
     pass
 }
 
-/// An offscreen picture of a given size: multisampled colour and depth, and the resolved picture.
+/// Textures that may be larger than the picture have sides of a multiple of this, pixels: a window that is resized needs new ones
+/// seldom.
+const CAPACITY_STEP: u32 = 128;
+/// The most that the textures of a picture in a window may take. 4K with four samples a pixel would take 266 MiB.
+const MOST_BYTES: u64 = 192 << 20;
+/// Colour and depth.
+const BYTES_PER_SAMPLE: u64 = 8;
+const BYTES_PER_RESOLVED_PIXEL: u64 = 4;
+
+/// An offscreen picture: multisampled colour and depth, and the resolved picture. It may fill a part of its textures, from the top left.
 pub struct Target {
     samples: SampleCount,
+    /// Of the picture, pixels.
+    size: [u32; 2],
     resolved: wgpu::Texture,
     resolved_view: wgpu::TextureView,
     /// None with one sample: then `resolved` is drawn into.
@@ -130,8 +141,7 @@ impl Target {
 
     /// With as many samples as the [`Renderer`](super::Renderer) that draws into it.
     pub fn with_samples(device: &wgpu::Device, width: u32, height: u32, samples: SampleCount) -> Self {
-        let limit = device.limits().max_texture_dimension_2d;
-        let (width, height) = (width.clamp(1, limit), height.clamp(1, limit));
+        let [width, height] = within_limit(device, [width, height]);
         let texture = |label, format, sample_count, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -161,6 +171,7 @@ impl Target {
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         Self {
             samples,
+            size: [width, height],
             resolved_view: view(&resolved),
             multisampled_view: multisampled.as_ref().map(view),
             depth_view: view(&depth),
@@ -168,20 +179,47 @@ impl Target {
         }
     }
 
-    /// Width and height in pixels.
+    /// Width and height of the picture in pixels.
     pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Width and height of the textures in pixels.
+    fn capacity(&self) -> [u32; 2] {
         [self.resolved.width(), self.resolved.height()]
     }
 
-    /// Changes the size and loses the picture. Does nothing when it has that size.
-    pub fn resize(&mut self, device: &wgpu::Device, width: u32, height: u32) {
-        let limit = device.limits().max_texture_dimension_2d;
-        if self.size() != [width.clamp(1, limit), height.clamp(1, limit)] {
-            *self = Self::with_samples(device, width, height, self.samples);
-        }
+    /// The picture as fractions of the width and height of [`Target::texture`].
+    pub(super) fn filled(&self) -> [f32; 2] {
+        let ([width, height], [whole_width, whole_height]) = (self.size, self.capacity());
+        [width as f32 / whole_width as f32, height as f32 / whole_height as f32]
     }
 
-    /// The picture: one sample a pixel, sRGB, premultiplied alpha. A resize replaces the texture.
+    /// Changes the size and loses the picture. Textures with room for the `largest` picture that is to come stay, unless they are more
+    /// than twice as large. Returns whether they stayed.
+    pub fn resize(&mut self, device: &wgpu::Device, size: [u32; 2], largest: [u32; 2]) -> bool {
+        let largest = within_limit(device, std::array::from_fn(|axis| largest[axis].max(size[axis])));
+        let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
+        let capacity = self.capacity();
+        let has_room = capacity.iter().zip(largest).all(|(&has, needs)| has >= needs);
+        let wanted = within_limit(device, largest.map(|side| side.next_multiple_of(CAPACITY_STEP)));
+        let stays = has_room && pixels(capacity) <= 2 * pixels(wanted);
+        if !stays {
+            *self = Self::with_samples(device, wanted[0], wanted[1], self.samples);
+        }
+        self.size = within_limit(device, size);
+        stays
+    }
+
+    /// By how much the sides of a picture in a window have to be smaller so that its textures do not take too much memory: at most 1.
+    pub fn affordable_scale([width, height]: [u32; 2], samples: SampleCount) -> f32 {
+        let per_pixel = u64::from(samples.count()) * BYTES_PER_SAMPLE + BYTES_PER_RESOLVED_PIXEL;
+        let bytes = u64::from(width) * u64::from(height) * per_pixel;
+        (MOST_BYTES as f32 / bytes.max(1) as f32).sqrt().min(1.0)
+    }
+
+    /// The picture: one sample a pixel, sRGB, premultiplied alpha. A resize may replace the texture, and may leave more room in it
+    /// than the picture needs.
     pub fn texture(&self) -> &wgpu::Texture {
         &self.resolved
     }
@@ -194,16 +232,12 @@ impl Target {
     /// Fills the picture with a colour, through the same pass that a frame is drawn with.
     pub(super) fn fill(&self, device: &wgpu::Device, queue: &wgpu::Queue, color: wgpu::Color) {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fill") });
-        drop(self.begin_cleared_pass(&mut encoder, color));
+        drop(self.begin_pass(&mut encoder, color));
         queue.submit([encoder.finish()]);
     }
 
-    /// A pass over a transparent picture.
-    pub(super) fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        self.begin_cleared_pass(encoder, wgpu::Color::TRANSPARENT)
-    }
-
-    fn begin_cleared_pass<'a>(
+    /// A pass over a picture of this colour.
+    pub(super) fn begin_pass<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
         color: wgpu::Color,
@@ -218,6 +252,15 @@ impl Target {
             depth: Some(&self.depth_view),
             ..PassTargets::default()
         };
-        begin_pass(encoder, "picture", targets)
+        let mut pass = begin_pass(encoder, "picture", targets);
+        let [width, height] = self.size;
+        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
+        pass.set_scissor_rect(0, 0, width, height);
+        pass
     }
+}
+
+fn within_limit(device: &wgpu::Device, size: [u32; 2]) -> [u32; 2] {
+    let limit = device.limits().max_texture_dimension_2d;
+    size.map(|side| side.clamp(1, limit))
 }

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
 use crate::scene::{
-    Background, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
+    Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
 };
 use crate::shaders;
 
@@ -73,6 +73,8 @@ const GRID_REACH_OF_DISTANCE: f32 = 2.0;
 const BOOK_HEIGHT: f32 = 3.6;
 /// A flat model counts as tall as this fraction of its diagonal.
 const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
+/// Samples of the shadow map for each point.
+const SHADOW_TAPS: u32 = 16;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
@@ -132,6 +134,12 @@ pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::L
         },
         is_book: u32::from(light == Light::Book),
         normal_green_sign: if options.normal_green_flipped { -1.0 } else { 1.0 },
+        fine_occlusion: u32::from(options.occlusion_detail == Detail::Full),
+        shadow_taps: match options.shadow_detail {
+            Detail::Full => SHADOW_TAPS,
+            Detail::Low => SHADOW_TAPS / 2,
+        },
+        ..Default::default()
     }
 }
 

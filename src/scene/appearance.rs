@@ -202,6 +202,16 @@ modes! {
     }
 }
 
+/// How finely a costly pass is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Detail {
+    /// As finely as it can be.
+    #[default]
+    Full,
+    /// With about half as many samples.
+    Low,
+}
+
 /// Which passes are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Passes([bool; Pass::ALL.len()]);

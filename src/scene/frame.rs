@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Vec3};
 
-use super::appearance::{Background, Light, Overlays, Pass, Passes, Theme, ViewMode};
+use super::appearance::{Background, Detail, Light, Overlays, Pass, Passes, Theme, ViewMode};
 use super::{Aabb, Camera};
 use crate::anim::Palette;
 
@@ -24,6 +24,10 @@ pub struct FrameOptions {
     pub overlays: Overlays,
     /// Which costly steps are drawn.
     pub passes: Passes,
+    /// Samples of ambient occlusion.
+    pub occlusion_detail: Detail,
+    /// Taps of shadows.
+    pub shadow_detail: Detail,
     /// Turn of the environment about y, radians.
     pub environment_turn_radians: f32,
     /// Exposure of the studio light: each stop doubles it.
@@ -79,6 +83,14 @@ pub struct RenderFrame<'a> {
     pub over_model: Option<&'a OverlayGeometry>,
     /// How the model is drawn, and what is drawn beside it.
     pub options: FrameOptions,
+}
+
+impl RenderFrame<'_> {
+    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the model's colours show its result.
+    pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
+        let is_read = pass != Pass::AmbientOcclusion || self.vertex_colors.is_none();
+        is_read && self.options.draws_under(pass, light)
+    }
 }
 
 /// A vertex of the lines and triangles over the model.

@@ -15,7 +15,7 @@ mod skin_colors;
 mod tint;
 
 pub use crate::model::Aabb;
-pub use appearance::{Background, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
+pub use appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
 pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
 pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones};
 pub use bones::{Bone, Bones};

@@ -1,10 +1,10 @@
 //! The one place where things change.
 
 use super::actor::{Actor, PlaybackSettings, PoseInputs};
+use super::quality::QualityNow;
 use super::view::View;
 use super::{Changes, Command, Event, Session};
 use crate::model::{Handedness, UpAxis};
-use crate::scene::Passes;
 
 impl Session {
     /// Applies a command and returns what changed. A command that makes no sense now is ignored.
@@ -71,7 +71,7 @@ struct Before {
     poses: Vec<PoseInputs>,
     settings: PlaybackSettings,
     clip_count: usize,
-    passes: Passes,
+    quality: QualityNow,
 }
 
 impl Session {
@@ -82,7 +82,7 @@ impl Session {
             poses: self.actors.iter().map(Actor::pose_inputs).collect(),
             settings: self.actors.picked().settings(),
             clip_count: self.content.clip_count(),
-            passes: self.quality.passes(),
+            quality: self.quality.now(),
         }
     }
 
@@ -105,7 +105,7 @@ impl Session {
             || changes.sky
             || changes.names
             || (self.handedness(), self.up_axis()) != before.space
-            || self.quality.passes() != before.passes
+            || self.quality.now() != before.quality
             || !self.view.shows_the_same_as(&before.view);
         changes
     }

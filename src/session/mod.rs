@@ -25,6 +25,7 @@ mod naming;
 mod open_model;
 mod opening;
 mod overlays;
+mod pacing;
 mod picking;
 mod playing;
 mod quality;
@@ -58,7 +59,7 @@ pub use naming::NameCommand;
 pub use open_model::{ClipSummary, OpenModel};
 pub use opening::FileCommand;
 pub use playing::PlayCommand;
-pub use quality::{PassChoice, PassState, Quality, QualityCommand, RenderScale};
+pub use quality::{Lowered, PassChoice, PassState, Quality, QualityCommand, QualityMode, RenderScale};
 pub use selecting::{JointCommand, SubmeshCommand};
 pub use skeleton_cache::SkinColorsKey;
 pub use submeshes::Submeshes;
@@ -137,6 +138,7 @@ impl Session {
         new.view.insets = self.view.insets;
         new.view.theme = self.view.theme;
         new.revisions = self.revisions;
+        new.quality = self.quality.on_same_device();
         *self = new;
         self.commit(Changes::CONTENT);
     }
@@ -209,23 +211,25 @@ impl Session {
     /// A pass of the window begins, `dt_secs` after the one before. That is how long a frame took if the pass before drew one and
     /// [`Session::frame_drawn`] told it to go on at once; any other time is a pause, and says nothing of the device.
     pub fn begin_pass(&mut self, dt_secs: f32) {
-        if self.quality.take_times_frame() {
-            self.note_frame(dt_secs);
-        }
+        self.track(|session| session.quality.begin_pass(dt_secs));
     }
 
-    /// The window drew the picture. Returns whether it moves, by itself or under a pointer that holds the camera: the next pass is
-    /// then to begin at once, so that the time until it is what the frame took and not how long the pointer rested.
+    /// The window is about to draw: what moves is drawn with the detail that the device keeps up with, what rests with all.
+    pub fn follow_motion(&mut self) {
+        let moves = self.is_in_motion();
+        self.track(|session| session.quality.follow(moves));
+    }
+
+    /// The window drew the picture. Returns whether it moves, by itself or under a pointer that holds the camera or the time: the next
+    /// pass is then to begin at once, so that the time until it is what the frame took and not how long the pointer rested.
     pub fn frame_drawn(&mut self) -> bool {
-        let moves = self.is_moving() || self.view.motion.is_held();
+        let moves = self.is_in_motion();
         self.quality.frame_drawn(moves);
         moves
     }
 
-    /// Learns how long a frame took while the picture moved: a device that cannot keep up is given less to draw.
-    pub fn note_frame(&mut self, frame_secs: f32) {
-        let options = self.frame_options();
-        self.track(|session| session.quality.note_frame(frame_secs, |pass| options.draws(pass)));
+    fn is_in_motion(&self) -> bool {
+        self.is_moving() || self.view.motion.is_held() || self.is_scrubbing()
     }
 
     /// How the model is looked at.
@@ -235,7 +239,7 @@ impl Session {
 
     /// What of the view a renderer is told.
     fn frame_options(&self) -> FrameOptions {
-        self.view.frame_options(self.quality.passes())
+        self.view.frame_options(&self.quality)
     }
 
     /// The cube map that is the sky.

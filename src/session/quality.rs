@@ -1,18 +1,26 @@
-//! Which costly passes are drawn: what the person chose, or else what the device keeps up with.
+//! How finely the picture in the window is drawn: what the person chose, or else what the device keeps up with. A picture that rests
+//! has all its detail; so have pictures that are saved.
 
-use crate::scene::{Pass, Passes};
+use super::pacing::{Pacer, Step};
+use crate::modes::modes;
+use crate::scene::{Detail, Pass, Passes};
 
-/// A frame that takes longer than this is a slow one: below 24 a second, motion stops looking like motion.
-const SLOW_FRAME_SECS: f32 = 1.0 / 24.0;
-/// Slow frames in a row after which a pass is left out. A few are forgiven: shaders compile, files load.
-const SLOW_FRAMES: u32 = 12;
-/// Nobody waits for twelve frames of a second each: so few are enough when they take as long as the next constant says.
-const LEAST_SLOW_FRAMES: u32 = 6;
-const SLOW_SECS: f32 = 1.5;
+/// A picture rests when it did not move for so long. Short enough not to be waited for, long enough for a pointer that hesitates.
+const REST_SECS: f32 = 0.15;
 
-/// What to leave out first where frames are slow, by what that saves of a frame (`benches/frame.rs`). Reflections are not among
-/// them: they are one lookup a pixel, and nothing can be measured to be saved by leaving them out.
-const DEGRADE_ORDER: [Pass; 3] = [Pass::AmbientOcclusion, Pass::ContactShadow, Pass::Shadow];
+modes! {
+    /// How much detail is drawn while the picture moves.
+    #[derive(Default)]
+    pub enum QualityMode {
+        /// As much as the device keeps up with.
+        #[default]
+        Auto = "auto", "Auto";
+        /// All, however long frames take.
+        Full = "full", "Full";
+        /// Little.
+        Low = "low", "Low";
+    }
+}
 
 /// Whether a pass is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -33,7 +41,7 @@ pub enum PassState {
     Drawn,
     /// The person left it out.
     Off,
-    /// Left out, since frames took too long.
+    /// Left out while the picture moves, since frames took too long.
     TooSlow,
 }
 
@@ -81,27 +89,57 @@ impl Default for RenderScale {
 /// A command about quality.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum QualityCommand {
+    /// How much detail is drawn while the picture moves.
+    SetMode(QualityMode),
     /// Whether a costly pass is drawn.
     SetPass(Pass, PassChoice),
-    /// How fine the picture in the window is.
+    /// How fine the picture in the window is at most.
     SetRenderScale(RenderScale),
+    /// How often the display shows a picture, seconds.
+    SetDisplayInterval(f32),
+    /// Whether the device draws with its CPU.
+    SetSlowDevice(bool),
 }
+
+/// What is drawn less finely than it could be, while the picture moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lowered {
+    /// Fraction of the picture's width and height.
+    pub scale: f32,
+    /// Samples of ambient occlusion.
+    pub occlusion: Detail,
+    /// Taps of shadows.
+    pub shadow: Detail,
+    /// Whether ambient occlusion is left out.
+    pub without_occlusion: bool,
+    /// How long three of four frames took when that was last looked at, seconds; 0 before.
+    pub frame_secs: f32,
+}
+
+/// What a picture shows of it: what is drawn, what the person chose, and how fine it is.
+pub(super) type QualityNow = (Step, Passes, PassChoice, RenderScale);
 
 /// The passes of a session, and how fine its picture is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Quality {
+    mode: QualityMode,
     render_scale: RenderScale,
     choices: [PassChoice; Pass::ALL.len()],
-    /// Left out, since frames took too long.
-    degraded: Vec<Pass>,
-    /// In a row, and what they took together.
-    slow_frames: u32,
-    slow_secs: f32,
+    pacer: Pacer,
+    /// The picture moves, or did a moment ago.
+    in_motion: bool,
+    /// Since it moved last.
+    rested_secs: f32,
     /// The last pass of the window drew a frame of a motion, so the time until the next is that frame's.
     times_frame: bool,
 }
 
 impl Quality {
+    /// What was chosen.
+    pub fn mode(&self) -> QualityMode {
+        self.mode
+    }
+
     /// What was chosen for a pass.
     pub fn choice(&self, pass: Pass) -> PassChoice {
         self.choices[pass as usize]
@@ -112,16 +150,23 @@ impl Quality {
         match self.choice(pass) {
             PassChoice::On => PassState::Drawn,
             PassChoice::Off => PassState::Off,
-            PassChoice::Auto if self.degraded.contains(&pass) => PassState::TooSlow,
+            PassChoice::Auto if pass == Pass::AmbientOcclusion && !self.moving_step().draws_occlusion => {
+                PassState::TooSlow
+            }
             PassChoice::Auto => PassState::Drawn,
         }
     }
 
-    /// Those that are drawn.
+    /// Those that are drawn now.
     pub fn passes(&self) -> Passes {
-        Pass::ALL.into_iter().fold(Passes::none(), |passes, pass| {
-            passes.with(pass, self.state(pass) == PassState::Drawn)
-        })
+        let step = self.step();
+        let wanted = self.wanted();
+        let is_left_out = !step.draws_occlusion && self.choice(Pass::AmbientOcclusion) == PassChoice::Auto;
+        if is_left_out {
+            wanted.with(Pass::AmbientOcclusion, false)
+        } else {
+            wanted
+        }
     }
 
     /// Those that the person did not leave out, however long they take.
@@ -131,136 +176,122 @@ impl Quality {
         })
     }
 
-    /// How fine the picture in the window is.
+    /// How fine the picture in the window is at rest.
     pub fn render_scale(&self) -> RenderScale {
         self.render_scale
     }
 
-    pub(super) fn apply(&mut self, command: QualityCommand) {
-        match command {
-            QualityCommand::SetPass(pass, choice) => self.choose(pass, choice),
-            QualityCommand::SetRenderScale(scale) => self.render_scale = scale,
+    /// The fraction of the window's width and height in pixels that is drawn now.
+    pub fn scale_now(&self) -> f32 {
+        self.render_scale.fraction() * self.step().scale
+    }
+
+    /// How finely ambient occlusion and shadows are drawn now.
+    pub(super) fn details_now(&self) -> [Detail; 2] {
+        let step = self.step();
+        [step.occlusion, step.shadow]
+    }
+
+    /// What of it the picture shows now.
+    pub(super) fn now(&self) -> QualityNow {
+        (
+            self.step(),
+            self.wanted(),
+            self.choice(Pass::AmbientOcclusion),
+            self.render_scale,
+        )
+    }
+
+    /// What is less fine while the picture moves; none when nothing is.
+    pub fn lowered(&self) -> Option<Lowered> {
+        let step = self.moving_step();
+        (step != Pacer::FINEST).then_some(Lowered {
+            scale: step.scale,
+            occlusion: step.occlusion,
+            shadow: step.shadow,
+            without_occlusion: self.state(Pass::AmbientOcclusion) == PassState::TooSlow,
+            frame_secs: self.pacer.frame_secs(),
+        })
+    }
+
+    /// In how many seconds the picture rests, if nothing moves until then. None when it rests, or when it would be the same.
+    pub fn rests_in_secs(&self) -> Option<f32> {
+        let is_lowered = self.in_motion && self.moving_step() != Pacer::FINEST;
+        is_lowered.then_some((REST_SECS - self.rested_secs).max(0.0))
+    }
+
+    /// What is drawn while the picture moves.
+    fn moving_step(&self) -> Step {
+        match self.mode {
+            QualityMode::Auto => self.pacer.step(),
+            QualityMode::Full => Pacer::FINEST,
+            QualityMode::Low => Pacer::COARSEST,
         }
     }
 
-    /// Chooses. A new choice of [`PassChoice::Auto`] gives the device another try.
-    fn choose(&mut self, pass: Pass, choice: PassChoice) {
-        self.choices[pass as usize] = choice;
-        self.degraded.retain(|&degraded| degraded != pass);
-        self.forgive();
+    fn step(&self) -> Step {
+        if self.in_motion {
+            self.moving_step()
+        } else {
+            Pacer::FINEST
+        }
     }
 
-    /// Another model may be drawn faster: all its passes are tried again.
+    /// As at first, on this device.
+    pub(super) fn on_same_device(&self) -> Self {
+        let mut pacer = self.pacer.clone();
+        pacer.restart();
+        Self {
+            pacer,
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn apply(&mut self, command: QualityCommand) {
+        match command {
+            QualityCommand::SetMode(mode) => {
+                self.mode = mode;
+                self.pacer.restart();
+            }
+            QualityCommand::SetPass(pass, choice) => {
+                self.choices[pass as usize] = choice;
+                // The device gets another try.
+                self.pacer.restart();
+            }
+            QualityCommand::SetRenderScale(scale) => self.render_scale = scale,
+            QualityCommand::SetDisplayInterval(secs) => self.pacer.set_display_secs(secs),
+            QualityCommand::SetSlowDevice(slow) => self.pacer.set_slow_device(slow),
+        }
+    }
+
+    /// Another model may be drawn faster: it begins with all detail.
     pub(super) fn reset_for_model(&mut self) {
-        self.degraded.clear();
-        self.forgive();
+        self.pacer.restart();
+    }
+
+    /// A pass of the window begins, so long after the one before, seconds.
+    pub(super) fn begin_pass(&mut self, dt_secs: f32) {
+        if std::mem::take(&mut self.times_frame) {
+            self.pacer.note_frame(dt_secs);
+        } else if dt_secs > 0.0 {
+            self.rested_secs += dt_secs;
+        }
+    }
+
+    /// The picture is about to be drawn, and moves or not.
+    pub(super) fn follow(&mut self, moves: bool) {
+        if moves {
+            self.rested_secs = 0.0;
+        }
+        let was_in_motion = self.in_motion;
+        self.in_motion = moves || (was_in_motion && self.rested_secs < REST_SECS);
+        if self.in_motion && !was_in_motion {
+            self.pacer.begin_motion();
+        }
     }
 
     /// The window drew a frame, of a motion or not.
     pub(super) fn frame_drawn(&mut self, of_motion: bool) {
         self.times_frame = of_motion;
-    }
-
-    /// Whether the time since the last pass of the window is what a frame took. Asked once a pass.
-    pub(super) fn take_times_frame(&mut self) -> bool {
-        std::mem::take(&mut self.times_frame)
-    }
-
-    /// Learns how long a frame of a motion took. Leaves out one pass at a time of those that were `drawn`, and waits to see what
-    /// that brought.
-    pub(super) fn note_frame(&mut self, frame_secs: f32, drawn: impl Fn(Pass) -> bool) {
-        if frame_secs <= SLOW_FRAME_SECS || frame_secs.is_nan() {
-            self.forgive();
-            return;
-        }
-        self.slow_frames += 1;
-        self.slow_secs += frame_secs;
-        let very_slow = self.slow_frames >= LEAST_SLOW_FRAMES && self.slow_secs >= SLOW_SECS;
-        if self.slow_frames < SLOW_FRAMES && !very_slow {
-            return;
-        }
-        self.forgive();
-        let mut saving = DEGRADE_ORDER.into_iter();
-        let saving =
-            saving.find(|&pass| drawn(pass) && self.choice(pass) == PassChoice::Auto && !self.degraded.contains(&pass));
-        self.degraded.extend(saving);
-    }
-
-    /// Counts slow frames from here on.
-    fn forgive(&mut self) {
-        self.slow_frames = 0;
-        self.slow_secs = 0.0;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn slow_frames(quality: &mut Quality, count: u32) {
-        for _ in 0..count {
-            quality.note_frame(0.1, |_| true);
-        }
-    }
-
-    #[test]
-    fn passes_are_left_out_one_by_one_by_what_they_save_and_never_reflections() {
-        let mut quality = Quality::default();
-        let mut degraded = Vec::new();
-        for _ in 0..DEGRADE_ORDER.len() {
-            slow_frames(&mut quality, SLOW_FRAMES - 1);
-            assert_eq!(quality.degraded, degraded, "a few slow frames are forgiven");
-            slow_frames(&mut quality, 1);
-            degraded.clone_from(&quality.degraded);
-        }
-        assert_eq!(degraded, [Pass::AmbientOcclusion, Pass::ContactShadow, Pass::Shadow]);
-        slow_frames(&mut quality, 3 * SLOW_FRAMES);
-        assert_eq!(quality.passes(), Passes::none().with(Pass::Environment, true));
-    }
-
-    #[test]
-    fn what_the_picture_has_not_is_not_left_out() {
-        let mut quality = Quality::default();
-        for _ in 0..3 * SLOW_FRAMES {
-            quality.note_frame(0.1, |pass| pass != Pass::ContactShadow);
-        }
-        assert_eq!(quality.degraded, [Pass::AmbientOcclusion, Pass::Shadow]);
-    }
-
-    #[test]
-    fn frames_that_are_quick_in_between_keep_everything() {
-        let mut quality = Quality::default();
-        for _ in 0..100 {
-            slow_frames(&mut quality, SLOW_FRAMES - 1);
-            quality.note_frame(0.01, |_| true);
-        }
-        assert_eq!(quality.passes(), Passes::all());
-    }
-
-    #[test]
-    fn very_slow_frames_are_not_waited_for() {
-        let mut quality = Quality::default();
-        // A tab that was out of sight, then shaders that compile.
-        for secs in [60.0, 1.0, 1.0, 0.01] {
-            quality.note_frame(secs, |_| true);
-        }
-        assert_eq!(quality.passes(), Passes::all());
-        for frame in 1..=2 * LEAST_SLOW_FRAMES {
-            quality.note_frame(0.5, |_| true);
-            assert_eq!(quality.degraded.len() as u32, frame / LEAST_SLOW_FRAMES);
-        }
-    }
-
-    #[test]
-    fn a_choice_stands_above_what_the_device_keeps_up_with() {
-        let mut quality = Quality::default();
-        quality.choose(Pass::AmbientOcclusion, PassChoice::On);
-        quality.choose(Pass::Shadow, PassChoice::Off);
-        slow_frames(&mut quality, 5 * SLOW_FRAMES);
-        assert_eq!(quality.state(Pass::AmbientOcclusion), PassState::Drawn);
-        assert_eq!(quality.state(Pass::Shadow), PassState::Off);
-        assert_eq!(quality.state(Pass::ContactShadow), PassState::TooSlow);
-        quality.choose(Pass::ContactShadow, PassChoice::Auto);
-        assert_eq!(quality.state(Pass::ContactShadow), PassState::Drawn, "another try");
     }
 }

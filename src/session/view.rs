@@ -5,8 +5,9 @@ use glam::{Affine3A, Vec3};
 use super::look::Look;
 use super::motion::Motion;
 use super::open_model::OpenModel;
+use super::quality::Quality;
 use crate::model::{self, Handedness, UpAxis};
-use crate::scene::{Camera, FrameOptions, Insets, Passes, Theme};
+use crate::scene::{Camera, FrameOptions, Insets, Theme};
 
 /// The view of a session.
 #[derive(Clone, Debug)]
@@ -76,9 +77,10 @@ impl View {
         model::world_from_model(self.handedness(open), self.up_axis(open))
     }
 
-    /// The part of it that a renderer needs, with the passes that are drawn.
-    pub(super) fn frame_options(&self, passes: Passes) -> FrameOptions {
+    /// The part of it that a renderer needs, with the detail of now.
+    pub(super) fn frame_options(&self, quality: &Quality) -> FrameOptions {
         let look = &self.look;
+        let [occlusion_detail, shadow_detail] = quality.details_now();
         FrameOptions {
             theme: self.theme,
             light: look.light,
@@ -86,7 +88,9 @@ impl View {
             view_mode: look.view_mode,
             background: look.background,
             overlays: look.overlays,
-            passes,
+            passes: quality.passes(),
+            occlusion_detail,
+            shadow_detail,
             environment_turn_radians: look.environment_turn_radians,
             exposure_stops: look.exposure_stops,
             book_lights_turn_radians: look.book_lights_turn_radians,

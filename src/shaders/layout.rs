@@ -42,6 +42,9 @@ pub struct Light {
     pub reflections: f32,
     pub is_book: u32,
     pub normal_green_sign: f32,
+    pub fine_occlusion: u32,
+    pub shadow_taps: u32,
+    pub unused: [u32; 2],
 }
 
 /// Twin of `Ground` in `ground.wgsl`, which says what each member means.
@@ -101,6 +104,16 @@ pub struct Environment {
     pub intensity: f32,
     /// Levels of the specular cube; 0 where it is not to be read.
     pub specular_level_count: f32,
+}
+
+/// Twin of `Filled` in `composite.wgsl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Filled {
+    /// The part of a texture that its picture fills, from the top left.
+    pub part: [f32; 2],
+    /// The centre of the picture's last texel, in the texture's coordinates.
+    pub last: [f32; 2],
 }
 
 /// Twin of `Line` in `lines.wgsl`.

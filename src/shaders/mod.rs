@@ -5,7 +5,9 @@
 
 mod layout;
 
-pub use layout::{Camera, Environment, GeometryVertex, Ground, InfluenceVertex, Instance, Light, Line, Material};
+pub use layout::{
+    Camera, Environment, Filled, GeometryVertex, Ground, InfluenceVertex, Instance, Light, Line, Material,
+};
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
 /// Twin of `JOINTS_PER_ROW` in `skinning.wgsl`.

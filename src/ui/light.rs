@@ -1,4 +1,4 @@
-//! The light, the background, and the passes that cost time.
+//! The light, the background, the passes that cost time, and how fine a moving picture is.
 
 use egui::{Align2, Color32, FontId, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -10,9 +10,10 @@ use super::widgets::{
     section_name, segmented, switch_row,
 };
 use crate::actions;
-use crate::scene::{Background, Light, Pass};
+use crate::scene::{Background, Detail, Light, Pass};
 use crate::session::{
-    Command, FileCommand, LookCommand, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, Session,
+    Command, FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode,
+    Session,
 };
 
 /// The first colour of a plain background: the middle of the backdrop.
@@ -27,9 +28,10 @@ pub(super) fn label(session: &Session) -> &'static str {
     }
 }
 
-/// Puts a dot on the button while a pass is off because the device is too slow.
+/// Puts a dot on the button while the device is too slow for all the detail.
 pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
-    if slow_passes(session).is_some() {
+    let quality = session.quality();
+    if quality.mode() == QualityMode::Auto && quality.lowered().is_some() {
         let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
         ui.painter().circle_filled(at, 3.0, Tokens::of(ui).warning);
     }
@@ -66,6 +68,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) 
     }
     popover_gap(ui);
     passes(ui, session, commands);
+    quality(ui, session, commands);
 }
 
 fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
@@ -148,39 +151,62 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let (words, color) = match state {
             PassState::Drawn => ("on", tokens.text),
             PassState::Off => ("off", tokens.faint),
-            PassState::TooSlow => ("too slow here", tokens.warning),
+            PassState::TooSlow => ("at rest", tokens.warning),
         };
         let (choice, hint) = match state {
             PassState::Drawn => (PassChoice::Off, "Leave it out"),
-            PassState::Off => (PassChoice::Auto, "Draw it while frames are quick"),
-            PassState::TooSlow => (PassChoice::On, "Draw it however long frames take"),
+            PassState::Off => (PassChoice::Auto, "Draw it"),
+            PassState::TooSlow => (
+                PassChoice::On,
+                "Too slow here while the picture moves. Draw it however long frames take",
+            ),
         };
         if pass_row(ui, pass.label(), words, color).on_hover_text(hint).clicked() {
             commands.push(QualityCommand::SetPass(pass, choice).into());
         }
     }
-    if let Some(note) = slow_passes(session) {
+}
+
+/// How finely the picture is drawn while it moves: what was chosen, and what is lowered.
+fn quality(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    section_name(ui, "While it moves");
+    let quality = session.quality();
+    let choices = QualityMode::ALL.map(|mode| (mode, mode.label()));
+    if let Some(mode) = segmented(ui, "Quality while it moves", &choices, Some(quality.mode())) {
+        commands.push(QualityCommand::SetMode(mode).into());
+    }
+    if let Some(lowered) = quality.lowered() {
         ui.add_space(4.0);
-        let small = RichText::new(note).font(FontId::proportional(12.0));
-        ui.label(small.color(tokens.warning));
+        let small = RichText::new(lowered_words(&lowered)).font(FontId::proportional(12.0));
+        let color = if quality.mode() == QualityMode::Auto {
+            Tokens::of(ui).warning
+        } else {
+            Tokens::of(ui).muted
+        };
+        ui.label(small.color(color));
     }
 }
 
-/// `Ambient occlusion is off: frames took too long`. None while the device keeps up.
-fn slow_passes(session: &Session) -> Option<String> {
-    let quality = session.quality();
-    let slow: Vec<&str> = Pass::ALL
-        .into_iter()
-        .filter(|&pass| quality.state(pass) == PassState::TooSlow)
-        .map(Pass::label)
-        .collect();
-    let (last, others) = slow.split_last()?;
-    let names = match others {
-        [] => (*last).to_owned(),
-        others => format!("{} and {}", others.join(", "), last.to_lowercase()),
-    };
-    let verb = if others.is_empty() { "is" } else { "are" };
-    Some(format!("{names} {verb} off: frames took too long"))
+/// `50 % of the width and height, coarser ambient occlusion: frames took 83 ms`.
+fn lowered_words(lowered: &Lowered) -> String {
+    let mut parts = Vec::new();
+    if lowered.scale < 1.0 {
+        parts.push(format!("{:.0} % of the width and height", lowered.scale * 100.0));
+    }
+    if lowered.without_occlusion {
+        parts.push("no ambient occlusion".to_owned());
+    } else if lowered.occlusion == Detail::Low {
+        parts.push("coarser ambient occlusion".to_owned());
+    }
+    if lowered.shadow == Detail::Low {
+        parts.push("coarser shadows".to_owned());
+    }
+    let parts = parts.join(", ");
+    if lowered.frame_secs > 0.0 {
+        format!("{parts}: frames took {:.0} ms", lowered.frame_secs * 1e3)
+    } else {
+        parts
+    }
 }
 
 fn pass_row(ui: &mut Ui, label: &str, words: &str, color: Color32) -> Response {

@@ -95,7 +95,7 @@ async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
         .request_adapter(&options)
         .await
         .map_err(|error| error.to_string())?;
-    if is_software(&adapter.get_info()) && !software_allowed {
+    if device::is_software(&adapter.get_info()) && !software_allowed {
         return Err(format!("its adapter is software ({})", adapter_name(&adapter)));
     }
     let (device, queue) = adapter
@@ -111,15 +111,6 @@ async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
         device,
         queue,
     })
-}
-
-/// Browsers do not always mark their software adapters as fallback.
-fn is_software(info: &wgpu::AdapterInfo) -> bool {
-    let name = info.name.to_lowercase();
-    info.device_type == wgpu::DeviceType::Cpu
-        || ["swiftshader", "llvmpipe", "lavapipe", "software", "basic render"]
-            .iter()
-            .any(|word| name.contains(word))
 }
 
 /// A name for people. Browsers often do not tell it.

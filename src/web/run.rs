@@ -13,7 +13,8 @@ use super::joint_names::JointNames;
 use super::picture::{self, AppSlot};
 use super::{coarse_pointer, field, object, sleep, state, text_of};
 use crate::app::App;
-use crate::session::Session;
+use crate::render::device;
+use crate::session::{QualityCommand, Session};
 use crate::ui::{Request, picture_name};
 
 /// Why a start failed that was followed by another one, or by a stop.
@@ -186,6 +187,12 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
                 let app = App::new(&creation.egui_ctx, &gpu, session, coarse_pointer());
                 shell.app.replace(Some(app));
                 let adapter = backend::adapter_name(&gpu.adapter);
+                let slow = device::is_software(&gpu.adapter.get_info());
+                shell
+                    .shared
+                    .session
+                    .borrow_mut()
+                    .apply(QualityCommand::SetSlowDevice(slow));
                 *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), adapter));
                 Ok(Box::new(shell))
             }),

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::scene::{Overlay, Pass, Projection};
+use crate::scene::{Detail, Overlay, Pass, Projection};
 use crate::session::summary::{self, Finding};
 use crate::session::{Checklist, Event, LoadError, Session};
 
@@ -89,6 +89,19 @@ struct Look {
     exposure: f32,
     passes: BTreeMap<&'static str, &'static str>,
     render_scale: f32,
+    quality: &'static str,
+    /// What is less fine while the picture moves.
+    lowered: Option<Lowered>,
+}
+
+/// Fraction of the width and height that is drawn, what became of the rest, and how long frames took, milliseconds.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Lowered {
+    scale: f32,
+    occlusion: &'static str,
+    shadow: &'static str,
+    frame_millis: f32,
 }
 
 /// What is chosen of the bones and the skin, and how they are shown. Bones go by their numbers in the file.
@@ -208,6 +221,24 @@ fn look(session: &Session) -> Look {
         exposure: look.exposure_stops,
         passes: Pass::ALL.map(|pass| (pass.name(), quality.state(pass).name())).into(),
         render_scale: quality.render_scale().fraction(),
+        quality: quality.mode().name(),
+        lowered: quality.lowered().map(|lowered| Lowered {
+            scale: lowered.scale,
+            occlusion: if lowered.without_occlusion {
+                "off"
+            } else {
+                detail_name(lowered.occlusion)
+            },
+            shadow: detail_name(lowered.shadow),
+            frame_millis: lowered.frame_secs * 1e3,
+        }),
+    }
+}
+
+fn detail_name(detail: Detail) -> &'static str {
+    match detail {
+        Detail::Full => "full",
+        Detail::Low => "low",
     }
 }
 

@@ -15,7 +15,7 @@ use crate::scene::Pass;
 use crate::script::{self, Given, Misuse};
 use crate::session::{
     Command, File, FileCommand, HistoryCommand, LoadJob, LoadStep, PassChoice, PlayCommand, QualityCommand,
-    RenderScale, Session,
+    QualityMode, RenderScale, Session,
 };
 
 /// Why an opening failed that was followed by another one, or by the viewer's end.
@@ -34,7 +34,8 @@ pub struct Viewer {
 impl Viewer {
     /// Makes a viewer with nothing open and no canvas.
     ///
-    /// `options`: `{renderScale: number}`, 1 where it is absent. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`,
+    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number}`, 1 and `auto` where they are absent;
+    /// `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`,
     /// `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page can do: `pickfiles`, `pickclips`,
     /// `readagain`, `picture` (`{name, bytes}`) and `picturefailed` (`{message}`). It may call any method but `free`.
     #[wasm_bindgen(constructor)]
@@ -43,6 +44,13 @@ impl Viewer {
         let mut session = Session::new(reduced_motion());
         let scale = field(options, "renderScale").as_f64().unwrap_or(1.0);
         session.apply(QualityCommand::SetRenderScale(RenderScale::new(scale as f32)));
+        if let Some(secs) = field(options, "displaySecs").as_f64() {
+            session.apply(QualityCommand::SetDisplayInterval(secs as f32));
+        }
+        let named = field(options, "quality").as_string();
+        if let Some(mode) = named.and_then(|name| QualityMode::from_name(&name)) {
+            session.apply(QualityCommand::SetMode(mode));
+        }
         Self {
             shared: Rc::new(Shared::new(session, on_event)),
         }
@@ -278,6 +286,16 @@ impl Viewer {
         let choice = if drawn { PassChoice::On } else { PassChoice::Off };
         let command = |pass| QualityCommand::SetPass(pass, choice);
         self.shared.apply_named("setPass", name, Pass::from_name, command)
+    }
+
+    /// Sets how finely the picture is drawn while it moves: `auto`, `full` or `low`. Returns whether the name is one of these.
+    ///
+    /// # Errors
+    /// When the name is no text.
+    #[wasm_bindgen(js_name = setQuality)]
+    pub fn set_quality(&self, name: &JsValue) -> Result<bool, JsValue> {
+        self.shared
+            .apply_named("setQuality", name, QualityMode::from_name, QualityCommand::SetMode)
     }
 
     /// Draws the view in the window with this fraction of its width and height in pixels, clamped to 0.1 … 1.

@@ -149,7 +149,7 @@ async function sharedPage(device, options) {
   }
   const page = await freshPage(device);
   await furnish(page, device, options);
-  await page.goto(`${PAGE}?backend=${BACKEND}&scale=${COARSE}`, { timeout: PATIENCE_MS });
+  await page.goto(`${PAGE}?backend=${BACKEND}&quality=full&scale=${COARSE}`, { timeout: PATIENCE_MS });
   await running(page);
   own.shared = page;
   return page;
@@ -176,7 +176,7 @@ export function test(name, options, body) {
         await furnish(page, device, person);
         await prepare?.(page);
         const scale = fine ? 1 : COARSE;
-        await page.goto(PAGE + (query ?? `?backend=${BACKEND}&scale=${scale}`), { timeout: PATIENCE_MS });
+        await page.goto(PAGE + (query ?? `?backend=${BACKEND}&quality=full&scale=${scale}`), { timeout: PATIENCE_MS });
         if (!bare) await running(page);
       } else {
         page = await sharedPage(device, person);

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Camera, Environment, GeometryVertex, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line, Material,
-    PROGRAMS, Program,
+    Camera, Environment, Filled, GeometryVertex, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line,
+    Material, PROGRAMS, Program,
 };
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -163,6 +163,8 @@ fn twins() -> BTreeMap<String, Layout> {
             reflections,
             is_book,
             normal_green_sign,
+            fine_occlusion,
+            shadow_taps,
         }),
         twin!(Ground {
             backdrop_center_srgb,
@@ -204,6 +206,7 @@ fn twins() -> BTreeMap<String, Layout> {
             specular_level_count,
         }),
         twin!(Line { color_srgb, length }),
+        twin!(Filled { part, last }),
     ])
 }
 

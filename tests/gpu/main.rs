@@ -29,6 +29,7 @@ mod big_picture;
 mod book_light;
 mod golden;
 mod gpu;
+mod kept_maps;
 mod light;
 mod lines;
 mod map_uploads;

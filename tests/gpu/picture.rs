@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::render::{Compositor, Renderer, SampleCount, Target};
-use bindpose::scene::{Background, Projection, Theme};
+use bindpose::scene::{Background, Light, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
 use crate::gpu::{Gpu, Picture, difference};
@@ -117,13 +117,31 @@ on_both_backends! {
         renderer.set_model(&scene.model).expect("small");
         let mut target = gpu.target(64, 48);
         for (width, height) in [(101, 37), (1, 1), (64, 200)] {
-            target.resize(&gpu.open.device, width, height);
+            target.resize(&gpu.open.device, [width, height], [width, height]);
             assert_eq!(target.size(), [width, height]);
             renderer.render(&scene.frame(), &mut target);
             assert_eq!(gpu.read(&target), gpu.draw(&scene, width, height));
         }
-        target.resize(&gpu.open.device, 0, 0);
+        target.resize(&gpu.open.device, [0, 0], [0, 0]);
         assert_eq!(target.size(), [1, 1]);
+    }
+
+    /// While a picture moves it may be smaller than at rest.
+    fn a_picture_in_a_corner_of_its_textures_is_the_same_as_in_textures_of_its_own(gpu) {
+        for light in Light::ALL {
+            let mut scene = bent_tube(0.5).three_quarter(Theme::Dark);
+            (scene.options.light, scene.options.split) = (light, Some(0.5));
+            let mut easel = gpu.renderer();
+            easel.set_model(&scene.model).expect("small");
+            let mut target = gpu.target(1, 1);
+            for size in [[64, 48], [150, 100], [33, 70]] {
+                target.resize(&gpu.open.device, size, [150, 100]);
+                easel.render(&scene.frame(), &mut target);
+                let alone = gpu.draw(&scene, size[0], size[1]);
+                assert_eq!(target.size(), size);
+                assert_eq!(gpu.read(&target).share_that_differs(&alone, 0), 0.0, "{light:?} {size:?}");
+            }
+        }
     }
 
     /// Where a device has no multisampling: the same picture but for edges.
@@ -242,12 +260,55 @@ on_both_backends! {
         let surface = composite(gpu, &target);
         assert_eq!(surface.share_that_differs(&gpu.read(&target), 1), 0.0);
     }
+
+    /// What lies beside the picture in its textures does not shine in. Dither is what differs.
+    fn the_compositor_stretches_a_part_of_a_texture(gpu) {
+        let mut scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
+        scene.options.background = Background::Color([200, 100, 50]);
+        let mut renderer = gpu.renderer();
+        let mut target = gpu.target(1, 1);
+        target.resize(&gpu.open.device, [50, 40], [128, 128]);
+        renderer.render(&scene.frame(), &mut target);
+        let surface = composite(gpu, &target);
+        assert_eq!([surface.width, surface.height], [128, 128]);
+        for pixel in surface.rgba.chunks_exact(4) {
+            assert!(pixel[0].abs_diff(200) <= 3 && pixel[2].abs_diff(50) <= 3 && pixel[3] == 255, "{pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_picture_of_4k_is_drawn_smaller_and_a_usual_one_is_not() {
+    for (size, least, most) in [
+        ([1920, 1080], 1.0, 1.0),
+        ([2560, 1440], 1.0, 1.0),
+        ([3840, 2160], 0.75, 0.9),
+    ] {
+        let scale = Target::affordable_scale(size, SampleCount::Four);
+        assert!((least..=most).contains(&scale), "{size:?}: {scale}");
+    }
+}
+
+#[test]
+fn textures_are_kept_while_a_window_is_resized() {
+    let gpu = crate::gpu::vulkan();
+    let device = &gpu.open.device;
+    let mut target = gpu.target(1, 1);
+    let kept = (500..600)
+        .filter(|&width| target.resize(device, [width, 300], [width, 300]))
+        .count();
+    assert_eq!(kept, 98, "new ones for 500 and for 513");
+    assert!(
+        target.resize(device, [400, 300], [400, 300]),
+        "a little too large is no harm"
+    );
+    assert!(!target.resize(device, [100, 100], [100, 100]), "much too large is");
 }
 
 /// Composites onto a surface as egui's, which is not sRGB, and reads that.
 fn composite(gpu: &Gpu, target: &Target) -> Picture {
     let device = &gpu.open.device;
-    let [width, height] = target.size();
+    let [width, height] = [target.texture().width(), target.texture().height()];
     let format = wgpu::TextureFormat::Rgba8Unorm;
     let surface = device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -260,7 +321,7 @@ fn composite(gpu: &Gpu, target: &Target) -> Picture {
         view_formats: &[],
     });
     let mut compositor = Compositor::new(device, format);
-    compositor.prepare(device, target);
+    compositor.prepare(device, &gpu.open.queue, target);
     let view = surface.create_view(&wgpu::TextureViewDescriptor::default());
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     {

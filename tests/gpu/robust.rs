@@ -153,7 +153,8 @@ on_both_backends! {
                 renderer.set_sky((index % 2 == 1).then(|| cube(4, [[index as u8 * 30; 3]; 6])).as_ref());
                 renderer.render(&frame, &mut target);
                 renderer.set_materials(&[]);
-                target.resize(&gpu.open.device, 40 + index as u32, 30);
+                let size = [40 + index as u32, 30];
+                target.resize(&gpu.open.device, size, size);
                 renderer.render(&frame, &mut target);
             }
             // The last again, by itself.

@@ -2,7 +2,7 @@
 
 use bindpose::image::{Image, encode_png};
 use bindpose::scene::{Background, Light, Overlay, Pass, ViewMode};
-use bindpose::session::{FileCommand, LookCommand, PassChoice, PassState};
+use bindpose::session::{FileCommand, LookCommand, PassChoice, PassState, PlayCommand, QualityMode};
 use egui::{Key, Modifiers, pos2};
 
 use crate::models::moving;
@@ -166,29 +166,30 @@ fn passes_say_their_state_and_a_click_changes_it() {
 }
 
 #[test]
-fn what_is_left_out_for_speed_is_said_and_can_be_insisted_on() {
+fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     let mut window = open();
-    let slow_frames = |window: &mut Window| {
-        for _ in 0..12 {
-            window.harness.state_mut().session.note_frame(0.1);
+    let slow_frames = |window: &mut Window, count: usize| {
+        for _ in 0..count {
+            let session = &mut window.harness.state_mut().session;
+            session.begin_pass(0.2);
+            session.frame_drawn();
         }
     };
-    slow_frames(&mut window);
+    window.apply(PlayCommand::Play);
+    slow_frames(&mut window, 8);
     window.click("Lighting");
-    assert!(window.shows("Ambient occlusion is off: frames took too long"));
-    slow_frames(&mut window);
+    assert!(window.shows("50 % of the width and height: frames took 200 ms"));
+    slow_frames(&mut window, 24);
     window.pass_on();
-    assert!(window.shows("Contact shadow and ambient occlusion are off: frames took too long"));
-    window.click("Ambient occlusion: too slow here");
-    assert_eq!(
-        window.session().quality().choice(Pass::AmbientOcclusion),
-        PassChoice::On
-    );
-    assert_eq!(
-        window.session().quality().state(Pass::AmbientOcclusion),
-        PassState::Drawn
-    );
-    assert!(window.shows("Contact shadow is off: frames took too long"));
+    assert!(window.shows("50 % of the width and height, no ambient occlusion, coarser shadows: frames took 200 ms"));
+    window.click("Ambient occlusion: at rest");
+    let quality = window.session().quality();
+    assert_eq!(quality.choice(Pass::AmbientOcclusion), PassChoice::On);
+    assert_eq!(quality.state(Pass::AmbientOcclusion), PassState::Drawn);
+    slow_frames(&mut window, 8);
+    window.click("Full");
+    assert_eq!(window.session().quality().mode(), QualityMode::Full);
+    assert!(!window.shows("50 % of the width and height: frames took 200 ms"));
 }
 
 #[test]

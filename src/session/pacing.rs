@@ -1,0 +1,394 @@
+//! Which detail a device keeps up with while the picture moves. Frames that come too late lower it step by step; frames that come
+//! in time for a while raise it again, and a step that was too much is tried later each time.
+
+use crate::scene::Detail;
+
+/// Frames are to come this often where the display shows as many: more than 60 a second are not asked for.
+pub(super) const TARGET_SECS: f32 = 1.0 / 60.0;
+/// Frames that take so much longer than the target are too late.
+const TOLERANCE: f32 = 1.25;
+/// Frames are judged together: so many, or as many as fit this time when each takes long.
+const WINDOW_FRAMES: usize = 12;
+const WINDOW_SECS: f32 = 1.0;
+const LEAST_FRAMES: usize = 3;
+/// Three of four frames are to come in time.
+const PERCENTILE: f32 = 0.75;
+/// The first frames with another detail make textures and pipelines: they are not judged.
+const SETTLING_FRAMES: u32 = 2;
+/// A frame that took so much longer than the others was held up by something else: files load, a tab was hidden.
+const STALL: f32 = 4.0;
+const LEAST_STALL_SECS: f32 = 0.25;
+/// Nothing that draws takes longer.
+const LONGEST_FRAME_SECS: f32 = 4.0;
+/// How long frames come in time before more detail is tried; each try that fails doubles it.
+const FIRST_WAIT_SECS: f32 = 2.0;
+const LONGEST_WAIT_SECS: f32 = 60.0;
+/// When even the least detail saves less of a frame than this, something else than drawing takes the time.
+const LEAST_SAVING: f32 = 0.1;
+
+/// What is drawn at a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    /// Fraction of the picture's width and height.
+    pub(super) scale: f32,
+    pub(super) occlusion: Detail,
+    pub(super) shadow: Detail,
+    pub(super) draws_occlusion: bool,
+}
+
+const FULL: Step = Step {
+    scale: 1.0,
+    occlusion: Detail::Full,
+    shadow: Detail::Full,
+    draws_occlusion: true,
+};
+const HALF: Step = Step { scale: 0.5, ..FULL };
+
+/// From the finest to the coarsest: first fewer pixels, which the compositor filters, then fewer samples of ambient occlusion, fewer
+/// taps of shadows, no ambient occlusion. Reflections stay: they are one lookup a pixel.
+const STEPS: [Step; 8] = [
+    FULL,
+    Step { scale: 0.85, ..FULL },
+    Step { scale: 0.7, ..FULL },
+    Step { scale: 0.6, ..FULL },
+    HALF,
+    Step {
+        occlusion: Detail::Low,
+        ..HALF
+    },
+    Step {
+        occlusion: Detail::Low,
+        shadow: Detail::Low,
+        ..HALF
+    },
+    Step {
+        occlusion: Detail::Low,
+        shadow: Detail::Low,
+        draws_occlusion: false,
+        ..HALF
+    },
+];
+/// The last step that has fewer pixels than the one before.
+const COARSEST_SCALE: usize = 4;
+
+/// Judges the intervals between frames of a moving picture.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Pacer {
+    step: usize,
+    /// The step of another model, or of a device that is known to be slow.
+    first_step: usize,
+    target_secs: f32,
+    /// Intervals of frames that are not judged yet.
+    window: Vec<f32>,
+    /// Frames that are not judged at all.
+    settling: u32,
+    stalled: bool,
+    /// How long frames came in time, and how long they have to before a finer step is tried.
+    in_time_secs: f32,
+    wait_secs: f32,
+    /// The step before was coarser, and nobody knows yet whether this one is too fine.
+    tries: bool,
+    /// How long frames took when the first of the steps was taken down that led here.
+    before_secs: Option<f32>,
+    /// How long frames took in the last window.
+    frame_secs: f32,
+}
+
+impl Default for Pacer {
+    fn default() -> Self {
+        Self {
+            step: 0,
+            first_step: 0,
+            target_secs: TARGET_SECS,
+            window: Vec::new(),
+            settling: SETTLING_FRAMES,
+            stalled: false,
+            in_time_secs: 0.0,
+            wait_secs: FIRST_WAIT_SECS,
+            tries: false,
+            before_secs: None,
+            frame_secs: 0.0,
+        }
+    }
+}
+
+impl Pacer {
+    /// What is drawn at the coarsest step.
+    pub(super) const COARSEST: Step = STEPS[STEPS.len() - 1];
+    /// What is drawn at the finest.
+    pub(super) const FINEST: Step = FULL;
+
+    /// What to draw while the picture moves.
+    pub(super) fn step(&self) -> Step {
+        STEPS[self.step]
+    }
+
+    /// How long three of four of the frames took that were judged last, seconds; 0 before.
+    pub(super) fn frame_secs(&self) -> f32 {
+        self.frame_secs
+    }
+
+    /// Learns how often the display shows a picture, seconds. Frames cannot come more often.
+    pub(super) fn set_display_secs(&mut self, display_secs: f32) {
+        if display_secs.is_finite() {
+            self.target_secs = display_secs.max(TARGET_SECS);
+        }
+    }
+
+    /// Learns that the device draws with its CPU: it begins with few pixels.
+    pub(super) fn set_slow_device(&mut self, slow: bool) {
+        self.first_step = if slow { COARSEST_SCALE } else { 0 };
+        self.restart();
+    }
+
+    /// Begins anew, as for another model.
+    pub(super) fn restart(&mut self) {
+        *self = Self {
+            step: self.first_step,
+            first_step: self.first_step,
+            target_secs: self.target_secs,
+            ..Self::default()
+        };
+    }
+
+    /// The picture begins to move. Its first frame may have to wait for the device.
+    pub(super) fn begin_motion(&mut self) {
+        self.settling = self.settling.max(1);
+    }
+
+    /// Learns the time between two frames of a moving picture, seconds.
+    pub(super) fn note_frame(&mut self, frame_secs: f32) {
+        if frame_secs.is_nan() || frame_secs > LONGEST_FRAME_SECS {
+            return;
+        }
+        if self.settling > 0 {
+            self.settling -= 1;
+            return;
+        }
+        let usual_secs = percentile(&self.window, 0.5);
+        let is_stall = self.window.len() >= LEAST_FRAMES && frame_secs > (STALL * usual_secs).max(LEAST_STALL_SECS);
+        // What comes after a stall is late because of it. Stalls one after another are the device's pace.
+        if std::mem::replace(&mut self.stalled, is_stall) != is_stall {
+            return;
+        }
+        self.window.push(frame_secs);
+        let window_secs: f32 = self.window.iter().sum();
+        let is_long = window_secs >= WINDOW_SECS && self.window.len() >= LEAST_FRAMES;
+        if is_long || self.window.len() >= WINDOW_FRAMES {
+            self.frame_secs = percentile(&self.window, PERCENTILE);
+            self.window.clear();
+            self.judge(window_secs);
+        }
+    }
+
+    fn judge(&mut self, window_secs: f32) {
+        if self.frame_secs > self.target_secs * TOLERANCE {
+            self.lower();
+            return;
+        }
+        if std::mem::take(&mut self.tries) {
+            // The finer step holds.
+            self.wait_secs = FIRST_WAIT_SECS;
+        }
+        self.before_secs = None;
+        self.in_time_secs += window_secs;
+        if self.in_time_secs >= self.wait_secs && self.step > 0 {
+            self.tries = true;
+            self.go_to(self.step - 1);
+        }
+    }
+
+    fn lower(&mut self) {
+        let failed = std::mem::take(&mut self.tries);
+        self.in_time_secs = 0.0;
+        let before_secs = *self.before_secs.get_or_insert(self.frame_secs);
+        if failed {
+            self.wait_secs = (self.wait_secs * 2.0).min(LONGEST_WAIT_SECS);
+        }
+        let last = STEPS.len() - 1;
+        if self.step < last {
+            self.go_to(self.coarser());
+        } else if self.step > self.first_step && self.frame_secs > before_secs * (1.0 - LEAST_SAVING) {
+            // The picture was made coarser for nothing.
+            self.before_secs = None;
+            self.go_to(self.first_step);
+            self.settling = (LONGEST_WAIT_SECS / self.frame_secs) as u32;
+        }
+    }
+
+    /// The next step, or the first whose pixels are few enough if their number decides.
+    fn coarser(&self) -> usize {
+        let next = self.step + 1;
+        if next > COARSEST_SCALE {
+            return next;
+        }
+        let wanted = self.step().scale * (self.target_secs / self.frame_secs).sqrt();
+        let fits = (next..COARSEST_SCALE).find(|&step| STEPS[step].scale <= wanted);
+        fits.unwrap_or(COARSEST_SCALE)
+    }
+
+    fn go_to(&mut self, step: usize) {
+        self.step = step;
+        self.in_time_secs = 0.0;
+        self.settling = SETTLING_FRAMES;
+    }
+}
+
+/// The value that this fraction of all does not exceed; 0 without any.
+fn percentile(values: &[f32], fraction: f32) -> f32 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    let index = (fraction * sorted.len() as f32).ceil() as usize;
+    sorted.get(index.saturating_sub(1)).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A device: what a frame costs whatever is drawn, and what the pixels of a full picture cost, seconds.
+    #[derive(Clone, Copy)]
+    struct Device {
+        fixed_secs: f32,
+        pixels_secs: f32,
+        display_secs: f32,
+    }
+
+    impl Device {
+        fn frame_secs(self, step: Step) -> f32 {
+            let samples = match (step.draws_occlusion, step.occlusion) {
+                (false, _) => 0.5,
+                (true, Detail::Low) => 0.8,
+                (true, Detail::Full) => 1.0,
+            };
+            let drawn = self.fixed_secs + self.pixels_secs * step.scale * step.scale * samples;
+            // The display shows whole frames.
+            (drawn / self.display_secs).ceil() * self.display_secs
+        }
+
+        /// A clip that plays for a time.
+        fn play(self, pacer: &mut Pacer, secs: f32) {
+            let mut played = 0.0;
+            while played < secs {
+                let frame_secs = self.frame_secs(pacer.step());
+                pacer.note_frame(frame_secs);
+                played += frame_secs;
+            }
+        }
+    }
+
+    fn device(pixels_secs: f32, display: f32) -> (Device, Pacer) {
+        let device = Device {
+            fixed_secs: 0.001,
+            pixels_secs,
+            display_secs: 1.0 / display,
+        };
+        let mut pacer = Pacer::default();
+        pacer.set_display_secs(device.display_secs);
+        (device, pacer)
+    }
+
+    #[test]
+    fn a_device_that_keeps_up_draws_all() {
+        for display in [30.0, 60.0, 144.0] {
+            let (device, mut pacer) = device(0.005, display);
+            device.play(&mut pacer, 30.0);
+            assert_eq!(pacer.step(), FULL, "{display} Hz");
+        }
+    }
+
+    #[test]
+    fn a_device_of_20_frames_draws_fewer_pixels_and_no_fewer_than_it_needs() {
+        let (device, mut pacer) = device(0.045, 60.0);
+        device.play(&mut pacer, 3.0);
+        assert!(pacer.step().scale < 0.65 && pacer.step().draws_occlusion, "{pacer:?}");
+        let mut late = 0.0;
+        for _ in 0..60 {
+            device.play(&mut pacer, 1.0);
+            late += if device.frame_secs(pacer.step()) > TARGET_SECS * TOLERANCE {
+                1.0
+            } else {
+                0.0
+            };
+        }
+        assert!(
+            late < 10.0,
+            "a finer step is tried seldom: {late} of 60 seconds were late"
+        );
+    }
+
+    #[test]
+    fn a_device_of_5_frames_comes_to_the_coarsest_step_in_seconds() {
+        let (device, mut pacer) = device(0.2, 60.0);
+        device.play(&mut pacer, 4.0);
+        assert_eq!(pacer.step(), Pacer::COARSEST);
+    }
+
+    #[test]
+    fn a_display_of_30_hertz_is_not_a_slow_device() {
+        let (device, mut pacer) = device(0.02, 30.0);
+        device.play(&mut pacer, 10.0);
+        assert_eq!(pacer.step(), FULL);
+    }
+
+    #[test]
+    fn stalls_and_hidden_tabs_are_not_judged() {
+        let (device, mut pacer) = device(0.005, 60.0);
+        for stall_secs in [0.3, 1.0, 3.0, 60.0, f32::NAN] {
+            device.play(&mut pacer, 0.5);
+            pacer.note_frame(stall_secs);
+            pacer.note_frame(0.1);
+        }
+        device.play(&mut pacer, 1.0);
+        assert_eq!(pacer.step(), FULL);
+    }
+
+    #[test]
+    fn what_became_easier_is_drawn_finer_again() {
+        let (hard, mut pacer) = device(0.2, 60.0);
+        hard.play(&mut pacer, 4.0);
+        let easy = Device {
+            pixels_secs: 0.004,
+            ..hard
+        };
+        easy.play(&mut pacer, STEPS.len() as f32 * (FIRST_WAIT_SECS + 1.0));
+        assert_eq!(pacer.step(), FULL);
+    }
+
+    #[test]
+    fn a_picture_is_not_made_coarser_for_nothing() {
+        let busy = Device {
+            fixed_secs: 0.05,
+            pixels_secs: 0.001,
+            display_secs: 1.0 / 60.0,
+        };
+        let mut pacer = Pacer::default();
+        busy.play(&mut pacer, 20.0);
+        assert_eq!(pacer.step(), FULL, "the time goes elsewhere");
+    }
+
+    #[test]
+    fn a_slow_device_begins_with_few_pixels_and_returns_there_with_another_model() {
+        let mut pacer = Pacer::default();
+        pacer.set_slow_device(true);
+        assert_eq!(pacer.step(), HALF);
+        let (device, _) = device(1.5, 60.0);
+        device.play(&mut pacer, 10.0);
+        assert_eq!(pacer.step(), Pacer::COARSEST);
+        pacer.restart();
+        assert_eq!(pacer.step(), HALF);
+    }
+
+    #[test]
+    fn slow_frames_of_short_motions_add_up() {
+        let mut pacer = Pacer::default();
+        let mut motions = 0;
+        while pacer.step() == FULL {
+            pacer.begin_motion();
+            (0..5).for_each(|_| pacer.note_frame(0.1));
+            motions += 1;
+            assert!(motions < 10);
+        }
+        assert_eq!(motions, 3);
+    }
+}
