@@ -27,11 +27,14 @@ pub(super) fn label(session: &Session) -> &'static str {
     }
 }
 
-/// Puts a dot on the button while a pass is off because the device is too slow.
+/// Puts a dot on the button while a pass is off because the device is too slow, and says so in a tooltip.
 pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
-    if slow_passes(session).is_some() {
+    if let Some(note) = slow_passes(session) {
         let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
         ui.painter().circle_filled(at, 3.0, Tokens::of(ui).warning);
+        ui.ctx()
+            .accesskit_node_builder(button.id, |node| node.set_description(note.as_str()));
+        button.clone().on_hover_text(note);
     }
 }
 

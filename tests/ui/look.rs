@@ -174,8 +174,13 @@ fn what_is_left_out_for_speed_is_said_and_can_be_insisted_on() {
         }
     };
     slow_frames(&mut window);
+    let at = window.rect("Lighting").center();
+    window.harness.hover_at(at);
+    window.wait(0.6);
+    let note = "Ambient occlusion is off: frames took too long";
+    assert!(window.shows(note), "the dot is explained where it is seen");
     window.click("Lighting");
-    assert!(window.shows("Ambient occlusion is off: frames took too long"));
+    assert!(window.shows(note));
     slow_frames(&mut window);
     window.pass_on();
     assert!(window.shows("Contact shadow and ambient occlusion are off: frames took too long"));
