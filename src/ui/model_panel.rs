@@ -31,11 +31,18 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     space_rows(ui, session, commands);
     bounds_row(ui, open);
     diagnostics_row(ui, session, state);
-    if session.maps().checklist().named > 0 {
+    let has_maps = session.maps().checklist().named > 0;
+    // The rows of a phone are high: there the subsets come first.
+    let subsets_first = is_touch(ui);
+    if has_maps && !subsets_first {
         textures::show(ui, session, open, state);
     }
     rule(ui, MARGIN);
     submesh_list(ui, session, open, state, commands);
+    if has_maps && subsets_first {
+        rule(ui, MARGIN);
+        textures::show(ui, session, open, state);
+    }
 }
 
 fn heading(ui: &mut Ui) {

@@ -66,18 +66,24 @@ fn rows_in_view(ui: &mut Ui, height: f32, count: usize, mut row: impl FnMut(&mut
 fn maps_line(ui: &mut Ui, checklist: &Checklist, is_open: &mut bool) {
     let tokens = Tokens::of(ui);
     let (rect, response) = pressed_row(ui, false);
-    let mut words = format!("{} of {}", checklist.found(), checklist.named);
-    let mut color = tokens.text;
-    for (count, what) in [
+    let found = format!("{} of {}", checklist.found(), checklist.named);
+    let counts = [
         (checklist.missing.len(), "missing"),
         (checklist.unreadable.len(), "unreadable"),
-    ] {
-        if count > 0 {
-            words += &format!(", {} {what}", grouped(count));
-            color = tokens.warning;
-        }
-    }
-    paint_ends(ui, rect, ("Maps", tokens.text), (&words, color));
+    ];
+    let absent: Vec<String> = counts
+        .into_iter()
+        .filter(|&(count, _)| count > 0)
+        .map(|(count, what)| format!("{} {what}", grouped(count)))
+        .collect();
+    let all: Vec<&str> = std::iter::once(found.as_str())
+        .chain(absent.iter().map(String::as_str))
+        .collect();
+    // The panel has room for two of the three.
+    let shown = all[all.len().saturating_sub(2)..].join(", ");
+    let color = if absent.is_empty() { tokens.text } else { tokens.warning };
+    paint_ends(ui, rect, ("Maps", tokens.text), (&shown, color));
+    let words = all.join(", ");
     let mark = rect.left_center() + vec2(MARK_AT, 0.0);
     paint_fold_mark(ui.painter(), mark, !*is_open, tokens.muted);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Maps: {words}")));

@@ -59,10 +59,18 @@ fn the_name_of_the_file_opens_a_menu_of_all_models_sorted_with_the_open_one_mark
 #[test]
 fn esc_shuts_the_menu_and_gives_the_focus_back_to_the_name() {
     let mut window = window(WIDE, drop());
-    window.click("Open model: ");
+    let name = Some("Open model: large.m3d · 1 of 3");
+    for _ in 0..100 {
+        if window.focused().as_deref() != name {
+            window.press(Modifiers::NONE, Key::Tab);
+        }
+    }
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(lines(&window).len(), 3);
+    window.press(Modifiers::NONE, Key::Tab);
     window.press(Modifiers::NONE, Key::Escape);
     assert!(lines(&window).is_empty());
-    assert_eq!(window.focused().as_deref(), Some("Open model: large.m3d · 1 of 3"));
+    assert_eq!(window.focused().as_deref(), name);
     assert_eq!(open_path(&window), "in/large.m3d");
 }
 
@@ -97,11 +105,11 @@ fn a_long_name_leaves_the_tools_their_room() {
     let button = phone.rect("Open model: ");
     assert!(button.max.x <= phone.rect("Lighting").min.x && button.max.x < PHONE.x);
     phone.click("Open model: ");
+    let names: Vec<_> = lines(&phone).into_iter().map(|(name, _)| name).collect();
     assert_eq!(
-        lines(&phone).len(),
-        1,
-        "the other's path is cut at its front: {:?}",
-        lines(&phone)
+        names,
+        ["…_the_room_that_the_toolbar_leaves.m3d", "b.m3d"],
+        "the end of a path tells more"
     );
     let wide = window(egui::vec2(900.0, 700.0), files());
     assert!(wide.rect("Open model: ").max.x <= wide.rect("View mode").min.x);
