@@ -255,7 +255,10 @@ pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>,
     let tokens = Tokens::of(ui);
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = TITLE_SPACING;
-        ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
+        // A narrow bar has no room for this and for a menu of files.
+        if state.is_some() || session.models().len() < 2 {
+            ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
+        }
         let Some(open) = session.open_model() else { return };
         let mut room = ui.available_width();
         // The findings matter more than the dialect, and the name more than both.
