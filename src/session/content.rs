@@ -66,7 +66,8 @@ impl Content {
             }
             (Some(_), None) => return self.others.as_ref().filter(beside).cloned(),
         };
-        let maps = self.maps.clone();
+        // They can be decoded again; until then their memory is free.
+        let maps = self.maps.undecoded();
         Some(Arc::new(OtherFiles { files, maps }))
     }
 

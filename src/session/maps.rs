@@ -63,6 +63,17 @@ impl Maps {
         self.conclude(materials);
     }
 
+    /// The same pictures, none of them decoded.
+    pub(super) fn undecoded(&self) -> Self {
+        let mut maps = self.clone();
+        for decoded in &mut maps.decoded {
+            if matches!(decoded, Decoded::Images(_)) {
+                *decoded = Decoded::New;
+            }
+        }
+        maps
+    }
+
     /// The first step of [`Maps::add`]: finds what the materials name, and decodes nothing.
     pub(super) fn begin(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
         self.keep(pictures, false);
