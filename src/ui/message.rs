@@ -4,7 +4,6 @@ use egui::{Align2, Label, Margin, Rangef, Rect, RichText, Ui};
 
 use super::icons::Icon;
 use super::panel::Panel;
-use super::state::{Request, UiState};
 use super::theme::Tokens;
 use super::widgets::{TextButton, control_size, icon_button};
 
@@ -62,16 +61,16 @@ impl Messages {
     }
 }
 
-/// Shows the message at the bottom of a room.
-pub(super) fn show(ui: &Ui, state: &mut UiState, room: Rect) {
-    let Some(message) = &mut state.messages.shown else {
-        return;
+/// Shows the message at the bottom of a room. Returns whether the picture that it is about is to be saved elsewhere.
+pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
+    let Some(message) = &mut messages.shown else {
+        return false;
     };
     let now_secs = ui.input(|input| input.time);
     let ends_secs = *message.ends_secs.get_or_insert(now_secs + SHOWN_SECS);
     if now_secs >= ends_secs || room.width() < LEAST_WIDTH {
-        state.messages.shown = None;
-        return;
+        messages.shown = None;
+        return false;
     }
     let (mut shut, mut saves, mut held) = (false, false, false);
     let tokens = Tokens::of(ui);
@@ -107,14 +106,12 @@ pub(super) fn show(ui: &Ui, state: &mut UiState, room: Rect) {
     held |= ui.input(|input| input.pointer.hover_pos().is_some_and(|at| rect.contains(at)));
     let ends_secs = if held { now_secs + SHOWN_SECS } else { ends_secs };
     message.ends_secs = Some(ends_secs);
-    if saves {
-        state.requests.push(Request::SavePictureAs);
-    }
     if shut || saves {
-        state.messages.shown = None;
+        messages.shown = None;
         ui.ctx().request_repaint();
     } else {
         let left = std::time::Duration::from_secs_f64(ends_secs - now_secs);
         ui.ctx().request_repaint_after(left);
     }
+    saves
 }

@@ -78,7 +78,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let (free, uncovered) = layout::show(ui, session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
     chips::show(ui, session, uncovered, &mut commands);
-    message::show(ui, state, uncovered);
+    if message::show(ui, &mut state.messages, uncovered) {
+        state.requests.push(Request::SavePictureAs);
+    }
     if ui.ctx().will_discard() {
         state.frames_selection |= frames_selection;
     } else {
