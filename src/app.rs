@@ -114,6 +114,11 @@ impl App {
         ctx.set_theme(egui::ThemePreference::System);
     }
 
+    /// Says that a picture of this size was saved under this name.
+    pub fn picture_was_saved(&mut self, name: &str, size: [u32; 2]) {
+        self.state.messages.say_saved(name, size);
+    }
+
     /// How many pictures of the model were drawn: stands still while nothing changes.
     pub fn frames_rendered(&self) -> u64 {
         self.painter.frames_rendered

@@ -6,6 +6,7 @@ import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
 } from "./fault.js";
+import { printView } from "./print.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFile, readAgain, rememberSources } from "./sources.js";
 import { letTabLeave, mirrorTransport, nameTextInput } from "./transport.js";
@@ -89,6 +90,7 @@ const refreshTransport = mirrorTransport(bindpose, {
   section: element("transport"), control: (name) => element(`transport-${name}`), say, focusView,
 });
 takeUnclaimedKeys();
+printView(bindpose);
 letTabLeave(view, () => !hasFailed() && Boolean(viewer?.escapeShuts()));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
@@ -246,7 +248,7 @@ function onEvent(type, detail) {
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
-  if (type === "picture") return saveFile(detail.name, detail.bytes, "image/png");
+  if (type === "picture") return void savePicture(detail);
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
     clearNotice();
@@ -296,6 +298,19 @@ async function fetchOpening() {
   } catch (error) {
     refuse(wordsOf(error));
     return null;
+  }
+}
+
+/** Saves a picture: where the person chooses if that was asked for and the browser can, else as a download. */
+async function savePicture({ name, bytes, choosesPlace }) {
+  if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
+  try {
+    const types = [{ description: "PNG picture", accept: { "image/png": [".png"] } }];
+    const file = await (await showSaveFilePicker({ suggestedName: name, types })).createWritable();
+    await file.write(bytes);
+    await file.close();
+  } catch (error) {
+    if (error.name !== "AbortError") showNotice("The picture could not be saved", wordsOf(error));
   }
 }
 

@@ -28,10 +28,10 @@ pub(super) fn write_diagnostic(
 
 /// The other lines of a diagnostic: `line 12`, `lines 12, 16, 20, …`.
 fn also_on(diagnostic: &Diagnostic) -> Option<String> {
-    let mut lines: Vec<u32> = diagnostic.places.iter().map(|place| place.line).collect();
+    let mut lines: Vec<u32> = diagnostic.few_places().iter().map(|place| place.line).collect();
     lines.dedup();
     let others: Vec<String> = lines.iter().skip(1).map(u32::to_string).collect();
-    let more = diagnostic.count as usize > diagnostic.places.len();
+    let more = diagnostic.count as usize > diagnostic.few_places().len();
     match (others.as_slice(), more) {
         ([], _) => None,
         ([line], false) => Some(format!("line {line}")),

@@ -26,15 +26,16 @@ impl Diagnostics {
     pub(crate) fn add(&mut self, code: &Code, place: Place, message: String) {
         let met = self.met.entry(code.name).or_default();
         *met = met.saturating_add(1);
-        if *met > Self::MOST_APART {
+        if *met as usize > Diagnostic::MOST_PLACES {
             return;
         }
-        let places: Vec<Position> = place.lines.into_iter().flatten().map(line_start).collect();
+        let places: Vec<Position> = place.lines.into_iter().map(line_start).collect();
         self.list.push(Diagnostic {
             position: places.first().copied(),
-            subject: place.subject,
+            subject: place.subjects.first().copied(),
             count: place.count,
             places,
+            subjects: place.subjects,
             ..code.says(message)
         });
     }
@@ -48,6 +49,7 @@ impl Diagnostics {
                 all.push(diagnostic);
             } else if let Some(first) = all.iter_mut().find(|first| first.code == diagnostic.code) {
                 first.places.extend(diagnostic.position);
+                first.subjects.extend(diagnostic.subject);
             } else {
                 all.push(standing_for(met, diagnostic));
             }
@@ -67,26 +69,27 @@ fn standing_for(count: u32, first: Diagnostic) -> Diagnostic {
     Diagnostic {
         message: format!("{} The same holds for {} more {parts}.", first.message, count - 1),
         places: first.position.into_iter().collect(),
+        subjects: first.subject.into_iter().collect(),
         count,
         ..first
     }
 }
 
-/// Where a diagnostic belongs: lines of the file when there are any, and a part of the model.
-#[derive(Clone, Copy)]
+/// Where a diagnostic belongs: lines of the file when there are any, and parts of the model.
+#[derive(Clone)]
 pub(crate) struct Place {
-    lines: [Option<u32>; Diagnostic::MOST_PLACES],
+    lines: Vec<u32>,
     count: u32,
-    subject: Option<Subject>,
+    subjects: Vec<Subject>,
 }
 
 /// The whole file.
 impl Default for Place {
     fn default() -> Self {
         Self {
-            lines: [None; Diagnostic::MOST_PLACES],
+            lines: Vec::new(),
             count: 1,
-            subject: None,
+            subjects: Vec::new(),
         }
     }
 }
@@ -105,27 +108,32 @@ impl Place {
 
     /// A part of the model on a given line.
     pub(crate) fn on(subject: Subject, line: Option<u32>) -> Self {
-        let mut place = Self::default();
-        place.lines[0] = line;
-        place.subject = Some(subject);
-        place
+        Self {
+            lines: line.into_iter().collect(),
+            count: 1,
+            subjects: vec![subject],
+        }
     }
 
     /// Rows that needed the same mending. `subject` turns the number of a row into a part of the model; `lines` has the
     /// line of each row.
-    pub(crate) fn of_rows(rows: &Tally, subject: impl FnOnce(u32) -> Subject, lines: &[u32]) -> Self {
+    pub(crate) fn of_rows(rows: &Tally, subject: impl Fn(u32) -> Subject, lines: &[u32]) -> Self {
         Self {
             lines: rows.first_lines(lines),
             count: rows.count_u32(),
-            subject: Some(subject(rows.first())),
+            subjects: rows.rows.into_iter().flatten().map(subject).collect(),
         }
     }
 
     /// Rows inside one part of the model; `otherwise` is the line to name when `lines` lacks the first row.
     pub(crate) fn of_rows_in(subject: Subject, rows: &Tally, lines: &[u32], otherwise: Option<u32>) -> Self {
-        let mut place = Self::of_rows(rows, |_| subject, lines);
-        place.lines[0] = place.lines[0].or(otherwise);
-        place
+        let first_line = rows.rows[0].and_then(|row| lines.get(row as usize));
+        let otherwise = otherwise.filter(|_| first_line.is_none());
+        Self {
+            lines: otherwise.into_iter().chain(rows.first_lines(lines)).collect(),
+            count: rows.count_u32(),
+            subjects: vec![subject],
+        }
     }
 }
 
@@ -150,13 +158,9 @@ impl Tally {
         }
     }
 
-    /// The first row; 0 when there is none.
-    fn first(&self) -> u32 {
-        self.rows[0].unwrap_or_default()
-    }
-
-    fn first_lines(&self, lines: &[u32]) -> [Option<u32>; Diagnostic::MOST_PLACES] {
-        self.rows.map(|row| lines.get(row? as usize).copied())
+    fn first_lines(&self, lines: &[u32]) -> Vec<u32> {
+        let rows = self.rows.into_iter().flatten();
+        rows.filter_map(|row| lines.get(row as usize).copied()).collect()
     }
 
     fn count_u32(&self) -> u32 {

@@ -92,11 +92,36 @@ pub struct Diagnostic {
     /// Positions of the first occurrences, at most [`Diagnostic::MOST_PLACES`]; the first is `position`. Empty without a
     /// place.
     pub places: Vec<Position>,
+    /// Parts of the model that the first occurrences are about, at most [`Diagnostic::MOST_PLACES`]; the first is `subject`.
+    pub subjects: Vec<Subject>,
 }
 
 impl Diagnostic {
     /// How many occurrences have their positions listed.
-    pub const MOST_PLACES: usize = 4;
+    pub const MOST_PLACES: usize = 20;
+    /// How many of these lines of text and JSON outputs name.
+    const FEW_PLACES: usize = 4;
+
+    /// The positions that outputs name.
+    pub fn few_places(&self) -> &[Position] {
+        &self.places[..self.places.len().min(Self::FEW_PLACES)]
+    }
+
+    /// Part and position of each occurrence that is known, as far as it has them.
+    pub fn occurrences(&self) -> impl ExactSizeIterator<Item = (Option<Subject>, Option<Position>)> {
+        let (subjects, places) = (&self.subjects, &self.places);
+        // Rows of one part share that part. Parts of which only some have a line cannot be told which.
+        let (one_part, are_pairs) = (subjects.len() <= 1, subjects.len() == places.len());
+        (0..subjects.len().max(places.len())).map(move |index| {
+            let subject = if one_part {
+                self.subject
+            } else {
+                subjects.get(index).copied()
+            };
+            let place = places.get(index).filter(|_| one_part || are_pairs);
+            (subject, place.copied())
+        })
+    }
 }
 
 /// One kind of diagnostic: a row of the table [`codes`].
@@ -126,6 +151,7 @@ impl Code {
             subject: None,
             count: 1,
             places: Vec::new(),
+            subjects: Vec::new(),
         }
     }
 }

@@ -22,9 +22,9 @@ const fn stop(value: f32, [red, green, blue]: [u8; 3]) -> LegendStop {
     }
 }
 
-/// A weight of 0 is a grey near the ground's; the least weight above it is blue.
+/// A weight of 0 is a grey that both backdrops show; the least weight above it is blue.
 const WEIGHT: [LegendStop; 6] = [
-    stop(0.0, [0x3A, 0x40, 0x4D]),
+    stop(0.0, [0x68, 0x70, 0x7E]),
     stop(0.1, [0x2F, 0x5F, 0xD0]),
     stop(0.3, [0x1F, 0xA6, 0xC4]),
     stop(0.5, [0x45, 0xBF, 0x6A]),

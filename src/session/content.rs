@@ -12,6 +12,13 @@ use super::sky::Sky;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Clip, JointNames};
 
+/// Files that can be opened again, with the pictures that were found for them.
+#[derive(Clone, Debug)]
+pub(super) struct OtherFiles {
+    pub(super) files: Arc<FileSet>,
+    pub(super) maps: Maps,
+}
+
 /// A model is replaced together with all that belongs to it; the sky belongs to no model.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Content {
@@ -19,6 +26,8 @@ pub(super) struct Content {
     pub(super) open: Option<Arc<OpenModel>>,
     /// Files of the last drop that had a model.
     pub(super) files: Arc<FileSet>,
+    /// What was open before that drop, or the drop while what was open before it is open again.
+    pub(super) others: Option<Arc<OtherFiles>>,
     pub(super) maps: Maps,
     pub(super) materials: Materials,
     /// What joints are called.
@@ -37,6 +46,29 @@ impl Content {
 
     pub(super) fn clip_count(&self) -> usize {
         self.clips().len()
+    }
+
+    /// What stands beside the files of the next drop: the model that was open, or the one before it if the drop has this one too.
+    pub(super) fn others_of(&self, next: &Arc<FileSet>) -> Option<Arc<OtherFiles>> {
+        let beside = |others: &&Arc<OtherFiles>| {
+            let models = others.files.models();
+            !models.iter().any(|file| next.get(&file.path).is_some())
+        };
+        if Arc::ptr_eq(next, &self.files) {
+            return self.others.clone();
+        }
+        let swaps = |others: &&Arc<OtherFiles>| Arc::ptr_eq(next, &others.files);
+        let files = match (&self.open, self.others.iter().find(swaps)) {
+            (None, _) => return None,
+            (_, Some(_)) => Arc::clone(&self.files),
+            (Some(open), None) if next.get(&open.file.path).is_none() => {
+                Arc::new(self.files.with_one_model(&open.file))
+            }
+            (Some(_), None) => return self.others.as_ref().filter(beside).cloned(),
+        };
+        // They can be decoded again; until then their memory is free.
+        let maps = self.maps.undecoded();
+        Some(Arc::new(OtherFiles { files, maps }))
     }
 
     /// What was mended or is worth knowing about the model, its maps and the sky.

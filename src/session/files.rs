@@ -90,6 +90,12 @@ impl FileSet {
         self.models.iter().map(|&index| &self.files[index]).collect()
     }
 
+    /// One of its files and all pictures: what is needed to open that model again.
+    pub(super) fn with_one_model(&self, model: &File) -> Self {
+        let pictures = self.files.iter().filter(|file| file.is_image());
+        Self::new(pictures.chain([model]).cloned())
+    }
+
     /// Flat pictures: those that a model can name.
     pub fn images(&self) -> impl Iterator<Item = &File> {
         self.files.iter().filter(|file| file.is_image() && !file.is_cube())
@@ -172,6 +178,20 @@ mod tests {
         assert_eq!(names(&[picture.clone(), notes.clone(), model]), ["model.txt"]);
         assert!(names(&[picture.clone(), notes]).is_empty());
         assert!(names(&[picture]).is_empty());
+    }
+
+    #[test]
+    fn one_model_of_a_drop_keeps_the_pictures_of_the_drop() {
+        let set = FileSet::new([
+            file("a.m3d", 9),
+            file("a.png", 3),
+            file("b.m3d", 5),
+            file("notes.txt", 2),
+        ]);
+        let kept = set.with_one_model(set.get("b.m3d").expect("it is there"));
+        let names: Vec<_> = kept.files().iter().map(|file| file.base_name()).collect();
+        assert_eq!(names, ["a.png", "b.m3d"]);
+        assert_eq!(kept.models().len(), 1);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::image::{self, Image, MapKind};
 use crate::model::Material;
 
@@ -61,6 +61,17 @@ impl Maps {
         self.begin(materials, pictures);
         while self.decode_next() {}
         self.conclude(materials);
+    }
+
+    /// The same pictures, none of them decoded.
+    pub(super) fn undecoded(&self) -> Self {
+        let mut maps = self.clone();
+        for decoded in &mut maps.decoded {
+            if matches!(decoded, Decoded::Images(_)) {
+                *decoded = Decoded::New;
+            }
+        }
+        maps
     }
 
     /// The first step of [`Maps::add`]: finds what the materials name, and decodes nothing.
@@ -215,12 +226,19 @@ impl Maps {
             .map(name)
             .collect();
         let failed = (0..self.pictures.len()).filter_map(|index| match &self.decoded[index] {
-            Decoded::Failed(diagnostic) if self.is_used(index) || !read.contains(&name(index)) => {
-                Some(diagnostic.clone())
-            }
+            Decoded::Failed(diagnostic) if self.is_used(index) || !read.contains(&name(index)) => Some(Diagnostic {
+                subject: self.first_user(index).map(Subject::Material),
+                ..diagnostic.clone()
+            }),
             _ => None,
         });
         self.diagnostics.extend(failed.collect::<Vec<_>>());
+    }
+
+    /// The first material that a picture is for.
+    fn first_user(&self, index: usize) -> Option<u32> {
+        let &(material, _) = self.users.get(&index)?.first()?;
+        u32::try_from(material).ok()
     }
 
     fn is_used(&self, index: usize) -> bool {

@@ -262,6 +262,16 @@ impl Session {
         self.content.materials.drawn()
     }
 
+    /// The name of a submesh: that of its material.
+    pub fn submesh_name(&self, submesh: usize) -> &str {
+        let mesh = self.content.open.as_ref().map(|open| &open.model.mesh);
+        let material = mesh
+            .and_then(|mesh| mesh.submeshes.get(submesh))
+            .map(|submesh| submesh.material);
+        let material = material.and_then(|material| self.materials().get(material as usize));
+        material.map_or("", |material| &material.name)
+    }
+
     /// Whether a material is another one than the file's.
     pub fn is_edited(&self, material: usize) -> bool {
         let of_file = self

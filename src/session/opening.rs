@@ -21,7 +21,7 @@ pub enum FileCommand {
     /// Adds the clips of other models with the same bones to the open one; without an open model it opens them. One whose
     /// bones differ is refused as an error, and the model stays.
     AddClips(Vec<File>),
-    /// Opens another model of the last drop, by its path.
+    /// Opens another of [`Session::models`], by its path.
     Open(String),
     /// Removes the sky that was dropped.
     ClearSky,
@@ -95,12 +95,36 @@ impl Session {
         Some(self.reuse(job))
     }
 
+    /// Opens one of [`Session::models`]. The pictures that were found for the models of its drop stay.
     fn open_file(&mut self, path: &str) {
-        if let Some(file) = self.content.files.get(path).cloned() {
-            self.revisions.openings += 1;
-            let job = LoadJob::new(Arc::clone(&self.content.files), file).without_sky();
-            self.show(self.reuse(job).run());
-        }
+        let content = &self.content;
+        let here = content
+            .files
+            .get(path)
+            .map(|file| (file, &content.files, &content.maps));
+        let others = content.others.as_deref();
+        let there = others.and_then(|others| Some((others.files.get(path)?, &others.files, &others.maps)));
+        let Some((file, files, maps)) = here.or(there) else {
+            return;
+        };
+        let again = content.open.as_ref().filter(|open| open.file.path == path);
+        let joined = again
+            .into_iter()
+            .flat_map(|open| open.joined.iter().map(|joined| joined.file.clone()));
+        let job = LoadJob::new(Arc::clone(files), file.clone())
+            .without_sky()
+            .reusing(maps.clone(), joined.collect());
+        self.revisions.openings += 1;
+        self.show(job.run());
+    }
+
+    /// The models that [`FileCommand::Open`] opens, sorted by their paths: those of the drop, and what was open before it.
+    pub fn models(&self) -> Vec<&File> {
+        let others = self.content.others.as_ref();
+        let mut models = self.content.files.models();
+        models.extend(others.into_iter().flat_map(|others| others.files.models()));
+        models.sort_by_cached_key(|file| (file.path.to_lowercase(), file.path.clone()));
+        models
     }
 
     fn show(&mut self, outcome: Result<Box<Loaded>, Box<LoadError>>) {
@@ -167,6 +191,7 @@ impl Session {
         let Loaded { files, open, maps, sky } = loaded;
         let was_playing = self.playback().is_playing();
         let clip_name = self.clip().map(|clip| clip.name.clone());
+        let others = self.content.others_of(&files);
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
         let again = before.is_some();
@@ -195,6 +220,7 @@ impl Session {
         self.content = Content {
             open: Some(Arc::new(open)),
             files,
+            others,
             maps,
             materials,
             names,

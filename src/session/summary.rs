@@ -153,7 +153,7 @@ impl<'a> From<&'a Diagnostic> for Finding<'a> {
             column: diagnostic.position.map(|position| position.column),
             subject: diagnostic.subject.map(Part::from),
             count: diagnostic.count,
-            places: diagnostic.places.iter().map(place).collect(),
+            places: diagnostic.few_places().iter().map(place).collect(),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::panel::scrolled;
 use super::skeleton::state::SidePage;
 use super::state::{ShownDiagnostic, UiState};
 use super::theme::{MARGIN, Tokens};
-use super::widgets::{closable_heading, paint_row_ground, rule};
+use super::widgets::{RowList, closable_heading, paint_elided, paint_row_ground, pressed_row, rule};
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
@@ -29,14 +29,17 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     scrolled("diagnostics list", ui.available_height())
         .auto_shrink([false, true])
         .show(ui, |ui| {
-            for diagnostic in session.diagnostics() {
-                diagnostic_row(ui, session, open, diagnostic, state, commands);
-            }
+            RowList::show(ui, "Diagnostics", |ui, list| {
+                for diagnostic in session.diagnostics() {
+                    diagnostic_row(ui, list, session, open, diagnostic, state, commands);
+                }
+            });
         });
 }
 
 fn diagnostic_row(
     ui: &mut Ui,
+    list: &mut RowList,
     session: &Session,
     open: &OpenModel,
     diagnostic: &Diagnostic,
@@ -85,21 +88,86 @@ fn diagnostic_row(
         "{} {}: {}{about}",
         diagnostic.severity, diagnostic.code, diagnostic.message
     );
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &label));
+    list.row(&response, shown);
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_expanded(shown));
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     if response.clicked() {
         state.shown_diagnostic = (!shown).then(|| ShownDiagnostic {
             diagnostic: diagnostic.clone(),
+            occurrence: 0,
             excerpt: open.excerpt(diagnostic),
         });
         if let Some(goal) = goal.filter(|_| !shown) {
             goal.go(session, state, commands);
         }
     }
+    if shown {
+        occurrences(ui, list, session, open, diagnostic, state, commands);
+    }
     if shown && let Some(lines) = state.shown_diagnostic.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
         ui.add_space(4.0);
         show_excerpt(ui, lines, None, color);
         ui.add_space(8.0);
+    }
+}
+
+/// The occurrences of a diagnostic, if there are several. A click shows the lines of one, and goes to its part.
+fn occurrences(
+    ui: &mut Ui,
+    list: &mut RowList,
+    session: &Session,
+    open: &OpenModel,
+    diagnostic: &Diagnostic,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
+    let tokens = Tokens::of(ui);
+    let known = diagnostic.occurrences();
+    let listed = known.len();
+    if listed < 2 {
+        return;
+    }
+    let chosen = state.shown_diagnostic.as_ref().map(|shown| shown.occurrence);
+    for (index, (subject, position)) in known.enumerate() {
+        let goal = subject.and_then(|subject| Goal::of(session, open, subject));
+        let line = position.map(|position| format!("line {}", position.line));
+        let words: Vec<&str> = goal
+            .iter()
+            .map(|goal| goal.words.as_str())
+            .chain(line.as_deref())
+            .collect();
+        let words = words.join(" · ");
+        let is_chosen = chosen == Some(index);
+        let (rect, response) = pressed_row(ui, is_chosen);
+        let (at, font) = (rect.left_center() + vec2(16.0, 0.0), FontId::proportional(12.0));
+        paint_elided(ui.painter(), at, &words, font, tokens.accent, rect.width() - 16.0);
+        response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, format!("Go to {words}")));
+        list.row(&response, is_chosen);
+        if response.on_hover_cursor(CursorIcon::PointingHand).clicked() {
+            let at_this = Diagnostic {
+                position,
+                ..diagnostic.clone()
+            };
+            state.shown_diagnostic = Some(ShownDiagnostic {
+                diagnostic: diagnostic.clone(),
+                occurrence: index,
+                excerpt: open.excerpt(&at_this),
+            });
+            if let Some(goal) = goal {
+                goal.go(session, state, commands);
+            }
+        }
+    }
+    let more = (diagnostic.count as usize).saturating_sub(listed);
+    if listed == Diagnostic::MOST_PLACES && more > 0 {
+        ui.add_space(2.0);
+        let words = egui::RichText::new(format!("and {} more", grouped(more)));
+        ui.horizontal(|ui| {
+            ui.add_space(16.0);
+            ui.label(words.size(12.0).color(tokens.muted));
+        });
     }
 }
 

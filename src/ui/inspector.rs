@@ -7,8 +7,8 @@ use super::state::UiState;
 use super::textures::{holds, picture_row};
 use super::theme::{MARGIN, ROW_HEIGHT, Tokens};
 use super::widgets::{
-    Slider, color_button, control_size, is_touch, number_field, paint_elided, rule, section_name, section_with_action,
-    selected_heading, switch_row, value_row,
+    Slider, color_button, control_size, hint_beside, is_touch, number_field, paint_elided, rule, section_name,
+    section_with_action, selected_heading, switch_row, value_row,
 };
 use super::wording::grouped;
 use crate::model::{Material, Reflectance};
@@ -99,7 +99,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
         let label = format!("{what} map: {name}, {words}");
         WidgetInfo::labeled(Role::Label, true, label)
     });
-    response.on_hover_text(format!("{what} map: {name}\n{hint}"));
+    hint_beside(response, None, &format!("{what} map: {name}\n{hint}"));
 }
 
 /// The values of a material. Returns the edited material if a value changed.

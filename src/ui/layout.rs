@@ -65,18 +65,22 @@ impl Arrangement {
     }
 }
 
-/// Shows all panels. Returns what they leave free for the model.
-pub(super) fn show(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) -> Free {
+/// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
+pub(super) fn show(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) -> (Rect, Rect) {
     let window = ui.max_rect();
-    match Arrangement::of(window) {
+    let (free, uncovered) = match Arrangement::of(window) {
         Arrangement::Wide => wide(ui, session, state, Free::new(window), commands),
-        Arrangement::Narrow => narrow(ui, session, state, Free::new(window), false, commands),
-        Arrangement::Low => narrow(ui, session, state, Free::new(window), true, commands),
-    }
+        arrangement => {
+            let low = arrangement == Arrangement::Low;
+            let free = narrow(ui, session, state, Free::new(window), low, commands);
+            (free, free)
+        }
+    };
+    (free.rect, uncovered.room())
 }
 
-/// Wide windows.
-fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, commands: &mut Vec<Command>) -> Free {
+/// Wide windows. Returns what is free for the model, and what of that is not covered.
+fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, commands: &mut Vec<Command>) -> (Free, Free) {
     let room = free.room();
     let toolbar = Panel::new("toolbar", Align2::RIGHT_TOP)
         .margin(Margin::same(3))
@@ -86,10 +90,10 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         });
     let beside = room.with_max_x(toolbar.min.x - MARGIN).with_max_y(toolbar.max.y);
     Panel::new("title", Align2::LEFT_TOP)
-        .margin(Margin::symmetric(12, 6))
+        .margin(Margin::symmetric(12, 3))
         .show(ui, beside, |ui| {
             ui.take_available_height();
-            toolbar::title(ui, session, true);
+            toolbar::title(ui, session, Some(state), commands);
         });
     free.cut_top(toolbar);
     if session.clip().is_some() {
@@ -141,11 +145,11 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         beside.cut_left(list);
         // A click on a diagnostic shows its subject, so the list does not cover it. If the list leaves too little room, it does.
         if beside.rect.width() >= LEAST_BESIDE_DIAGNOSTICS {
-            return beside;
+            return (beside, beside);
         }
     }
     // The model stays where it is when an inspector opens.
-    free
+    (free, beside)
 }
 
 /// Facts or the tree of joints; each scrolls by itself.
@@ -171,6 +175,7 @@ fn narrow(
     commands: &mut Vec<Command>,
 ) -> Free {
     let room = free.room();
+    let mut opens = Vec::new();
     let bar = Panel::new("title", Align2::LEFT_TOP)
         .margin(Margin::same(4))
         .width(room.width())
@@ -180,11 +185,12 @@ fn narrow(
                 ui,
                 |ui| {
                     ui.add_space(8.0);
-                    toolbar::title(ui, session, false);
+                    toolbar::title(ui, session, None, &mut opens);
                 },
                 |ui| toolbar::show_narrow(ui, session, &mut *state, commands),
             );
         });
+    commands.append(&mut opens);
     free.cut_top(bar);
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
         let sheet = sheet(ui, session, state, &free, low, commands);

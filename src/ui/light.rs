@@ -28,12 +28,17 @@ pub(super) fn label(session: &Session) -> &'static str {
     }
 }
 
-/// Puts a dot on the button while the device is too slow for all the detail.
+/// Puts a dot on the button while the device is too slow for all the detail, and says so in a tooltip.
 pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
     let quality = session.quality();
-    if quality.mode() == QualityMode::Auto && quality.lowered().is_some() {
+    let lowered = quality.lowered().filter(|_| quality.mode() == QualityMode::Auto);
+    if let Some(lowered) = lowered {
+        let note = format!("While it moves: {}", lowered_words(&lowered));
         let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
         ui.painter().circle_filled(at, 3.0, Tokens::of(ui).warning);
+        ui.ctx()
+            .accesskit_node_builder(button.id, |node| node.set_description(note.as_str()));
+        button.clone().on_hover_text(note);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The interface. It reads a [`Session`] and answers with [`Command`]s; what is open and shut is its own [`UiState`].
 
+mod chips;
 mod diagnostics_panel;
 mod error_card;
 mod help;
@@ -9,6 +10,7 @@ mod inspector;
 mod keys;
 mod layout;
 mod light;
+mod message;
 mod model_panel;
 mod overlays;
 mod panel;
@@ -28,6 +30,7 @@ mod wording;
 use egui::{Popup, Rect, Ui};
 
 pub use keys::{escape_shuts, owns_key};
+pub use message::Messages;
 pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 
@@ -56,7 +59,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         state.shown_model = session.model_revision();
         state.shown_diagnostic = None;
         state.diagnostics_open = false;
-        state.missing_maps_open = false;
+        state.maps_open = false;
+        tell_of_drop(session, state);
     }
 
     state.skeleton.read(ui, session, window);
@@ -73,8 +77,12 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     skeleton::show_marks(ui, session, &state.skeleton, window);
     state.hovered_submesh = None;
     state.timeline.update(session);
-    let free = layout::show(ui, session, state, &mut commands).rect;
+    let (free, uncovered) = layout::show(ui, session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
+    chips::show(ui, session, uncovered, &mut commands);
+    if message::show(ui, &mut state.messages, uncovered) {
+        state.requests.push(Request::SavePictureAs);
+    }
     if ui.ctx().will_discard() {
         state.frames_selection |= frames_selection;
     } else {
@@ -114,6 +122,23 @@ fn begin_edit(state: &mut UiState, grip: Option<Grip>, commands: &mut Vec<Comman
 fn end_edit(state: &mut UiState, grip: Option<Grip>, commands: &mut Vec<Command>) {
     if grip.is_none() && state.grip.take().is_some() {
         commands.push(HistoryCommand::EndEdit.into());
+    }
+}
+
+/// Says which of the models of a drop was opened, once for each drop of several.
+fn tell_of_drop(session: &Session, state: &mut UiState) {
+    let models = session.files().models();
+    let Some(largest) = models.first().filter(|_| models.len() > 1) else {
+        return;
+    };
+    let paths: Vec<String> = models.iter().map(|file| file.path.clone()).collect();
+    if state.told_models == paths {
+        return;
+    }
+    state.told_models = paths;
+    if session.open_model().is_some_and(|open| open.file.path == largest.path) {
+        let (name, count) = (wording::shortened(largest.base_name(), 40), models.len());
+        state.messages.say(format!("Opened {name}, the largest of {count}"));
     }
 }
 

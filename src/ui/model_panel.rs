@@ -1,27 +1,22 @@
-//! The open model: counts, handedness, up axis, size, diagnostics, submeshes, textures, other models of the drop.
+//! The open model: counts, handedness, up axis, size, diagnostics, maps, submeshes.
 
 use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
-use super::panel::scrolled;
 use super::skeleton::state::has_joints;
 use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    choice_row, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row, pressed_row_height, row_icon,
-    rule, section_name, section_with_action, value_row,
+    RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row,
+    row_icon, rule, section_with_action, value_row,
 };
-use super::wording::{counted, dialect_name, grouped, measured, shortened};
+use super::wording::{counted, dialect_name, grouped, measured};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, Submesh, UpAxis};
 use crate::scene::display_color;
-use crate::session::{Command, FileCommand, MapSlot, OpenModel, Session, SubmeshCommand};
+use crate::session::{Command, MapSlot, OpenModel, Session, SubmeshCommand};
 
-/// Submeshes listed before the list scrolls.
-const ROWS: f32 = 8.0;
-/// From this width on a row has room for its count beside the icons.
-const WIDE_ROW: f32 = 280.0;
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
 
@@ -36,17 +31,23 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     space_rows(ui, session, commands);
     bounds_row(ui, open);
     diagnostics_row(ui, session, state);
+    let has_maps = session.maps().checklist().named > 0;
+    // The rows of a phone are high: there the subsets come first.
+    let subsets_first = is_touch(ui);
+    if has_maps && !subsets_first {
+        textures::show(ui, session, open, state);
+    }
     rule(ui, MARGIN);
     submesh_list(ui, session, open, state, commands);
-    if session.maps().checklist().named > 0 {
+    if has_maps && subsets_first {
         rule(ui, MARGIN);
         textures::show(ui, session, open, state);
     }
-    other_models(ui, session, commands);
 }
 
 fn heading(ui: &mut Ui) {
-    let (heading, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, "Model"));
     let (at, font) = (heading.left_center(), theme::semibold(13.0));
     ui.painter()
         .text(at, Align2::LEFT_CENTER, "Model", font, Tokens::of(ui).text);
@@ -106,34 +107,12 @@ fn bounds_row(ui: &mut Ui, open: &OpenModel) {
     let text = format!("{} × {} × {}", measured(size.x), measured(size.y), measured(size.z));
     let (min, max) = (open.bind_bounds.min, open.bind_bounds.max);
     let corner = |v: glam::Vec3| format!("({}, {}, {})", measured(v.x), measured(v.y), measured(v.z));
-    value_row(ui, "Size", &text).on_hover_text(format!(
+    let words = format!(
         "Bind pose, in the file's axes\nfrom {}\nto {}",
         corner(min),
         corner(max)
-    ));
-}
-
-fn other_models(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let models = session.files().models();
-    if models.len() < 2 {
-        return;
-    }
-    rule(ui, MARGIN);
-    section_name(ui, "In this drop");
-    let open_path = session.open_model().map(|open| open.file.path.as_str());
-    let list = scrolled("drop", 5.0 * 26.0);
-    list.auto_shrink([false, true]).show(ui, |ui| {
-        for file in models {
-            let response = menu_item(
-                ui,
-                &shortened(file.base_name(), 28),
-                open_path == Some(file.path.as_str()),
-            );
-            if response.on_hover_text(&file.path).clicked() {
-                commands.push(FileCommand::Open(file.path.clone()).into());
-            }
-        }
-    });
+    );
+    hint_beside(value_row(ui, "Size", &text), None, &words);
 }
 
 fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
@@ -150,14 +129,15 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let (count, color) = summary(session, &tokens);
     let right = rect.right_center();
     paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Diagnostics: {count}")));
-    if response.on_hover_text("What was found in the file").clicked() {
+    let label = format!("Diagnostics: {count}");
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &label));
+    if hint_beside(response, None, "What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;
     }
 }
 
 /// `2 warnings`, `1 note`, `none`, in the colour of the worst.
-fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
+pub(super) fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
     let count = |severity| {
         session
             .diagnostics()
@@ -182,11 +162,10 @@ fn submesh_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut Ui
     if section_with_action(ui, "Subsets", action) {
         commands.push(SubmeshCommand::ShowAll.into());
     }
-    let list = scrolled("subsets", ROWS * pressed_row_height(ui));
-    list.auto_shrink([false, true]).show(ui, |ui| {
+    RowList::show(ui, "Subsets", |ui, list| {
         for (index, submesh) in open.model.mesh.submeshes.iter().enumerate() {
             let submesh = SubmeshRow::new(session, index, submesh);
-            if submesh.show(ui, commands) {
+            if submesh.show(ui, list, commands) {
                 state.hovered_submesh = Some(index);
             }
         }
@@ -213,12 +192,17 @@ struct SubmeshRow<'a> {
     visible: bool,
     alone: bool,
     selected: bool,
+    /// The map that the colour of the swatch stands in for.
+    missing_map: Option<&'a str>,
 }
 
 impl<'a> SubmeshRow<'a> {
     fn new(session: &'a Session, index: usize, submesh: &Submesh) -> Self {
         let material = submesh.material as usize;
         let submeshes = session.submeshes();
+        let has_map = session.maps().image(material, MapSlot::Diffuse).is_some();
+        let of_file = session.open_model().and_then(|open| open.model.materials.get(material));
+        let map = of_file.and_then(|material| MapSlot::Diffuse.name_in(material));
         Self {
             index,
             name: session.materials().get(material).map_or("", |values| &values.name),
@@ -227,36 +211,31 @@ impl<'a> SubmeshRow<'a> {
             visible: submeshes.is_visible(index),
             alone: submeshes.solo() == Some(index),
             selected: submeshes.selected() == Some(index),
+            missing_map: map.filter(|_| !has_map),
         }
     }
 
     /// Shows it. Returns whether the pointer is over it.
-    fn show(&self, ui: &mut Ui, commands: &mut Vec<Command>) -> bool {
+    fn show(&self, ui: &mut Ui, list: &mut RowList, commands: &mut Vec<Command>) -> bool {
         let tokens = Tokens::of(ui);
         let (rect, response) = pressed_row(ui, self.selected);
-        let touch = is_touch(ui);
-        let over = response.contains_pointer() && !touch;
-        response.widget_info(|| {
-            let label = format!("{}, {} triangles", self.name, self.triangles);
-            WidgetInfo::selected(Role::ListItem, true, self.selected, label)
-        });
+        let over = response.contains_pointer() && !is_touch(ui);
+        response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.label()));
+        list.row(&response, self.selected);
 
         let opacity = if self.visible { 1.0 } else { 0.35 };
         paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
-        let icons_shown = over || touch || response.has_focus();
-        let end = self.show_end(ui, rect, &response, icons_shown, commands);
-        let color = if self.selected { tokens.accent } else { tokens.text };
+        let end = self.show_end(ui, rect, &response, commands);
+        let color = match (self.selected, self.visible) {
+            (true, _) => tokens.accent,
+            (false, true) => tokens.text,
+            (false, false) => tokens.muted,
+        };
         let left = rect.min.x + 18.0;
         let middle = pos2(left, rect.center().y);
         let font = FontId::proportional(13.0);
-        paint_elided(
-            ui.painter(),
-            middle,
-            self.name,
-            font,
-            color.gamma_multiply(opacity.max(0.55)),
-            end - 6.0 - left,
-        );
+        paint_elided(ui.painter(), middle, self.name, font, color, end - 6.0 - left);
+        let response = hint_beside(response, Some(rect), &self.hint());
 
         if response.clicked() {
             let alone = ui.input(|input| input.modifiers.alt);
@@ -271,9 +250,27 @@ impl<'a> SubmeshRow<'a> {
         over
     }
 
-    /// The right end: icons if the pointer is over the row or one of them is on, otherwise the count of triangles. Returns its left
-    /// edge.
-    fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, all: bool, commands: &mut Vec<Command>) -> f32 {
+    /// `Trim, 2 130 triangles, hidden`.
+    fn label(&self) -> String {
+        let state = match (self.visible, self.alone) {
+            (false, _) => ", hidden",
+            (true, true) => ", shown alone",
+            (true, false) => "",
+        };
+        format!("{}, {} triangles{state}", self.name, self.triangles)
+    }
+
+    fn hint(&self) -> String {
+        let tint = match self.missing_map {
+            Some(map) => format!("\nThe map {map} is missing: a colour of its own stands in for it"),
+            None => String::new(),
+        };
+        format!("{}{tint}", self.label())
+    }
+
+    /// The right end: the count of triangles, and the icons. They stand there all the time, so that a click meets what is drawn.
+    /// Returns its left edge.
+    fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, commands: &mut Vec<Command>) -> f32 {
         let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
         let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };
         let verb = if self.visible { "Hide" } else { "Show" };
@@ -283,39 +280,23 @@ impl<'a> SubmeshRow<'a> {
         };
         let alone = SubmeshCommand::Solo(self.index);
         let icons = [
+            (eye, format!("{verb} {}", self.name), false, visible),
             (
-                all || !self.visible,
-                eye,
-                format!("{verb} {}", self.name),
-                false,
-                visible,
-            ),
-            (
-                all || self.alone,
                 Icon::Solo,
                 format!("Show {} alone (Alt click)", self.name),
                 self.alone,
                 alone,
             ),
         ];
-        // Each icon has its place, whether or not the other is shown.
         let mut right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
-        let mut begins = None;
-        for (shown, icon, label, on, command) in icons {
+        for (icon, label, on, command) in icons {
             let place = Rect::from_min_max(pos2(right - width, rect.min.y), pos2(right, rect.max.y));
             right = place.min.x;
-            if shown {
-                begins = Some(right);
-                if row_icon(ui, place, row, icon, &label, on) {
-                    commands.push(command.into());
-                }
+            if row_icon(ui, place, row, icon, &label, on) {
+                commands.push(command.into());
             }
         }
-        let count_at = match begins {
-            Some(x) if rect.width() >= WIDE_ROW => pos2(x - 6.0, rect.center().y),
-            Some(x) => return x,
-            None => rect.right_center(),
-        };
+        let count_at = pos2(right - 4.0, rect.center().y);
         let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
         let painter = ui.painter();
         painter

@@ -207,6 +207,7 @@ pub(super) fn popover_menu(ui: &Ui, button: &Response, align: RectAlign, width: 
     let bottom = ui.ctx().content_rect().max.y - MARGIN;
     let around = 2.0 * ui.style().spacing.menu_margin.bottom as f32;
     let room = bottom - (button.rect.max.y + MENU_GAP) - around;
+    is_menu(button);
     Popup::menu(button).align(align).gap(MENU_GAP).show(|ui| {
         ui.set_width(width);
         scrolled("menu", room.max(LEAST_HEIGHT)).show(ui, contents);
@@ -224,8 +225,18 @@ fn around(ui: &Ui) -> f32 {
     popover_frame(&Tokens::of(ui)).total_margin().sum().x
 }
 
+/// Tells screen readers that a button opens something, and whether that is open.
+fn is_menu(button: &Response) {
+    let is_open = Popup::is_id_open(&button.ctx, Popup::default_response_id(button));
+    button.ctx.accesskit_node_builder(button.id, |node| {
+        node.clear_toggled();
+        node.set_expanded(is_open);
+    });
+}
+
 /// Shows a popover at a corner, no larger than `size`.
 fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui)) {
+    is_menu(button);
     Popup::from_toggle_button_response(button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .at_position(at)

@@ -3,6 +3,7 @@
 use egui::{Rect, Ui};
 
 use super::input::{Grip, Keyboard};
+use super::message::Messages;
 use super::skeleton::state::SkeletonState;
 use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
@@ -26,6 +27,8 @@ pub enum Request {
     PickClips,
     /// Use this theme, whatever the system's is.
     UseTheme(Theme),
+    /// Save the last picture once more, where the person chooses.
+    SavePictureAs,
     /// Save the view as a picture; [`picture_name`](crate::ui::picture_name) says how the file is called.
     SavePicture {
         /// Width and height in pixels.
@@ -69,12 +72,16 @@ pub struct UiState {
     pub help_open: bool,
     /// The list of diagnostics.
     pub diagnostics_open: bool,
+    /// What was just done, in a few words.
+    pub messages: Messages,
     /// What the bottom sheet of a narrow window shows. None while it is closed.
     pub sheet: Option<SheetPage>,
     pub(super) coarse_pointer: bool,
     pub(super) shown_diagnostic: Option<ShownDiagnostic>,
-    /// The names of missing maps are listed.
-    pub(super) missing_maps_open: bool,
+    /// The maps are listed.
+    pub(super) maps_open: bool,
+    /// The models of the drop that a message told of last, by their paths.
+    pub(super) told_models: Vec<String>,
     /// What was selected in this pass will be framed in the next.
     pub(super) frames_selection: bool,
     pub(super) shown_model: u64,
@@ -124,10 +131,12 @@ impl UiState {
     }
 }
 
-/// The diagnostic whose lines are shown. They are read from the file once, when it is unfolded.
+/// The diagnostic whose lines are shown. They are read from the file once, when it is unfolded or another of its places is chosen.
 #[derive(Debug)]
 pub(super) struct ShownDiagnostic {
     pub(super) diagnostic: Diagnostic,
+    /// Which of its occurrences.
+    pub(super) occurrence: usize,
     pub(super) excerpt: Option<Excerpt>,
 }
 

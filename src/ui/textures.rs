@@ -6,11 +6,10 @@ use egui::{
     vec2,
 };
 
-use super::panel::scrolled;
 use super::state::UiState;
-use super::theme::{ROW_HEIGHT, Tokens};
+use super::theme::Tokens;
 use super::thumbnails::Thumbnails;
-use super::widgets::{paint_elided, paint_ends, paint_fold_mark, pressed_row, section_name};
+use super::widgets::{RowList, hint_beside, paint_elided, paint_ends, paint_fold_mark, pressed_row};
 use super::wording::{counted, grouped};
 use crate::image::{Channels, Image, ImageKind};
 use crate::session::{Checklist, MapSlot, OpenModel, Session, UnreadableMap, UsedMap};
@@ -19,91 +18,107 @@ use crate::session::{Checklist, MapSlot, OpenModel, Session, UnreadableMap, Used
 const THUMBNAIL: f32 = 30.0;
 /// Height of a row with one.
 const MAP_ROW_HEIGHT: f32 = 38.0;
+/// Where the fold mark stands, behind the word before it.
+const MARK_AT: f32 = 40.0;
 
-/// Missing maps listed before their list scrolls.
-const MISSING_ROWS: f32 = 6.0;
-
-/// The section's contents.
+/// The line that opens the list, and the list while it is open.
 pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState) {
-    let checklist = session.maps().checklist();
-    section_name(ui, "Textures");
-    count_row(ui, checklist);
-    for map in session.maps().used() {
-        map_row(ui, session, open, &map, &mut state.thumbnails);
-    }
-    for map in session.maps().unreadable() {
-        unreadable_row(ui, open, &map);
-    }
-    missing_maps(ui, open, &checklist.missing, &mut state.missing_maps_open);
-}
-
-/// How many maps are missing, and their names while unfolded.
-fn missing_maps(ui: &mut Ui, open: &OpenModel, missing: &[String], is_open: &mut bool) {
-    if missing.is_empty() {
+    let maps = session.maps();
+    let checklist = maps.checklist();
+    maps_line(ui, checklist, &mut state.maps_open);
+    if !state.maps_open {
         return;
     }
+    RowList::show(ui, "Maps", |ui, list| {
+        for map in maps.used() {
+            list.row(&map_row(ui, session, open, &map, &mut state.thumbnails), false);
+        }
+        for map in maps.unreadable() {
+            list.row(&unreadable_row(ui, open, &map), false);
+        }
+        rows_in_view(ui, MAP_ROW_HEIGHT, checklist.missing.len(), |ui, index| {
+            let name = &checklist.missing[index];
+            let users = users_of_name(open, name);
+            let details = format!("{name} is missing\n{}", users.join("\n"));
+            let color = Tokens::of(ui).muted;
+            list.row(&absent_row(ui, [name, &in_few_words(&users)], color, &details), false);
+        });
+        if !checklist.missing.is_empty() {
+            let words = egui::RichText::new("Drop what is missing any time.").size(11.5);
+            ui.label(words.color(Tokens::of(ui).muted));
+        }
+    });
+}
+
+/// Lays out those of some rows that are seen.
+fn rows_in_view(ui: &mut Ui, height: f32, count: usize, mut row: impl FnMut(&mut Ui, usize)) {
+    let (top, seen) = (ui.cursor().min.y, ui.clip_rect());
+    let place = |y: f32| ((y - top) / height).clamp(0.0, count as f32);
+    let (first, end) = (place(seen.min.y).floor() as usize, place(seen.max.y).ceil() as usize);
+    ui.add_space(first as f32 * height);
+    for index in first..end {
+        row(ui, index);
+    }
+    ui.add_space(count.saturating_sub(end.max(first)) as f32 * height);
+}
+
+/// How many maps are there, and how many are not. A click opens and closes the list.
+fn maps_line(ui: &mut Ui, checklist: &Checklist, is_open: &mut bool) {
     let tokens = Tokens::of(ui);
     let (rect, response) = pressed_row(ui, false);
-    paint_fold_mark(
-        ui.painter(),
-        rect.left_center() + vec2(4.0, 0.0),
-        !*is_open,
-        tokens.muted,
-    );
-    let count = format!("{} missing", grouped(missing.len()));
-    let at = pos2(rect.min.x + 14.0, rect.center().y);
-    let font = FontId::proportional(13.0);
-    ui.painter().text(at, Align2::LEFT_CENTER, &count, font, tokens.warning);
-    let (right, font) = (rect.right_center(), FontId::proportional(11.5));
-    ui.painter()
-        .text(right, Align2::RIGHT_CENTER, "Drop them any time", font, tokens.muted);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, *is_open, &count));
+    let found = format!("{} of {}", checklist.found(), checklist.named);
+    let counts = [
+        (checklist.missing.len(), "missing"),
+        (checklist.unreadable.len(), "unreadable"),
+    ];
+    let absent: Vec<String> = counts
+        .into_iter()
+        .filter(|&(count, _)| count > 0)
+        .map(|(count, what)| format!("{} {what}", grouped(count)))
+        .collect();
+    let all: Vec<&str> = std::iter::once(found.as_str())
+        .chain(absent.iter().map(String::as_str))
+        .collect();
+    // The panel has room for two of the three.
+    let shown = all[all.len().saturating_sub(2)..].join(", ");
+    let color = if absent.is_empty() { tokens.text } else { tokens.warning };
+    paint_ends(ui, rect, ("Maps", tokens.text), (&shown, color));
+    let words = all.join(", ");
+    let mark = rect.left_center() + vec2(MARK_AT, 0.0);
+    paint_fold_mark(ui.painter(), mark, !*is_open, tokens.muted);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Maps: {words}")));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_expanded(*is_open));
     if response.clicked() {
         *is_open = !*is_open;
     }
-    if *is_open {
-        let list = scrolled("missing maps", MISSING_ROWS * MAP_ROW_HEIGHT).auto_shrink([false, true]);
-        list.show_rows(ui, MAP_ROW_HEIGHT, missing.len(), |ui, seen| {
-            for name in &missing[seen] {
-                let users = users_of_name(open, name);
-                let details = format!("{name} is missing\n{}", users.join("\n"));
-                absent_row(ui, [name, &in_few_words(&users)], tokens.muted, &details);
-            }
-        });
-    }
-}
-
-/// How many maps were found, and on the right how many of them cannot be read.
-fn count_row(ui: &mut Ui, checklist: &Checklist) {
-    let tokens = Tokens::of(ui);
-    let found = format!("{} of {} found", checklist.found(), checklist.named);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let unreadable = (!checklist.unreadable.is_empty()).then(|| format!("{} unreadable", checklist.unreadable.len()));
-    let right = (unreadable.as_deref().unwrap_or_default(), tokens.warning);
-    paint_ends(ui, rect, (&found, tokens.text), right);
-    let all: Vec<&str> = std::iter::once(found.as_str()).chain(unreadable.as_deref()).collect();
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Textures: {}", all.join(", "))));
 }
 
 /// One map: its thumbnail and name, below the name what it holds, in the tooltip its users.
-fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, map: &UsedMap<'_>, thumbnails: &mut Thumbnails) {
+fn map_row(
+    ui: &mut Ui,
+    session: &Session,
+    open: &OpenModel,
+    map: &UsedMap<'_>,
+    thumbnails: &mut Thumbnails,
+) -> Response {
     let users = words_for(open, map.users).join("\n");
     let details = format!("{}\n{}\n{users}", map.file.path, holds(map.image));
     let thumbnail = thumbnails.of(ui.ctx(), session, map);
-    picture_row(ui, thumbnail, map.file.base_name(), map.image, &details);
+    picture_row(ui, thumbnail, map.file.base_name(), map.image, &details)
 }
 
 /// A map whose file is damaged. The tooltip says why, and who uses it.
-fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) {
+fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) -> Response {
     let users = words_for(open, map.users).join("\n");
     let words = "could not be read";
     let details = format!("{} {words}\n{}\n{users}", map.file.path, map.diagnostic.message);
     let color = Tokens::of(ui).warning;
-    absent_row(ui, [map.file.base_name(), words], color, &details);
+    absent_row(ui, [map.file.base_name(), words], color, &details)
 }
 
 /// A map that cannot be shown: an empty frame and its name in a colour, and words in the second line.
-fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &str) {
+fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), MAP_ROW_HEIGHT), Sense::hover());
     let frame = frame_in(rect);
@@ -121,8 +136,8 @@ fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &s
             rect.max.x - left,
         );
     }
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, details));
-    response.on_hover_text(details);
+    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, details));
+    hint_beside(response, None, details)
 }
 
 /// The rect of a row's thumbnail.
@@ -165,8 +180,8 @@ pub(super) fn picture_row(
         let at = pos2(left, rect.center().y + y);
         paint_elided(ui.painter(), at, text, font, color, right - left);
     }
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, details));
-    response.on_hover_text(details)
+    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, details));
+    hint_beside(response, None, details)
 }
 
 /// Format, mips and channels: `BC1 · 10 mips · RGB`.

@@ -1,23 +1,24 @@
 //! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
 //! help.
 
-use egui::{Label, Rangef, RectAlign, RichText, Ui};
+use egui::{Align2, Color32, Label, Rangef, RectAlign, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::icons::Icon;
+use super::model_panel::summary;
 use super::panel::{popover, popover_menu};
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, Tokens};
 use super::widgets::{
-    TextButton, action_button, chip, chip_size, control_size, icon_button, keyed_menu_item, menu_item, section_name,
-    valued_menu_item,
+    TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside, icon_button, keyed_menu_item,
+    menu_item, paint_chip, section_name, valued_menu_item,
 };
-use super::wording::dialect_name;
+use super::wording::{dialect_name, shortened_front};
 use super::{light, overlays, picture};
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
-use crate::session::{CameraCommand, Command, LookCommand, Session};
+use crate::session::{CameraCommand, Command, FileCommand, LookCommand, OpenModel, Session};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -31,6 +32,29 @@ const MENU_WIDTH: f32 = 190.0;
 const LEAST_WITH_HISTORY: f32 = 22.0;
 /// Room between buttons.
 const SPACING: f32 = 4.0;
+/// The least width that chips leave to the name of the file.
+const LEAST_NAME: f32 = 90.0;
+/// Width of the menu of files, and how much of a path it shows.
+const FILES_WIDTH: f32 = 280.0;
+const MOST_OF_PATH: usize = 38;
+
+/// Makes buttons that were shown a toolbar for screen readers.
+fn as_toolbar(ui: &Ui) {
+    let rect = ui.min_rect();
+    ui.ctx().accesskit_node_builder(ui.unique_id(), |node| {
+        node.set_role(Role::Toolbar);
+        node.set_label("Tools");
+        let [x0, y0, x1, y1] = [rect.min.x, rect.min.y, rect.max.x, rect.max.y].map(f64::from);
+        node.set_bounds(egui::accesskit::Rect { x0, y0, x1, y1 });
+    });
+}
+
+/// Tells screen readers that a button does something at once, and is no switch that is off.
+fn is_no_switch(response: &Response) {
+    response
+        .ctx
+        .accesskit_node_builder(response.id, egui::accesskit::Node::clear_toggled);
+}
 
 /// Buttons in one row.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -51,13 +75,16 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         view_from_menu(ui, session, commands);
         action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
         action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
-        let camera = icon_button(ui, Icon::Camera, &actions::SAVE_PICTURE.hint_of("Picture…"), false);
+        let save = &actions::SAVE_PICTURE;
+        let hint = format!("Picture… ({} saves one at once)", save.key());
+        let camera = icon_button(ui, Icon::Camera, &hint, false);
         popover(ui, &camera, 224.0, |ui| picture::show(ui, state));
         theme_button(ui, state);
         open_button(ui, state);
         if icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open).clicked() {
             state.help_open = !state.help_open;
         }
+        as_toolbar(ui);
     });
 }
 
@@ -88,6 +115,7 @@ pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, c
     if button.clicked() {
         state.sheet = (!shown).then_some(SheetPage::Light);
     }
+    as_toolbar(ui);
 }
 
 fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -126,7 +154,9 @@ fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
-    if icon_button(ui, Icon::Open, "Open files…", false).clicked() {
+    let button = icon_button(ui, Icon::Open, "Open files…", false);
+    is_no_switch(&button);
+    if button.clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
@@ -142,7 +172,9 @@ fn other_theme(ui: &Ui) -> (&'static str, Request) {
 
 fn theme_button(ui: &mut Ui, state: &mut UiState) {
     let (label, request) = other_theme(ui);
-    if icon_button(ui, Icon::Contrast, label, false).clicked() {
+    let button = icon_button(ui, Icon::Contrast, label, false);
+    is_no_switch(&button);
+    if button.clicked() {
         state.requests.push(request);
     }
 }
@@ -249,28 +281,93 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     chosen
 }
 
-/// Title, file, dialect, no wider than what is available. A file name that is too long ends in an ellipsis.
-pub(super) fn title(ui: &mut Ui, session: &Session, with_dialect: bool) {
+/// Title, file, and with a state also dialect and findings; no wider than what is available. A file name that is too long ends in an
+/// ellipsis.
+pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = TITLE_SPACING;
-        ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
+        // A narrow bar has no room for this and for a menu of files.
+        if state.is_some() || session.models().len() < 2 {
+            ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
+        }
         let Some(open) = session.open_model() else { return };
-        let dialect = dialect_name(open.dialect);
-        let dialect_width = if with_dialect {
-            TITLE_SPACING + chip_size(ui, dialect).x
-        } else {
-            0.0
+        let mut room = ui.available_width();
+        // The findings matter more than the dialect, and the name more than both.
+        let mut fits = |ui: &Ui, text: &str| {
+            let width = TITLE_SPACING + chip_size(ui, text).x;
+            let fits = room - width >= LEAST_NAME;
+            room -= if fits { width } else { 0.0 };
+            fits
         };
-        let most = (ui.available_width() - dialect_width).max(0.0);
+        let is_wide = state.is_some();
+        let (count, color) = summary(session, &tokens);
+        let findings = state.filter(|_| session.diagnostics().next().is_some() && fits(ui, &count));
+        let dialect = dialect_name(open.dialect);
+        let with_dialect = is_wide && fits(ui, dialect);
         ui.scope(|ui| {
-            ui.set_max_width(most);
-            let name = RichText::new(open.file.base_name()).color(tokens.muted);
-            let name = Label::new(name).truncate().show_tooltip_when_elided(false);
-            ui.add(name).on_hover_text(&open.file.path);
+            ui.set_max_width(room.max(0.0));
+            file_name(ui, session, open, room.max(0.0), commands);
         });
         if with_dialect {
             chip(ui, dialect, tokens.muted);
         }
+        if let Some(state) = findings {
+            findings_chip(ui, state, &count, color);
+        }
     });
+}
+
+/// The name of the open file. If there are other models to open, it opens a menu of them.
+fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, commands: &mut Vec<Command>) {
+    let (name, path) = (open.file.base_name(), open.file.path.as_str());
+    let models = session.models();
+    let place = models.iter().position(|file| file.path == path);
+    let Some(place) = place.filter(|_| models.len() > 1) else {
+        let words = RichText::new(name).color(Tokens::of(ui).muted);
+        let words = Label::new(words).truncate().show_tooltip_when_elided(false);
+        ui.add(words).on_hover_text(path);
+        return;
+    };
+    let text = format!("{name} · {} of {}", place + 1, models.len());
+    let button = TextButton::new(&text, &format!("Open model: {text}"))
+        .list()
+        .width(Rangef::new(0.0, most))
+        .show(ui)
+        .on_hover_text(path);
+    popover_menu(ui, &button, RectAlign::BOTTOM_START, FILES_WIDTH, |ui| {
+        for file in models {
+            let is_open = file.path == path;
+            let item = menu_item(ui, &shortened_front(&file.path, MOST_OF_PATH), is_open);
+            if hint_beside(item, None, &file.path).clicked() {
+                if !is_open {
+                    commands.push(FileCommand::Open(file.path.clone()).into());
+                }
+                ui.close();
+            }
+        }
+    });
+}
+
+/// How many findings there are. It opens their list.
+fn findings_chip(ui: &mut Ui, state: &mut UiState, count: &str, color: Color32) {
+    let size = chip_size(ui, count);
+    let (place, response) = ui.allocate_exact_size(vec2(size.x, control_size(ui)), Sense::click());
+    let tokens = Tokens::of(ui);
+    let lit = response.hovered() || state.diagnostics_open;
+    let ground = if lit { tokens.field_hovered } else { tokens.field };
+    let chip = paint_chip(
+        ui.painter(),
+        place.center(),
+        Align2::CENTER_CENTER,
+        count,
+        color,
+        ground,
+    );
+    focus_ring(ui, chip, &response);
+    let label = format!("Show {count}");
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &label));
+    if response.on_hover_text("What was found in the file").clicked() {
+        state.diagnostics_open = !state.diagnostics_open;
+    }
 }

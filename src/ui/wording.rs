@@ -42,6 +42,17 @@ pub(super) fn shortened(name: &str, most: usize) -> String {
     name.chars().take(most - 1).chain(['…']).collect()
 }
 
+/// The end of a path, after an ellipsis if something is cut.
+pub(super) fn shortened_front(path: &str, most: usize) -> String {
+    let count = path.chars().count();
+    if count <= most {
+        return path.to_owned();
+    }
+    std::iter::once('…')
+        .chain(path.chars().skip(count + 1 - most))
+        .collect()
+}
+
 /// A number without trailing zeros.
 pub(super) fn trimmed(number: f32) -> String {
     let text = format!("{number:.2}");

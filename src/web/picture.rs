@@ -34,15 +34,15 @@ pub(super) async fn snapshot(app: AppSlot, canvas_size: [u32; 2], options: JsVal
     png(app, size, |options| wanted.apply(options)).await
 }
 
-/// The picture that is asked for in the window. A size beyond the device's reach is drawn as large as it can be.
-pub(super) async fn of_window(app: AppSlot, size: [u32; 2], transparent: bool) -> Result<JsValue, JsError> {
+/// The picture that is asked for in the window, and its size. A size beyond the device's reach is drawn as large as it can be.
+pub(super) async fn of_window(app: AppSlot, size: [u32; 2], transparent: bool) -> Result<(JsValue, [u32; 2]), JsError> {
     let size = within(size, longest_side(&app)?);
     let adjust = |options: &mut FrameOptions| {
         if transparent {
             options.background = Background::None;
         }
     };
-    png(app, size, adjust).await
+    Ok((png(app, size, adjust).await?, size))
 }
 
 /// The bytes of a PNG of the view, without the interface.

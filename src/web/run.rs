@@ -171,6 +171,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         loss,
         frames: Rc::clone(&frames_rendered),
         names: JointNames::default(),
+        saved: Rc::default(),
     };
     let made = Rc::new(RefCell::new(None));
     let made_out = Rc::clone(&made);
@@ -227,18 +228,37 @@ struct Shell {
     loss: mpsc::Receiver<String>,
     frames: Rc<Cell<u64>>,
     names: JointNames,
+    /// Name and bytes of the picture that was saved last.
+    saved: Rc<RefCell<Option<[(&'static str, JsValue); 2]>>>,
 }
 
 impl Shell {
-    /// Draws a picture and hands it to the page, which saves it.
-    fn save_picture(&self, size: [u32; 2], transparent: bool) {
+    /// Hands the last picture to the page once more, which lets the person choose where it is saved.
+    fn save_picture_as(&self) {
+        if let Some([name, bytes]) = self.saved.borrow().clone() {
+            let asks = ("choosesPlace", true.into());
+            self.shared.emit("picture", &object([name, bytes, asks]));
+        }
+    }
+
+    /// Draws a picture and hands it to the page, which saves it. A message says so.
+    fn save_picture(&self, ctx: &egui::Context, size: [u32; 2], transparent: bool) {
         let shared = Rc::clone(&self.shared);
+        let (app, saved, ctx) = (Rc::clone(&self.app), Rc::clone(&self.saved), ctx.clone());
         // The name is made now: the clip and the time may change until the picture is drawn.
         let name = picture_name(&shared.session.borrow());
         let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
         wasm_bindgen_futures::spawn_local(async move {
             match drawn.await {
-                Ok(bytes) => shared.emit("picture", &object([("name", name.into()), ("bytes", bytes)])),
+                Ok((bytes, size)) => {
+                    let picture = [("name", name.as_str().into()), ("bytes", bytes)];
+                    shared.emit("picture", &object(picture.clone()));
+                    *saved.borrow_mut() = Some(picture);
+                    if let Some(app) = app.borrow_mut().as_mut() {
+                        app.picture_was_saved(&name, size);
+                        ctx.request_repaint();
+                    }
+                }
                 Err(error) => {
                     let message = field(&error.into(), "message");
                     shared.emit("picturefailed", &object([("message", message)]));
@@ -264,7 +284,8 @@ impl eframe::App for Shell {
                 Request::PickFiles => self.shared.emit("pickfiles", &JsValue::UNDEFINED),
                 Request::ReadAgain => self.shared.emit("readagain", &JsValue::UNDEFINED),
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
-                Request::SavePicture { size, transparent } => self.save_picture(size, transparent),
+                Request::SavePicture { size, transparent } => self.save_picture(ui.ctx(), size, transparent),
+                Request::SavePictureAs => self.save_picture_as(),
                 // The app did this itself.
                 Request::UseTheme(_) => {}
             }

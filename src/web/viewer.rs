@@ -37,7 +37,7 @@ impl Viewer {
     /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number}`, 1 and `auto` where they are absent;
     /// `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`,
     /// `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page can do: `pickfiles`, `pickclips`,
-    /// `readagain`, `picture` (`{name, bytes}`) and `picturefailed` (`{message}`). It may call any method but `free`.
+    /// `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it) and `picturefailed` (`{message}`). It may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
         report_panics();

@@ -8,7 +8,7 @@ import {
   FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
 import { assertDrawn, difference, picture } from "./picture.js";
-import { GROUND, LAST_OF_DROP } from "./widgets.js";
+import { FILE_MENU, GROUND, LAST_OF_THREE } from "./widgets.js";
 
 /** A copy of the sample under another name, in a folder of its own. */
 function copyOfSample(...parts) {
@@ -229,10 +229,9 @@ test("R opens again the model of a folder that was chosen", {}, async (page) => 
   writeFileSync(join(folder, "pack", "large.m3d"), `${readFileSync(path, "utf8")}\n\n\n\n`);
   await dropAndWait(page, [join(folder, "pack")]);
   assert.equal((await state(page)).model.name, "large.m3d");
-  await page.mouse.move(...LAST_OF_DROP);
-  await page.mouse.wheel(0, 4000);
+  await page.mouse.click(...FILE_MENU);
   await settled(page);
-  await page.mouse.click(...LAST_OF_DROP);
+  await page.mouse.click(...LAST_OF_THREE);
   await until(page, ({ model }) => model.name === "small.m3d");
   writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll"), "latin1");
   await page.mouse.click(...GROUND);

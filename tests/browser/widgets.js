@@ -11,12 +11,12 @@ export const LIGHT_POPOVER = {
   passes: { shadow: [700, 386], reflections: [700, 409], contact: [700, 432], ao: [700, 455] },
 };
 
-/** Subsets in the panel on the left: the row of the orange parts, and its eye, which is there under the pointer. */
-export const TRIM_ROW = [100, 411];
-export const TRIM_EYE = [238, 411];
+/** Subsets in the panel on the left: the eye of the orange parts. */
+export const TRIM_EYE = [238, 433];
 
-/** The last of two models of a drop, once the panel is scrolled to its end. */
-export const LAST_OF_DROP = [70, 498];
+/** The name of the file, where there are several models; the last of three in its menu. */
+export const FILE_MENU = [140, 30];
+export const LAST_OF_THREE = [150, 131];
 
 /** The panel's other page: its tree of bones, and in it the bone that hangs from the root. */
 export const SKELETON_PAGE = [190, 87];

@@ -229,3 +229,52 @@ fn on_a_phone_the_view_above_the_list_goes_there_and_the_inspector_waits_below_i
     window.click("Close");
     assert!(window.shows("Selected: Bone 1"));
 }
+
+#[test]
+fn every_place_of_a_finding_is_listed_and_leads_there() {
+    let mut document = models::skinned(&models::CLIPS);
+    for vertex in [2, 5, 9] {
+        document.vertices[vertex].blend_weights = [0.25, 0.25, 0.0, 0.0];
+    }
+    for mut window in [
+        window(WIDE, vec![models::file("three.m3d", &document)]),
+        phone(vec![models::file("three.m3d", &document)]),
+    ] {
+        if window.shows("Model facts") {
+            window.click("Model facts");
+        }
+        window.click("Diagnostics: ");
+        assert!(window.named(|name| name.starts_with("Go to ")).is_empty());
+        window.click(OF_VERTEX);
+        let vertex = |window: &Window| {
+            let vertex = window.session().joints().selected_vertex();
+            vertex.map(|vertex| vertex.vertex)
+        };
+        assert_eq!(vertex(&window), Some(2));
+        for other in [9, 5, 2] {
+            let lines = |window: &Window| window.named(|name| name.contains(" | ") && name.contains('^'));
+            let before = lines(&window);
+            let (name, _) = window.named(|name| name.starts_with(&format!("Go to Vertex {other} · line ")))[0].clone();
+            window.click(&name);
+            assert_eq!(vertex(&window), Some(other));
+            let (_, line) = name.split_once(" · line ").expect("it has one");
+            let shown = lines(&window);
+            assert_ne!(shown, before);
+            assert!(shown[0].0.contains(&format!("{line} | ")), "{shown:?}");
+        }
+    }
+}
+
+#[test]
+fn of_many_places_the_first_are_listed_and_the_rest_are_counted() {
+    let mut document = models::skinned(&models::CLIPS);
+    assert_eq!(document.vertices.len(), 24);
+    for vertex in &mut document.vertices {
+        vertex.blend_weights = [0.25, 0.25, 0.0, 0.0];
+    }
+    let mut window = window(WIDE, vec![models::file("many.m3d", &document)]);
+    window.click("Show 1 warning");
+    window.click(OF_VERTEX);
+    assert_eq!(window.named(|name| name.starts_with("Go to Vertex ")).len(), 20);
+    assert!(window.shows("and 4 more"));
+}

@@ -103,7 +103,7 @@ fn a_vertex_shows_its_weights_and_explains_its_place() {
             let copied = copied_by(&mut window, "Copy: the sum");
             assert!(copied.starts_with("vertex 4: row vectors"), "{copied}");
         }
-        window.click("Hide");
+        window.click("Hide the explanation");
         assert!(!window.shows("Copy: the sum of the vertex as text"));
         window.click("Bone 1: weight");
         assert_eq!(selected(&window), Some(1), "its weights can be seen");

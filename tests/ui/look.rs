@@ -177,8 +177,16 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     };
     window.apply(PlayCommand::Play);
     slow_frames(&mut window, 8);
+    let at = window.rect("Lighting").center();
+    window.harness.hover_at(at);
+    window.wait(0.6);
+    let note = "50 % of the width and height: frames took 200 ms";
+    assert!(
+        window.shows(&format!("While it moves: {note}")),
+        "the dot is explained where it is seen"
+    );
     window.click("Lighting");
-    assert!(window.shows("50 % of the width and height: frames took 200 ms"));
+    assert!(window.shows(note));
     slow_frames(&mut window, 24);
     window.pass_on();
     assert!(window.shows("50 % of the width and height, no ambient occlusion, coarser shadows: frames took 200 ms"));
@@ -187,9 +195,9 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     assert_eq!(quality.choice(Pass::AmbientOcclusion), PassChoice::On);
     assert_eq!(quality.state(Pass::AmbientOcclusion), PassState::Drawn);
     slow_frames(&mut window, 8);
-    window.click("Full");
+    window.click("Quality while it moves: Full");
     assert_eq!(window.session().quality().mode(), QualityMode::Full);
-    assert!(!window.shows("50 % of the width and height: frames took 200 ms"));
+    assert!(!window.shows(note));
 }
 
 #[test]

@@ -5,10 +5,12 @@ mod camera_motion;
 #[path = "../core/chains.rs"]
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod chains;
+mod chips;
 #[path = "../core/documents.rs"]
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod documents;
 mod dope_sheet;
+mod file_menu;
 mod findings;
 mod idle;
 mod joint_numbers;
@@ -16,6 +18,7 @@ mod joint_tree;
 mod keys;
 mod layout;
 mod look;
+mod messages;
 #[path = "../core/session/models.rs"]
 #[allow(dead_code, reason = "shared with the tests of the session, which need more of it")]
 mod models;

@@ -1,9 +1,10 @@
 //! Model facts, diagnostics, error card, the buttons of the bars.
 
+use bindpose::anim::SkinView;
 use bindpose::format::{Material, Subset};
-use bindpose::model::{Handedness, UpAxis};
+use bindpose::model::{Handedness, JointIndex, UpAxis};
 use bindpose::scene::{Light, Projection, ViewMode, ViewPreset};
-use bindpose::session::{CameraCommand, File, FileCommand};
+use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, LookCommand};
 use bindpose::ui::Request;
 use egui::{Key, Modifiers, OutputCommand};
 
@@ -62,17 +63,6 @@ fn handedness_and_up_axis_can_be_chosen_and_given_back() {
         (None, None)
     );
     assert!(window.shows("Handedness: Left found") && window.shows("Up axis: Y found"));
-}
-
-#[test]
-fn the_other_models_of_a_drop_are_one_click_away() {
-    let mut window = window(WIDE, vec![moving("large.m3d"), still("small.m3d")]);
-    assert!(window.shows("In this drop"));
-    window.click("small.m3d");
-    assert_eq!(
-        window.session().open_model().map(|open| open.file.path.as_str()),
-        Some("small.m3d")
-    );
 }
 
 fn findings(window: &Window) -> Vec<String> {
@@ -290,12 +280,11 @@ fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
     let damaged = File::new("in/part0.png", *b"\x89PNG\r\n\x1a\n");
     let mut window = window(WIDE, vec![models::file("a.m3d", &document), damaged]);
     let names = |window: &Window| window.named(|name| name.contains(".png is missing\n"));
-    assert!(window.shows("Textures: 0 of 11 found, 1 unreadable"));
     assert!(names(&window).is_empty(), "folded");
-    window.click("10 missing");
+    window.click("Maps: 0 of 11, 10 missing, 1 unreadable");
     assert!(window.shows("part1.png is missing\ndiffuse map of Part 1"));
     let rows = names(&window);
-    assert!((6..=10).contains(&rows.len()), "{rows:?}");
+    assert_eq!(rows.len(), 10, "no list that scrolls inside the panel: {rows:?}");
     let unreadable = window.named(|name| name.starts_with("in/part0.png could not be read\npart0.png: the PNG file"));
     assert_eq!(unreadable.len(), 1);
     assert!(unreadable[0].0.ends_with("\ndiffuse map of Part 0"), "{unreadable:?}");
@@ -304,9 +293,12 @@ fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
 
     let picture = bindpose::image::encode_png(&[255; 16], 2, 2).expect("two by two pixels");
     window.apply(FileCommand::Add(vec![File::new("shared.png", picture)]));
-    assert!(window.shows("Textures: 1 of 11 found, 1 unreadable"));
-    window.click("9 missing");
+    window.click("Maps: 1 of 11, 9 missing, 1 unreadable");
     assert!(names(&window).is_empty());
+    window.click("Show 1 warning");
+    let finding = window.named(|name| name.starts_with("warning ") && name.contains("part0.png"));
+    assert_eq!(finding.len(), 1, "it is a finding too");
+    assert!(finding[0].0.ends_with("Go to Material Part 0"), "{finding:?}");
 }
 
 /// A model of these many subsets, each with a map that is missing.
@@ -339,19 +331,35 @@ fn the_first_screen_of_the_panel_has_facts_findings_clips_and_subsets_however_ma
         if !window.named(|name| name == "Model facts").is_empty() {
             window.click("Model facts");
         }
-        for words in ["Vertices 24", "Clips 3", "Diagnostics: ", "Part 0, 3 triangles"] {
+        let on_the_phone = height == PHONE.y;
+        for words in [
+            "Vertices 24",
+            "Clips 3",
+            "Diagnostics: ",
+            "Part 0, 3 triangles",
+            "Maps: 0 of 4, 4 missing",
+        ] {
+            // The maps come last on the phone.
+            if on_the_phone && words.starts_with("Maps") {
+                continue;
+            }
             let rect = window.rect(words);
             assert!(rect.max.y <= height, "{words} at {rect} of {height}");
         }
         assert!(window.named(|name| name.contains("is missing")).is_empty());
     }
     let mut window = window(WIDE, files());
-    assert!(
-        window.rect("4 missing").max.y < window.rect("Play").min.y,
-        "and the one row of those"
-    );
     for is_open in [true, false] {
-        window.click("4 missing");
+        window.click("Maps: ");
         assert_eq!(window.shows("part0.png is missing\ndiffuse map of Part 0"), is_open);
     }
+}
+
+#[test]
+fn the_line_of_the_maps_is_whole_while_a_legend_is_open() {
+    let mut window = window(WIDE, vec![without_maps(4)]);
+    window.apply(JointCommand::Select(Some(JointIndex(0))));
+    window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
+    let legend = window.rect("Legend: ");
+    assert!(window.rect("Maps: ").max.y < legend.min.y);
 }

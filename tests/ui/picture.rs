@@ -183,6 +183,25 @@ fn maps_that_are_missing_and_one_that_is_damaged() {
 }
 
 #[test]
+fn modes_that_are_on_and_a_message() {
+    let then = || -> Vec<Command> {
+        let mut files = sample_with_its_maps();
+        files.push(crate::models::still("sketches/box.m3d"));
+        vec![
+            FileCommand::Add(files).into(),
+            PlayCommand::Seek { time_secs: 0.4 }.into(),
+            PlayCommand::SetRangeStart(Some(0.3)).into(),
+            PlayCommand::SetRangeEnd(Some(0.9)).into(),
+            PlayCommand::SetSpeed(0.5).into(),
+            PlayCommand::ToggleBindPose.into(),
+            SubmeshCommand::Solo(0).into(),
+        ]
+    };
+    compare("wide-dark-modes", &draw(WIDE, Theme::Dark, false, then()));
+    compare("phone-light-modes", &draw(PHONE, Theme::Light, true, then()));
+}
+
+#[test]
 fn a_finding_that_leads_to_a_vertex() {
     let clicks = ["Diagnostics: ", "warning weights-not-normalized"];
     let then = || vec![FileCommand::Add(crate::findings::files()).into()];

@@ -71,6 +71,33 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
     }
 }
 
+#[test]
+fn tooltips_of_a_panel_stand_beside_it_and_menus_let_no_text_through() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let panel = shown_panel(&window, "model").expect("it is shown");
+    for row in ["Size ", "Painted, 12 triangles", "Hide Painted", "Diagnostics: "] {
+        let at = window.rect(row).center();
+        window.harness.hover_at(at);
+        window.wait(0.6);
+        let tooltips: Vec<Rect> = window.harness.ctx.memory(|memory| {
+            let layers = memory.areas().visible_layer_ids().into_iter();
+            let tooltips = layers.filter(|layer| layer.order == Order::Tooltip);
+            tooltips.filter_map(|layer| memory.area_rect(layer.id)).collect()
+        });
+        assert_eq!(tooltips.len(), 1, "{row}");
+        assert!(
+            tooltips[0].min.x >= panel.max.x,
+            "{row}: {} lies on {panel}",
+            tooltips[0]
+        );
+        window.harness.event(egui::Event::PointerGone);
+        window.wait(0.2);
+    }
+    for theme in [egui::Theme::Dark, egui::Theme::Light] {
+        assert!(window.harness.ctx.style_of(theme).visuals.window_fill.is_opaque());
+    }
+}
+
 /// What hangs from buttons now.
 fn popovers(window: &Window) -> Vec<Rect> {
     window.harness.ctx.memory(|memory| {

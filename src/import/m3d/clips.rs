@@ -99,12 +99,12 @@ impl ClipReader<'_> {
     fn note(&self, mended: &Mended, bone_count: usize, diagnostics: &mut Diagnostics) {
         let joint_count = self.skeleton.joint_count();
         let clip_line = Some(self.lines.clip).filter(|&line| line > 0);
-        let at_clip = Place::on(Subject::Clip(self.clip), clip_line);
+        let at_clip = || Place::on(Subject::Clip(self.clip), clip_line);
         if bone_count < joint_count {
             let missing = counted(joint_count - bone_count, "bone has", "bones have");
             diagnostics.add(
                 &codes::CLIP_BONES_MISSING,
-                at_clip,
+                at_clip(),
                 format!("{missing} no track in this clip; at rest as in the bind pose."),
             );
         }
@@ -112,7 +112,7 @@ impl ClipReader<'_> {
             let more = counted(bone_count - joint_count, "track", "tracks");
             diagnostics.add(
                 &codes::CLIP_BONES_EXTRA,
-                at_clip,
+                at_clip(),
                 format!("The clip has {more} more than the skeleton has bones; left out."),
             );
         }

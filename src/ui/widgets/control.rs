@@ -2,11 +2,11 @@
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Role, Sense, Shape,
-    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
+    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, RectAlign, Response, Role,
+    Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use crate::ui::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+use crate::ui::theme::{CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 
 /// Side of a control for a mouse.
 pub(super) const MOUSE_CONTROL: f32 = 28.0;
@@ -80,6 +80,23 @@ pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId
     job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
     let galley = painter.layout_job(job);
     painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
+}
+
+/// A tooltip at the side of a row of a panel, so that it covers no other row. `row` is the row that the widget is in, if it is not one
+/// itself.
+pub(crate) fn hint_beside(response: Response, row: Option<Rect>, words: &str) -> Response {
+    let row = row.unwrap_or(response.rect);
+    let mut tooltip = Tooltip::for_enabled(&response);
+    tooltip.popup = tooltip
+        .popup
+        .anchor(row.expand2(vec2(MARGIN, 0.0)))
+        .align(RectAlign::RIGHT)
+        .align_alternatives(&[RectAlign::LEFT, RectAlign::BOTTOM_START, RectAlign::TOP_START]);
+    tooltip.show(|ui| {
+        ui.set_max_width(ui.spacing().tooltip_width);
+        ui.label(words);
+    });
+    response
 }
 
 /// The mark before something that folds. It points right while folded, otherwise down.

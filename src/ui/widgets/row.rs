@@ -1,11 +1,15 @@
 //! Rows of panels: headings, facts, choices, hairlines.
 
-use egui::{Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Color32, EventFilter, FontId, Id, Key, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
 
 use super::button::icon_button;
 use super::color::paint_swatch;
 use super::control::{
-    MOUSE_CONTROL, control_size, focus_ring, is_touch, key_hint, paint_elided, paint_row_ground, pressed_row_height,
+    MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_elided, paint_row_ground,
+    pressed_row_height,
 };
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -35,7 +39,63 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
     icons::paint(ui.painter(), place, icon, color);
     focus_ring(ui, place, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
-    response.on_hover_text(label).clicked()
+    hint_beside(response, Some(row.rect), label).clicked()
+}
+
+/// A list of rows, for screen readers and for the arrow keys: they move the focus from row to row.
+#[derive(Debug, Default)]
+pub(crate) struct RowList {
+    rows: Vec<Id>,
+    focused: Option<usize>,
+}
+
+impl RowList {
+    /// Shows a list of this name. The contents tell of each row with [`RowList::row`].
+    pub(crate) fn show(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui, &mut Self)) {
+        let shown = ui.scope(|ui| {
+            let mut list = Self::default();
+            contents(ui, &mut list);
+            list.walk(ui);
+        });
+        shown
+            .response
+            .widget_info(|| WidgetInfo::labeled(Role::List, true, name));
+    }
+
+    /// Tells of the next row.
+    pub(crate) fn row(&mut self, response: &Response, selected: bool) {
+        if response.has_focus() {
+            self.focused = Some(self.rows.len());
+        }
+        if response.gained_focus() {
+            response.scroll_to_me(None);
+        }
+        self.rows.push(response.id);
+        response
+            .ctx
+            .accesskit_node_builder(response.id, |node| node.set_selected(selected));
+    }
+
+    fn walk(self, ui: &Ui) {
+        let Some((focused, &id)) = self.focused.and_then(|at| Some((at, self.rows.get(at)?))) else {
+            return;
+        };
+        let filter = EventFilter {
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+        let last = self.rows.len() - 1;
+        let pressed = |key| ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key));
+        let to = match (pressed(Key::ArrowUp), pressed(Key::ArrowDown)) {
+            (true, false) => focused.saturating_sub(1),
+            (false, true) => (focused + 1).min(last),
+            _ if pressed(Key::Home) => 0,
+            _ if pressed(Key::End) => last,
+            _ => return,
+        };
+        ui.memory_mut(|memory| memory.request_focus(self.rows[to]));
+    }
 }
 
 /// Draws words at both ends of a row, each in its colour.
@@ -93,7 +153,8 @@ pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Re
 pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
     ui.horizontal(|ui| {
         let width = ui.available_width() - control_size(ui) - 6.0;
-        let (heading, _) = ui.allocate_exact_size(vec2(width, MOUSE_CONTROL), Sense::hover());
+        let (heading, response) = ui.allocate_exact_size(vec2(width, MOUSE_CONTROL), Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, title));
         let (at, color) = (heading.left_center(), Tokens::of(ui).text);
         ui.painter()
             .text(at, Align2::LEFT_CENTER, title, theme::semibold(13.0), color);
@@ -121,7 +182,7 @@ pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: 
         color,
         rect.max.x - side - at.x,
     );
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Selected: {name}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, format!("Selected: {name}")));
     // The cross aligns with the right edge of the rows below.
     let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
     // In a child of its own, so that it does not widen the rows.
@@ -151,7 +212,7 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
     let (font, key) = (theme::mono(11.0), key_hint(ui, key));
     ui.painter()
         .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, key, font, tokens.faint);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
+    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, name));
 }
 
 /// The name of a section, and an action at its right end. Returns whether the action was clicked.

@@ -55,7 +55,8 @@ fn a_few_alike_are_told_apart_and_more_become_one() {
         .try_into()
         .expect("one finding");
     assert_eq!((one.count, one.position), (5, Some(line(20))));
-    assert_eq!(one.places, [20, 30, 40, 50].map(line));
+    assert_eq!(one.places, [20, 30, 40, 50, 60].map(line));
+    assert_eq!(one.subjects, [1, 2, 3, 4, 5].map(Subject::Clip));
     assert_eq!(one.subject, Some(Subject::Clip(1)));
     assert_eq!(
         one.message,
@@ -77,7 +78,19 @@ fn rows_that_are_counted_in_one_finding_have_their_first_places() {
         .try_into()
         .expect("one finding");
     assert_eq!((one.count, one.position), (5, Some(line(101))));
-    assert_eq!(one.places, [101, 103, 104, 108].map(line));
+    assert_eq!(one.places, [101, 103, 104, 108, 109].map(line));
+    let expected = [1, 3, 4, 8, 9].map(|vertex| (Some(Subject::Vertex(vertex)), Some(line(100 + vertex))));
+    assert_eq!(one.occurrences().collect::<Vec<_>>(), expected);
+    assert_eq!(one.few_places(), [101, 103, 104, 108].map(line));
+}
+
+#[test]
+fn of_very_many_the_first_twenty_are_known() {
+    let (document, lines) = clips(101);
+    let [one] = findings(&document, &lines, "duplicate-clip-name")
+        .try_into()
+        .expect("one finding");
+    assert_eq!((one.count, one.places.len(), one.subjects.len()), (100, 20, 20));
 }
 
 /// Names are made unique by looking at each of them once: with a search of all others this would take minutes.

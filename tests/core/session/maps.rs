@@ -253,6 +253,31 @@ fn every_malformed_texture_is_noted_though_no_material_names_it() {
 }
 
 #[test]
+fn maps_are_there_again_after_another_model_of_the_drop_or_the_one_before_it() {
+    let mut session = opened(vec![
+        mapped("first.m3d", "a.png", "b.png"),
+        picture("a.png", [9, 9, 9, 255]),
+    ]);
+    session.apply(FileCommand::Add(vec![
+        mapped("in/box.m3d", "a.png", "b.png"),
+        models::still("in/bare.m3d"),
+        picture("in/a.png", [1, 2, 3, 255]),
+    ]));
+    session.apply(FileCommand::Add(vec![picture("b.png", [4, 5, 6, 255])]));
+    assert_eq!(session.maps().checklist().found(), 2);
+    for path in ["in/bare.m3d", "in/box.m3d", "first.m3d", "in/box.m3d"] {
+        session.apply(FileCommand::Open(path.to_owned()));
+        let [diffuse, normal] = MapSlot::ALL.map(|slot| first_pixel(&session, slot));
+        let expected = match path {
+            "in/box.m3d" => [Some(vec![1, 2, 3, 255]), Some(vec![4, 5, 6, 255])],
+            "first.m3d" => [Some(vec![9, 9, 9, 255]), None],
+            _ => [None, None],
+        };
+        assert_eq!([diffuse, normal], expected, "{path}");
+    }
+}
+
+#[test]
 fn pictures_that_fit_nothing_are_noted_until_the_next_drop() {
     let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);
     let stray = |names: &[&str]| names.iter().map(|name| picture(name, [5; 4])).collect::<Vec<_>>();

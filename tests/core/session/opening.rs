@@ -221,6 +221,31 @@ fn the_same_drop_again_opens_the_model_that_was_chosen_of_it() {
     assert_eq!(open_path(&session), Some("y/large.m3d"), "of another folder");
 }
 
+fn listed(session: &Session) -> Vec<&str> {
+    session.models().iter().map(|file| file.path.as_str()).collect()
+}
+
+#[test]
+fn what_was_open_before_a_drop_stands_among_its_models_and_can_be_opened_again() {
+    let mut session = opened(still("figure.m3d"));
+    assert_eq!(listed(&session), ["figure.m3d"]);
+    let drop = || vec![moving("x/b.m3d"), still("x/A.m3d"), jointed("x/c.m3d")];
+    session.apply(FileCommand::Add(drop()));
+    let all = ["figure.m3d", "x/A.m3d", "x/b.m3d", "x/c.m3d"];
+    assert_eq!((open_path(&session), listed(&session)), (Some("x/b.m3d"), all.to_vec()));
+    for path in ["figure.m3d", "x/c.m3d", "x/A.m3d", "figure.m3d", "x/b.m3d"] {
+        assert!(session.apply(FileCommand::Open(path.to_owned())).model);
+        assert_eq!((open_path(&session), listed(&session)), (Some(path), all.to_vec()));
+    }
+    session.apply(FileCommand::Add(drop()));
+    assert_eq!(listed(&session), all, "the same drop again");
+
+    session.apply(FileCommand::Add(vec![still("y/d.m3d")]));
+    assert_eq!(listed(&session), ["x/b.m3d", "y/d.m3d"], "one of each drop before");
+    session.apply(FileCommand::Add(vec![still("y/d.m3d"), moving("x/b.m3d")]));
+    assert_eq!(listed(&session), ["x/b.m3d", "y/d.m3d"], "none stands there twice");
+}
+
 #[test]
 fn what_was_too_slow_for_one_model_is_tried_again_with_the_next() {
     let mut session = opened(moving("a.m3d"));

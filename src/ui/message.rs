@@ -1,0 +1,117 @@
+//! A short message over the view: what was just done. It goes by itself. An error is never a message: it has the card.
+
+use egui::{Align2, Label, Margin, Rangef, Rect, RichText, Ui};
+
+use super::icons::Icon;
+use super::panel::Panel;
+use super::theme::Tokens;
+use super::widgets::{TextButton, control_size, icon_button};
+
+/// How long a message is shown. The time begins anew while the pointer is over it or one of its buttons has the focus.
+const SHOWN_SECS: f64 = 6.0;
+/// Room between its parts.
+const SPACING: f32 = 6.0;
+/// The least room in which one is shown.
+const LEAST_WIDTH: f32 = 160.0;
+
+/// The message that is shown. A new one takes its place.
+#[derive(Debug, Default)]
+pub struct Messages {
+    shown: Option<Message>,
+    /// The words are new to [`Messages::take_spoken`].
+    unspoken: bool,
+}
+
+#[derive(Debug)]
+struct Message {
+    words: String,
+    /// It is about a picture, which can be saved elsewhere.
+    saves_picture: bool,
+    /// When it goes, in egui's time. None until it was shown once.
+    ends_secs: Option<f64>,
+}
+
+impl Messages {
+    /// Shows a message.
+    pub fn say(&mut self, words: impl Into<String>) {
+        self.show_next(words.into(), false);
+    }
+
+    /// Shows that a picture was saved, and offers to save it elsewhere.
+    pub fn say_saved(&mut self, name: &str, [width, height]: [u32; 2]) {
+        self.show_next(format!("{name}, {width} × {height}"), true);
+    }
+
+    fn show_next(&mut self, words: String, saves_picture: bool) {
+        self.unspoken = true;
+        self.shown = Some(Message {
+            words,
+            saves_picture,
+            ends_secs: None,
+        });
+    }
+
+    /// The words of a message that no call before returned, for a screen reader.
+    pub fn take_spoken(&mut self) -> Option<String> {
+        let is_new = std::mem::take(&mut self.unspoken);
+        self.shown
+            .as_ref()
+            .filter(|_| is_new)
+            .map(|message| message.words.clone())
+    }
+}
+
+/// Shows the message at the bottom of a room. Returns whether the picture that it is about is to be saved elsewhere.
+pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
+    let Some(message) = &mut messages.shown else {
+        return false;
+    };
+    let now_secs = ui.input(|input| input.time);
+    let ends_secs = *message.ends_secs.get_or_insert(now_secs + SHOWN_SECS);
+    if now_secs >= ends_secs || room.width() < LEAST_WIDTH {
+        messages.shown = None;
+        return false;
+    }
+    let (mut shut, mut saves, mut held) = (false, false, false);
+    let tokens = Tokens::of(ui);
+    let rect = Panel::new("message", Align2::CENTER_BOTTOM)
+        .margin(Margin {
+            left: 14,
+            right: 3,
+            top: 3,
+            bottom: 3,
+        })
+        .show(ui, room, |ui| {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = SPACING;
+                let side = control_size(ui);
+                let save_width = if message.saves_picture { 78.0 + SPACING } else { 0.0 };
+                let most = ui.available_width() - side - save_width - 2.0 * SPACING;
+                ui.scope(|ui| {
+                    ui.set_max_width(most.max(0.0));
+                    let words = RichText::new(&message.words).color(tokens.text);
+                    ui.add(Label::new(words).truncate());
+                });
+                if message.saves_picture {
+                    let button = TextButton::new("Save as…", "Save the picture as…");
+                    let button = button.width(Rangef::point(78.0)).show(ui);
+                    saves = button.clicked();
+                    held |= button.has_focus();
+                }
+                let cross = icon_button(ui, Icon::Close, "Close the message", false);
+                shut = cross.clicked();
+                held |= cross.has_focus();
+            });
+        });
+    held |= ui.input(|input| input.pointer.hover_pos().is_some_and(|at| rect.contains(at)));
+    let ends_secs = if held { now_secs + SHOWN_SECS } else { ends_secs };
+    message.ends_secs = Some(ends_secs);
+    if shut || saves {
+        messages.shown = None;
+        ui.ctx().request_repaint();
+    } else {
+        let left = std::time::Duration::from_secs_f64(ends_secs - now_secs);
+        ui.ctx().request_repaint_after(left);
+    }
+    saves
+}

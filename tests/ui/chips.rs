@@ -1,0 +1,126 @@
+//! Chips over the view: which mode is on, and the cross that ends it.
+
+use bindpose::anim::SkinView;
+use bindpose::model::JointIndex;
+use bindpose::session::{CameraCommand, Command, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
+use egui::{Key, Modifiers, vec2};
+
+use crate::layout::shown_panel;
+use crate::models::{broken, moving, still};
+use crate::page::{WIDE, Window, phone, touch_window, window};
+
+/// Each mode: what turns it on, and its chip.
+fn modes() -> Vec<(Vec<Command>, &'static str)> {
+    vec![
+        (vec![PlayCommand::ToggleBindPose.into()], "Leave bind pose"),
+        (vec![SubmeshCommand::Solo(0).into()], "Leave only Painted"),
+        (
+            vec![
+                PlayCommand::SetRangeStart(Some(0.2)).into(),
+                PlayCommand::SetRangeEnd(Some(0.6)).into(),
+            ],
+            "Leave the range 6–18",
+        ),
+        (
+            vec![
+                JointCommand::Select(Some(JointIndex(1))).into(),
+                LookCommand::SetSkinView(Some(SkinView::Weight)).into(),
+            ],
+            "Leave weights of Bone 1",
+        ),
+        (vec![CameraCommand::ToggleTurntable.into()], "Leave the turntable"),
+        (vec![PlayCommand::SetSpeed(0.5).into()], "Leave speed 0.5×"),
+    ]
+}
+
+fn chips(window: &Window) -> Vec<(String, egui::Rect)> {
+    let mut chips = window.named(|name| name.starts_with("Leave "));
+    chips.dedup();
+    chips
+}
+
+#[test]
+fn each_mode_has_a_chip_that_ends_it() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        assert!(chips(&window).is_empty());
+        for (commands, name) in modes() {
+            for command in commands {
+                window.apply(command);
+            }
+            assert_eq!(chips(&window).len(), 1, "{name}: {:?}", chips(&window));
+            window.click(name);
+            assert!(chips(&window).is_empty(), "{name} is over");
+        }
+        let session = window.session();
+        assert_eq!((session.bind_weight(), session.submeshes().solo()), (0.0, None));
+        assert_eq!(
+            (session.playback().range_secs(), session.playback().speed()),
+            (None, 1.0)
+        );
+        assert!(session.look().skin_view.is_none() && !session.turntable());
+        assert_eq!(
+            session.joints().selected(),
+            Some(JointIndex(1)),
+            "the selection is no mode"
+        );
+    }
+}
+
+#[test]
+fn chips_stand_in_the_view_beside_each_other_and_off_the_panels() {
+    for (size, touch) in [
+        (WIDE, false),
+        (vec2(900.0, 600.0), false),
+        (vec2(390.0, 844.0), true),
+        (vec2(844.0, 390.0), true),
+    ] {
+        let open = if touch { touch_window } else { window };
+        let mut window = open(size, vec![moving("a.m3d")]);
+        for command in modes().into_iter().flat_map(|(commands, _)| commands) {
+            window.apply(command);
+        }
+        let chips = chips(&window);
+        assert_eq!(chips.len(), 6, "{chips:?}");
+        for (index, (name, rect)) in chips.iter().enumerate() {
+            for panel in ["title", "toolbar", "model", "inspector", "timeline", "sheet", "legend"] {
+                if let Some(panel_rect) = shown_panel(&window, panel) {
+                    assert!(!rect.intersects(panel_rect), "{name} lies on {panel} in {size}");
+                }
+            }
+            for (other, other_rect) in &chips[..index] {
+                assert!(
+                    !rect.shrink(0.1).intersects(*other_rect),
+                    "{name} lies on {other} in {size}"
+                );
+            }
+            assert!(!touch || rect.height() >= 44.0, "{name} is for fingers");
+        }
+    }
+}
+
+#[test]
+fn a_chip_is_pressed_by_the_keyboard_and_by_a_screen_reader() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.apply(PlayCommand::ToggleBindPose);
+    for _ in 0..80 {
+        if window.focused().as_deref() != Some("Leave bind pose") {
+            window.press(Modifiers::NONE, Key::Tab);
+        }
+    }
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(window.session().bind_weight(), 0.0);
+    window.press(Modifiers::NONE, Key::K);
+    use egui_kittest::kittest::Queryable as _;
+    window.harness.get_by_label("Leave bind pose").click_accesskit();
+    window.pass_on();
+    assert_eq!(window.session().bind_weight(), 0.0);
+}
+
+#[test]
+fn without_a_clip_or_a_model_there_is_no_mode_to_leave() {
+    let mut window = window(WIDE, vec![still("a.m3d")]);
+    window.apply(PlayCommand::SetSpeed(0.5));
+    assert!(chips(&window).is_empty());
+    window.apply(FileCommand::Add(vec![broken("bad.m3d")]));
+    assert!(chips(&window).is_empty());
+}

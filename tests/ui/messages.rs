@@ -1,0 +1,81 @@
+//! Short messages: seen for a while, held by pointer and focus, without a pass while nothing happens.
+
+use egui::{Key, Modifiers, pos2};
+
+use crate::models::moving;
+use crate::page::{WIDE, Window, phone, window};
+use bindpose::ui::Request;
+
+const WORDS: &str = "a-Bend-15.png, 1920 × 1080";
+
+/// A window in which a picture was just saved.
+fn saved(mut window: Window) -> Window {
+    window
+        .harness
+        .state_mut()
+        .state
+        .messages
+        .say_saved("a-Bend-15.png", [1920, 1080]);
+    window.pass_on();
+    window
+}
+
+fn wide() -> Window {
+    saved(window(WIDE, vec![moving("a.m3d")]))
+}
+
+#[test]
+fn a_message_stands_above_the_timeline_goes_by_itself_and_costs_nothing_meanwhile() {
+    for mut window in [wide(), saved(phone(vec![moving("a.m3d")]))] {
+        let at = window.rect(WORDS);
+        assert!(at.max.y < window.rect("Play").min.y, "{at}");
+        assert!(at.min.x >= 0.0 && window.rect("Close the message").max.x <= window.harness.ctx.content_rect().max.x);
+        window.harness.run();
+        let next_pass = window.harness.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+        assert!(
+            next_pass.as_secs_f32() > 4.0,
+            "it asks for a pass at its end alone: {next_pass:?}"
+        );
+        window.wait(5.0);
+        assert!(window.shows(WORDS));
+        window.wait(1.5);
+        assert!(!window.shows(WORDS));
+    }
+}
+
+#[test]
+fn it_stays_under_the_pointer_and_while_it_has_the_focus() {
+    let mut window = wide();
+    let at = window.rect(WORDS).center();
+    window.harness.hover_at(at);
+    window.wait(8.0);
+    assert!(window.shows(WORDS));
+    window.harness.hover_at(pos2(WIDE.x * 0.5, WIDE.y * 0.4));
+    window.wait(5.0);
+    assert!(window.shows(WORDS), "its time begins anew");
+    let mut window = saved(window);
+    for _ in 0..80 {
+        if window.focused().as_deref() != Some("Save the picture as…") {
+            window.press(Modifiers::NONE, Key::Tab);
+        }
+    }
+    window.wait(8.0);
+    assert!(window.shows(WORDS));
+    window.press(Modifiers::NONE, Key::Enter);
+    assert!(!window.shows(WORDS));
+    assert_eq!(window.harness.state().requests, [Request::SavePictureAs]);
+}
+
+#[test]
+fn the_cross_ends_it_and_the_next_takes_its_place() {
+    let mut window = wide();
+    window.harness.state_mut().state.messages.say("Something else");
+    window.pass_on();
+    assert!(window.shows("Something else") && !window.shows(WORDS) && !window.shows("Save the picture as…"));
+    assert_eq!(
+        window.harness.state_mut().state.messages.take_spoken().as_deref(),
+        Some("Something else")
+    );
+    window.click("Close the message");
+    assert!(!window.shows("Something else"));
+}
