@@ -101,7 +101,9 @@ impl App {
 
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.
     pub fn start_over(&mut self, ctx: &egui::Context) {
+        let contrast = self.state.contrast;
         self.state = UiState::new(self.state.coarse_pointer());
+        self.state.contrast = contrast;
         self.painter.forget();
         ctx.memory_mut(|memory| {
             let options = std::mem::take(&mut memory.options);

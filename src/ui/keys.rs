@@ -3,15 +3,16 @@
 use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 
 use super::state::UiState;
-use super::viewport::FLIGHT_KEYS;
+use super::viewport::{self, FLIGHT_KEYS};
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
     let events = ui.input(|input| input.events.clone());
-    // Space and Enter belong to a focused control.
-    let control_focused = ui.memory(|memory| memory.focused().is_some());
+    // Space and Enter belong to a focused control. The view has no use for them.
+    let focused = ui.memory(|memory| memory.focused());
+    let control_focused = focused.is_some_and(|id| id != viewport::id(ui));
     let mut held = false;
     for event in events {
         let asked = match event {

@@ -2,6 +2,7 @@
 
 mod diagnostics_panel;
 mod error_card;
+mod focus;
 mod help;
 mod icons;
 mod input;
@@ -51,7 +52,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let mut commands = Vec::new();
     let window = ui.max_rect();
     let touch = state.coarse_pointer || ui.input(egui::InputState::has_touch_screen);
+    state.contrast.apply(ui.ctx());
     widgets::size_for_touch(ui.ctx(), touch);
+    state.focus.begin(ui.ctx());
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
         state.shown_diagnostic = None;
@@ -94,7 +97,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         keys::read(ui, session, state, popover_open, &mut commands);
     }
     let escape_shut = escape_shuts && ui.input(|input| input.key_pressed(egui::Key::Escape));
-    state.keyboard.give_back(ui.ctx(), popover_open, escape_shut);
+    state.focus.end(ui.ctx(), popover_open, escape_shut);
+    state.focus.paint(ui);
     commands
 }
 

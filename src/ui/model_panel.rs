@@ -9,8 +9,8 @@ use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    choice_row, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row, pressed_row_height, row_icon,
-    rule, section_name, section_with_action, value_row,
+    choice_row, has_focused_icon, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row,
+    pressed_row_height, row_icon, rule, section_name, section_with_action, value_row,
 };
 use super::wording::{counted, dialect_name, grouped, measured, shortened};
 use crate::diagnostic::Severity;
@@ -243,7 +243,9 @@ impl<'a> SubmeshRow<'a> {
 
         let opacity = if self.visible { 1.0 } else { 0.35 };
         paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
-        let icons_shown = over || touch || response.has_focus();
+        let icons = [Icon::Eye, Icon::EyeOff, Icon::Solo];
+        let focused = response.has_focus() || has_focused_icon(ui, &response, &icons);
+        let icons_shown = over || touch || focused;
         let end = self.show_end(ui, rect, &response, icons_shown, commands);
         let color = if self.selected { tokens.accent } else { tokens.text };
         let left = rect.min.x + 18.0;

@@ -70,7 +70,8 @@ pub(super) fn mark_transport(ui: &Ui, rect: Rect) {
     ui.interact(rect, id_of("transport"), Sense::hover());
 }
 
-fn id_of(name: &'static str) -> Id {
+/// The id of a panel's area.
+pub(super) fn id_of(name: &str) -> Id {
     Id::unique(("panel", name))
 }
 

@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
+use egui::{Id, Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
 use crate::session::{CameraCommand, Command, LookCommand};
@@ -22,9 +22,14 @@ pub(super) struct ViewHold {
     flight: Flight,
 }
 
+/// The id of the view in the window's `Ui`.
+pub(super) fn id(ui: &Ui) -> Id {
+    ui.scope_id().with("viewport")
+}
+
 /// The whole window behind the panels. `popover_open`: a click closes the popover and does nothing else.
 pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool, commands: &mut Vec<Command>) {
-    let response = ui.interact(rect, ui.scope_id().with("viewport"), Sense::click_and_drag());
+    let response = ui.interact(rect, id(ui), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
     let fractions = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;

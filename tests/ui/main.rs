@@ -10,6 +10,7 @@ mod chains;
 mod documents;
 mod dope_sheet;
 mod findings;
+mod focus;
 mod idle;
 mod joint_numbers;
 mod joint_tree;

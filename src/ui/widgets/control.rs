@@ -2,8 +2,8 @@
 
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Role, Sense, Shape,
-    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
+    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Id, Key, Painter, Pos2, Rect, Response, Role, Sense,
+    Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetRect, vec2,
 };
 
 use crate::ui::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -53,12 +53,52 @@ pub(crate) fn pressed_row_height(ui: &Ui) -> f32 {
     if is_touch(ui) { TOUCH_CONTROL } else { ROW_HEIGHT }
 }
 
-/// A ring round the focused control.
+/// Gap between a control and its ring.
+const RING_GAP: f32 = 1.0;
+
+/// The place of the ring round a control, if it has the focus and its target is not what is seen. [`paint_focus_ring`] draws it.
 pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
-        let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-        ui.painter()
-            .rect_stroke(rect, CornerRadius::same(CONTROL_RADIUS), stroke, StrokeKind::Inside);
+        let clip = ui.clip_rect();
+        ui.data_mut(|data| data.insert_temp(ring_id(), (response.id, rect, clip)));
+    }
+}
+
+/// Draws the ring round the focused control, over all of its layer and a little over the edge of the list that it is in.
+pub(crate) fn paint_focus_ring(ui: &Ui, widget: &WidgetRect) {
+    let noted: Option<(Id, Rect, Rect)> = ui.data(|data| data.get_temp(ring_id()));
+    let noted = noted.filter(|&(id, ..)| id == widget.id);
+    let (rect, clip) = noted.map_or((widget.rect, widget.interact_rect), |(_, rect, clip)| (rect, clip));
+    let tokens = Tokens::of(ui);
+    let reach = RING_GAP + tokens.ring_width;
+    let window = ui.ctx().content_rect();
+    let ring = rect.expand(RING_GAP).intersect(window.shrink(tokens.ring_width));
+    ui.ctx()
+        .layer_painter(widget.layer_id)
+        .with_clip_rect(clip.expand(reach))
+        .rect_stroke(
+            ring,
+            CornerRadius::same(CONTROL_RADIUS + 1),
+            Stroke::new(tokens.ring_width, tokens.accent),
+            StrokeKind::Outside,
+        );
+}
+
+fn ring_id() -> Id {
+    Id::unique("focus ring")
+}
+
+/// Fills the ground of a control, and draws its border where there are borders.
+pub(crate) fn paint_ground(ui: &Ui, rect: Rect, color: Color32) {
+    let radius = CornerRadius::same(CONTROL_RADIUS);
+    ui.painter().rect(rect, radius, color, border(ui), StrokeKind::Inside);
+}
+
+/// The border of a control.
+pub(super) fn border(ui: &Ui) -> Stroke {
+    match Tokens::of(ui).border {
+        Color32::TRANSPARENT => Stroke::NONE,
+        color => Stroke::new(1.0, color),
     }
 }
 

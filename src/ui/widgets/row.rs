@@ -38,6 +38,12 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
     response.on_hover_text(label).clicked()
 }
 
+/// Whether one of these icons of a row has the focus. Then it stays, though the row itself has lost it.
+pub(crate) fn has_focused_icon(ui: &Ui, row: &Response, icons: &[Icon]) -> bool {
+    let focused = ui.memory(|memory| memory.focused());
+    icons.iter().any(|&icon| focused == Some(row.id.with(icon)))
+}
+
 /// Draws words at both ends of a row, each in its colour.
 pub(crate) fn paint_ends(
     ui: &Ui,
