@@ -12,6 +12,7 @@ use crate::render::{
 };
 use crate::scene::{FrameOptions, Theme};
 use crate::session::Session;
+use crate::ui::theme::Contrast;
 use crate::ui::{self, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
@@ -97,6 +98,11 @@ impl App {
             ui.ctx().request_repaint();
         }
         requests
+    }
+
+    /// Draws the interface with the contrast that the person asks for, from the next pass on.
+    pub fn set_contrast(&mut self, contrast: Contrast) {
+        self.state.contrast = contrast;
     }
 
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.

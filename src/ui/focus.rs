@@ -12,7 +12,7 @@ use super::panel;
 use super::widgets::paint_focus_ring;
 
 /// Panels in reading order. The view comes before the panels at its right.
-const BEFORE_VIEW: [&str; 4] = ["title", "toolbar", "model", "legend"];
+const BEFORE_VIEW: [&str; 5] = ["title", "toolbar", "model", "legend", "frame"];
 const AFTER_VIEW: [&str; 7] = ["diagnostics", "page", "inspector", "timeline", "sheet", "help", "error"];
 
 /// Where the next Tab starts while nothing has the focus.

@@ -14,6 +14,7 @@ mod model_panel;
 mod overlays;
 mod panel;
 mod picture;
+mod sheet;
 mod skeleton;
 mod split;
 mod state;
@@ -70,10 +71,24 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
-    viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
+    let shuts_sheet = layout::sheet_covers_view(window, state);
+    let clicked = viewport::show(
+        ui,
+        window,
+        &mut state.view_hold,
+        popover_open || shuts_sheet,
+        &mut commands,
+    );
+    if clicked && shuts_sheet && !popover_open {
+        state.sheet = None;
+    }
+    if state.view_hold.is_held() {
+        state.offers_frame = false;
+    }
     skeleton::show_marks(ui, session, &state.skeleton, window);
     state.hovered_submesh = None;
     state.timeline.update(session);
+    state.offers_frame &= !session.is_framed() && session.open_model().is_some();
     let free = layout::show(ui, session, state, &mut commands).rect;
     split::show(ui, session, window, free, &mut commands);
     if ui.ctx().will_discard() {
@@ -123,6 +138,10 @@ fn set_viewport(session: &Session, state: &mut UiState, window: Rect, free: Rect
     let before = state.framed.replace(now);
     if before == Some(now) {
         return None;
+    }
+    if before.is_some_and(|before| before.model == now.model) && !session.is_framed() {
+        // The person moved the camera, so it stays. A button offers to frame the model.
+        state.offers_frame = true;
     }
     let command = CameraCommand::SetViewport { aspect, insets };
     let same_picture = before.is_some_and(|before| (before.window, before.model) == (window, now.model));

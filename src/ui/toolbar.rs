@@ -9,7 +9,8 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, Tokens};
 use super::widgets::{
-    TextButton, action_button, chip, chip_size, icon_button, keyed_menu_item, menu_item, section_name, valued_menu_item,
+    TextButton, action_button, chip, chip_size, icon_button, keyed_menu_item, menu_item, push_button, section_name,
+    valued_menu_item,
 };
 use super::wording::dialect_name;
 use super::{light, overlays, picture};
@@ -39,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         view_from_menu(ui, session, commands);
         action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
         action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
-        let camera = icon_button(ui, Icon::Camera, &actions::SAVE_PICTURE.hint_of("Picture…"), false);
+        let camera = push_button(ui, Icon::Camera, &actions::SAVE_PICTURE.hint_of("Picture…"));
         popover(ui, &camera, 224.0, |ui| picture::show(ui, state));
         theme_button(ui, state);
         open_button(ui, state);
@@ -52,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 /// In a narrow window, from the right edge. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
-    let dots = icon_button(ui, Icon::Dots, "More", false);
+    let dots = push_button(ui, Icon::Dots, "More");
     popover_menu(ui, &dots, RectAlign::BOTTOM_END, 230.0, |ui| {
         more_menu(ui, session, state, commands);
     });
@@ -101,7 +102,7 @@ fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
-    if icon_button(ui, Icon::Open, "Open files…", false).clicked() {
+    if push_button(ui, Icon::Open, "Open files…").clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
@@ -117,13 +118,13 @@ fn other_theme(ui: &Ui) -> (&'static str, Request) {
 
 fn theme_button(ui: &mut Ui, state: &mut UiState) {
     let (label, request) = other_theme(ui);
-    if icon_button(ui, Icon::Contrast, label, false).clicked() {
+    if push_button(ui, Icon::Contrast, label).clicked() {
         state.requests.push(request);
     }
 }
 
 fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let cube = icon_button(ui, Icon::Cube, "View from…", false);
+    let cube = push_button(ui, Icon::Cube, "View from…");
     popover_menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
         if view_from_items(ui, session, commands) {
             ui.close();

@@ -90,7 +90,7 @@ fn what_opens_takes_the_focus_and_gives_it_back() {
         ("View mode", "Lit"),
         ("Lighting", "Light: "),
         ("Lines over the model", "Ground grid"),
-        ("View from", "Front"),
+        ("View from", "Three-quarter"),
         ("Keys (?)", "Close"),
         ("Diagnostics", "Close"),
         ("Speed ", ""),
