@@ -6,7 +6,7 @@
 use std::cmp::Reverse;
 
 use egui::accesskit::{self, Action, ActionRequest};
-use egui::{Context, Event, FocusDirection, Id, Key, LayerId, Order, Popup, Ui};
+use egui::{Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, Popup, Ui};
 
 use super::panel;
 use super::widgets::paint_focus_ring;
@@ -149,6 +149,36 @@ impl Focus {
             }
             order
         })
+    }
+
+    /// Moves the focus to the first or last control of a popover with Home and End, unless a control has taken the key.
+    pub(super) fn go_to_ends(&self, ctx: &Context) {
+        if !Popup::is_any_open(ctx) || ctx.text_edit_focused() {
+            return;
+        }
+        let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        let backward = if pressed(Key::Home) {
+            false
+        } else if pressed(Key::End) {
+            true
+        } else {
+            return;
+        };
+        let focused = ctx.memory(|memory| memory.focused());
+        let order = self.order(ctx);
+        let layer = order
+            .iter()
+            .find(|&&(_, id)| Some(id) == focused)
+            .map(|&(layer, _)| layer);
+        let mut of_layer = order.iter().filter(|&&(of, _)| Some(of) == layer);
+        let end = if backward {
+            of_layer.next_back()
+        } else {
+            of_layer.next()
+        };
+        if let Some(&(_, id)) = end {
+            ctx.memory_mut(|memory| memory.request_focus(id));
+        }
     }
 
     /// Moves the focus into what opened, and back to what opened it. Called after the widgets of a pass. `escape_shuts`: Esc is

@@ -291,6 +291,9 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
                     None => state.sheet_height.shut(ui.ctx()),
                 }
             }
+            // Whole points above it, so that the strip stays where it is.
+            let above = ui.cursor().min.y - ui.max_rect().min.y;
+            ui.add_space(above.ceil() - above);
             let top = ui.cursor().min.y;
             if session.clip().is_some() {
                 if state.sheet.is_some() && !low {

@@ -108,6 +108,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // had the focus when the pass began or has it now.
     let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();
     let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(session, state));
+    state.focus.go_to_ends(ui.ctx());
     if !typed && !typing {
         keys::read(ui, session, state, popover_open, &mut commands);
     }

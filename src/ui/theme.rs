@@ -224,6 +224,15 @@ impl Tokens {
         if hovered { self.text } else { self.muted }
     }
 
+    /// The colour of a slider's track.
+    pub fn track(&self) -> Color32 {
+        if self.border == Color32::TRANSPARENT {
+            self.field_hovered
+        } else {
+            self.border
+        }
+    }
+
     /// The tokens of the style in force.
     pub fn of(ui: &egui::Ui) -> Self {
         Self::new(ui.visuals().dark_mode, Contrast::of(ui.ctx()))

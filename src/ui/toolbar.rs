@@ -7,7 +7,7 @@ use super::icons::Icon;
 use super::panel::{popover, popover_menu};
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
-use super::theme::{self, Tokens};
+use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
     TextButton, action_button, chip, chip_size, icon_button, keyed_menu_item, menu_item, push_button, section_name,
     valued_menu_item,
@@ -54,7 +54,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
     let dots = push_button(ui, Icon::Dots, "More");
-    popover_menu(ui, &dots, RectAlign::BOTTOM_END, 230.0, |ui| {
+    let width = if is_low(ui) { 420.0 } else { 230.0 };
+    popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
         more_menu(ui, session, state, commands);
     });
     open_button(ui, state);
@@ -153,7 +154,26 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     commands.len() > before
 }
 
+/// In one column, or in two in a window too low for one.
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    if is_low(ui) {
+        ui.columns_const(|[left, right]| {
+            page_items(left, session, state);
+            action_items(right, session, state, commands);
+        });
+    } else {
+        page_items(ui, session, state);
+        action_items(ui, session, state, commands);
+    }
+}
+
+/// Whether the window is too low for all lines of the menu below each other.
+fn is_low(ui: &Ui) -> bool {
+    let window = ui.ctx().content_rect();
+    window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH
+}
+
+fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let pages = [
         ("View mode", actions::view_mode_label(session), SheetPage::ViewMode),
         ("Light and background", light::label(session), SheetPage::Light),
@@ -167,6 +187,9 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
             ui.close();
         }
     }
+}
+
+fn action_items(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     for action in [&actions::FRAME_MODEL, &actions::TURNTABLE] {
         if menu_item(ui, action.label, action.is_on(session)).clicked() {
             commands.extend(action.command(session));

@@ -442,6 +442,12 @@ fn windows_with_more_and_with_forced_contrast() {
 }
 
 #[test]
+fn the_menu_of_a_phone_on_its_side() {
+    let size = Vec2::new(844.0, 390.0);
+    compare("low-dark-menu", &draw_after(size, Theme::Dark, true, vec![], &["More"]));
+}
+
+#[test]
 fn an_error_on_a_phone_on_its_side() {
     let size = Vec2::new(844.0, 390.0);
     let then = || vec![FileCommand::Add(vec![broken("soldier.m3d")]).into()];

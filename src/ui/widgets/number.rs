@@ -98,7 +98,7 @@ impl<'a> Slider<'a> {
         let (origin, knob) = (x_of(self.reset_to), x_of(self.value));
         let band = |from: f32, to: f32| Rect::from_min_max(pos2(from.min(to), y - 1.5), pos2(from.max(to), y + 1.5));
         ui.painter()
-            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.field_hovered);
+            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
         ui.painter().rect_filled(band(origin, knob), 1.5, tokens.accent);
         let active = response.hovered() || response.is_pointer_button_down_on();
         let center = pos2(knob, y);
