@@ -270,8 +270,10 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
             }
             if !low {
                 let most = ui.available_height() - state.sheet_height.strip;
-                let heights = Heights::new(state.sheet, window.height(), most);
-                state.sheet_height.drag(ui, &handle, heights, &mut state.sheet);
+                let of_timeline = state.sheet == Some(SheetPage::Timeline);
+                let heights = Heights::new(of_timeline, window.height(), most);
+                let open = state.sheet_height.drag(ui, &handle, heights, state.sheet.is_some());
+                state.sheet = open.then(|| state.sheet.unwrap_or(SheetPage::Model));
                 match state.sheet {
                     Some(page) => {
                         let still = session.reduced_motion();

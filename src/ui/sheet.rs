@@ -3,7 +3,6 @@
 use egui::{Context, Id, Response, Ui};
 use glam::Vec2;
 
-use super::state::SheetPage;
 use super::viewport::DragTrail;
 use super::widgets::arrow_steps;
 
@@ -43,12 +42,9 @@ pub(super) struct SheetHeight {
 pub(super) struct Heights([f32; 3]);
 
 impl Heights {
-    pub(super) fn new(page: Option<SheetPage>, window_height: f32, most: f32) -> Self {
-        let half = if page == Some(SheetPage::Timeline) {
-            HALF_OF_TIMELINE
-        } else {
-            HALF
-        };
+    /// `of_timeline`: of the page with keys over time.
+    pub(super) fn new(of_timeline: bool, window_height: f32, most: f32) -> Self {
+        let half = if of_timeline { HALF_OF_TIMELINE } else { HALF };
         Self([PEEK * window_height, half * window_height, most].map(|height| height.min(most).max(0.0)))
     }
 
@@ -80,44 +76,44 @@ impl SheetHeight {
         ctx.animate_value_with_time(motion_id(), 0.0, 0.0);
     }
 
-    /// Follows the handle. Opens and shuts the page.
-    pub(super) fn drag(&mut self, ui: &Ui, handle: &Response, heights: Heights, page: &mut Option<SheetPage>) {
+    /// Follows the handle of a page that is open or not. Returns whether it is open now.
+    pub(super) fn drag(&mut self, ui: &Ui, handle: &Response, heights: Heights, mut open: bool) -> bool {
         let now_secs = ui.input(|input| input.time);
         if handle.drag_started() {
             self.trail.clear();
-            self.dragged = Some(if page.is_some() { heights.of(self.rest) } else { 0.0 });
+            self.dragged = Some(if open { heights.of(self.rest) } else { 0.0 });
         }
         if let Some(height) = self.dragged {
             let moved = handle.drag_delta().y;
             self.trail.add(now_secs, Vec2::new(0.0, moved));
             let height = (height - moved).clamp(0.0, heights.of(Rest::Full));
             self.dragged = Some(height);
-            if page.is_none() && height > 0.0 {
-                *page = Some(SheetPage::Model);
-            }
+            open |= height > 0.0;
         }
         if handle.drag_stopped() || (self.dragged.is_some() && !handle.dragged()) {
             let height = self.dragged.take().unwrap_or_default();
             let rate = self.trail.rate_per_sec(now_secs).y;
             match settle(height, rate, heights) {
                 Some(rest) => self.rest = rest,
-                None => *page = None,
+                None => open = false,
             }
         }
         let steps = arrow_steps(ui, handle);
         if steps > 0.0 {
-            match page {
-                None => *page = Some(SheetPage::Model),
-                Some(_) if self.rest == Rest::Peek => self.rest = Rest::Half,
-                Some(_) => self.rest = Rest::Full,
-            }
+            self.rest = match self.rest {
+                rest if !open => rest,
+                Rest::Peek => Rest::Half,
+                Rest::Half | Rest::Full => Rest::Full,
+            };
+            open = true;
         } else if steps < 0.0 {
             match self.rest {
                 Rest::Full => self.rest = Rest::Half,
                 Rest::Half => self.rest = Rest::Peek,
-                Rest::Peek => *page = None,
+                Rest::Peek => open = false,
             }
         }
+        open
     }
 }
 
@@ -148,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_slow_finger_leaves_the_sheet_at_the_nearest_height_and_a_quick_one_flings_it() {
-        let heights = Heights::new(Some(SheetPage::Model), 800.0, 600.0);
+        let heights = Heights::new(false, 800.0, 600.0);
         for (height, rate, rest) in [
             (30.0, 0.0, None),
             (200.0, 0.0, Some(Rest::Peek)),
