@@ -49,6 +49,9 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
     draw_after(size, theme, coarse_pointer, then, &[])
 }
 
+/// Among clicks: the key.
+const TAB: &str = "Tab";
+
 /// The same after clicks on controls, by the beginnings of their names.
 fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>, clicks: &[&str]) -> RgbaImage {
     draw_with(Contrast::Normal, size, theme, coarse_pointer, then, clicks)
@@ -86,6 +89,11 @@ fn draw_with(
         });
     harness.run();
     for start in clicks {
+        if *start == TAB {
+            harness.key_press(egui::Key::Tab);
+            harness.run();
+            continue;
+        }
         let at = rect_of(&harness, start).center();
         harness.hover_at(at);
         harness.drag_at(at);
@@ -439,6 +447,16 @@ fn windows_with_more_and_with_forced_contrast() {
         then.truncate(3);
         compare(name, &draw_with(contrast, size, theme, false, then, &["Lighting"]));
     }
+}
+
+#[test]
+fn the_ring_round_the_focused_control() {
+    let size = Vec2::new(900.0, 600.0);
+    let clicks = ["Lighting", TAB, TAB, TAB, TAB];
+    compare(
+        "small-light-focus",
+        &draw_after(size, Theme::Light, false, vec![], &clicks),
+    );
 }
 
 #[test]
