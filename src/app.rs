@@ -13,6 +13,7 @@ use crate::render::{
 };
 use crate::scene::{FrameOptions, Theme};
 use crate::session::{Quality, Session};
+use crate::ui::theme::Contrast;
 use crate::ui::{self, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
@@ -102,9 +103,16 @@ impl App {
         requests
     }
 
+    /// Draws the interface with the contrast that the person asks for, from the next pass on.
+    pub fn set_contrast(&mut self, contrast: Contrast) {
+        self.state.contrast = contrast;
+    }
+
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.
     pub fn start_over(&mut self, ctx: &egui::Context) {
+        let contrast = self.state.contrast;
         self.state = UiState::new(self.state.coarse_pointer());
+        self.state.contrast = contrast;
         self.painter.forget();
         ctx.memory_mut(|memory| {
             let options = std::mem::take(&mut memory.options);

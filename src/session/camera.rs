@@ -174,6 +174,11 @@ impl Session {
         }
     }
 
+    /// Whether the model stays framed in a picture of another shape: the camera was not panned, zoomed or flown since it was framed.
+    pub fn is_framed(&self) -> bool {
+        self.view.framed
+    }
+
     /// From where the model is seen.
     pub fn camera(&self) -> &Camera {
         &self.view.camera

@@ -130,6 +130,11 @@ impl Session {
         }
     }
 
+    /// Whether the person asked for less motion.
+    pub fn reduced_motion(&self) -> bool {
+        self.reduced_motion
+    }
+
     /// Closes what is open and forgets what was chosen; only the shape of the window and its theme stay. Revisions go on counting,
     /// so that no cache is used for what opens next.
     pub fn start_over(&mut self, reduced_motion: bool) {

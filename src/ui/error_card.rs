@@ -1,11 +1,12 @@
 //! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
 
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, Align2, Color32, Layout, Rangef, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align, Align2, Color32, Id, Layout, Rangef, Rect, RichText, ScrollArea, Sense, Ui, vec2};
 
 use super::icons::Icon;
+use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
-use super::widgets::{TextButton, control_size, icon_button, rule};
+use super::widgets::{TextButton, control_size, push_button, rule};
 use super::wording::shortened;
 use crate::diagnostic::codes;
 use crate::format::Excerpt;
@@ -30,9 +31,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
             theme::semibold(13.5),
             tokens.error,
         );
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &title));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Heading, true, &title));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if icon_button(ui, Icon::Close, "Dismiss (Esc)", false).clicked() {
+            if push_button(ui, Icon::Close, "Dismiss (Esc)").clicked() {
                 commands.push(FileCommand::DismissError.into());
             }
             let copy = TextButton::new("Copy", "Copy the error");
@@ -43,6 +44,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
         });
     });
     rule(ui, MARGIN);
+    scrolled("error", ui.available_height()).show(ui, |ui| body(ui, session, error));
+}
+
+/// What is below the title. It scrolls in a low window.
+fn body(ui: &mut Ui, session: &Session, error: &LoadError) {
+    let tokens = Tokens::of(ui);
     ui.label(RichText::new(&error.diagnostic.message).color(tokens.text));
     if let Some(lines) = &error.excerpt {
         ui.add_space(9.0);
@@ -124,8 +131,24 @@ pub(super) fn show_excerpt(
         .inner_margin(10.0)
         .show(ui, |ui| {
             ui.take_available_width();
-            ScrollArea::horizontal()
-                .id_salt("excerpt")
-                .show(ui, |ui| ui.add(egui::Label::new(job).extend()));
+            let mark = excerpt.mark_column as usize + excerpt.mark_length as usize;
+            let shown = Id::unique(("excerpt", &job.text));
+            let char_width = ui.fonts_mut(|fonts| fonts.glyph_width(&theme::mono(12.0), ' '));
+            ScrollArea::horizontal().id_salt("excerpt").show(ui, |ui| {
+                let label = ui.add(egui::Label::new(job).extend());
+                // The mark may be far to the right. It comes into view, and the person scrolls from there.
+                let passes: u8 = ui.data(|data| data.get_temp(shown)).unwrap_or_default();
+                if passes < 2 {
+                    ui.data_mut(|data| data.insert_temp(shown, passes + 1));
+                    let number = excerpt
+                        .numbered_lines()
+                        .last()
+                        .map_or(0, |(number, _)| number.len() + 3);
+                    let x = label.rect.min.x + char_width * (number + mark) as f32;
+                    let around =
+                        Rect::from_x_y_ranges(x - 8.0 * char_width..=x + 4.0 * char_width, label.rect.y_range());
+                    ui.scroll_to_rect(around, None);
+                }
+            });
         });
 }

@@ -1,11 +1,12 @@
 //! The table of what keys, pointer and fingers do.
 
-use egui::{Align2, FontId, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::style::ScrollAnimation;
+use egui::{Align2, FontId, Key, Modifiers, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::panel::scrolled;
 use super::state::UiState;
 use super::theme::{self, ROW_HEIGHT, Tokens};
-use super::widgets::{closable_heading, is_touch, paint_elided, rule};
+use super::widgets::{arrow_steps, closable_heading, focus_ring, is_touch, paint_elided, rule};
 use crate::actions::{self, Group};
 use crate::session::Session;
 
@@ -81,7 +82,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     if closable_heading(ui, "Keys") {
         state.help_open = false;
     }
+    let scroll = list_keys(ui);
     scrolled("keys", ui.available_height()).show(ui, |ui| {
+        ui.scroll_with_delta_animation(vec2(0.0, scroll), ScrollAnimation::none());
         if in_two {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = BETWEEN;
@@ -96,6 +99,39 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
             parts(ui, session, if touch { LIST_BY_TOUCH } else { LIST });
         }
     });
+}
+
+/// How far an arrow key scrolls, in points.
+const ARROW_SCROLL: f32 = 2.0 * ROW_HEIGHT;
+
+/// The list as a control: it takes the focus, and keys scroll it. Returns how far its contents move down.
+fn list_keys(ui: &Ui) -> f32 {
+    let rect = ui.available_rect_before_wrap();
+    let list = ui.interact(
+        rect,
+        ui.scope_id().with("list of keys"),
+        Sense::focusable_noninteractive(),
+    );
+    list.widget_info(|| WidgetInfo::labeled(Role::List, true, "Table of keys"));
+    focus_ring(ui, rect, &list);
+    if !list.has_focus() {
+        return 0.0;
+    }
+    let page = 0.9 * rect.height();
+    let steps = arrow_steps(ui, &list);
+    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let mut scroll = steps * ARROW_SCROLL;
+    for (key, by) in [
+        (Key::PageUp, page),
+        (Key::PageDown, -page),
+        (Key::Home, f32::MAX),
+        (Key::End, f32::MIN),
+    ] {
+        if pressed(key) {
+            scroll = by.clamp(-1e5, 1e5);
+        }
+    }
+    scroll
 }
 
 fn parts(ui: &mut Ui, session: &Session, parts: &[Part]) {

@@ -1,4 +1,4 @@
-//! Input: its order within a frame, and the keyboard focus.
+//! Input: its order within a frame, and whether it is typed into a field.
 //!
 //! Once in a pass egui finds the widget under the pointer and the widget with the focus. So a press and the events after it must not
 //! share a pass, nor Tab and the letters after it. A slow frame brings many events at once. It handles them in as many passes as
@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::num::NonZeroUsize;
 
-use egui::{Context, Event, Id, Key, Popup, RawInput, Ui};
+use egui::{Context, Event, Id, Key, RawInput, Ui};
 
 /// The most passes of one frame. Events that are left wait for the next frame.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
@@ -126,12 +126,10 @@ impl Grip {
     }
 }
 
-/// Which widget had the focus when the last pass ended, and which button opened the popover.
+/// Whether a text field has the keyboard.
 #[derive(Debug, Default)]
 pub(super) struct Keyboard {
-    focused: Option<Id>,
     typing: bool,
-    opener: Option<Id>,
 }
 
 impl Keyboard {
@@ -146,37 +144,6 @@ impl Keyboard {
         self.typing = pressed || ctx.text_edit_focused();
         self.typing
     }
-
-    /// Gives the focus back to the widget that had it before a popover or panel was closed. `popover_was_open`: when this pass began.
-    /// `escape_shut`: Esc has closed something.
-    pub(super) fn give_back(&mut self, ctx: &Context, popover_was_open: bool, escape_shut: bool) {
-        let before = self.focused;
-        let focused = ctx.memory(|memory| memory.focused());
-        let clicked = ctx.interaction_snapshot(|interaction| interaction.clicked);
-        let opens = |button: &Id| Popup::is_id_open(ctx, popup_of(*button));
-        if let Some(button) = [clicked, focused].into_iter().flatten().find(opens) {
-            self.opener = Some(button);
-        }
-        let hung = |id: Id| {
-            let layer = ctx.read_response(id).map(|response| response.layer_id.id);
-            layer.is_some() && layer == self.opener.map(popup_of)
-        };
-        let popover_shut = popover_was_open && !Popup::is_any_open(ctx);
-        if (popover_shut || escape_shut) && focused.is_none_or(|id| popover_shut && hung(id)) {
-            // With a mouse no widget was focused.
-            let heir = before.and_then(|id| {
-                if escape_shut && !hung(id) {
-                    Some(id)
-                } else {
-                    self.opener
-                }
-            });
-            if let Some(id) = heir {
-                ctx.memory_mut(|memory| memory.request_focus(id));
-            }
-        }
-        self.focused = ctx.memory(|memory| memory.focused());
-    }
 }
 
 /// Notes that the pointer presses a text field. Until the field has the focus, no key is a shortcut.
@@ -186,11 +153,6 @@ pub(super) fn press_field(ui: &Ui) {
 
 fn pressed_field() -> Id {
     Id::unique("a field is pressed")
-}
-
-/// The id of a button's popup in egui.
-fn popup_of(button: Id) -> Id {
-    button.with("popup")
 }
 
 #[cfg(test)]

@@ -3,15 +3,16 @@
 use egui::{Context, Event, Key, Modifiers, Popup, Ui};
 
 use super::state::UiState;
-use super::viewport::FLIGHT_KEYS;
+use super::viewport::{self, FLIGHT_KEYS};
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
     let events = ui.input(|input| input.events.clone());
-    // Space and Enter belong to a focused control.
-    let control_focused = ui.memory(|memory| memory.focused().is_some());
+    // Space and Enter belong to a focused control. The view has no use for them.
+    let focused = ui.memory(|memory| memory.focused());
+    let control_focused = focused.is_some_and(|id| id != viewport::id(ui));
     let mut held = false;
     for event in events {
         let asked = match event {
@@ -25,11 +26,12 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 held = repeat;
                 let is_controls = control_focused && matches!(key, Key::Space | Key::Enter);
                 let has_shut = popover_open && key == Key::Escape;
+                let is_menus = popover_open && control_focused && is_arrow(key);
                 // This key flies forward while the view is held.
                 let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
                 action_of(key, modifiers)
                     // A held key goes on stepping, but switches or asks only once.
-                    .filter(|action| (action.repeats || !held) && !is_controls && !has_shut && !flies)
+                    .filter(|action| (action.repeats || !held) && !is_controls && !is_menus && !has_shut && !flies)
             }
             // The question mark is on different keys of different keyboards.
             Event::Text(text) if text == actions::HELP.key() && !held => Some(&actions::HELP),
@@ -39,6 +41,11 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
             carry_out(ask, ui, session, state, commands);
         }
     }
+}
+
+/// In a popover the focus moves with the arrows.
+fn is_arrow(key: Key) -> bool {
+    matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight)
 }
 
 /// The action of a key that is pressed. Shift is ignored where it has no meaning of its own.

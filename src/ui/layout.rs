@@ -4,16 +4,20 @@
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
 //! the model is framed.
 
-use egui::{Align2, Margin, Rect, Sides, Ui, Vec2};
+use egui::{Align2, Id, Margin, Rect, Role, Sides, Ui, UiBuilder, Vec2, pos2, vec2};
 
-use super::panel::{Free, LEAST_ROOM, Panel, scrolled};
+use super::icons::Icon;
+use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
+use super::sheet::Heights;
 use super::skeleton::state::{SidePage, has_joints, is_inspected};
 use super::skeleton::{self, LegendShape};
 use super::state::{SheetPage, UiState};
 use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
 use super::{
-    diagnostics_panel, error_card, help, inspector, light, model_panel, overlays, picture, timeline, toolbar, widgets,
+    diagnostics_panel, error_card, focus, help, inspector, light, model_panel, overlays, picture, timeline, toolbar,
+    widgets,
 };
+use crate::actions;
 use crate::session::{Command, LoadError, Session};
 
 /// Width of the panel on the left.
@@ -26,8 +30,6 @@ const DIAGNOSTICS_WIDTH: f32 = 456.0;
 const ERROR_WIDTH: f32 = 562.0;
 /// Height of the middle of that card, as a fraction of the window.
 const ERROR_AT: f32 = 0.38;
-/// Fraction of a narrow window's height that a page of the sheet has at most: the model keeps the rest.
-const PAGE_FRACTION: f32 = 0.47;
 /// Fraction of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
 const BESIDE_FRACTION: f32 = 0.44;
 const TIMELINE_BESIDE_FRACTION: f32 = 0.62;
@@ -82,14 +84,14 @@ pub(super) fn show(ui: &Ui, session: &Session, state: &mut UiState, commands: &m
 /// Wide windows. Returns what is free for the model, and what of that is not covered.
 fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, commands: &mut Vec<Command>) -> (Free, Free) {
     let room = free.room();
-    let toolbar = Panel::new("toolbar", Align2::RIGHT_TOP)
+    let toolbar = Panel::new("toolbar", "Toolbar", Align2::RIGHT_TOP)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
             ui.set_height(widgets::control_size(ui));
             toolbar::show(ui, session, state, commands);
         });
     let beside = room.with_max_x(toolbar.min.x - MARGIN).with_max_y(toolbar.max.y);
-    Panel::new("title", Align2::LEFT_TOP)
+    Panel::new("title", "Title", Align2::LEFT_TOP)
         .margin(Margin::symmetric(12, 3))
         .show(ui, beside, |ui| {
             ui.take_available_height();
@@ -98,7 +100,7 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
     free.cut_top(toolbar);
     if session.clip().is_some() {
         let room = free.room();
-        let timeline = Panel::new("timeline", Align2::LEFT_BOTTOM)
+        let timeline = Panel::new("timeline", "Timeline", Align2::LEFT_BOTTOM)
             .margin(Margin::symmetric(9, 8))
             .width(room.width())
             .show(ui, room, |ui| timeline::wide(ui, session, state, commands));
@@ -112,7 +114,7 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         {
             column.cut_bottom(legend);
         }
-        let side = Panel::new("model", Align2::LEFT_TOP)
+        let side = Panel::new("model", side_label(state), Align2::LEFT_TOP)
             .width(SIDE_WIDTH)
             .show(ui, column.room(), |ui| {
                 side_panel(ui, "model", session, state, commands);
@@ -120,11 +122,12 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         free.cut_left(side);
     }
     show_on_top(ui, session, state, &free, commands);
+    frame_button(ui, session, state, &free, commands);
 
     let mut beside = free;
     let inspects_joint = is_inspected(session);
     if inspects_joint || session.submeshes().selected().is_some() {
-        let inspector = Panel::new("inspector", Align2::RIGHT_TOP)
+        let inspector = Panel::new("inspector", "Inspector", Align2::RIGHT_TOP)
             .width(INSPECTOR_WIDTH)
             .show(ui, free.room(), |ui| {
                 scrolled("inspector", ui.available_height()).show(ui, |ui| {
@@ -139,7 +142,7 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
     }
     if state.diagnostics_open {
         let room = beside.room();
-        let list = Panel::new("diagnostics", Align2::LEFT_TOP)
+        let list = Panel::new("diagnostics", "Diagnostics", Align2::LEFT_TOP)
             .width(DIAGNOSTICS_WIDTH.min(room.width()))
             .show(ui, room, |ui| diagnostics_panel::show(ui, session, state, commands));
         beside.cut_left(list);
@@ -152,12 +155,24 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
     (free, beside)
 }
 
-/// Facts or the tree of joints; each scrolls by itself.
+/// What the panel on the left shows.
+fn side_label(state: &UiState) -> &'static str {
+    match state.skeleton.page {
+        SidePage::Model => "Model",
+        SidePage::Skeleton => "Skeleton",
+    }
+}
+
+/// Facts or the tree of joints below the switch between them; each scrolls by itself.
 fn side_panel(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if has_joints(session) {
         skeleton::show_pages(ui, &mut state.skeleton);
         ui.add_space(8.0);
     }
+    side_page(ui, id, session, state, commands);
+}
+
+fn side_page(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if state.skeleton.page == SidePage::Skeleton {
         skeleton::show_tree(ui, session, &mut state.skeleton, commands);
     } else {
@@ -176,7 +191,7 @@ fn narrow(
 ) -> Free {
     let room = free.room();
     let mut opens = Vec::new();
-    let bar = Panel::new("title", Align2::LEFT_TOP)
+    let bar = Panel::new("title", "Title", Align2::LEFT_TOP)
         .margin(Margin::same(4))
         .width(room.width())
         .show(ui, room, |ui| {
@@ -192,18 +207,23 @@ fn narrow(
         });
     commands.append(&mut opens);
     free.cut_top(bar);
+    if state.sheet == Some(SheetPage::Skeleton) && session.joints().selected().is_some() {
+        state.sheet = Some(SheetPage::Model);
+    }
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
         let sheet = sheet(ui, session, state, &free, low, commands);
         free.cut_bottom(sheet);
         if let Some(page) = state.sheet.filter(|_| low) {
             let room = free.room();
-            let page = Panel::new("page", Align2::RIGHT_TOP)
+            let label = page_title(page, session, state);
+            let page = Panel::new("page", label, Align2::RIGHT_TOP)
                 .width(page_width(page, ui.max_rect()))
                 .show(ui, room, |ui| show_page(ui, page, session, state, commands));
             free.cut_right(page);
         }
     }
     show_on_top(ui, session, state, &free, commands);
+    frame_button(ui, session, state, &free, commands);
 
     // A card stands beside a figure. Where there is no room for it, a strip stands below the model.
     let room = free.room();
@@ -222,7 +242,7 @@ fn narrow(
 /// What the colours of the skin mean, if they mean something, in the lower left corner of a room.
 fn show_legend(ui: &Ui, session: &Session, room: Rect, shape: LegendShape) -> Option<Rect> {
     let view = skeleton::colored_view(session)?;
-    let panel = Panel::new("legend", Align2::LEFT_BOTTOM);
+    let panel = Panel::new("legend", "Legend", Align2::LEFT_BOTTOM);
     let panel = match shape {
         LegendShape::Card => panel.width(SIDE_WIDTH),
         LegendShape::Strip => panel.margin(skeleton::STRIP_MARGIN),
@@ -230,7 +250,8 @@ fn show_legend(ui: &Ui, session: &Session, room: Rect, shape: LegendShape) -> Op
     Some(panel.show(ui, room, |ui| skeleton::show_legend(ui, session, view, shape)))
 }
 
-/// The timeline, and below it what was opened, unless it stands beside the model.
+/// The timeline at the window's lower edge, and above it what was opened, unless it stands beside the model. The transport stays in its
+/// place whatever opens. Returns the rect that it has at rest.
 fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool, commands: &mut Vec<Command>) -> Rect {
     let window = ui.max_rect();
     let margin = Margin {
@@ -239,29 +260,67 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
         top: 0,
         bottom: 14,
     };
-    Panel::new("sheet", Align2::LEFT_BOTTOM)
+    // How much higher the sheet will be when it comes to rest.
+    let mut rises = 0.0;
+    let rect = Panel::new("sheet", "Sheet", Align2::LEFT_BOTTOM)
         .sheet()
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
-            if widgets::sheet_handle(ui, state.sheet.is_some()).clicked() {
+            let handle = widgets::sheet_handle(ui, state.sheet.is_some());
+            if handle.clicked() {
                 state.sheet = match state.sheet {
                     None => Some(SheetPage::Model),
                     Some(_) => None,
                 };
             }
+            if !low {
+                let most = ui.available_height() - state.sheet_height.strip;
+                let of_timeline = state.sheet == Some(SheetPage::Timeline);
+                let heights = Heights::new(of_timeline, window.height(), most);
+                let open = state.sheet_height.drag(ui, &handle, heights, state.sheet.is_some());
+                state.sheet = open.then(|| state.sheet.unwrap_or(SheetPage::Model));
+                match state.sheet {
+                    Some(page) => {
+                        let still = session.reduced_motion();
+                        let (height, at_rest) = state.sheet_height.now(ui.ctx(), heights, still);
+                        let label = page_title(page, session, state);
+                        let region = UiBuilder::new()
+                            .accessibility_role(Role::Region)
+                            .accessibility_label(label);
+                        let shown = ui.scope_builder(region, |ui| {
+                            ui.set_max_height(height);
+                            show_page(ui, page, session, state, commands);
+                        });
+                        if shown.response.rect.height() >= height - 0.5 {
+                            rises = at_rest - height;
+                        }
+                    }
+                    None => state.sheet_height.shut(ui.ctx()),
+                }
+            }
+            // Whole points above it, so that the strip stays where it is.
+            let above = ui.cursor().min.y - ui.max_rect().min.y;
+            ui.add_space(above.ceil() - above);
+            let top = ui.cursor().min.y;
             if session.clip().is_some() {
-                timeline::narrow(ui, session, state, low, commands);
+                if state.sheet.is_some() && !low {
+                    ui.add_space(10.0);
+                }
+                let region = UiBuilder::new()
+                    .accessibility_role(Role::Region)
+                    .accessibility_label("Timeline");
+                let strip = ui.scope_builder(region, |ui| timeline::narrow(ui, session, state, low, commands));
+                mark_transport(ui, strip.response.rect);
             }
-            if let Some(page) = state.sheet.filter(|_| !low) {
-                ui.add_space(10.0);
-                let most = ui.available_height().min(window.height() * PAGE_FRACTION);
-                ui.scope(|ui| {
-                    ui.set_max_height(most);
-                    show_page(ui, page, session, state, commands);
-                });
-            }
-        })
+            state.sheet_height.strip = ui.min_rect().max.y - top;
+        });
+    rect.with_min_y(rect.min.y - rises)
+}
+
+/// Whether a sheet lies over the view. A tap on the view shuts it.
+pub(super) fn sheet_covers_view(window: Rect, state: &UiState) -> bool {
+    Arrangement::of(window) == Arrangement::Narrow && state.sheet.is_some()
 }
 
 /// Width of a page beside the model.
@@ -274,36 +333,80 @@ fn page_width(page: SheetPage, window: Rect) -> f32 {
     (fraction * window.width()).min(MOST_BESIDE)
 }
 
-/// A page of the sheet, no higher than what is available.
-fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let selects_submesh = session.submeshes().selected().is_some();
-    let inspects = selects_submesh || is_inspected(session);
-    let scroll = scrolled("sheet", ui.available_height());
+/// Whether a page is the panel that is on the left of a wide window.
+fn is_side_page(page: SheetPage, session: &Session, state: &UiState) -> bool {
+    let inspects = session.submeshes().selected().is_some() || is_inspected(session);
     match page {
-        SheetPage::Model if state.diagnostics_open => diagnostics_panel::show(ui, session, state, commands),
-        SheetPage::Model if !inspects || state.skeleton.is_naming() => {
-            side_panel(ui, "sheet", session, state, commands);
-        }
-        SheetPage::Timeline => timeline::page(ui, session, state, commands),
-        _ => {
-            scroll.show(ui, |ui| match page {
-                SheetPage::Model if selects_submesh => inspector::show(ui, session, state, commands),
-                SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
-                SheetPage::ViewMode => {
-                    widgets::section_name(ui, "View mode");
-                    toolbar::view_mode_items(ui, session, commands);
-                }
-                SheetPage::Light => light::show(ui, session, commands),
-                SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
-                SheetPage::ViewFrom => {
-                    widgets::section_name(ui, "View from");
-                    toolbar::view_from_items(ui, session, commands);
-                }
-                SheetPage::Picture => picture::show(ui, state),
-                SheetPage::Timeline => {}
-            });
-        }
+        SheetPage::Skeleton => true,
+        SheetPage::Model => !state.diagnostics_open && (!inspects || state.skeleton.is_naming()),
+        _ => false,
     }
+}
+
+/// The title of a page of the sheet.
+fn page_title(page: SheetPage, session: &Session, state: &UiState) -> &'static str {
+    match page {
+        SheetPage::Model if state.diagnostics_open => "Diagnostics",
+        SheetPage::Model | SheetPage::Skeleton if is_side_page(page, session, state) => side_label(state),
+        SheetPage::Model | SheetPage::Skeleton => "Inspector",
+        SheetPage::ViewMode => "View mode",
+        SheetPage::Light => "Light and background",
+        SheetPage::Overlays => "Lines over the model",
+        SheetPage::ViewFrom => "View from",
+        SheetPage::Picture => "Picture",
+        SheetPage::Timeline => "Timeline",
+    }
+}
+
+/// A page of the sheet below its title, no higher than what is available.
+fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    if page == SheetPage::Model && state.diagnostics_open {
+        diagnostics_panel::show(ui, session, state, commands);
+        return;
+    }
+    let is_side = is_side_page(page, session, state);
+    let title = page_title(page, session, state);
+    let close = if is_side && has_joints(session) {
+        // The switch between both pages is their title.
+        ui.horizontal(|ui| {
+            let size = vec2(
+                ui.available_width() - widgets::control_size(ui) - 6.0,
+                widgets::control_size(ui),
+            );
+            ui.allocate_ui(size, |ui| skeleton::show_pages(ui, &mut state.skeleton));
+            widgets::push_button(ui, Icon::Close, "Close")
+        })
+        .inner
+    } else {
+        widgets::heading_with_close(ui, title)
+    };
+    ui.add_space(4.0);
+    focus::note_page(ui, Id::unique(("page", page)), close.id);
+    if close.clicked() {
+        state.sheet = None;
+    }
+    if is_side {
+        side_page(ui, "sheet", session, state, commands);
+        return;
+    }
+    if page == SheetPage::Timeline {
+        timeline::page(ui, session, state, commands);
+        return;
+    }
+    scrolled("sheet", ui.available_height()).show(ui, |ui| match page {
+        SheetPage::Model if session.submeshes().selected().is_some() => inspector::show(ui, session, state, commands),
+        SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
+        SheetPage::ViewMode => {
+            toolbar::view_mode_items(ui, session, commands);
+        }
+        SheetPage::Light => light::show(ui, session, commands),
+        SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
+        SheetPage::ViewFrom => {
+            toolbar::view_from_items(ui, session, commands);
+        }
+        SheetPage::Picture => picture::show(ui, state),
+        SheetPage::Skeleton | SheetPage::Timeline => {}
+    });
 }
 
 /// The table of keys and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
@@ -317,7 +420,8 @@ fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, com
         } else {
             room
         };
-        Panel::new("help", Align2::RIGHT_TOP)
+        Panel::new("help", "Keys", Align2::RIGHT_TOP)
+            .role(Role::Dialog)
             .on_top()
             .show(ui, room, |ui| help::show(ui, session, state));
     }
@@ -326,16 +430,43 @@ fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, com
     }
 }
 
-/// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read.
+/// Offers to frame the model after the camera was moved by hand and the panels changed: the camera does not move by itself then.
+fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, commands: &mut Vec<Command>) {
+    if !state.offers_frame {
+        return;
+    }
+    Panel::new("frame", "Frame", Align2::CENTER_TOP)
+        .margin(Margin::same(3))
+        .show(ui, free.room(), |ui| {
+            let action = &actions::FRAME_MODEL;
+            let button = widgets::TextButton::new("Frame", action.label).icon(Icon::Frame);
+            if button.show(ui).on_hover_text(action.hint()).clicked() {
+                commands.extend(action.command(session));
+            }
+        });
+}
+
+/// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read. It scrolls
+/// rather than cover the bars, and covers the page of a sheet rather than be too low, but never the transport.
 fn show_error(ui: &Ui, session: &Session, error: &LoadError, room: Rect, commands: &mut Vec<Command>) {
     let window = ui.max_rect();
     let within = window.shrink(MARGIN);
     let width = ERROR_WIDTH.min(within.width());
     let x = window.center().x.max(room.min.x + 0.5 * width);
     let x = x.min(within.max.x - 0.5 * width);
-    let middle = egui::pos2(x, window.min.y + ERROR_AT * window.height());
-    let around = Rect::from_center_size(middle, Vec2::new(width, 2.0 * ERROR_AT * window.height()));
-    Panel::new("error", Align2::CENTER_CENTER)
+    let mut room = room;
+    if room.height() < LEAST_ROOM {
+        let transport = ui.ctx().read_response(panel::id_of("transport"));
+        room.max.y = transport.map_or(within.max.y, |transport| transport.rect.min.y - MARGIN);
+    }
+    let mut y = window.min.y + ERROR_AT * window.height();
+    let mut half = (y - room.min.y).min(room.max.y - y);
+    if half < 0.5 * LEAST_ROOM {
+        (y, half) = (room.center().y, 0.5 * room.height());
+    }
+    let around = Rect::from_center_size(pos2(x, y), Vec2::new(width, 2.0 * half.max(0.0)));
+    Panel::new("error", &error.diagnostic.message, Align2::CENTER_CENTER)
+        .role(Role::AlertDialog)
         .on_top()
         .width(width)
         .show(ui, around, |ui| error_card::show(ui, session, error, commands));

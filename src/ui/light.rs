@@ -6,7 +6,7 @@ use super::icons::Icon;
 use super::panel::popover_gap;
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, color_picker, control_size, icon_button, keyed_section_name, paint_elided, paint_ends, pressed_row,
+    Slider, color_picker, control_size, keyed_section_name, paint_elided, paint_ends, pressed_row, push_button,
     section_name, segmented, switch_row,
 };
 use crate::actions;
@@ -140,7 +140,7 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         let at = pos2(label.max.x + 10.0, rect.center().y);
         paint_elided(painter, at, name, font, tokens.text, rect.max.x - at.x);
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
-        if icon_button(ui, Icon::Close, "Remove the sky", false).clicked() {
+        if push_button(ui, Icon::Close, "Remove the sky").clicked() {
             commands.push(FileCommand::ClearSky.into());
         }
     });

@@ -74,7 +74,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
     }
     let (mut shut, mut saves, mut held) = (false, false, false);
     let tokens = Tokens::of(ui);
-    let rect = Panel::new("message", Align2::CENTER_BOTTOM)
+    let rect = Panel::new("message", "Message", Align2::CENTER_BOTTOM)
         .margin(Margin {
             left: 14,
             right: 3,

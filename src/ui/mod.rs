@@ -3,6 +3,7 @@
 mod chips;
 mod diagnostics_panel;
 mod error_card;
+mod focus;
 mod help;
 mod icons;
 mod input;
@@ -15,6 +16,7 @@ mod model_panel;
 mod overlays;
 mod panel;
 mod picture;
+mod sheet;
 mod skeleton;
 mod split;
 mod state;
@@ -54,7 +56,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let mut commands = Vec::new();
     let window = ui.max_rect();
     let touch = state.coarse_pointer || ui.input(egui::InputState::has_touch_screen);
+    state.contrast.apply(ui.ctx());
     widgets::size_for_touch(ui.ctx(), touch);
+    state.focus.begin(ui.ctx());
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
         state.shown_diagnostic = None;
@@ -73,10 +77,24 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
-    viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
+    let shuts_sheet = layout::sheet_covers_view(window, state);
+    let clicked = viewport::show(
+        ui,
+        window,
+        &mut state.view_hold,
+        popover_open || shuts_sheet,
+        &mut commands,
+    );
+    if clicked && shuts_sheet && !popover_open {
+        state.sheet = None;
+    }
+    if state.view_hold.is_held() {
+        state.offers_frame = false;
+    }
     skeleton::show_marks(ui, session, &state.skeleton, window);
     state.hovered_submesh = None;
     state.timeline.update(session);
+    state.offers_frame &= !session.is_framed() && session.open_model().is_some();
     let (free, uncovered) = layout::show(ui, session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
     chips::show(ui, session, uncovered, &mut commands);
@@ -100,11 +118,13 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // had the focus when the pass began or has it now.
     let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();
     let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(session, state));
+    state.focus.go_to_ends(ui.ctx());
     if !typed && !typing {
         keys::read(ui, session, state, popover_open, &mut commands);
     }
     let escape_shut = escape_shuts && ui.input(|input| input.key_pressed(egui::Key::Escape));
-    state.keyboard.give_back(ui.ctx(), popover_open, escape_shut);
+    state.focus.end(ui.ctx(), popover_open, escape_shut);
+    state.focus.paint(ui);
     end_edit(state, grip, &mut commands);
     commands
 }
@@ -163,6 +183,10 @@ fn set_viewport(session: &Session, state: &mut UiState, window: Rect, free: Rect
     let before = state.framed.replace(now);
     if before == Some(now) {
         return None;
+    }
+    if before.is_some_and(|before| before.model == now.model) && !session.is_framed() {
+        // The person moved the camera, so it stays. A button offers to frame the model.
+        state.offers_frame = true;
     }
     let command = CameraCommand::SetViewport { aspect, insets };
     let same_picture = before.is_some_and(|before| (before.window, before.model) == (window, now.model));

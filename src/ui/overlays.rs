@@ -7,7 +7,7 @@ use super::panel::popover_gap;
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, action_switch, control_size, icon_button, number_field, paint_elided, section_name, section_with_action,
+    Slider, action_switch, control_size, number_field, paint_elided, push_button, section_name, section_with_action,
     segmented, switch_row,
 };
 use super::wording::shortened;
@@ -181,7 +181,7 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Trail: {name}")));
         let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
         let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));
-        if icon_button(&mut corner, Icon::Close, &format!("Leave the trail of {name}"), false).clicked() {
+        if push_button(&mut corner, Icon::Close, &format!("Leave the trail of {name}")).clicked() {
             commands.push(LookCommand::ToggleTrail(joint).into());
         }
     }

@@ -1,12 +1,13 @@
 //! Panels that float over the view, the room that they leave, popovers and menus.
 
+use egui::accesskit::HasPopup;
 use egui::{
     Align2, Area, CornerRadius, Frame, Id, LayerId, Margin, Order, Popup, PopupCloseBehavior, Pos2, Rect, RectAlign,
-    Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
+    Response, Role, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
 };
 
 use super::theme::{self, MARGIN, Tokens};
-use super::widgets::rule;
+use super::widgets::{rule, tell_popup};
 
 /// The part of the window that no panel covers. Panels are shown one after the other, and each cuts off what it took with a margin.
 #[derive(Clone, Copy, Debug)]
@@ -70,14 +71,17 @@ pub(super) fn mark_transport(ui: &Ui, rect: Rect) {
     ui.interact(rect, id_of("transport"), Sense::hover());
 }
 
-fn id_of(name: &'static str) -> Id {
+/// The id of a panel's area.
+pub(super) fn id_of(name: &str) -> Id {
     Id::unique(("panel", name))
 }
 
 /// A panel at a corner of its room.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Panel {
+pub(super) struct Panel<'a> {
     name: &'static str,
+    role: Role,
+    label: &'a str,
     corner: Align2,
     width: Option<f32>,
     order: Order,
@@ -85,12 +89,14 @@ pub(super) struct Panel {
     corner_radius: CornerRadius,
 }
 
-impl Panel {
-    /// A panel as large as its contents.
-    pub(super) fn new(name: &'static str, corner: Align2) -> Self {
+impl<'a> Panel<'a> {
+    /// A panel as large as its contents. For programs that read the screen it is a region of this label.
+    pub(super) fn new(name: &'static str, label: &'a str, corner: Align2) -> Self {
         let corner_radius = CornerRadius::same(theme::PANEL_RADIUS);
         Self {
             name,
+            role: Role::Region,
+            label,
             corner,
             width: None,
             order: Order::Middle,
@@ -103,6 +109,11 @@ impl Panel {
     pub(super) fn width(self, width: f32) -> Self {
         let width = Some(width);
         Self { width, ..self }
+    }
+
+    /// What it is for programs that read the screen.
+    pub(super) fn role(self, role: Role) -> Self {
+        Self { role, ..self }
     }
 
     /// Over the other panels.
@@ -139,6 +150,8 @@ impl Panel {
             .corner_radius(self.corner_radius);
         let before = ui.memory(|memory| memory.area_rect(id_of(self.name)));
         let now = Area::new(id_of(self.name))
+            .role(self.role)
+            .accessible_name(self.label)
             .order(self.order)
             .pivot(self.corner)
             .fixed_pos(self.corner.pos_in_rect(&room))
@@ -207,11 +220,15 @@ pub(super) fn popover_menu(ui: &Ui, button: &Response, align: RectAlign, width: 
     let bottom = ui.ctx().content_rect().max.y - MARGIN;
     let around = 2.0 * ui.style().spacing.menu_margin.bottom as f32;
     let room = bottom - (button.rect.max.y + MENU_GAP) - around;
-    is_menu(button);
-    Popup::menu(button).align(align).gap(MENU_GAP).show(|ui| {
-        ui.set_width(width);
-        scrolled("menu", room.max(LEAST_HEIGHT)).show(ui, contents);
-    });
+    let name = tell_popup(ui, button, HasPopup::Menu);
+    Popup::menu(button)
+        .accessible_name(name)
+        .align(align)
+        .gap(MENU_GAP)
+        .show(|ui| {
+            ui.set_width(width);
+            scrolled("menu", room.max(LEAST_HEIGHT)).show(ui, contents);
+        });
 }
 
 /// The y where the room below the bars begins.
@@ -225,19 +242,11 @@ fn around(ui: &Ui) -> f32 {
     popover_frame(&Tokens::of(ui)).total_margin().sum().x
 }
 
-/// Tells screen readers that a button opens something, and whether that is open.
-fn is_menu(button: &Response) {
-    let is_open = Popup::is_id_open(&button.ctx, Popup::default_response_id(button));
-    button.ctx.accesskit_node_builder(button.id, |node| {
-        node.clear_toggled();
-        node.set_expanded(is_open);
-    });
-}
-
 /// Shows a popover at a corner, no larger than `size`.
 fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui)) {
-    is_menu(button);
+    let name = tell_popup(ui, button, HasPopup::Dialog);
     Popup::from_toggle_button_response(button)
+        .accessible_name(name)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .at_position(at)
         .align(align)
@@ -269,8 +278,14 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
     let above = |top: f32| top - MARGIN - 4.0;
     let sheet = shown_rect(ui, "sheet").map(|sheet| above(sheet.min.y));
     let least = window.min.y + LEAST_ROOM;
-    let bottom = sheet
-        .filter(|&bottom| bottom >= least)
+    let transport = ui.ctx().read_response(id_of("transport"));
+    let transport = transport
+        .filter(|_| sheet.is_some())
+        .map(|strip| above(strip.rect.min.y));
+    let bottom = [sheet, transport]
+        .into_iter()
+        .flatten()
+        .find(|&bottom| bottom >= least)
         .unwrap_or(above(button.rect.min.y));
     // It scrolls rather than cover the bars at the top.
     let below_bars = below_bars(ui);

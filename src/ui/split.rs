@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::theme::Tokens;
-use super::widgets::{arrow_steps, is_touch, paint_chip};
+use super::widgets::{is_touch, paint_chip, slider_keys};
 use crate::scene::Light;
 use crate::session::{Command, LookCommand, Session};
 
@@ -23,7 +23,7 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, command
     let id = ui.scope_id().with("split");
     // The line's target is thin, so that the model beside it can still be touched. Fingers use the handle.
     let line = Rect::from_x_y_ranges(x - 4.0..=x + 4.0, window.y_range());
-    let line = ui.interact(line, id.with("line"), Sense::click_and_drag());
+    let line = ui.interact(line, id.with("line"), Sense::CLICK | Sense::DRAG);
     let grip = Rect::from_center_size(handle, egui::Vec2::splat(2.0 * reach));
     let grip = ui.interact(grip, id.with("handle"), Sense::click_and_drag());
     grip.widget_info(|| WidgetInfo::slider(true, f64::from(fraction), "Split"));
@@ -40,11 +40,13 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, command
         active || grip.has_focus(),
     );
 
-    let steps = arrow_steps(ui, &grip);
+    let text = format!("{:.0} %", 100.0 * fraction);
+    let range = f64::from(*REACH.start())..=f64::from(*REACH.end());
+    let keyed = slider_keys(ui, &grip, f64::from(fraction), range, f64::from(KEY_STEP), &text);
     let asked = if line.double_clicked() || grip.double_clicked() {
         Some(0.5)
-    } else if steps != 0.0 {
-        Some(fraction + steps * KEY_STEP)
+    } else if let Some(keyed) = keyed {
+        Some(keyed as f32)
     } else {
         let pointer = dragged_to(&line).or_else(|| dragged_to(&grip));
         pointer.map(|pointer| (pointer - window.min.x) / window.width().max(1.0))

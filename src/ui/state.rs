@@ -2,9 +2,12 @@
 
 use egui::{Rect, Ui};
 
+use super::focus::Focus;
 use super::input::{Grip, Keyboard};
 use super::message::Messages;
-use super::skeleton::state::SkeletonState;
+use super::sheet::SheetHeight;
+use super::skeleton::state::{SidePage, SkeletonState};
+use super::theme::Contrast;
 use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
@@ -12,6 +15,7 @@ use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
+use crate::session::Session;
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
@@ -43,6 +47,8 @@ pub enum Request {
 pub enum SheetPage {
     /// Facts, submeshes, textures. Instead the selection, or the diagnostics while they are open.
     Model,
+    /// The tree of joints, to choose one, whatever else is selected.
+    Skeleton,
     /// The view mode.
     ViewMode,
     /// Light, background, passes.
@@ -76,6 +82,11 @@ pub struct UiState {
     pub messages: Messages,
     /// What the bottom sheet of a narrow window shows. None while it is closed.
     pub sheet: Option<SheetPage>,
+    /// How much contrast the person asks for.
+    pub contrast: Contrast,
+    pub(super) sheet_height: SheetHeight,
+    /// The camera was moved by hand, and the panels have changed since: a button offers to frame the model.
+    pub(super) offers_frame: bool,
     pub(super) coarse_pointer: bool,
     pub(super) shown_diagnostic: Option<ShownDiagnostic>,
     /// The maps are listed.
@@ -95,6 +106,7 @@ pub struct UiState {
     pub(super) skeleton: SkeletonState,
     pub(super) keyboard: Keyboard,
     pub(super) grip: Option<Grip>,
+    pub(super) focus: Focus,
     pub(super) requests: Vec<Request>,
 }
 
@@ -110,6 +122,13 @@ impl UiState {
     /// Whether the device's pointer is a finger.
     pub fn coarse_pointer(&self) -> bool {
         self.coarse_pointer
+    }
+
+    /// Shows the tree of joints: in the panel on the left, and in the sheet of a narrow window.
+    pub fn show_skeleton(&mut self, session: &Session) {
+        self.skeleton.show_page(session, SidePage::Skeleton);
+        self.diagnostics_open = false;
+        self.sheet = Some(SheetPage::Skeleton);
     }
 
     pub(super) fn read_again(&mut self) {

@@ -24,6 +24,37 @@ pub const LOW_WIDTH: f32 = 600.0;
 /// Semibold family, for titles.
 pub const SEMIBOLD: &str = "semibold";
 
+/// How much contrast the person asks for. The page around sets it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Contrast {
+    /// Quiet panels that let a little of the view through.
+    #[default]
+    Normal,
+    /// Opaque panels, stronger lines, all text at 7 : 1.
+    More,
+    /// Few colours, as the system forces them: text on its opposite, and a border on every control.
+    Forced,
+}
+
+impl Contrast {
+    /// The contrast of a context.
+    fn of(ctx: &egui::Context) -> Self {
+        ctx.data(|data| data.get_temp(Self::id())).unwrap_or_default()
+    }
+
+    fn id() -> egui::Id {
+        egui::Id::unique("contrast")
+    }
+
+    /// Gives a context the styles of this contrast, unless it has them.
+    pub(super) fn apply(self, ctx: &egui::Context) {
+        if Self::of(ctx) != self {
+            ctx.data_mut(|data| data.insert_temp(Self::id(), self));
+            set_styles(ctx, self);
+        }
+    }
+}
+
 /// The tokens of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Tokens {
@@ -41,6 +72,8 @@ pub struct Tokens {
     pub field: Color32,
     /// Ground of a control under the pointer.
     pub field_hovered: Color32,
+    /// Border of controls. Without a colour they are told by their ground alone.
+    pub border: Color32,
     /// The one accent.
     pub accent: Color32,
     /// Ground of what is on.
@@ -55,6 +88,8 @@ pub struct Tokens {
     pub shadow: Color32,
     /// The x, y and z axes.
     pub axes: [Color32; 3],
+    /// Width of the ring round the focused control.
+    pub ring_width: f32,
 }
 
 const fn rgb(hex: u32) -> Color32 {
@@ -68,8 +103,20 @@ fn over(hex: u32, percent: f32) -> Color32 {
 }
 
 impl Tokens {
+    /// The tokens of a theme.
+    pub fn new(dark: bool, contrast: Contrast) -> Self {
+        match (dark, contrast) {
+            (true, Contrast::Normal) => Self::dark(),
+            (false, Contrast::Normal) => Self::light(),
+            (true, Contrast::More) => Self::dark_with_more_contrast(),
+            (false, Contrast::More) => Self::light_with_more_contrast(),
+            (true, Contrast::Forced) => Self::forced(rgb(0xFFFFFF), rgb(0x000000), rgb(0x1AEBFF), rgb(0x003A40)),
+            (false, Contrast::Forced) => Self::forced(rgb(0x000000), rgb(0xFFFFFF), rgb(0x37006E), rgb(0xE6D9F5)),
+        }
+    }
+
     /// Light words on dark ground.
-    pub fn dark() -> Self {
+    fn dark() -> Self {
         Self {
             text: rgb(0xE7EAF0),
             muted: rgb(0x98A1B0),
@@ -78,6 +125,7 @@ impl Tokens {
             hairline: over(0xFFFFFF, 7.5),
             field: over(0xFFFFFF, 5.5),
             field_hovered: over(0xFFFFFF, 10.0),
+            border: Color32::TRANSPARENT,
             accent: rgb(0x5AA9FF),
             accent_ground: over(0x5AA9FF, 16.0),
             on_accent: rgb(0x0C1622),
@@ -85,11 +133,12 @@ impl Tokens {
             error: rgb(0xFF6B6B),
             shadow: over(0x000000, 34.0),
             axes: [rgb(0xF24D57), rgb(0x80CC33), rgb(0x4D97FF)],
+            ring_width: 2.0,
         }
     }
 
     /// Dark words on light ground.
-    pub fn light() -> Self {
+    fn light() -> Self {
         Self {
             text: rgb(0x1B2029),
             muted: rgb(0x5B6574),
@@ -98,6 +147,7 @@ impl Tokens {
             hairline: over(0x1B2029, 10.0),
             field: over(0x1B2029, 5.0),
             field_hovered: over(0x1B2029, 9.0),
+            border: Color32::TRANSPARENT,
             accent: rgb(0x1769D2),
             accent_ground: over(0x1769D2, 12.0),
             on_accent: rgb(0xFFFFFF),
@@ -105,6 +155,67 @@ impl Tokens {
             error: rgb(0xC83232),
             shadow: over(0x1B2029, 17.0),
             axes: [rgb(0xD63A45), rgb(0x4F8F0E), rgb(0x2A6FE0)],
+            ring_width: 2.0,
+        }
+    }
+
+    fn dark_with_more_contrast() -> Self {
+        Self {
+            text: rgb(0xFFFFFF),
+            muted: rgb(0xD3DAE5),
+            faint: rgb(0xB4BECC),
+            panel: rgb(0x101318),
+            hairline: over(0xFFFFFF, 40.0),
+            field: over(0xFFFFFF, 9.0),
+            field_hovered: over(0xFFFFFF, 18.0),
+            border: over(0xFFFFFF, 40.0),
+            accent: rgb(0x8FC6FF),
+            accent_ground: over(0x5AA9FF, 20.0),
+            on_accent: rgb(0x000000),
+            warning: rgb(0xFFC575),
+            error: rgb(0xFFA6A6),
+            ..Self::dark()
+        }
+    }
+
+    fn light_with_more_contrast() -> Self {
+        Self {
+            text: rgb(0x000000),
+            muted: rgb(0x333A45),
+            faint: rgb(0x454D59),
+            panel: rgb(0xFFFFFF),
+            hairline: over(0x000000, 45.0),
+            field: over(0x000000, 5.0),
+            field_hovered: over(0x000000, 12.0),
+            border: over(0x000000, 45.0),
+            accent: rgb(0x0A4494),
+            accent_ground: over(0x1769D2, 10.0),
+            warning: rgb(0x743F00),
+            error: rgb(0x96140F),
+            ..Self::light()
+        }
+    }
+
+    /// Two colours and an accent, nothing translucent.
+    fn forced(text: Color32, ground: Color32, accent: Color32, accent_ground: Color32) -> Self {
+        let dark = ground == rgb(0x000000);
+        Self {
+            text,
+            muted: text,
+            faint: text,
+            panel: ground,
+            hairline: text,
+            field: ground,
+            field_hovered: accent_ground,
+            border: text,
+            accent,
+            accent_ground,
+            on_accent: ground,
+            warning: if dark { rgb(0xFFFF00) } else { rgb(0x6B3A00) },
+            error: if dark { rgb(0xFFB0B0) } else { rgb(0x8A0000) },
+            shadow: Color32::TRANSPARENT,
+            ring_width: 3.0,
+            ..if dark { Self::dark() } else { Self::light() }
         }
     }
 
@@ -113,13 +224,18 @@ impl Tokens {
         if hovered { self.text } else { self.muted }
     }
 
+    /// The colour of a slider's track.
+    pub fn track(&self) -> Color32 {
+        if self.border == Color32::TRANSPARENT {
+            self.field_hovered
+        } else {
+            self.border
+        }
+    }
+
     /// The tokens of the style in force.
     pub fn of(ui: &egui::Ui) -> Self {
-        if ui.visuals().dark_mode {
-            Self::dark()
-        } else {
-            Self::light()
-        }
+        Self::new(ui.visuals().dark_mode, Contrast::of(ui.ctx()))
     }
 }
 
@@ -140,8 +256,17 @@ pub fn panel_frame(tokens: &Tokens) -> egui::Frame {
 /// Gives a context the interface's fonts and both styles.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
-    ctx.set_style_of(egui::Theme::Dark, style(&Tokens::dark(), egui::Visuals::dark()));
-    ctx.set_style_of(egui::Theme::Light, style(&Tokens::light(), egui::Visuals::light()));
+    set_styles(ctx, Contrast::Normal);
+}
+
+fn set_styles(ctx: &egui::Context, contrast: Contrast) {
+    for (theme, visuals) in [
+        (egui::Theme::Dark, egui::Visuals::dark()),
+        (egui::Theme::Light, egui::Visuals::light()),
+    ] {
+        let tokens = Tokens::new(theme == egui::Theme::Dark, contrast);
+        ctx.set_style_of(theme, style(&tokens, visuals));
+    }
 }
 
 fn fonts() -> FontDefinitions {
@@ -210,7 +335,11 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     for (widget, fill, text) in looks {
         widget.bg_fill = fill;
         widget.weak_bg_fill = fill;
-        widget.bg_stroke = Stroke::NONE;
+        widget.bg_stroke = if tokens.border == Color32::TRANSPARENT {
+            Stroke::NONE
+        } else {
+            Stroke::new(1.0, tokens.border)
+        };
         widget.fg_stroke = Stroke::new(1.4, text);
         widget.corner_radius = radius;
         widget.expansion = 0.0;
@@ -241,4 +370,74 @@ fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.35;
     style
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance, as WCAG 2 defines it.
+    fn luminance(color: Color32) -> f32 {
+        let linear = |channel: u8| {
+            let value = f32::from(channel) / 255.0;
+            if value <= 0.04045 {
+                value / 12.92
+            } else {
+                ((value + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    }
+
+    fn ratio(a: Color32, b: Color32) -> f32 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// The ends of the backdrop behind a panel.
+    fn backdrops(dark: bool) -> [Color32; 2] {
+        if dark {
+            [rgb(0x333842), rgb(0x14161A)]
+        } else {
+            [rgb(0xF4F5F7), rgb(0xCFD4DC)]
+        }
+    }
+
+    #[test]
+    fn words_of_every_palette_can_be_read_on_its_panel() {
+        for (contrast, least, least_faint) in [
+            (Contrast::Normal, 4.5, 2.7),
+            (Contrast::More, 7.0, 7.0),
+            (Contrast::Forced, 7.0, 7.0),
+        ] {
+            for dark in [true, false] {
+                let tokens = Tokens::new(dark, contrast);
+                for backdrop in backdrops(dark) {
+                    let panel = backdrop.blend(tokens.panel);
+                    for (name, color, least) in [
+                        ("text", tokens.text, least),
+                        ("muted", tokens.muted, least),
+                        ("accent", tokens.accent, least),
+                        ("faint", tokens.faint, least_faint),
+                    ] {
+                        let found = ratio(color, panel);
+                        assert!(found >= least, "{name} of {contrast:?}, dark {dark}: {found:.2}");
+                    }
+                    if contrast != Contrast::Normal {
+                        assert_eq!(tokens.panel.a(), 255, "nothing shows through");
+                        for (name, color) in [("warning", tokens.warning), ("error", tokens.error)] {
+                            let found = ratio(color, panel);
+                            assert!(found >= 7.0, "{name} of {contrast:?}, dark {dark}: {found:.2}");
+                        }
+                        // The current choice of a menu.
+                        let on = ratio(tokens.accent, panel.blend(tokens.accent_ground));
+                        assert!(on >= 4.5, "on, of {contrast:?}, dark {dark}: {on:.2}");
+                        // Lines that tell a control from its panel.
+                        let border = ratio(panel.blend(tokens.border), panel);
+                        assert!(border >= 3.0, "borders of {contrast:?}, dark {dark}: {border:.2}");
+                    }
+                }
+            }
+        }
+    }
 }

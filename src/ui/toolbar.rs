@@ -8,10 +8,10 @@ use super::model_panel::summary;
 use super::panel::{popover, popover_menu};
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
-use super::theme::{self, Tokens};
+use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
     TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside, icon_button, keyed_menu_item,
-    menu_item, paint_chip, section_name, valued_menu_item,
+    menu_item, paint_chip, push_button, section_name, valued_menu_item,
 };
 use super::wording::{dialect_name, shortened_front};
 use super::{light, overlays, picture};
@@ -49,13 +49,6 @@ fn as_toolbar(ui: &Ui) {
     });
 }
 
-/// Tells screen readers that a button does something at once, and is no switch that is off.
-fn is_no_switch(response: &Response) {
-    response
-        .ctx
-        .accesskit_node_builder(response.id, egui::accesskit::Node::clear_toggled);
-}
-
 /// Buttons in one row.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
@@ -77,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
-        let camera = icon_button(ui, Icon::Camera, &hint, false);
+        let camera = push_button(ui, Icon::Camera, &hint);
         popover(ui, &camera, 224.0, |ui| picture::show(ui, state));
         theme_button(ui, state);
         open_button(ui, state);
@@ -104,8 +97,9 @@ fn history(session: &Session) -> [(&'static Action, Icon, String); 2] {
 /// In a narrow window, from the right edge. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
-    let dots = icon_button(ui, Icon::Dots, "More", false);
-    popover_menu(ui, &dots, RectAlign::BOTTOM_END, 230.0, |ui| {
+    let dots = push_button(ui, Icon::Dots, "More");
+    let width = if is_low(ui) { 420.0 } else { 230.0 };
+    popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
         more_menu(ui, session, state, commands);
     });
     open_button(ui, state);
@@ -154,9 +148,7 @@ fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
-    let button = icon_button(ui, Icon::Open, "Open files…", false);
-    is_no_switch(&button);
-    if button.clicked() {
+    if push_button(ui, Icon::Open, "Open files…").clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
@@ -172,15 +164,13 @@ fn other_theme(ui: &Ui) -> (&'static str, Request) {
 
 fn theme_button(ui: &mut Ui, state: &mut UiState) {
     let (label, request) = other_theme(ui);
-    let button = icon_button(ui, Icon::Contrast, label, false);
-    is_no_switch(&button);
-    if button.clicked() {
+    if push_button(ui, Icon::Contrast, label).clicked() {
         state.requests.push(request);
     }
 }
 
 fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let cube = icon_button(ui, Icon::Cube, "View from…", false);
+    let cube = push_button(ui, Icon::Cube, "View from…");
     popover_menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
         if view_from_items(ui, session, commands) {
             ui.close();
@@ -209,7 +199,26 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
     commands.len() > before
 }
 
+/// In one column, or in two in a window too low for one.
 fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    if is_low(ui) {
+        ui.columns_const(|[left, right]| {
+            page_items(left, session, state);
+            action_items(right, session, state, commands);
+        });
+    } else {
+        page_items(ui, session, state);
+        action_items(ui, session, state, commands);
+    }
+}
+
+/// Whether the window is too low for all lines of the menu below each other.
+fn is_low(ui: &Ui) -> bool {
+    let window = ui.ctx().content_rect();
+    window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH
+}
+
+fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let pages = [
         ("View mode", actions::view_mode_label(session), SheetPage::ViewMode),
         ("Light and background", light::label(session), SheetPage::Light),
@@ -223,6 +232,9 @@ fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut
             ui.close();
         }
     }
+}
+
+fn action_items(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     for (action, _, label) in history(session) {
         if let Some(command) = action.command(session)
             && menu_item(ui, &label, false).clicked()

@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
+use egui::{Id, Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
 use crate::session::{CameraCommand, Command, LookCommand};
@@ -22,9 +22,22 @@ pub(super) struct ViewHold {
     flight: Flight,
 }
 
-/// The whole window behind the panels. `popover_open`: a click closes the popover and does nothing else.
-pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool, commands: &mut Vec<Command>) {
-    let response = ui.interact(rect, ui.scope_id().with("viewport"), Sense::click_and_drag());
+impl ViewHold {
+    /// Whether the pointer holds the view.
+    pub(super) fn is_held(&self) -> bool {
+        self.held
+    }
+}
+
+/// The id of the view in the window's `Ui`.
+pub(super) fn id(ui: &Ui) -> Id {
+    ui.scope_id().with("viewport")
+}
+
+/// The whole window behind the panels. `popover_open`: a click closes what is open and does nothing else.
+/// Returns whether it was clicked.
+pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool, commands: &mut Vec<Command>) -> bool {
+    let response = ui.interact(rect, id(ui), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
     let fractions = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;
@@ -54,7 +67,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
                 pointer,
             }));
         }
-        return;
+        return false;
     }
     let flies = hold.flight.update(ui, &response, height, commands);
     drag(ui, &response, &fractions, flies, hold, commands);
@@ -66,7 +79,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
     {
         commands.push(Command::SelectAt(in_picture(rect, pointer)));
     }
-    if let Some(pointer) = response.hover_pos() {
+    // egui lets the view have a pointer that is on a panel but near its edge.
+    let on_view = |&pointer: &Pos2| ui.ctx().layer_id_at(pointer) == Some(ui.layer_id());
+    if let Some(pointer) = response.hover_pos().filter(on_view) {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         let factor = (-wheel * ZOOM_PER_POINT).exp() / pinch;
         if factor != 1.0 {
@@ -76,6 +91,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
             }));
         }
     }
+    response.clicked()
 }
 
 /// A drag with one pointer moves the environment, the model or the eye.
@@ -185,25 +201,25 @@ const RECENT_SECS: f64 = 0.08;
 
 /// The recent part of a drag.
 #[derive(Clone, Debug, Default)]
-struct DragTrail {
+pub(super) struct DragTrail {
     /// Times in seconds, and how far since the step before.
     steps: Vec<(f64, Vec2)>,
 }
 
 impl DragTrail {
     /// Adds a step of the drag.
-    fn add(&mut self, now_secs: f64, moved: Vec2) {
+    pub(super) fn add(&mut self, now_secs: f64, moved: Vec2) {
         self.steps.retain(|&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
         self.steps.push((now_secs, moved));
     }
 
     /// Forgets the drag.
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.steps.clear();
     }
 
     /// Movement a second over the recent part of the drag.
-    fn rate_per_sec(&self, now_secs: f64) -> Vec2 {
+    pub(super) fn rate_per_sec(&self, now_secs: f64) -> Vec2 {
         let recent = self
             .steps
             .iter()

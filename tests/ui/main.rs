@@ -1,5 +1,6 @@
 //! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
 
+mod access;
 mod browser_golden;
 mod camera_motion;
 #[path = "../core/chains.rs"]
@@ -12,6 +13,7 @@ mod documents;
 mod dope_sheet;
 mod file_menu;
 mod findings;
+mod focus;
 mod idle;
 mod joint_numbers;
 mod joint_tree;
@@ -32,6 +34,7 @@ mod rigs;
 mod saving;
 #[path = "../common/shared.rs"]
 mod shared;
+mod sheet;
 mod skeleton;
 mod split;
 mod submeshes;

@@ -2,7 +2,7 @@
 
 use bindpose::session::{Command, File, FileCommand, Session};
 use bindpose::ui::{self, Request, UiState};
-use egui::{Rect, Vec2};
+use egui::{Rect, Role, Vec2};
 use egui_kittest::kittest::NodeT as _;
 use egui_kittest::{Harness, Node};
 
@@ -114,9 +114,11 @@ impl Window {
     /// Every widget with a name, and where it is; pictures of the view aside.
     pub(crate) fn widgets(&self) -> Vec<(String, Rect)> {
         let named = |node: Node<'_>| Some((name(&node)?, node.rect()));
+        let is_widget = |node: &Node<'_>| !is_container(node.accesskit_node().role());
         self.harness
             .root()
             .children_recursive()
+            .filter(is_widget)
             .filter_map(named)
             .filter(|(name, _)| name != "Model view")
             .collect()
@@ -160,6 +162,23 @@ impl Window {
         self.pass_on();
     }
 
+    /// Drags the handle of the open sheet, and holds it until it stands.
+    #[track_caller]
+    pub(crate) fn drag_sheet(&mut self, down: f32) {
+        let from = self.rect("Close the sheet").center();
+        let to = from + Vec2::new(0.0, down);
+        self.harness.hover_at(from);
+        self.harness.drag_at(from);
+        for step in 1..=4_u8 {
+            self.harness.hover_at(from.lerp(to, f32::from(step) / 4.0));
+        }
+        self.wait(0.2);
+        self.harness.hover_at(to + Vec2::new(0.0, 0.1));
+        self.wait(0.2);
+        self.harness.drop_at(to);
+        self.pass_on();
+    }
+
     /// The name of the control that has the keyboard.
     pub(crate) fn focused(&self) -> Option<String> {
         let mut widgets = self.harness.root().children_recursive();
@@ -178,6 +197,14 @@ pub(crate) fn whole_window(ui: &mut egui::Ui) -> egui::Ui {
     let mut whole = ui.new_child(egui::UiBuilder::new().max_rect(window));
     whole.set_clip_rect(window);
     whole
+}
+
+/// Whether a role is of what holds widgets.
+fn is_container(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Region | Role::Dialog | Role::AlertDialog | Role::Menu | Role::RadioGroup
+    )
 }
 
 /// What a screen reader says.

@@ -245,6 +245,7 @@ fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
     assert_eq!(window.session().camera().yaw_radians, std::f32::consts::PI);
     window.click("More");
     window.click("View mode");
+    window.drag_sheet(-300.0);
     window.click("Depth");
     assert_eq!(window.session().look().view_mode, ViewMode::Depth);
     window.click("Lighting");

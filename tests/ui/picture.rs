@@ -12,6 +12,7 @@ use bindpose::session::{
     Command, File, FileCommand, JointCommand, LookCommand, NameCommand, PlayCommand, Session, SubmeshCommand,
 };
 use bindpose::ui;
+use bindpose::ui::theme::Contrast;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT as _;
@@ -19,6 +20,7 @@ use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_set
 use image::RgbaImage;
 use image::imageops::{self, FilterType};
 
+use crate::models::broken;
 use crate::page::{PHONE, WIDE, whole_window};
 use crate::rigs::chain;
 
@@ -47,8 +49,23 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
     draw_after(size, theme, coarse_pointer, then, &[])
 }
 
+/// Among clicks: the key.
+const TAB: &str = "Tab";
+
 /// The same after clicks on controls, by the beginnings of their names.
 fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>, clicks: &[&str]) -> RgbaImage {
+    draw_with(Contrast::Normal, size, theme, coarse_pointer, then, clicks)
+}
+
+/// The same with a contrast.
+fn draw_with(
+    contrast: Contrast,
+    size: Vec2,
+    theme: Theme,
+    coarse_pointer: bool,
+    then: Vec<Command>,
+    clicks: &[&str],
+) -> RgbaImage {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
     session.borrow_mut().apply(FileCommand::Add(sample_with_its_maps()));
@@ -67,10 +84,16 @@ fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>
         .renderer(WgpuTestRenderer::from_render_state(gpu))
         .build_ui(move |ui| {
             let app = app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), coarse_pointer));
+            app.set_contrast(contrast);
             app.ui(&mut whole_window(ui));
         });
     harness.run();
     for start in clicks {
+        if *start == TAB {
+            harness.key_press(egui::Key::Tab);
+            harness.run();
+            continue;
+        }
         let at = rect_of(&harness, start).center();
         harness.hover_at(at);
         harness.drag_at(at);
@@ -428,6 +451,45 @@ fn the_tree_in_the_sheet_of_a_phone() {
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
     let clicks = ["Model facts", "Panel: Skeleton"];
     compare("phone-dark-tree", &draw_after(PHONE, Theme::Dark, true, then, &clicks));
+}
+
+#[test]
+fn windows_with_more_and_with_forced_contrast() {
+    let size = Vec2::new(1100.0, 700.0);
+    for (name, contrast, theme) in [
+        ("more-dark", Contrast::More, Theme::Dark),
+        ("more-light", Contrast::More, Theme::Light),
+        ("forced-dark", Contrast::Forced, Theme::Dark),
+        ("forced-light", Contrast::Forced, Theme::Light),
+    ] {
+        let mut then = inspected();
+        then.truncate(3);
+        compare(name, &draw_with(contrast, size, theme, false, then, &["Lighting"]));
+    }
+}
+
+#[test]
+fn the_ring_round_the_focused_control() {
+    let size = Vec2::new(900.0, 600.0);
+    let clicks = ["Lighting", TAB, TAB, TAB, TAB];
+    compare(
+        "small-light-focus",
+        &draw_after(size, Theme::Light, false, vec![], &clicks),
+    );
+}
+
+#[test]
+fn the_menu_of_a_phone_on_its_side() {
+    let size = Vec2::new(844.0, 390.0);
+    compare("low-dark-menu", &draw_after(size, Theme::Dark, true, vec![], &["More"]));
+}
+
+#[test]
+fn an_error_on_a_phone_on_its_side() {
+    let size = Vec2::new(844.0, 390.0);
+    let then = || vec![FileCommand::Add(vec![broken("soldier.m3d")]).into()];
+    compare("low-light-error", &draw(size, Theme::Light, true, then()));
+    compare("phone-dark-error", &draw(PHONE, Theme::Dark, true, then()));
 }
 
 #[test]

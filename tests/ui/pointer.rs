@@ -332,8 +332,8 @@ fn a_drag_that_begins_on_a_panel_never_turns_the_camera() {
     for length in 1..=13 {
         let mut window = phone(vec![moving("a.m3d")]);
         let before = *window.session().camera();
-        let from = window.rect("Model facts").center();
-        in_frames(&mut window, &finger_drag(from, from - vec2(0.0, 200.0)), length);
+        let from = window.rect("Bindpose").center();
+        in_frames(&mut window, &finger_drag(from, from + vec2(0.0, 200.0)), length);
         window.wait(0.5);
         assert_eq!(window.session().camera(), &before, "frames of {length} events");
     }

@@ -289,6 +289,7 @@ fn fingers_find_icons_and_inspector_in_the_sheet() {
     window.click("Model facts");
     let rect = window.rect("Hide Painted");
     assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{rect}");
+    window.drag_sheet(-300.0);
     window.click("Painted, 6 triangles");
     assert!(window.shows("Selected: Painted") && !window.shows("Handedness: Left found"));
     window.click("Clear the selection");

@@ -2,10 +2,13 @@
 
 use egui::{
     Align2, Atom, AtomExt as _, AtomKind, AtomPaintArgs, Atoms, Button, Color32, FontId, Rangef, Rect, Response,
-    RichText, Role, Sense, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+    RichText, Role, Sense, StrokeKind, Ui, UiBuilder, UiKind, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, TOUCH_CONTROL, control_size, focus_ring, is_touch, key_hint, paint_row_ground};
+use super::control::{
+    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, is_touch, key_hint, paint_ground,
+    paint_row_ground,
+};
 use crate::actions::Action;
 use crate::session::{Command, Session};
 use crate::ui::icons::{self, Icon};
@@ -30,6 +33,14 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Res
     focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, label));
     response.on_hover_text(label)
+}
+
+/// The same without a state: it does something, or opens something.
+pub(crate) fn push_button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+    let response = icon_button(ui, icon, label, false);
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.clear_toggled());
+    response
 }
 
 /// An icon in the middle of a size, in the colour of the words beside it.
@@ -149,7 +160,12 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: boo
     let response = ui.add(line.min_size(vec2(ui.available_width(), height)));
     ui.spacing_mut().button_padding.x = padding;
     focus_ring(ui, response.rect, &response);
-    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, text));
+    let in_menu = ui.stack().contained_in(UiKind::Menu);
+    response.widget_info(|| match (in_menu, on) {
+        (true, true) => WidgetInfo::selected(Role::MenuItemRadio, true, on, text),
+        (true, false) => WidgetInfo::labeled(Role::MenuItem, true, text),
+        (false, _) => WidgetInfo::selected(Role::RadioButton, true, on, text),
+    });
     response
 }
 
@@ -167,7 +183,13 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     let tokens = Tokens::of(ui);
     let size = vec2(ui.available_width(), control_size(ui));
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
+    paint_ground(ui, rect, tokens.field);
+    let group = UiBuilder::new()
+        .max_rect(rect)
+        .id_salt(response.id)
+        .accessibility_role(Role::RadioGroup)
+        .accessibility_label(name);
+    let group = ui.new_child(group);
     let inner = rect.shrink(2.0);
     let font = FontId::proportional(12.5);
     let labels: Vec<_> = choices
@@ -188,7 +210,7 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
         left += width;
         // The target has the whole height.
         let target = Rect::from_x_y_ranges(place.x_range(), rect.y_range());
-        let part = ui.interact(target, response.id.with(index), Sense::click());
+        let part = group.interact(target, response.id.with(index), Sense::click());
         let on = in_force == Some(choice);
         let color = match (on, part.hovered()) {
             (true, _) => tokens.accent,
@@ -203,6 +225,13 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
         ui.painter()
             .text(place.center(), Align2::CENTER_CENTER, label, font.clone(), color);
         part.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{name}: {label}")));
+        let beside = index as i32 + arrow_steps(ui, &part) as i32;
+        if beside != index as i32
+            && let Some(&(choice, _)) = usize::try_from(beside).ok().and_then(|beside| choices.get(beside))
+        {
+            ui.memory_mut(|memory| memory.request_focus(response.id.with(beside as usize)));
+            chosen = Some(choice);
+        }
         if part.clicked() {
             chosen = Some(choice);
         }

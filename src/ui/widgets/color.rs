@@ -1,18 +1,21 @@
 //! A colour picker: a square of saturation and value, a bar of hues, a field for the hexadecimal number. Painted here: egui's picker has
 //! no such field, and interpolates in linear light.
 
+use egui::accesskit::HasPopup;
 use egui::ecolor::{hsv_from_rgb, rgb_from_hsv};
 use egui::{
-    Color32, CornerRadius, CursorIcon, Id, Mesh, Popup, PopupCloseBehavior, Pos2, Rangef, Rect, Response, Role, Sense,
-    Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, Id, Key, Mesh, Modifiers, Popup, PopupCloseBehavior, Pos2, Rangef, Rect,
+    Response, Role, Sense, Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, control_size, focus_ring};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring, slider_keys, tell_popup};
 use crate::scene::srgb8_from_linear;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
 /// Height of the square.
 const SQUARE_HEIGHT: f32 = 112.0;
+/// A step of the arrow keys, as a fraction of the whole.
+const KEY_STEP: f64 = 0.02;
 /// Cells of the square's mesh on a side. Two triangles alone would bend the colours along the diagonal.
 const SQUARE_FIELDS: u32 = 8;
 
@@ -33,7 +36,9 @@ pub(crate) fn color_button(ui: &mut Ui, label: &str, size: Vec2, srgb: [u8; 3]) 
     focus_ring(ui, rect, &response);
     response.widget_info(|| WidgetInfo::labeled(Role::ColorWell, true, format!("{label}: {}", hex(srgb))));
     let mut chosen = None;
+    let name = tell_popup(ui, &response, HasPopup::Dialog);
     Popup::from_toggle_button_response(&response)
+        .accessible_name(name)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .gap(6.0)
         .show(|ui| {
@@ -88,7 +93,21 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     ui.painter().add(Shape::mesh(mesh));
     let at = rect.min + vec2(saturation, 1.0 - value) * rect.size();
     mark(ui, at, color32(srgb_from_hsv([hue, saturation, value])));
+    focus_ring(ui, rect, &response);
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, format!("{label}: saturation and brightness")));
+    let text = format!(
+        "saturation {:.0} %, brightness {:.0} %",
+        saturation * 100.0,
+        value * 100.0
+    );
+    // Up and down are of the brightness. All that is left for a slider of one value is of the saturation.
+    let brighter = vertical_steps(ui, &response);
+    if brighter != 0.0 {
+        return Some([hue, saturation, (value + brighter * KEY_STEP as f32).clamp(0.0, 1.0)]);
+    }
+    if let Some(saturation) = slider_keys(ui, &response, f64::from(saturation), 0.0..=1.0, KEY_STEP, &text) {
+        return Some([hue, saturation as f32, value]);
+    }
     let at = (held(&response)? - rect.min) / rect.size();
     Some([hue, at.x.clamp(0.0, 1.0), 1.0 - at.y.clamp(0.0, 1.0)])
 }
@@ -123,8 +142,22 @@ fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hs
     let at = pos2(lerp(rect.x_range(), hue), rect.center().y);
     mark(ui, at, color32(srgb_from_hsv([hue, 1.0, 1.0])));
     response.widget_info(|| WidgetInfo::slider(true, f64::from(hue), format!("{label}: hue")));
+    focus_ring(ui, rect, &response);
+    let text = format!("{:.0}°", hue * 360.0);
+    if let Some(hue) = slider_keys(ui, &response, f64::from(hue), 0.0..=1.0, KEY_STEP, &text) {
+        return Some([hue as f32, saturation, value]);
+    }
     let fraction = (held(&response)?.x - rect.min.x) / rect.width().max(1.0);
     Some([fraction.clamp(0.0, 1.0), saturation, value])
+}
+
+/// Steps of the keys up and down in a focused control. They are consumed.
+fn vertical_steps(ui: &Ui, response: &Response) -> f32 {
+    if !response.has_focus() {
+        return 0.0;
+    }
+    let count = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f32;
+    count(Key::ArrowUp) - count(Key::ArrowDown)
 }
 
 /// Where the pointer presses a control.
@@ -153,6 +186,7 @@ fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]>
         .margin(vec2(8.0, 6.0))
         .desired_width(f32::INFINITY);
     let response = ui.add(field);
+    focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, format!("{label}: number")));
     let typed = response.changed().then(|| from_hex(&text)).flatten();
     ui.data_mut(|data| data.insert_temp(id, text));

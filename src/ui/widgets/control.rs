@@ -1,9 +1,12 @@
 //! What controls have in common: their size, the focus ring, words that end in an ellipsis, arrow keys. And chips: small rounded labels.
 
+use std::ops::RangeInclusive;
+
+use egui::accesskit::{Action, ActionData, HasPopup};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, RectAlign, Response, Role,
-    Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo, vec2,
+    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Id, Key, Modifiers, Painter, Popup, Pos2, Rect,
+    RectAlign, Response, Role, Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo, WidgetRect, vec2,
 };
 
 use crate::ui::theme::{CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
@@ -53,12 +56,52 @@ pub(crate) fn pressed_row_height(ui: &Ui) -> f32 {
     if is_touch(ui) { TOUCH_CONTROL } else { ROW_HEIGHT }
 }
 
-/// A ring round the focused control.
+/// Gap between a control and its ring.
+const RING_GAP: f32 = 1.0;
+
+/// The place of the ring round a control, if it has the focus and its target is not what is seen. [`paint_focus_ring`] draws it.
 pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
-        let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-        ui.painter()
-            .rect_stroke(rect, CornerRadius::same(CONTROL_RADIUS), stroke, StrokeKind::Inside);
+        let clip = ui.clip_rect();
+        ui.data_mut(|data| data.insert_temp(ring_id(), (response.id, rect, clip)));
+    }
+}
+
+/// Draws the ring round the focused control, over all of its layer and a little over the edge of the list that it is in.
+pub(crate) fn paint_focus_ring(ui: &Ui, widget: &WidgetRect) {
+    let noted: Option<(Id, Rect, Rect)> = ui.data(|data| data.get_temp(ring_id()));
+    let noted = noted.filter(|&(id, ..)| id == widget.id);
+    let (rect, clip) = noted.map_or((widget.rect, widget.interact_rect), |(_, rect, clip)| (rect, clip));
+    let tokens = Tokens::of(ui);
+    let reach = RING_GAP + tokens.ring_width;
+    let window = ui.ctx().content_rect();
+    let ring = rect.expand(RING_GAP).intersect(window.shrink(tokens.ring_width));
+    ui.ctx()
+        .layer_painter(widget.layer_id)
+        .with_clip_rect(clip.expand(reach))
+        .rect_stroke(
+            ring,
+            CornerRadius::same(CONTROL_RADIUS + 1),
+            Stroke::new(tokens.ring_width, tokens.accent),
+            StrokeKind::Outside,
+        );
+}
+
+fn ring_id() -> Id {
+    Id::unique("focus ring")
+}
+
+/// Fills the ground of a control, and draws its border where there are borders.
+pub(crate) fn paint_ground(ui: &Ui, rect: Rect, color: Color32) {
+    let radius = CornerRadius::same(CONTROL_RADIUS);
+    ui.painter().rect(rect, radius, color, border(ui), StrokeKind::Inside);
+}
+
+/// The border of a control.
+pub(super) fn border(ui: &Ui) -> Stroke {
+    match Tokens::of(ui).border {
+        Color32::TRANSPARENT => Stroke::NONE,
+        color => Stroke::new(1.0, color),
     }
 }
 
@@ -110,10 +153,13 @@ pub(crate) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, col
     painter.add(Shape::line(corners, Stroke::new(1.4, color)));
 }
 
-/// Steps of the arrow keys in a focused control: right and up count up. The keys are consumed, so that nothing else acts on them.
+/// Steps that the arrow keys ask of a focused control, or a program that reads the screen of any: right and up count up. The keys are
+/// consumed, so that nothing else acts on them.
 pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
+    let asked = |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action)) as f32;
+    let asked = asked(Action::Increment) - asked(Action::Decrement);
     if !response.has_focus() {
-        return 0.0;
+        return asked;
     }
     let filter = EventFilter {
         horizontal_arrows: true,
@@ -121,7 +167,7 @@ pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
         ..EventFilter::default()
     };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-    let mut steps = 0.0;
+    let mut steps = asked;
     ui.input_mut(|input| {
         input.events.retain(|event| {
             let step = match event {
@@ -137,6 +183,78 @@ pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
         });
     });
     steps
+}
+
+/// Arrow steps of a page key.
+const PAGE_STEPS: f64 = 10.0;
+
+/// Makes a control a slider for programs that read the screen, and returns the value that keys or such a program ask for. `text`: the
+/// value as it is written.
+pub(crate) fn slider_keys(
+    ui: &Ui,
+    response: &Response,
+    value: f64,
+    range: RangeInclusive<f64>,
+    step: f64,
+    text: &str,
+) -> Option<f64> {
+    let (start, end) = range.into_inner();
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_role(Role::Slider);
+        node.set_numeric_value(value);
+        node.set_min_numeric_value(start);
+        node.set_max_numeric_value(end);
+        node.set_numeric_value_step(step);
+        node.set_value(text);
+        for action in [Action::SetValue, Action::Increment, Action::Decrement] {
+            node.add_action(action);
+        }
+    });
+    let set = ui.input(|input| {
+        let request = input.accesskit_action_requests(response.id, Action::SetValue).last()?;
+        match &request.data {
+            Some(ActionData::NumericValue(value)) => Some(*value),
+            Some(ActionData::Value(text)) => text.parse().ok(),
+            _ => None,
+        }
+    });
+    let steps = f64::from(arrow_steps(ui, response));
+    let page = |key| response.has_focus() && ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let asked = if let Some(value) = set.filter(|value: &f64| value.is_finite()) {
+        value
+    } else if page(Key::Home) {
+        start
+    } else if page(Key::End) {
+        end
+    } else if page(Key::PageUp) {
+        value + PAGE_STEPS * step
+    } else if page(Key::PageDown) {
+        value - PAGE_STEPS * step
+    } else if steps != 0.0 {
+        value + steps * step
+    } else {
+        return None;
+    };
+    Some(asked.clamp(start, end))
+}
+
+/// Tells programs that read the screen what hangs from a button and whether it is open, and does as they ask. Returns the button's name.
+pub(crate) fn tell_popup(ui: &Ui, button: &Response, kind: HasPopup) -> String {
+    let id = Popup::default_response_id(button);
+    let asked = |action| ui.input(|input| input.has_accesskit_action_request(button.id, action));
+    if asked(Action::Expand) {
+        Popup::open_id(ui.ctx(), id);
+    } else if asked(Action::Collapse) {
+        Popup::close_id(ui.ctx(), id);
+    }
+    let open = Popup::is_id_open(ui.ctx(), id);
+    let name = ui.ctx().accesskit_node_builder(button.id, |node| {
+        node.set_has_popup(kind);
+        node.set_expanded(open);
+        node.add_action(if open { Action::Collapse } else { Action::Expand });
+        node.label().map(str::to_owned)
+    });
+    name.flatten().unwrap_or_default()
 }
 
 /// Margins of a chip: left and right together, top and bottom together.

@@ -7,16 +7,16 @@ mod number;
 mod row;
 
 pub(super) use button::{
-    TextButton, action_button, action_switch, icon_button, keyed_menu_item, menu_item, segmented, switch_row,
-    valued_menu_item,
+    TextButton, action_button, action_switch, icon_button, keyed_menu_item, menu_item, push_button, segmented,
+    switch_row, valued_menu_item,
 };
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
     arrow_steps, by_finger, chip, chip_size, control_size, focus_ring, hint_beside, is_touch, paint_chip, paint_elided,
-    paint_fold_mark, paint_row_ground, pressed_row_height, size_for_touch,
+    paint_focus_ring, paint_fold_mark, paint_row_ground, pressed_row_height, size_for_touch, slider_keys, tell_popup,
 };
 pub(super) use number::{Slider, TypedValue, number_field, typed_number};
 pub(super) use row::{
-    RowList, choice_row, closable_heading, keyed_section_name, paint_ends, pressed_row, row_icon, rule, section_name,
-    section_with_action, section_with_labelled_action, selected_heading, sheet_handle, value_row,
+    RowList, choice_row, closable_heading, heading_with_close, keyed_section_name, paint_ends, pressed_row, row_icon,
+    rule, section_name, section_with_action, section_with_labelled_action, selected_heading, sheet_handle, value_row,
 };

@@ -8,7 +8,7 @@ use egui::{
     Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, arrow_steps, control_size, focus_ring};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring, slider_keys};
 use crate::ui::input::press_field;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
@@ -67,15 +67,17 @@ impl<'a> Slider<'a> {
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
         self.paint(ui, *ends.start(), *ends.end(), row.center().y, &response);
         response.widget_info(|| WidgetInfo::slider(true, f64::from(self.value), self.label));
+        focus_ring(ui, target, &response);
         self.asked(ui, *ends.start(), *ends.end(), &response)
     }
 
     /// The value that pointer or keys ask for.
     fn asked(&self, ui: &Ui, left: f32, right: f32, response: &Response) -> Option<f32> {
         let (start, end) = (*self.range.start(), *self.range.end());
-        let steps = arrow_steps(ui, response);
-        if steps != 0.0 {
-            return Some((self.value + steps * (end - start) / KEY_STEPS).clamp(start, end));
+        let step = f64::from((end - start) / KEY_STEPS);
+        let range = f64::from(start)..=f64::from(end);
+        if let Some(value) = slider_keys(ui, response, f64::from(self.value), range, step, self.text) {
+            return Some(value as f32);
         }
         if response.double_clicked() {
             return Some(self.reset_to);
@@ -96,7 +98,7 @@ impl<'a> Slider<'a> {
         let (origin, knob) = (x_of(self.reset_to), x_of(self.value));
         let band = |from: f32, to: f32| Rect::from_min_max(pos2(from.min(to), y - 1.5), pos2(from.max(to), y + 1.5));
         ui.painter()
-            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.field_hovered);
+            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
         ui.painter().rect_filled(band(origin, knob), 1.5, tokens.accent);
         let active = response.hovered() || response.is_pointer_button_down_on();
         let center = pos2(knob, y);

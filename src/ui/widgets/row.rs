@@ -5,7 +5,7 @@ use egui::{
     vec2,
 };
 
-use super::button::icon_button;
+use super::button::push_button;
 use super::color::paint_swatch;
 use super::control::{
     MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_elided, paint_row_ground,
@@ -151,14 +151,19 @@ pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Re
 
 /// The title of a panel with a button that closes it. Returns whether it was clicked.
 pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
+    heading_with_close(ui, title).clicked()
+}
+
+/// The same. Returns the button.
+pub(crate) fn heading_with_close(ui: &mut Ui, title: &str) -> Response {
     ui.horizontal(|ui| {
         let width = ui.available_width() - control_size(ui) - 6.0;
         let (heading, response) = ui.allocate_exact_size(vec2(width, MOUSE_CONTROL), Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, title));
         let (at, color) = (heading.left_center(), Tokens::of(ui).text);
         ui.painter()
             .text(at, Align2::LEFT_CENTER, title, theme::semibold(13.0), color);
-        icon_button(ui, Icon::Close, "Close", false).clicked()
+        response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, title));
+        push_button(ui, Icon::Close, "Close")
     })
     .inner
 }
@@ -187,7 +192,7 @@ pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: 
     let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
     // In a child of its own, so that it does not widen the rows.
     let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
-    icon_button(&mut corner, Icon::Close, "Clear the selection (Esc)", false).clicked()
+    push_button(&mut corner, Icon::Close, "Clear the selection (Esc)").clicked()
 }
 
 /// The name of a section: 11 points, capitals.
@@ -241,6 +246,7 @@ pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Opti
     }
     let at = place.center() - galley.size() * 0.5;
     ui.painter().galley(at, galley, tokens.accent);
+    focus_ring(ui, ground, &response);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response.clicked()
 }
@@ -266,7 +272,8 @@ pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
     // By touch its target reaches a little above the sheet.
     let above = (control_size(ui) - rect.height()).max(0.0);
     let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
-    let response = ui.interact(target, response.id.with("grip"), Sense::click());
+    let response = ui.interact(target, response.id.with("grip"), Sense::click_and_drag());
+    focus_ring(ui, rect, &response);
     let grip = Rect::from_center_size(rect.center(), vec2(38.0, 4.0));
     ui.painter().rect_filled(
         grip,
