@@ -179,7 +179,8 @@ pub fn mono(size: f32) -> FontId {
 fn style(tokens: &Tokens, mut visuals: egui::Visuals) -> egui::Style {
     visuals.weak_text_color = Some(tokens.muted);
     visuals.panel_fill = Color32::TRANSPARENT;
-    visuals.window_fill = tokens.panel;
+    // Of menus and tooltips, which lie over text.
+    visuals.window_fill = tokens.panel.to_opaque();
     visuals.window_stroke = Stroke::new(1.0, tokens.hairline);
     visuals.window_corner_radius = CornerRadius::same(PANEL_RADIUS);
     visuals.menu_corner_radius = CornerRadius::same(8);

@@ -49,7 +49,7 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.pass_on();
 }
 
-fn wheel(window: &mut Window, at: Pos2, delta: Vec2, modifiers: Modifiers) {
+pub(crate) fn wheel(window: &mut Window, at: Pos2, delta: Vec2, modifiers: Modifiers) {
     window.harness.hover_at(at);
     window.harness.event_modifiers(
         Event::MouseWheel {
@@ -315,7 +315,7 @@ fn bones_go_by_their_names() {
 #[test]
 fn the_ruler_carries_the_time() {
     let mut window = sheet(5, 31);
-    let ruler = window.rect("Ruler in seconds");
+    let ruler = window.rect("Ruler");
     drag(&mut window, ruler.left_center() + vec2(8.0, 0.0), ruler.center());
     assert!((window.time_secs() - 0.5).abs() < 0.01, "{}", window.time_secs());
     assert!(!window.session().is_scrubbing());
@@ -474,10 +474,7 @@ fn a_finger_on_ruler_and_curves_carries_the_time_and_what_is_seen_stays() {
     let pinch = |apart: f32| vec![middle - vec2(apart, 0.0), middle + vec2(apart, 0.0)];
     gesture(&mut window, &[20.0, 30.0, 40.0, 60.0, 80.0].map(pinch));
     assert!(window.shows("All of the time"));
-    for (tab, place) in [
-        ("Sheet: Dope sheet", "Ruler in seconds"),
-        ("Sheet: Curves", "Curves of Bone 1"),
-    ] {
+    for (tab, place) in [("Sheet: Dope sheet", "Ruler"), ("Sheet: Curves", "Curves of Bone 1")] {
         window.click(tab);
         let rect = window.rect(place);
         let at = |share: f32| vec![pos2(rect.min.x + share * rect.width(), rect.center().y)];

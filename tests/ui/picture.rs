@@ -298,7 +298,7 @@ fn clips_and_how_they_are_mixed() {
     let then = vec![PlayCommand::SetBlend { clip: 1, weight: 0.5 }.into()];
     compare(
         "wide-dark-clips",
-        &draw_after(WIDE, Theme::Dark, false, then, &["Clip "]),
+        &draw_after(WIDE, Theme::Dark, false, then, &["Clip"]),
     );
 }
 
@@ -306,7 +306,7 @@ fn clips_and_how_they_are_mixed() {
 fn how_a_clip_plays_on_a_phone() {
     compare(
         "phone-light-playing",
-        &draw_after(PHONE, Theme::Light, true, vec![], &["Speed "]),
+        &draw_after(PHONE, Theme::Light, true, vec![], &["Speed"]),
     );
 }
 
@@ -318,7 +318,7 @@ fn the_loop_gap_of_a_range() {
             PlayCommand::SetRangeEnd(Some(0.9)).into(),
         ]
     };
-    let clicks = ["Speed ", "Loop gap of Bone "];
+    let clicks = ["Speed", "Loop gap of Bone "];
     for (name, size, theme, touch) in [
         ("wide-dark-loop-gap", WIDE, Theme::Dark, false),
         ("phone-light-loop-gap", PHONE, Theme::Light, true),

@@ -302,7 +302,7 @@ fn in_frames(window: &mut Window, events: &[Event], length: usize) {
 fn a_scrub_that_falls_into_one_frame_moves_the_time_and_not_the_end_that_it_comes_to() {
     for length in 1..=7 {
         let mut window = window(WIDE, vec![moving("a.m3d")]);
-        let from = window.rect("Time in seconds").center();
+        let from = window.rect("Time").center();
         let to = window.rect("Range out").center();
         in_frames(&mut window, &mouse_drag(from, to), length);
         assert_eq!(
@@ -315,7 +315,7 @@ fn a_scrub_that_falls_into_one_frame_moves_the_time_and_not_the_end_that_it_come
     }
     for length in 1..=13 {
         let mut window = phone(vec![moving("a.m3d")]);
-        let from = window.rect("Time in seconds").center();
+        let from = window.rect("Time").center();
         let to = window.rect("Range out").center();
         in_frames(&mut window, &finger_drag(from, to), length);
         assert_eq!(

@@ -16,6 +16,7 @@ mod sheet;
 pub(super) mod state;
 mod time_area;
 mod transport;
+mod typed;
 
 pub(super) use sheet::page;
 pub(super) use transport::{narrow, wide};

@@ -1,5 +1,8 @@
 //! What controls have in common: their size, the focus ring, words that end in an ellipsis, arrow keys. And chips: small rounded labels.
 
+use std::ops::RangeInclusive;
+
+use egui::accesskit::{Action, ActionData};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
     Align2, Color32, CornerRadius, Event, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Role, Sense, Shape,
@@ -95,31 +98,81 @@ pub(crate) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, col
 
 /// Steps of the arrow keys in a focused control: right and up count up. The keys are consumed, so that nothing else acts on them.
 pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
+    let steps = focused_keys(ui, response, &ARROWS)
+        .into_iter()
+        .map(|(key, _)| match key {
+            Key::ArrowRight | Key::ArrowUp => 1.0,
+            _ => -1.0,
+        });
+    steps.sum()
+}
+
+const ARROWS: [Key; 4] = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+
+/// Presses of these keys in a focused control, and whether Shift was held. They are consumed, so that nothing else acts on them. Keys
+/// with Ctrl, Alt or Command are left alone.
+pub(crate) fn focused_keys(ui: &Ui, response: &Response, wanted: &[Key]) -> Vec<(Key, bool)> {
     if !response.has_focus() {
-        return 0.0;
+        return Vec::new();
     }
     let filter = EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
+        horizontal_arrows: wanted.contains(&Key::ArrowRight),
+        vertical_arrows: wanted.contains(&Key::ArrowUp),
         ..EventFilter::default()
     };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-    let mut steps = 0.0;
+    let mut pressed = Vec::new();
     ui.input_mut(|input| {
-        input.events.retain(|event| {
-            let step = match event {
-                Event::Key { key, pressed: true, .. } => match key {
-                    Key::ArrowRight | Key::ArrowUp => 1.0,
-                    Key::ArrowLeft | Key::ArrowDown => -1.0,
-                    _ => return true,
-                },
-                _ => return true,
-            };
-            steps += step;
-            false
+        input.events.retain(|event| match event {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } if wanted.contains(key) && !modifiers.command && !modifiers.ctrl && !modifiers.alt => {
+                pressed.push((*key, modifiers.shift));
+                false
+            }
+            _ => true,
         });
     });
-    steps
+    pressed
+}
+
+/// A slider as screen readers have it.
+#[derive(Clone, Debug)]
+pub(crate) struct SliderNode<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) value: f64,
+    pub(crate) range: RangeInclusive<f64>,
+    pub(crate) step: f64,
+    /// The value in words.
+    pub(crate) text: &'a str,
+}
+
+impl SliderNode<'_> {
+    /// Tells of it. Returns how many steps up they ask for, and which value.
+    pub(crate) fn tell(&self, ui: &Ui, response: &Response) -> (i32, Option<f64>) {
+        response.widget_info(|| WidgetInfo::slider(true, self.value, self.name));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_min_numeric_value(*self.range.start());
+            node.set_max_numeric_value(*self.range.end());
+            node.set_numeric_value_step(self.step);
+            node.set_value(self.text);
+            for action in [Action::SetValue, Action::Increment, Action::Decrement] {
+                node.add_action(action);
+            }
+        });
+        ui.input(|input| {
+            let count = |action| input.num_accesskit_action_requests(response.id, action) as i32;
+            let set = input.accesskit_action_requests(response.id, Action::SetValue);
+            let value = set.filter_map(|request| match request.data {
+                Some(ActionData::NumericValue(value)) if value.is_finite() => Some(value),
+                _ => None,
+            });
+            (count(Action::Increment) - count(Action::Decrement), value.last())
+        })
+    }
 }
 
 /// Margins of a chip: left and right together, top and bottom together.

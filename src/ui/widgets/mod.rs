@@ -12,10 +12,10 @@ pub(super) use button::{
 };
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
-    arrow_steps, by_finger, chip, chip_size, control_size, focus_ring, is_touch, paint_chip, paint_elided,
-    paint_fold_mark, paint_row_ground, pressed_row_height, size_for_touch,
+    SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, focus_ring, focused_keys, is_touch, paint_chip,
+    paint_elided, paint_fold_mark, paint_row_ground, pressed_row_height, size_for_touch,
 };
-pub(super) use number::{Slider, TypedValue, number_field, typed_number};
+pub(super) use number::{Slider, TypedValue, number_field};
 pub(super) use row::{
     choice_row, closable_heading, keyed_section_name, paint_ends, pressed_row, row_icon, rule, section_name,
     section_with_action, section_with_labelled_action, selected_heading, sheet_handle, value_row,
