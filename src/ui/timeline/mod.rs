@@ -8,6 +8,7 @@ mod curve_plot;
 mod curves;
 mod dope_sheet;
 mod joint_row;
+mod key_cursor;
 mod loop_gap;
 mod marks;
 mod options;
