@@ -2,7 +2,7 @@
 
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, NameCommand, PlayCommand};
-use egui::accesskit::{Action, Role};
+use egui::accesskit::{Action, Role, Toggled};
 use egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
 };
@@ -115,6 +115,20 @@ fn a_button_opens_and_shuts_it_and_the_edge_sizes_it() {
     assert!(window.shows("Keys of all bones"), "dragged up it is open");
     window.click("Shut the dope sheet");
     assert!(!window.shows("Keys of all bones"));
+}
+
+#[test]
+fn the_edge_is_moved_by_keys() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.ask("Height of the dope sheet", Action::Focus, None);
+    window.press(Modifiers::NONE, Key::Enter);
+    let before = window.rect("Keys of all bones").height();
+    window.press(Modifiers::NONE, Key::ArrowUp);
+    let higher = window.rect("Keys of all bones").height();
+    assert!((higher - before - 24.0).abs() < 1.0, "{before} to {higher}");
+    assert_eq!(window.time_secs(), 0.0, "arrows are its own");
+    window.press(Modifiers::NONE, Key::Space);
+    assert!(!window.shows("Keys of all bones") && !window.session().is_animating());
 }
 
 #[test]
@@ -362,8 +376,12 @@ fn arrows_go_from_key_to_key_and_from_row_to_row() {
         assert_eq!(window.time_secs(), 0.0, "they are no shortcuts");
     }
     window.press(Modifiers::NONE, Key::ArrowDown);
+    assert_eq!(
+        cell(&window),
+        "key 2 of 3, frame 10, 0.33 s, Bone 1",
+        "as in the row before"
+    );
     window.apply(PlayCommand::Play);
-    window.press(Modifiers::NONE, Key::ArrowRight);
     window.press(Modifiers::NONE, Key::Enter);
     assert!(!window.session().is_animating());
     assert!((window.time_secs() - 10.0 / 30.0).abs() < 1e-6, "{}", cell(&window));
@@ -374,7 +392,7 @@ fn arrows_go_from_key_to_key_and_from_row_to_row() {
     // Left of the first key is the name, which folds its branch.
     window.press(Modifiers::NONE, Key::Home);
     window.press(Modifiers::NONE, Key::ArrowLeft);
-    assert_eq!(cell(&window), "Bone 1, 3 keys");
+    assert_eq!(cell(&window), "Bone 1");
     window.press(Modifiers::NONE, Key::ArrowLeft);
     assert_eq!(rows(&window).len(), 2);
     window.press(Modifiers::NONE, Key::End);
@@ -447,7 +465,7 @@ fn bones_go_by_their_names() {
     window.apply(NameCommand::Rename { joint, name });
     window.click("Tail, 31 keys");
     window.click("Sheet: Curves");
-    assert!(window.shows("Curves of Tail"));
+    window.rect("Curves of Tail, rotation at 0.00 s: x ");
 }
 
 #[test]
@@ -630,6 +648,40 @@ fn a_finger_on_ruler_and_curves_carries_the_time_and_what_is_seen_stays() {
 }
 
 #[test]
+fn curves_are_read_by_keyboard_and_their_lines_are_hidden() {
+    let mut window = sheet(5, 31);
+    window.apply(JointCommand::Select(Some(JointIndex(4))));
+    window.click("Sheet: Curves");
+    window.ask("rotation y", Action::Click, None);
+    let line = window.node("rotation y");
+    assert_eq!((line.role(), line.toggled()), (Role::CheckBox, Some(Toggled::False)));
+    let curves = window.named(|name| name.starts_with("Curves of Bone 4")).remove(0).0;
+    assert_eq!(
+        curves,
+        "Curves of Bone 4, rotation at 0.00 s: x 0.0000, z 0.0000, w 1.0000"
+    );
+    window.ask(&curves, Action::Focus, None);
+    let key = |window: &Window| window.focused().expect("a key has the focus");
+    assert_eq!(key(&window), "rotation x 0.0000, key 1 of 31, frame 0, 0.00 s");
+    for (key, frame) in [(Key::ArrowRight, 1), (Key::End, 30), (Key::ArrowLeft, 29)] {
+        window.press(Modifiers::NONE, key);
+        let words = format!(", key {} of 31, frame {frame}, {:.2} s", frame + 1, frame as f32 / 30.0);
+        assert!(window.focused().is_some_and(|name| name.ends_with(&words)), "{words}");
+        assert_eq!(window.time_secs(), 0.0, "they are no shortcuts");
+    }
+    for _ in 0..3 {
+        window.press(Modifiers::NONE, Key::ArrowDown);
+    }
+    assert!(key(&window).starts_with("rotation w "), "{}", key(&window));
+    window.press(Modifiers::NONE, Key::Enter);
+    assert!((window.time_secs() - 29.0 / 30.0).abs() < 1e-6);
+    window.press(Modifiers::SHIFT, Key::Home);
+    assert!(window.shows("30 keys · 0.00–0.97 s"), "{:?}", window.widgets());
+    window.click("As range");
+    assert_eq!(window.session().playback().range_secs(), Some([0.0, 29.0 / 30.0]));
+}
+
+#[test]
 fn curves_show_the_chosen_bone_and_follow_the_choices() {
     let mut window = sheet(5, 31);
     window.click("Sheet: Curves");
@@ -637,10 +689,18 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
     window.click("Sheet: Dope sheet");
     window.click("Bone 4, ");
     window.click("Sheet: Curves");
-    assert!(window.shows("Curves of Bone 4"));
+    window.rect("Curves of Bone 4, rotation at 0.00 s: x 0.0000, y 0.0000, z 0.0000, w 1.0000");
     let legend = |window: &Window| {
-        let found = window.named(|name| name.starts_with("t 0") && name.contains(", x "));
-        found[0].0.clone()
+        let mut words = window.named(|name| name.starts_with("t 0")).remove(0).0;
+        for part in ["translation", "rotation", "scale"] {
+            for channel in ["x", "y", "z", "w"] {
+                let name = format!("{part} {channel}");
+                if window.shows(&name) {
+                    words += &format!(", {channel} {}", window.value_of(&name).expect("a value"));
+                }
+            }
+        }
+        words
     };
     assert_eq!(legend(&window), "t 0.000 s, x 0.0000, y 0.0000, z 0.0000, w 1.0000");
     window.apply(PlayCommand::Seek { time_secs: 10.0 / 30.0 });

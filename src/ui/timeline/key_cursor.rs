@@ -4,8 +4,9 @@ use egui::accesskit::Action;
 use egui::{Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::dope_sheet::Sheet;
-use super::rows::{Row, Rows};
+use super::rows::{Row, RowKeys, Rows};
 use super::state::{KeyBox, KeyCursor, TimelineState};
+use super::time_area::{self, GRID_KEYS};
 use crate::session::{Command, JointCommand, PlayCommand};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::focused_keys;
@@ -13,54 +14,6 @@ use crate::ui::wording::counted;
 
 /// Rows that the page keys go by.
 const PAGE: i32 = 8;
-
-/// The keys that the dope sheet and the curves take while they are focused.
-pub(super) const GRID_KEYS: [Key; 10] = [
-    Key::ArrowLeft,
-    Key::ArrowRight,
-    Key::ArrowUp,
-    Key::ArrowDown,
-    Key::PageUp,
-    Key::PageDown,
-    Key::Home,
-    Key::End,
-    Key::Enter,
-    Key::Space,
-];
-
-/// Key times of a row: the joint's own, and those folded below it.
-#[derive(Clone, Copy, Debug)]
-struct RowKeys<'a>([&'a [f32]; 2]);
-
-impl RowKeys<'_> {
-    fn before(&self, secs: f32) -> Option<f32> {
-        let before = self
-            .0
-            .map(|times| times[..times.partition_point(|&key| key < secs)].last().copied());
-        before.into_iter().flatten().max_by(f32::total_cmp)
-    }
-
-    fn after(&self, secs: f32) -> Option<f32> {
-        let after = self
-            .0
-            .map(|times| times.get(times.partition_point(|&key| key <= secs)).copied());
-        after.into_iter().flatten().min_by(f32::total_cmp)
-    }
-
-    fn first(&self) -> Option<f32> {
-        self.after(f32::NEG_INFINITY)
-    }
-
-    fn last(&self) -> Option<f32> {
-        self.before(f32::INFINITY)
-    }
-
-    fn nearest(&self, secs: f32) -> Option<f32> {
-        let around = [self.before(secs), self.after(secs.next_down())];
-        let away = |key: &f32| (key - secs).abs();
-        around.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)))
-    }
-}
 
 impl Sheet<'_> {
     /// Tells of the sheet as a grid of so many rows.
@@ -207,13 +160,8 @@ impl Sheet<'_> {
         let y = top + index as f32 * self.row_height;
         let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
         ui.scroll_to_rect(row, None);
-        let Some(secs) = cursor.key_secs else { return };
-        let seen = self.axis.points();
-        let off = (self.axis.x_of(secs) - seen.max).max(0.0) + (self.axis.x_of(secs) - seen.min).min(0.0);
-        if off != 0.0 {
-            let whole_secs = [self.clip.start_secs, self.clip.end_secs];
-            let by_secs = off / self.axis.points_per_sec().max(f32::MIN_POSITIVE);
-            state.window.pan(whole_secs, 1.0 / self.clip.keys_per_sec, by_secs);
+        if let Some(secs) = cursor.key_secs {
+            time_area::bring_into_view(self.clip, secs, state);
         }
     }
 
@@ -265,7 +213,7 @@ impl Sheet<'_> {
         let name = self.session.joint_label(row.joint);
         let times = self.key_times(row.joint);
         let Some(secs) = key_secs else {
-            return format!("{name}, {}", counted(times.len(), "key"));
+            return name;
         };
         let own = times.iter().position(|&key| key == secs);
         let number = match own {
@@ -276,26 +224,5 @@ impl Sheet<'_> {
             }
         };
         format!("{number}, frame {}, {secs:.2} s, {name}", self.clip.frame_at(secs))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_of_a_row_are_those_of_its_joint_and_of_what_is_folded_below() {
-        let keys = RowKeys([&[0.0, 1.0], &[0.5, 1.0, 2.0]]);
-        assert_eq!([keys.first(), keys.last()], [Some(0.0), Some(2.0)]);
-        assert_eq!(
-            [keys.after(0.0), keys.after(0.5), keys.after(2.0)],
-            [Some(0.5), Some(1.0), None]
-        );
-        assert_eq!([keys.before(2.0), keys.before(0.0)], [Some(1.0), None]);
-        assert_eq!(
-            [keys.nearest(0.6), keys.nearest(1.0), keys.nearest(9.0)],
-            [Some(0.5), Some(1.0), Some(2.0)]
-        );
-        assert_eq!(RowKeys([&[], &[]]).nearest(1.0), None);
     }
 }

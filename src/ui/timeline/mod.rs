@@ -4,6 +4,7 @@ mod axis;
 mod bar;
 mod clips;
 mod controls;
+mod curve_keys;
 mod curve_plot;
 mod curves;
 mod dope_sheet;
@@ -18,6 +19,7 @@ pub(super) mod state;
 mod time_area;
 mod transport;
 mod typed;
+mod value_axis;
 
 pub(super) use sheet::page;
 pub(super) use transport::{narrow, wide};

@@ -1,6 +1,6 @@
 //! How a clip plays: speed, what happens at the end, the range, and the loop gap.
 
-use egui::{Align2, FontId, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, WidgetInfo, pos2, vec2};
 
 use super::controls;
 use super::loop_gap::{LoopGapReading, angle, scale};
@@ -11,7 +11,7 @@ use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
 use crate::ui::panel::{popover_gap, scrolled};
-use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
     TypedValue, control_size, focus_ring, is_touch, paint_elided, pressed_row_height, section_name,
     section_with_action, segmented,
@@ -302,9 +302,16 @@ fn joint_row(
         let joint = (!selected).then_some(joint);
         commands.push(JointCommand::Select(joint).into());
     }
-    response.on_hover_ui(|ui| {
-        ui.label(format!("{name}\n{}", jump.long_words()));
-    });
+    // Beside the list, so that it covers no row.
+    let mut tooltip = Tooltip::for_enabled(&response);
+    let list = rect.expand2(vec2(2.0 * MARGIN, 0.0));
+    let beside = [RectAlign::RIGHT, RectAlign::TOP_START];
+    tooltip.popup = tooltip
+        .popup
+        .anchor(list)
+        .align(RectAlign::LEFT)
+        .align_alternatives(&beside);
+    tooltip.show(|ui| ui.label(format!("{name}\n{}", jump.long_words())));
 }
 
 /// The numbers of one row. None stands for zero.
@@ -346,7 +353,7 @@ impl Jump {
         let [distance, own, angle] = numbers.map(|number| number.as_deref().unwrap_or("0"));
         let scaled = self.scaled.iter().map(|scaled| format!(", {scaled}"));
         format!(
-            "{distance} in the model, {own} by its own keys\n{angle} relative to its parent{}",
+            "From the last pose to the first:\n{distance} in the model, {own} by its own keys\n{angle} relative to its parent{}",
             scaled.collect::<String>(),
         )
     }

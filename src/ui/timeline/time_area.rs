@@ -168,6 +168,30 @@ pub(super) fn navigate(
     }
 }
 
+/// The keys that the dope sheet and the curves take while they are focused.
+pub(super) const GRID_KEYS: [Key; 10] = [
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::PageUp,
+    Key::PageDown,
+    Key::Home,
+    Key::End,
+    Key::Enter,
+    Key::Space,
+];
+
+/// Pans so that a time is seen.
+pub(super) fn bring_into_view(clip: &Clip, secs: f32, state: &mut TimelineState) {
+    let whole_secs = [clip.start_secs, clip.end_secs];
+    let [start_secs, end_secs] = state.window.span_secs(whole_secs);
+    let by_secs = (secs - end_secs).max(0.0) + (secs - start_secs).min(0.0);
+    if by_secs != 0.0 {
+        state.window.pan(whole_secs, 1.0 / clip.keys_per_sec, by_secs);
+    }
+}
+
 /// A switch with a width, for a row with other controls.
 pub(super) fn segmented_of_width<T: Copy + PartialEq>(
     ui: &mut Ui,
