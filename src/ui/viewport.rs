@@ -66,7 +66,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
     {
         commands.push(Command::SelectAt(in_picture(rect, pointer)));
     }
-    if let Some(pointer) = response.hover_pos() {
+    // Within some points of a panel's edge egui says that the view is hovered too.
+    let over_view = |pointer: &Pos2| ui.ctx().layer_id_at(*pointer) == Some(ui.layer_id());
+    if let Some(pointer) = response.hover_pos().filter(over_view) {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         let factor = (-wheel * ZOOM_PER_POINT).exp() / pinch;
         if factor != 1.0 {
