@@ -122,8 +122,8 @@ impl Sheet<'_> {
                 ui.ctx()
                     .accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::RowGroup));
                 for row in rows.seen(seen) {
-                    let (rect, name) = self.show_row(ui, row, &response, state, &mut shape, commands);
-                    self.show_cursor(ui, &response, row.row, rect, &name, &rows, state);
+                    let name = self.show_row(ui, row, &response, state, &mut shape, commands);
+                    self.show_cursor(ui, &response, row.row, &name, &rows, state);
                 }
             });
             shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));

@@ -105,7 +105,7 @@ impl Sheet<'_> {
         self.activity.get(joint.index()).copied().unwrap_or_default()
     }
 
-    /// Shows it, and adds its marks to those of the other rows. Returns where it is, and its name.
+    /// Shows it, and adds its marks to those of the other rows. Returns its name.
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
@@ -114,7 +114,7 @@ impl Sheet<'_> {
         state: &mut TimelineState,
         shape: &mut MarkShape,
         commands: &mut Vec<Command>,
-    ) -> (Rect, Response) {
+    ) -> Response {
         let tokens = Tokens::of(ui);
         let size = vec2(self.area.width(), self.row_height);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -139,7 +139,7 @@ impl Sheet<'_> {
             self.add_folded_marks(row.joint, branch, rect.center().y, state, &tokens, shape);
         }
         self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
-        (rect, name)
+        name
     }
 
     /// The name of a joint, which selects it, and what folds its branch.

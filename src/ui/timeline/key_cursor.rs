@@ -171,7 +171,6 @@ impl Sheet<'_> {
         ui: &mut Ui,
         grid: &Response,
         row: &Row,
-        rect: Rect,
         name: &Response,
         rows: &Rows,
         state: &TimelineState,
@@ -185,7 +184,7 @@ impl Sheet<'_> {
         let cell = match cursor.key_secs {
             Some(secs) => {
                 let side = self.row_height.min(20.0) - 2.0;
-                Rect::from_center_size(pos2(self.axis.x_of(secs), rect.center().y), vec2(side, side))
+                Rect::from_center_size(pos2(self.axis.x_of(secs), name.rect.center().y), vec2(side, side))
             }
             None => name.rect,
         };
@@ -203,9 +202,8 @@ impl Sheet<'_> {
         let response = child.interact(cell, id, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::GridCell, true, &words));
         let ctx = ui.ctx();
-        ctx.accesskit_node_builder(id, |node| {
-            node.set_selected(self.session.joints().selected() == Some(row.joint))
-        });
+        let selected = self.session.joints().selected() == Some(row.joint);
+        ctx.accesskit_node_builder(id, |node| node.set_selected(selected));
         ctx.accesskit_node_builder(grid.id, |node| node.set_active_descendant(id.accesskit_id()));
     }
 
