@@ -70,7 +70,7 @@ impl Sheet<'_> {
     fn tooltip(&self, response: &Response, words: &str) {
         let mut tooltip = Tooltip::for_enabled(response);
         let above = Rect::from_min_size(self.area.min, vec2(self.area.width(), 0.0));
-        tooltip.popup = tooltip.popup.anchor(above).align(RectAlign::TOP_START);
+        tooltip.popup = tooltip.popup.anchor(above).align(RectAlign::TOP_END);
         tooltip.show(|ui| ui.label(words));
     }
 
