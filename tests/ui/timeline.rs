@@ -9,7 +9,7 @@ use egui::{Event, Key, Modifiers, pos2, vec2};
 
 use crate::dope_sheet::wheel;
 use crate::models::{moving, still};
-use crate::page::{WIDE, Window, phone, window};
+use crate::page::{WIDE, Window, phone, touch_window, window};
 use crate::rigs::{growing, rig};
 
 fn playing() -> Window {
@@ -314,6 +314,29 @@ fn speed_loop_wrap_and_range_are_set_in_one_place() {
         window.click("Clear");
         assert_eq!(window.session().playback().range_secs(), None);
         assert!(window.shows("Times as fast 0.3×"), "it stays open");
+    }
+}
+
+#[test]
+fn the_choices_at_the_end_have_room_in_windows_of_all_sizes_and_nothing_shines_through() {
+    for mut window in [
+        window(WIDE, vec![moving("a.m3d")]),
+        window(vec2(900.0, 420.0), vec![moving("a.m3d")]),
+        phone(vec![moving("a.m3d")]),
+        touch_window(vec2(320.0, 568.0), vec![moving("a.m3d")]),
+    ] {
+        let fill = window.harness.ctx.global_style().visuals.window_fill;
+        assert!(fill.is_opaque(), "of menus and tooltips: {fill:?}");
+        window.click("Speed 1×");
+        let size = window.harness.ctx.content_rect();
+        for (label, least) in [("Once", 40.0), ("Loop", 40.0), ("There and back", 94.0)] {
+            let rect = window.rect(&format!("At the end: {label}"));
+            assert!(rect.width() >= least, "{label}: {rect} in {size}");
+            assert!(
+                size.x_range().contains(rect.min.x) && size.x_range().contains(rect.max.x),
+                "{rect}"
+            );
+        }
     }
 }
 
