@@ -318,6 +318,29 @@ fn speed_loop_wrap_and_range_are_set_in_one_place() {
 }
 
 #[test]
+fn an_end_of_the_range_shows_its_value_while_it_is_dragged() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("Speed 1×");
+    let bar = window.rect("Time");
+    let from = window.rect("Range in").center();
+    window.harness.hover_at(from);
+    window.harness.drag_at(from);
+    for share in [0.2, 0.3] {
+        let at = pos2(bar.min.x + 12.0 + share * (bar.width() - 24.0), bar.center().y);
+        window.harness.hover_at(at);
+        window.pass_on();
+        let frame = (share * 30.0).round();
+        let told = format!("Range in {share:.3} s, frame {frame}");
+        assert!(window.shows(&told), "{told}: {:?}", window.widgets());
+        assert!(window.shows(&format!("In {share:.3} s")), "the field beside it follows");
+    }
+    let field = window.rect("In 0.300 s");
+    window.harness.drop_at(field.center());
+    window.pass_on();
+    assert!(window.shows("In 0.300 s"), "a drag does not shut the popover");
+}
+
+#[test]
 fn the_choices_at_the_end_have_room_in_windows_of_all_sizes_and_nothing_shines_through() {
     for mut window in [
         window(WIDE, vec![moving("a.m3d")]),
