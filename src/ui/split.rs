@@ -1,9 +1,9 @@
 //! The line that divides the picture between both lights, and its handle.
 
-use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use super::theme::Tokens;
-use super::widgets::{is_touch, paint_chip, slider_keys};
+use super::widgets::{SliderNode, is_touch, paint_chip, slider_keys};
 use crate::scene::Light;
 use crate::session::{Command, LookCommand, Session};
 
@@ -26,7 +26,6 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, command
     let line = ui.interact(line, id.with("line"), Sense::CLICK | Sense::DRAG);
     let grip = Rect::from_center_size(handle, egui::Vec2::splat(2.0 * reach));
     let grip = ui.interact(grip, id.with("handle"), Sense::click_and_drag());
-    grip.widget_info(|| WidgetInfo::slider(true, f64::from(fraction), "Split"));
     let active = [&line, &grip].into_iter().any(|part| part.hovered() || part.dragged());
     if active {
         ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
@@ -41,8 +40,14 @@ pub(super) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, command
     );
 
     let text = format!("{:.0} %", 100.0 * fraction);
-    let range = f64::from(*REACH.start())..=f64::from(*REACH.end());
-    let keyed = slider_keys(ui, &grip, f64::from(fraction), range, f64::from(KEY_STEP), &text);
+    let slider = SliderNode {
+        name: "Split",
+        value: f64::from(fraction),
+        range: f64::from(*REACH.start())..=f64::from(*REACH.end()),
+        step: f64::from(KEY_STEP),
+        text: &text,
+    };
+    let keyed = slider_keys(ui, &grip, &slider);
     let asked = if line.double_clicked() || grip.double_clicked() {
         Some(0.5)
     } else if let Some(keyed) = keyed {

@@ -1,7 +1,7 @@
 //! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
 //! help.
 
-use egui::{Align2, Color32, Label, Rangef, RectAlign, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, Label, Rangef, RectAlign, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::icons::Icon;
 use super::model_panel::summary;

@@ -44,9 +44,9 @@ export const BONES = { 19: [508, 318], 24: [452, 205], 4: [492, 195] };
 export const LEGEND_BAR = { x: 25, y: 489, width: 220, height: 3 };
 
 /** The bar with the keys in the strip: where its first and its last frame are, and what holds the ends of the range. */
-export const TIME_BAR = { first: 328, last: 648, y: 561 };
+export const TIME_BAR = { first: 328, last: 608, y: 561 };
 export const RANGE_IN = [322, 561];
-export const RANGE_OUT = [654, 561];
+export const RANGE_OUT = [614, 561];
 
 /** The clips, which hang from their button in the strip; the icon that blends the second into the first, and what it brings. */
 export const CLIPS_BUTTON = [263, 561];
@@ -58,5 +58,5 @@ export const BLEND_END = [540, 458];
 /** The same bar on a phone, 390 × 844. */
 export const PHONE_TIME_BAR = { first: 81, last: 311, y: 754 };
 /** And on its side, 844 × 390, with the button of the dope sheet. */
-export const LOW_TIME_BAR = { first: 283, last: 496, y: 352 };
+export const LOW_TIME_BAR = { first: 283, last: 507, y: 352 };
 export const LOW_SHEET_BUTTON = [806, 352];

@@ -2,6 +2,7 @@
 
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, NameCommand, PlayCommand};
+use egui::accesskit::{Action, Role, Toggled};
 use egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
 };
@@ -49,7 +50,7 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.pass_on();
 }
 
-fn wheel(window: &mut Window, at: Pos2, delta: Vec2, modifiers: Modifiers) {
+pub(crate) fn wheel(window: &mut Window, at: Pos2, delta: Vec2, modifiers: Modifiers) {
     window.harness.hover_at(at);
     window.harness.event_modifiers(
         Event::MouseWheel {
@@ -117,6 +118,20 @@ fn a_button_opens_and_shuts_it_and_the_edge_sizes_it() {
 }
 
 #[test]
+fn the_edge_is_moved_by_keys() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.ask("Height of the dope sheet", Action::Focus, None);
+    window.press(Modifiers::NONE, Key::Enter);
+    let before = window.rect("Keys of all bones").height();
+    window.press(Modifiers::NONE, Key::ArrowUp);
+    let higher = window.rect("Keys of all bones").height();
+    assert!((higher - before - 24.0).abs() < 1.0, "{before} to {higher}");
+    assert_eq!(window.time_secs(), 0.0, "arrows are its own");
+    window.press(Modifiers::NONE, Key::Space);
+    assert!(!window.shows("Keys of all bones") && !window.session().is_animating());
+}
+
+#[test]
 fn a_click_on_a_key_goes_there_and_chooses_its_bone() {
     let mut window = sheet(5, 31);
     let at = place(&window, "Bone 3, ", 20.0 / 30.0);
@@ -174,7 +189,13 @@ fn branches_fold_with_counts_and_rows_are_sorted_by_motion() {
     );
     window.click("Unfold all");
     window.click("Sort by motion");
-    assert_eq!(rows(&window)[..2], ["Bone 12, 31 keys", "Bone 11, 31 keys"]);
+    assert_eq!(
+        rows(&window)[..2],
+        [
+            "Bone 12, 31 keys, 100 % of the most motion",
+            "Bone 11, 31 keys, 92 % of the most motion"
+        ]
+    );
 }
 
 #[test]
@@ -302,6 +323,141 @@ fn rows_light_up_with_their_bones_and_come_into_sight_when_one_is_selected() {
 }
 
 #[test]
+fn it_opens_at_the_selected_bone_without_showing_others_before() {
+    let mut window = window(WIDE, vec![rig(300, 31)]);
+    let row = "Bone 299, 31 keys";
+    window.apply(JointCommand::Select(Some(JointIndex(299))));
+    for _ in 0..2 {
+        let button = window.rect("Dope sheet and curves").center();
+        window.harness.hover_at(button);
+        window.harness.drag_at(button);
+        window.harness.drop_at(button);
+        let seen = loop {
+            window.harness.step();
+            let seen = rows(&window);
+            if !seen.is_empty() {
+                break seen;
+            }
+        };
+        assert!(seen.contains(&row.to_owned()), "{seen:?}");
+        window.pass_on();
+        assert_eq!(rows(&window), seen, "it stands still");
+        // Scrolled away and opened again it is there again.
+        let over = place(&window, row, 0.5);
+        wheel(&mut window, over, vec2(0.0, 900.0), Modifiers::NONE);
+        assert!(!rows(&window).contains(&row.to_owned()));
+        window.click("Shut the dope sheet");
+    }
+}
+
+#[test]
+fn arrows_go_from_key_to_key_and_from_row_to_row() {
+    let all: Vec<usize> = (0..=30).collect();
+    let mut window = window(WIDE, vec![chain(&[&[0, 30], &[0, 10, 30], &[10, 20], &all])]);
+    open(&mut window);
+    window.ask("Keys of all bones", Action::Focus, None);
+    let cell = |window: &Window| window.focused().expect("a cell has the focus");
+    assert_eq!(cell(&window), "key 1 of 2, frame 0, 0.00 s, Bone 0");
+    for (key, expected) in [
+        (Key::ArrowRight, "key 2 of 2, frame 30, 1.00 s, Bone 0"),
+        (Key::ArrowRight, "key 2 of 2, frame 30, 1.00 s, Bone 0"),
+        (Key::ArrowDown, "key 3 of 3, frame 30, 1.00 s, Bone 1"),
+        (Key::ArrowLeft, "key 2 of 3, frame 10, 0.33 s, Bone 1"),
+        (Key::ArrowDown, "key 1 of 2, frame 10, 0.33 s, Bone 2"),
+        (Key::ArrowDown, "key 11 of 31, frame 10, 0.33 s, Bone 3"),
+        (Key::ArrowDown, "key 11 of 31, frame 10, 0.33 s, Bone 3"),
+        (Key::ArrowUp, "key 1 of 2, frame 10, 0.33 s, Bone 2"),
+        (Key::End, "key 2 of 2, frame 20, 0.67 s, Bone 2"),
+        (Key::Home, "key 1 of 2, frame 10, 0.33 s, Bone 2"),
+        (Key::PageUp, "key 1 of 2, frame 0, 0.00 s, Bone 0"),
+    ] {
+        window.press(Modifiers::NONE, key);
+        assert_eq!(cell(&window), expected, "{key:?}");
+        assert_eq!(window.time_secs(), 0.0, "they are no shortcuts");
+    }
+    window.press(Modifiers::NONE, Key::ArrowDown);
+    assert_eq!(
+        cell(&window),
+        "key 2 of 3, frame 10, 0.33 s, Bone 1",
+        "as in the row before"
+    );
+    window.apply(PlayCommand::Play);
+    window.press(Modifiers::NONE, Key::Enter);
+    assert!(!window.session().is_animating());
+    assert!((window.time_secs() - 10.0 / 30.0).abs() < 1e-6, "{}", cell(&window));
+    assert_eq!(window.session().joints().selected(), Some(JointIndex(1)));
+    window.press(Modifiers::NONE, Key::End);
+    window.press(Modifiers::NONE, Key::Space);
+    assert_eq!((window.time_secs(), window.session().is_animating()), (1.0, false));
+    // Left of the first key is the name, which folds its branch.
+    window.press(Modifiers::NONE, Key::Home);
+    window.press(Modifiers::NONE, Key::ArrowLeft);
+    assert_eq!(cell(&window), "Bone 1");
+    window.press(Modifiers::NONE, Key::ArrowLeft);
+    assert_eq!(rows(&window).len(), 2);
+    window.press(Modifiers::NONE, Key::End);
+    window.press(Modifiers::NONE, Key::ArrowLeft);
+    assert_eq!(cell(&window), "key of 2 bones folded away, frame 29, 0.97 s, Bone 1");
+    window.press(Modifiers::NONE, Key::Escape);
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(window.focused(), None, "Esc lets go");
+}
+
+#[test]
+fn shift_and_arrows_choose_keys() {
+    let mut window = sheet(5, 31);
+    window.ask("Keys of all bones", Action::Focus, None);
+    window.press(Modifiers::NONE, Key::ArrowRight);
+    for key in [Key::ArrowRight, Key::ArrowRight, Key::ArrowDown] {
+        window.press(Modifiers::SHIFT, key);
+    }
+    assert!(window.shows("6 keys · 0.03–0.10 s"), "{:?}", window.widgets());
+    window.press(Modifiers::SHIFT, Key::ArrowLeft);
+    assert!(window.shows("4 keys · 0.03–0.07 s"));
+    window.press(Modifiers::SHIFT, Key::End);
+    assert!(window.shows("60 keys · 0.03–1.00 s"));
+    window.press(Modifiers::NONE, Key::ArrowLeft);
+    assert!(!window.shows("As range"), "without Shift they are let go");
+}
+
+#[test]
+fn it_is_a_grid_whose_rows_select_and_fold() {
+    let mut window = sheet(5, 31);
+    let grid = window.node("Keys of all bones");
+    assert_eq!(grid.role(), Role::Grid);
+    let row = window.node("Bone 1, 31 keys");
+    assert_eq!(row.role(), Role::Row);
+    let above = std::iter::successors(row.parent(), |node| node.parent());
+    assert!(
+        above.into_iter().any(|node| node.role() == Role::Grid),
+        "it is in the grid"
+    );
+    window.ask("Bone 1, 31 keys", Action::Click, None);
+    assert_eq!(window.session().joints().selected(), Some(JointIndex(1)));
+    assert_eq!(window.node("Bone 1, 31 keys").is_selected(), Some(true));
+    window.ask("Bone 1, 31 keys", Action::Collapse, None);
+    assert_eq!(rows(&window).len(), 4);
+    let folded = "Bone 1, 31 keys; folded away: 1 bone with keys at 31 times";
+    window.ask(folded, Action::Expand, None);
+    assert_eq!(rows(&window).len(), 5);
+}
+
+#[test]
+fn a_row_says_what_its_tint_means_and_covers_no_row_with_that() {
+    let mut window = sheet(5, 31);
+    let at = place(&window, "Bone 1, ", 0.45);
+    window.harness.hover_at(at);
+    window.wait(1.0);
+    let told = window.named(|name| name.contains("of the most motion"));
+    let [(words, rect)] = &told[..] else { panic!("{told:?}") };
+    assert!(
+        words.starts_with("Bone 1 turns by ") && words.ends_with("the stronger its row is tinted."),
+        "{words}"
+    );
+    assert!(rect.max.y <= window.rect("Bone 0, ").min.y, "{rect}");
+}
+
+#[test]
 fn bones_go_by_their_names() {
     let mut window = sheet(5, 31);
     let name = "Tail".to_owned();
@@ -309,13 +465,13 @@ fn bones_go_by_their_names() {
     window.apply(NameCommand::Rename { joint, name });
     window.click("Tail, 31 keys");
     window.click("Sheet: Curves");
-    assert!(window.shows("Curves of Tail"));
+    window.rect("Curves of Tail, rotation at 0.00 s: x ");
 }
 
 #[test]
 fn the_ruler_carries_the_time() {
     let mut window = sheet(5, 31);
-    let ruler = window.rect("Ruler in seconds");
+    let ruler = window.rect("Ruler");
     drag(&mut window, ruler.left_center() + vec2(8.0, 0.0), ruler.center());
     assert!((window.time_secs() - 0.5).abs() < 0.01, "{}", window.time_secs());
     assert!(!window.session().is_scrubbing());
@@ -474,10 +630,7 @@ fn a_finger_on_ruler_and_curves_carries_the_time_and_what_is_seen_stays() {
     let pinch = |apart: f32| vec![middle - vec2(apart, 0.0), middle + vec2(apart, 0.0)];
     gesture(&mut window, &[20.0, 30.0, 40.0, 60.0, 80.0].map(pinch));
     assert!(window.shows("All of the time"));
-    for (tab, place) in [
-        ("Sheet: Dope sheet", "Ruler in seconds"),
-        ("Sheet: Curves", "Curves of Bone 1"),
-    ] {
+    for (tab, place) in [("Sheet: Dope sheet", "Ruler"), ("Sheet: Curves", "Curves of Bone 1")] {
         window.click(tab);
         let rect = window.rect(place);
         let at = |share: f32| vec![pos2(rect.min.x + share * rect.width(), rect.center().y)];
@@ -495,6 +648,40 @@ fn a_finger_on_ruler_and_curves_carries_the_time_and_what_is_seen_stays() {
 }
 
 #[test]
+fn curves_are_read_by_keyboard_and_their_lines_are_hidden() {
+    let mut window = sheet(5, 31);
+    window.apply(JointCommand::Select(Some(JointIndex(4))));
+    window.click("Sheet: Curves");
+    window.ask("rotation y", Action::Click, None);
+    let line = window.node("rotation y");
+    assert_eq!((line.role(), line.toggled()), (Role::CheckBox, Some(Toggled::False)));
+    let curves = window.named(|name| name.starts_with("Curves of Bone 4")).remove(0).0;
+    assert_eq!(
+        curves,
+        "Curves of Bone 4, rotation at 0.00 s: x 0.0000, z 0.0000, w 1.0000"
+    );
+    window.ask(&curves, Action::Focus, None);
+    let key = |window: &Window| window.focused().expect("a key has the focus");
+    assert_eq!(key(&window), "rotation x 0.0000, key 1 of 31, frame 0, 0.00 s");
+    for (key, frame) in [(Key::ArrowRight, 1), (Key::End, 30), (Key::ArrowLeft, 29)] {
+        window.press(Modifiers::NONE, key);
+        let words = format!(", key {} of 31, frame {frame}, {:.2} s", frame + 1, frame as f32 / 30.0);
+        assert!(window.focused().is_some_and(|name| name.ends_with(&words)), "{words}");
+        assert_eq!(window.time_secs(), 0.0, "they are no shortcuts");
+    }
+    for _ in 0..3 {
+        window.press(Modifiers::NONE, Key::ArrowDown);
+    }
+    assert!(key(&window).starts_with("rotation w "), "{}", key(&window));
+    window.press(Modifiers::NONE, Key::Enter);
+    assert!((window.time_secs() - 29.0 / 30.0).abs() < 1e-6);
+    window.press(Modifiers::SHIFT, Key::Home);
+    assert!(window.shows("30 keys · 0.00–0.97 s"), "{:?}", window.widgets());
+    window.click("As range");
+    assert_eq!(window.session().playback().range_secs(), Some([0.0, 29.0 / 30.0]));
+}
+
+#[test]
 fn curves_show_the_chosen_bone_and_follow_the_choices() {
     let mut window = sheet(5, 31);
     window.click("Sheet: Curves");
@@ -502,10 +689,18 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
     window.click("Sheet: Dope sheet");
     window.click("Bone 4, ");
     window.click("Sheet: Curves");
-    assert!(window.shows("Curves of Bone 4"));
+    window.rect("Curves of Bone 4, rotation at 0.00 s: x 0.0000, y 0.0000, z 0.0000, w 1.0000");
     let legend = |window: &Window| {
-        let found = window.named(|name| name.starts_with("t 0") && name.contains(", x "));
-        found[0].0.clone()
+        let mut words = window.named(|name| name.starts_with("t 0")).remove(0).0;
+        for part in ["translation", "rotation", "scale"] {
+            for channel in ["x", "y", "z", "w"] {
+                let name = format!("{part} {channel}");
+                if window.shows(&name) {
+                    words += &format!(", {channel} {}", window.value_of(&name).expect("a value"));
+                }
+            }
+        }
+        words
     };
     assert_eq!(legend(&window), "t 0.000 s, x 0.0000, y 0.0000, z 0.0000, w 1.0000");
     window.apply(PlayCommand::Seek { time_secs: 10.0 / 30.0 });

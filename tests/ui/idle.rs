@@ -62,7 +62,7 @@ fn what_was_touched_settles() {
     for label in [
         "Diagnostics",
         "Keys (?)",
-        "Loops",
+        "At the end: loops",
         "Lines over the model",
         "Vertex normals",
         "Lighting",
@@ -73,7 +73,7 @@ fn what_was_touched_settles() {
         "Dope sheet and curves",
         "Bone 1, ",
         "Sheet: Curves",
-        "Time 1.000 s",
+        "Time 1.000 / 1.000 s",
     ] {
         window.click(label);
         assert_settles(&mut window);

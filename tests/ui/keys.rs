@@ -575,7 +575,7 @@ fn a_key_after_enter_is_a_shortcut_again_in_the_same_frame() {
 
 #[test]
 fn a_number_is_the_same_however_its_digits_fall_into_frames() {
-    let at = open().rect("Frame 0 of 30").center();
+    let at = open().rect("Frame 0 / 30").center();
     let digits = [(Key::Num1, "1"), (Key::Num5, "5")];
     let digits = digits.into_iter().flat_map(|(key, text)| pressed(key, Some(text)));
     let events: Vec<Event> = clicks(at, 1)
@@ -598,7 +598,7 @@ fn a_number_is_the_same_however_its_digits_fall_into_frames() {
 #[test]
 fn a_letter_under_a_pressed_read_out_is_no_shortcut() {
     let mut window = open();
-    let at = window.rect("Frame 0 of 30").center();
+    let at = window.rect("Frame 0 / 30").center();
     window.frame(clicks(at, 1).into_iter().take(2));
     window.frame(pressed(Key::Z, Some("z")));
     assert!(!window.session().look().overlays.has(Overlay::Wireframe));

@@ -410,13 +410,11 @@ fn nothing_moves_while_time_goes_by() {
         window(WIDE, vec![models::file("a.m3d", &models::skinned(&clips))]),
         phone(vec![models::file("a.m3d", &models::skinned(&clips))]),
     ] {
-        let strip = ["Clip ", "Time in seconds", "Time ", "Frame ", "Speed ", "Loops"];
+        let strip = ["Clip ", "Time", "Time ", "Frame ", "Speed ", "At the end: loops"];
         let rects = |window: &Window| {
             strip.map(|start| {
                 let found = window.named(|name| {
-                    name.starts_with(start)
-                        && (start != "Time " || name.ends_with(" s"))
-                        && !name.starts_with("Frame the")
+                    (name.starts_with(start) && start != "Time" || name == start) && !name.starts_with("Frame the")
                 });
                 assert_eq!(found.len(), 1, "{start}: {found:?}");
                 found[0].1
@@ -444,8 +442,8 @@ fn targets_are_large_enough_for_fingers() {
         "Play",
         "Clip ",
         "Speed ",
-        "Loops",
-        "Time in seconds",
+        "At the end: loops",
+        "Time",
         "Handedness",
         "Up axis",
         "Diagnostics",

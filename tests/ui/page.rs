@@ -2,8 +2,9 @@
 
 use bindpose::session::{Command, File, FileCommand, Session};
 use bindpose::ui::{self, Request, UiState};
-use egui::{Rect, Role, Vec2};
-use egui_kittest::kittest::NodeT as _;
+use egui::accesskit::{Action, ActionData, ActionRequest, Role};
+use egui::{Rect, Vec2};
+use egui_kittest::kittest::{AccessKitNode, NodeT as _};
 use egui_kittest::{Harness, Node};
 
 /// Time of one pass.
@@ -185,6 +186,34 @@ impl Window {
         name(&widgets.find(Node::is_focused)?)
     }
 
+    /// The accessible node of this name.
+    #[track_caller]
+    pub(crate) fn node(&self, wanted: &str) -> AccessKitNode<'_> {
+        let mut nodes = self.harness.root().children_recursive();
+        nodes
+            .find(|node| name(node).as_deref() == Some(wanted))
+            .unwrap_or_else(|| panic!("no {wanted:?}"))
+            .accesskit_node()
+    }
+
+    /// The value of the widget of this name, in words.
+    pub(crate) fn value_of(&self, name: &str) -> Option<String> {
+        self.node(name).value()
+    }
+
+    /// Asks a widget for something as a screen reader does.
+    pub(crate) fn ask(&mut self, name: &str, action: Action, data: Option<ActionData>) {
+        let (target_node, target_tree) = self.node(name).locate();
+        let request = ActionRequest {
+            action,
+            target_tree,
+            target_node,
+            data,
+        };
+        self.harness.event(egui::Event::AccessKitActionRequest(request));
+        self.pass_on();
+    }
+
     pub(crate) fn press(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
@@ -207,8 +236,12 @@ fn is_container(role: Role) -> bool {
     )
 }
 
-/// What a screen reader says.
+/// What a screen reader says. Of a choice also what is chosen.
 fn name(node: &Node<'_>) -> Option<String> {
     let node = node.accesskit_node();
-    node.label().or_else(|| node.value()).filter(|name| !name.is_empty())
+    let name = match (node.role(), node.label(), node.value()) {
+        (Role::ComboBox, Some(label), Some(value)) => Some(format!("{label} {value}")),
+        (_, label, value) => label.or(value),
+    };
+    name.filter(|name| !name.is_empty())
 }

@@ -2,12 +2,13 @@
 
 use bindpose::scene::Camera;
 use egui::{
-    Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2,
+    Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2,
+    pos2, vec2,
 };
 use glam::Vec3;
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, phone, window};
+use crate::page::{WIDE, Window, phone, touch_window, window};
 
 pub(crate) const START: Pos2 = pos2(800.0, 420.0);
 
@@ -302,7 +303,7 @@ fn in_frames(window: &mut Window, events: &[Event], length: usize) {
 fn a_scrub_that_falls_into_one_frame_moves_the_time_and_not_the_end_that_it_comes_to() {
     for length in 1..=7 {
         let mut window = window(WIDE, vec![moving("a.m3d")]);
-        let from = window.rect("Time in seconds").center();
+        let from = window.rect("Time").center();
         let to = window.rect("Range out").center();
         in_frames(&mut window, &mouse_drag(from, to), length);
         assert_eq!(
@@ -315,7 +316,7 @@ fn a_scrub_that_falls_into_one_frame_moves_the_time_and_not_the_end_that_it_come
     }
     for length in 1..=13 {
         let mut window = phone(vec![moving("a.m3d")]);
-        let from = window.rect("Time in seconds").center();
+        let from = window.rect("Time").center();
         let to = window.rect("Range out").center();
         in_frames(&mut window, &finger_drag(from, to), length);
         assert_eq!(
@@ -350,5 +351,52 @@ fn a_drag_is_the_same_in_one_frame_as_in_many() {
     let before = window(WIDE, vec![moving("a.m3d")]).session().camera().yaw_radians;
     for length in 1..=7 {
         assert!((turned(length) - before).abs() > 0.2, "frames of {length} events");
+    }
+}
+
+/// A wheel over anything that lies over the view, over its margins too, leaves the camera alone.
+#[test]
+fn a_wheel_over_a_panel_never_zooms_the_scene_beneath() {
+    let low = Vec2::new(844.0, 390.0);
+    for (mut window, opened) in [
+        (window(WIDE, vec![moving("a.m3d")]), ""),
+        (window(WIDE, vec![moving("a.m3d")]), "Speed 1×"),
+        (window(WIDE, vec![moving("a.m3d")]), "Clip Bend"),
+        (window(WIDE, vec![moving("a.m3d")]), "Dope sheet and curves"),
+        (window(Vec2::new(900.0, 420.0), vec![moving("a.m3d")]), ""),
+        (touch_window(low, vec![moving("a.m3d")]), ""),
+        (phone(vec![moving("a.m3d")]), "Dope sheet and curves"),
+    ] {
+        if !opened.is_empty() {
+            window.click(opened);
+            window.wait(0.5);
+        }
+        let camera = *window.session().camera();
+        let size = window.harness.ctx.content_rect().size();
+        let mut covered = 0;
+        for (column, row) in (0..24).flat_map(|column| (0..24).map(move |row| (column, row))) {
+            let at = pos2(
+                (column as f32 + 0.5) / 24.0 * size.x,
+                (row as f32 + 0.5) / 24.0 * size.y,
+            );
+            let layer = window.harness.ctx.layer_id_at(at);
+            if layer.is_none_or(|layer| layer.order == egui::Order::Background) {
+                continue;
+            }
+            covered += 1;
+            for delta in [-40.0, 40.0] {
+                window.harness.hover_at(at);
+                window.frame([Event::MouseWheel {
+                    unit: MouseWheelUnit::Point,
+                    delta: vec2(0.0, delta),
+                    phase: TouchPhase::Move,
+                    source: MouseWheelSource::Wheel,
+                    modifiers: Modifiers::NONE,
+                }]);
+                window.pass_on();
+            }
+            assert_eq!(*window.session().camera(), camera, "{opened:?} at {at} of {size}");
+        }
+        assert!(covered > 24, "{covered}");
     }
 }

@@ -4,10 +4,12 @@ use bindpose::anim::{LoopMode, WrapMode};
 use bindpose::model::JointIndex;
 use bindpose::session::{FileCommand, PlayCommand, SPEEDS};
 use bindpose::ui::Request;
-use egui::{Event, Key, Modifiers, pos2};
+use egui::accesskit::{Action, ActionData, Role};
+use egui::{Event, Key, Modifiers, pos2, vec2};
 
+use crate::dope_sheet::wheel;
 use crate::models::{moving, still};
-use crate::page::{WIDE, Window, phone, window};
+use crate::page::{WIDE, Window, phone, touch_window, window};
 use crate::rigs::{growing, rig};
 
 fn playing() -> Window {
@@ -39,13 +41,13 @@ fn time_goes_by_while_it_plays_and_the_read_outs_follow() {
     window.apply(PlayCommand::Seek { time_secs: 0.5 });
     window.apply(PlayCommand::Pause);
     window.apply(PlayCommand::Seek { time_secs: 0.5 });
-    assert!(window.shows("Time 0.500 s") && window.shows("Frame 15 of 30"));
+    assert!(window.shows("Time 0.500 / 1.000 s") && window.shows("Frame 15 / 30"));
 }
 
 #[test]
 fn dragging_on_the_bar_seeks_while_it_plays_and_playing_goes_on_from_there() {
     let mut window = playing();
-    let bar = window.rect("Time in seconds");
+    let bar = window.rect("Time");
     let at = |share: f32| pos2(bar.min.x + share * bar.width(), bar.center().y);
     window.harness.hover_at(at(0.2));
     window.harness.drag_at(at(0.2));
@@ -72,7 +74,7 @@ fn dragging_on_the_bar_seeks_while_it_plays_and_playing_goes_on_from_there() {
 #[test]
 fn a_click_on_the_bar_goes_there() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    window.click("Time in seconds");
+    window.click("Time");
     assert!((window.time_secs() - 0.5).abs() < 0.01, "{}", window.time_secs());
     assert!(!window.session().is_scrubbing());
 }
@@ -103,7 +105,8 @@ fn the_clip_menu_lists_all_clips_and_shows_one() {
             window.shows("Clip Turn") && window.named(|name| name.starts_with("Turn, ")).is_empty(),
             "the menu is shut"
         );
-        assert!(window.shows("Time 0.500 s") && window.shows("Frame 0 of 60"));
+        window.rect("Time 0.500 ");
+        assert!(window.shows("Frame 0 / 60"));
     }
 }
 
@@ -123,14 +126,14 @@ fn the_speed_menu_lists_all_speeds_and_sets_one() {
 fn the_loop_button_goes_through_the_modes() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     for (label, next) in [
-        ("Loops", LoopMode::PingPong),
-        ("Plays there and back", LoopMode::Once),
-        ("Plays once", LoopMode::Loop),
+        ("At the end: loops", LoopMode::PingPong),
+        ("At the end: plays there and back", LoopMode::Once),
+        ("At the end: plays once", LoopMode::Loop),
     ] {
         window.click(label);
         assert_eq!(window.session().playback().loop_mode(), next);
     }
-    assert!(window.shows("Loops (L)"));
+    assert!(window.shows("At the end: loops"));
 }
 
 #[test]
@@ -182,19 +185,96 @@ fn type_into(window: &mut Window, read_out: &str, typed: &str, end: Key) {
 #[test]
 fn time_and_frame_are_typed() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
-        type_into(&mut window, "Time 0.000 s", "0.25", Key::Enter);
+        type_into(&mut window, "Time 0.000 ", "0.25", Key::Enter);
         assert_eq!(window.time_secs(), 0.25);
-        type_into(&mut window, "Time 0.250 s", "0,5 s", Key::Enter);
+        type_into(&mut window, "Time 0.250 ", "0,5 s", Key::Enter);
         assert_eq!(window.time_secs(), 0.5);
-        type_into(&mut window, "Frame 15 of 30", "7.5", Key::Enter);
+        type_into(&mut window, "Frame 15 / 30", "7.5", Key::Enter);
         assert_eq!(window.time_secs(), 0.25);
-        type_into(&mut window, "Time 0.250 s", "0.9", Key::Escape);
+        type_into(&mut window, "Time 0.250 ", "f15", Key::Enter);
+        assert_eq!(window.time_secs(), 0.5);
+        type_into(&mut window, "Frame 15 / 30", "0.25 s", Key::Enter);
+        assert_eq!(window.time_secs(), 0.25);
+        type_into(&mut window, "Time 0.250 ", "0.9", Key::Escape);
         assert_eq!(window.time_secs(), 0.25, "Esc leaves it");
-        assert!(window.shows("Time 0.250 s"));
-        type_into(&mut window, "Time 0.250 s", "soon", Key::Enter);
-        assert_eq!(window.time_secs(), 0.25, "no number, no other time");
-        type_into(&mut window, "Frame 8 of 30", "99", Key::Enter);
-        assert_eq!(window.time_secs(), 1.0, "beyond the end is the end");
+        window.rect("Time 0.250 ");
+    }
+}
+
+#[test]
+fn a_time_that_is_typed_while_it_plays_pauses_there() {
+    let mut window = playing();
+    type_into(&mut window, "Time 0.", "0.5", Key::Enter);
+    assert!(!window.session().playback().is_playing());
+    assert_eq!(window.time_secs(), 0.5);
+    window.apply(PlayCommand::Play);
+    let name = window.named(|name| name.starts_with("Frame 1")).remove(0).0;
+    type_into(&mut window, &name, "3", Key::Enter);
+    assert!(!window.session().playback().is_playing());
+    assert!((window.time_secs() - 0.1).abs() < 1e-6);
+}
+
+#[test]
+fn a_field_that_refuses_says_why_and_keeps_what_was_typed_until_esc() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        for (field, typed, why) in [
+            ("Time 0.000 ", "1.3", "Beyond the clip's end, 1 s"),
+            ("Time 0.000 ", "soon", "Type seconds, 0.33 s, or a frame, f20"),
+            ("Frame 0 / 30", "99", "Beyond the last frame, 30"),
+        ] {
+            type_into(&mut window, field, typed, Key::Enter);
+            assert!(window.shows(why), "{why}: {:?}", window.widgets());
+            assert_eq!(window.time_secs(), 0.0);
+            let name = if field.starts_with("Time") {
+                "Type the time"
+            } else {
+                "Type the frame"
+            };
+            assert_eq!(window.focused().as_deref(), Some(name));
+            assert_eq!(window.value_of(name).as_deref(), Some(typed), "it is kept");
+            window.press(Modifiers::NONE, Key::Escape);
+            assert!(!window.shows(why) && !window.shows(name));
+        }
+        type_into(&mut window, "Time 0.000 ", "2", Key::Enter);
+        window.press(Modifiers::NONE, Key::Backspace);
+        assert!(
+            !window.shows("Beyond the clip's end, 1 s"),
+            "what is typed anew is not refused yet"
+        );
+        window.harness.event(Event::Text("1".to_owned()));
+        window.pass_on();
+        window.press(Modifiers::NONE, Key::Enter);
+        assert_eq!(window.time_secs(), 1.0);
+    }
+}
+
+#[test]
+fn fields_stay_where_they_are_while_somebody_types() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.click("Speed 1×");
+        let rects = |window: &Window| {
+            let kept = [
+                "Out 1.000 s",
+                "Clear",
+                "Speed: 1×",
+                "At the end: Loop",
+                "Loop gap of the clip",
+            ];
+            window.named(|name| kept.contains(&name))
+        };
+        let before = rects(&window);
+        assert!(before.len() >= 4, "{before:?}");
+        for field in ["Times as fast 1×", "In 0.000 s"] {
+            window.click(field);
+            assert_eq!(rects(&window), before, "while {field} is typed");
+            window.harness.event(Event::Text("12345678901234567890".to_owned()));
+            window.pass_on();
+            assert_eq!(rects(&window), before, "{field} with a long text");
+            window.press(Modifiers::NONE, Key::Enter);
+            assert_eq!(rects(&window), before, "{field} refused");
+            window.press(Modifiers::NONE, Key::Escape);
+            assert_eq!(rects(&window), before);
+        }
     }
 }
 
@@ -205,25 +285,88 @@ fn speed_loop_wrap_and_range_are_set_in_one_place() {
         type_into(&mut window, "Times as fast 1×", "0.3", Key::Enter);
         assert_eq!(window.session().playback().speed(), 0.3);
         type_into(&mut window, "Times as fast 0.3×", "100", Key::Enter);
-        assert_eq!(window.session().playback().speed(), 4.0, "4 at most");
+        assert!(window.shows("A number from 0.05 to 4"));
+        window.press(Modifiers::NONE, Key::Escape);
+        assert_eq!(window.session().playback().speed(), 0.3);
+        let explained = |window: &Window| {
+            window
+                .named(|name| name.starts_with("A step past the end goes"))
+                .remove(0)
+        };
+        let wrap = explained(&window);
         window.click("Loop: As the book's demo");
         assert_eq!(window.session().playback().wrap_mode(), WrapMode::BookDemo);
+        let book_demo = explained(&window);
+        assert!(book_demo.0.contains("back to time 0") && !wrap.0.contains("back to time 0"));
+        assert_eq!(book_demo.1, wrap.1, "nothing moves");
         window.click("At the end: Once");
         assert_eq!(window.session().playback().loop_mode(), LoopMode::Once);
         assert!(!window.shows("Loop: Wrap"), "only a loop wraps");
         type_into(&mut window, "In 0.000 s", "0.2", Key::Enter);
-        type_into(&mut window, "Out 1.000 s", "0.8", Key::Enter);
+        type_into(&mut window, "Out 1.000 s", "0.8 s", Key::Enter);
         assert_eq!(window.session().playback().range_secs(), Some([0.2, 0.8]));
+        type_into(&mut window, "In 0.200 s", "f9", Key::Enter);
+        type_into(&mut window, "Out 0.800 s", "27 f", Key::Enter);
+        assert_eq!(window.session().playback().range_secs(), Some([0.3, 0.9]));
+        type_into(&mut window, "In 0.300 s", "1", Key::Enter);
+        assert!(window.shows("A range needs some length after its start"));
+        window.press(Modifiers::NONE, Key::Escape);
         window.click("Clear");
         assert_eq!(window.session().playback().range_secs(), None);
-        assert!(window.shows("Times as fast 4×"), "it stays open");
+        assert!(window.shows("Times as fast 0.3×"), "it stays open");
+    }
+}
+
+#[test]
+fn an_end_of_the_range_shows_its_value_while_it_is_dragged() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("Speed 1×");
+    let bar = window.rect("Time");
+    let from = window.rect("Range in").center();
+    window.harness.hover_at(from);
+    window.harness.drag_at(from);
+    for share in [0.2, 0.3] {
+        let at = pos2(bar.min.x + 12.0 + share * (bar.width() - 24.0), bar.center().y);
+        window.harness.hover_at(at);
+        window.pass_on();
+        let frame = (share * 30.0).round();
+        let told = format!("Range in {share:.3} s, frame {frame}");
+        assert!(window.shows(&told), "{told}: {:?}", window.widgets());
+        assert!(window.shows(&format!("In {share:.3} s")), "the field beside it follows");
+    }
+    let field = window.rect("In 0.300 s");
+    window.harness.drop_at(field.center());
+    window.pass_on();
+    assert!(window.shows("In 0.300 s"), "a drag does not shut the popover");
+}
+
+#[test]
+fn the_choices_at_the_end_have_room_in_windows_of_all_sizes_and_nothing_shines_through() {
+    for mut window in [
+        window(WIDE, vec![moving("a.m3d")]),
+        window(vec2(900.0, 420.0), vec![moving("a.m3d")]),
+        phone(vec![moving("a.m3d")]),
+        touch_window(vec2(320.0, 568.0), vec![moving("a.m3d")]),
+    ] {
+        let fill = window.harness.ctx.global_style().visuals.window_fill;
+        assert!(fill.is_opaque(), "of menus and tooltips: {fill:?}");
+        window.click("Speed 1×");
+        let size = window.harness.ctx.content_rect();
+        for (label, least) in [("Once", 40.0), ("Loop", 40.0), ("There and back", 94.0)] {
+            let rect = window.rect(&format!("At the end: {label}"));
+            assert!(rect.width() >= least, "{label}: {rect} in {size}");
+            assert!(
+                size.x_range().contains(rect.min.x) && size.x_range().contains(rect.max.x),
+                "{rect}"
+            );
+        }
     }
 }
 
 #[test]
 fn the_ends_of_the_range_are_dragged_on_the_bar_from_frame_to_frame() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
-    let bar = window.rect("Time in seconds");
+    let bar = window.rect("Time");
     let at = |share: f32| pos2(bar.min.x + 12.0 + share * (bar.width() - 24.0), bar.center().y);
     let drag = |window: &mut Window, name: &str, share: f32| {
         let from = window.rect(name).center();
@@ -249,6 +392,140 @@ fn the_ends_of_the_range_are_dragged_on_the_bar_from_frame_to_frame() {
 }
 
 #[test]
+fn the_bar_and_the_ends_of_the_range_are_sliders() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let slider = |window: &Window, name: &str| {
+        let node = window.node(name);
+        assert_eq!(node.role(), Role::Slider);
+        let numbers = [
+            node.min_numeric_value(),
+            node.numeric_value(),
+            node.max_numeric_value(),
+            node.numeric_value_step(),
+        ];
+        let numbers = numbers.map(|number| (number.expect("a number") * 1000.0).round());
+        (numbers, node.value().expect("words"))
+    };
+    window.apply(PlayCommand::Seek { time_secs: 0.5 });
+    let words = "0.50 of 1.00 seconds, frame 15 of 30".to_owned();
+    assert_eq!(slider(&window, "Time"), ([0.0, 500.0, 1000.0, 33.0], words));
+    window.ask("Time", Action::Increment, None);
+    assert!((window.time_secs() - 16.0 / 30.0).abs() < 1e-6);
+    window.ask("Time", Action::Decrement, None);
+    assert_eq!(window.time_secs(), 0.5);
+    window.apply(PlayCommand::Play);
+    window.ask("Time", Action::SetValue, Some(ActionData::NumericValue(0.25)));
+    assert_eq!((window.time_secs(), window.session().is_animating()), (0.25, false));
+    window.ask("Range in", Action::SetValue, Some(ActionData::NumericValue(0.2)));
+    window.ask("Range out", Action::Decrement, None);
+    let range = window.session().playback().range_secs().expect("a range");
+    assert!((range[0] - 0.2).abs() < 1e-6 && (range[1] - 29.0 / 30.0).abs() < 1e-6);
+    let words = "0.200 s, frame 6".to_owned();
+    assert_eq!(slider(&window, "Range in"), ([0.0, 200.0, 933.0, 33.0], words));
+    window.ask(
+        "Time 0.250 / 1.000 s",
+        Action::SetValue,
+        Some(ActionData::Value("f3".into())),
+    );
+    assert!((window.time_secs() - 0.1).abs() < 1e-6, "a read-out takes a text");
+}
+
+#[test]
+fn the_keys_of_the_bar_and_of_the_ends_of_the_range_are_theirs_alone() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.ask("Time", Action::Focus, None);
+    let frame = |window: &Window| (window.time_secs() * 30.0).round() as i32;
+    for (modifiers, key, expected) in [
+        (Modifiers::NONE, Key::ArrowRight, 1),
+        (Modifiers::NONE, Key::ArrowUp, 2),
+        (Modifiers::SHIFT, Key::ArrowRight, 12),
+        (Modifiers::NONE, Key::ArrowLeft, 11),
+        (Modifiers::NONE, Key::PageUp, 12),
+        (Modifiers::NONE, Key::PageDown, 11),
+        (Modifiers::NONE, Key::End, 30),
+        (Modifiers::SHIFT, Key::ArrowDown, 20),
+        (Modifiers::NONE, Key::Home, 0),
+    ] {
+        window.press(modifiers, key);
+        assert_eq!(frame(&window), expected, "{key:?}");
+        assert_eq!(window.focused().as_deref(), Some("Time"), "{key:?}");
+    }
+    // A mouse that happens to be over it does not make a click of Enter.
+    let bar = window.rect("Time");
+    window.harness.hover_at(bar.center());
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(frame(&window), 0);
+    window.ask("Range in", Action::Focus, None);
+    let range = |window: &Window| {
+        window
+            .session()
+            .playback()
+            .played_secs()
+            .map(|secs| (secs * 30.0).round() as i32)
+    };
+    for (modifiers, key, expected) in [
+        (Modifiers::NONE, Key::ArrowRight, [1, 30]),
+        (Modifiers::SHIFT, Key::ArrowRight, [11, 30]),
+        (Modifiers::NONE, Key::End, [29, 30]),
+        (Modifiers::NONE, Key::PageDown, [19, 30]),
+    ] {
+        window.press(modifiers, key);
+        assert_eq!(range(&window), expected, "{key:?}");
+    }
+    assert_eq!(frame(&window), 0, "the time stays");
+    window.ask("Range out", Action::Focus, None);
+    window.press(Modifiers::NONE, Key::Home);
+    assert_eq!(range(&window), [19, 20]);
+}
+
+#[test]
+fn tab_goes_through_the_strip_in_reading_order_and_choices_have_values() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.ask("First frame (Home)", Action::Focus, None);
+    let mut order = Vec::new();
+    for _ in 0..17 {
+        order.push(window.focused().expect("something has the focus"));
+        window.press(Modifiers::NONE, Key::Tab);
+    }
+    let starts = [
+        "First frame",
+        "Previous key",
+        "One frame back",
+        "Backward",
+        "Play",
+        "One frame on",
+        "Next key",
+        "Last frame",
+        "Clip Bend",
+        "Time",
+        "Range in",
+        "Range out",
+        "Time 0.000",
+        "Frame 0 / 30",
+        "Speed 1×",
+        "At the end: loops",
+        "Dope sheet and curves",
+    ];
+    let right = order.iter().zip(starts).all(|(name, start)| name.starts_with(start));
+    assert!(right, "{order:?}");
+    let toggled = |window: &Window, start: &str| {
+        let name = window.named(|name| name.starts_with(start)).remove(0).0;
+        window.node(&name).toggled().is_some()
+    };
+    assert!(toggled(&window, "Backward"));
+    assert!(!toggled(&window, "One frame on") && !toggled(&window, "Play ("));
+    let clip = window.node("Clip Bend");
+    assert_eq!(
+        clip.label().zip(clip.value()),
+        Some(("Clip".to_owned(), "Bend".to_owned()))
+    );
+    window.ask("Clip Bend", Action::Expand, None);
+    assert!(window.shows("Add clips…"));
+    window.ask("Clip Bend", Action::Collapse, None);
+    assert!(!window.shows("Add clips…"));
+}
+
+#[test]
 fn a_loop_gap_that_is_seen_is_told() {
     let window = window(WIDE, vec![moving("a.m3d")]);
     let angle = (1.2 * 6.0_f32.sin()).abs().to_degrees();
@@ -267,7 +544,7 @@ fn of_a_range_the_loop_gap_between_its_ends_is_told_and_its_mark_stands_there() 
     window.apply(PlayCommand::SetRangeEnd(Some(0.5)));
     let told = window.named(|name| name.contains("from the range's last pose to its first"));
     assert_eq!(told.len(), 1, "{:?}", window.widgets());
-    let bar = window.rect("Time in seconds");
+    let bar = window.rect("Time");
     assert!((told[0].1.center().x - bar.center().x).abs() < 1.0 && whole > bar.max.x - 20.0);
     // As far before the turning point of the swing as after it the pose is the same.
     let turning_secs = 0.25 * std::f32::consts::TAU / 0.2 / 30.0;
@@ -307,7 +584,10 @@ fn the_loop_gap_of_each_bone_is_listed_and_a_row_selects_its_bone() {
                 "Loop gap of Bone 0: distance 0, angle 0".to_owned(),
             ]
         );
-        window.click("Loop gap of Bone 1");
+        let row = rows(&window).remove(0);
+        let over = window.rect("Loop gap of the clip").center();
+        wheel(&mut window, over, vec2(0.0, -200.0), Modifiers::NONE);
+        window.click(&row);
         assert_eq!(window.session().joints().selected(), Some(JointIndex(1)));
         assert!(window.shows("Loop gap of the clip"), "it stays open");
         window.apply(PlayCommand::SetRangeEnd(Some(0.5)));

@@ -1,16 +1,20 @@
 //! The bar of the strip: all keys of a clip, the play head, the range that plays.
 
-use egui::{CursorIcon, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use std::ops::RangeInclusive;
+
+use egui::{
+    CursorIcon, Key, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
 
 use super::axis::TimeAxis;
 use super::loop_gap::LoopGapReading;
 use super::marks::{MarkShape, mark_radius};
-use super::time_area;
+use super::time_area::{self, SLIDER_KEYS};
 use crate::actions;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{arrow_steps, focus_ring, is_touch};
+use crate::ui::widgets::{SliderNode, focus_ring, focused_keys, is_touch};
 
 /// Room at both ends for the grips of the range.
 const END_ROOM: f32 = 12.0;
@@ -47,8 +51,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, gap: &LoopGapReading, size: V
         time_area::paint_pointer(ui, &response, &axis, rect.y_range());
     }
     time_area::paint_head(ui, session, &axis, rect.y_range());
-    let time_secs = f64::from(session.playback().time_secs());
-    response.widget_info(|| WidgetInfo::slider(true, time_secs, "Time in seconds"));
+    time_area::time_slider(ui, session, clip, "Time", &response, commands);
 
     for end in [End::In, End::Out] {
         grip(ui, session, clip, end, &axis, rect, commands);
@@ -88,41 +91,81 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
     let response = ui
         .interact(target, ui.scope_id().with(("range", end)), Sense::click_and_drag())
         .on_hover_cursor(CursorIcon::ResizeHorizontal);
-    let moved_frame = dragged_frame(ui, clip, secs, axis, &response);
-    if let Some(frame) = moved_frame {
-        let [in_frame, out_frame] = [in_secs, out_secs].map(|secs| clip.frame_at(secs));
+    let [in_frame, out_frame] = [in_secs, out_secs].map(|secs| clip.frame_at(secs));
+    let frames = match end {
+        End::In => 0..=out_frame.saturating_sub(1),
+        End::Out => in_frame + 1..=clip.last_frame(),
+    };
+    let words = format!("{secs:.3} s, frame {}", clip.frame_at(secs));
+    let node = SliderNode {
+        name,
+        value: f64::from(secs),
+        range: f64::from(clip.time_of_frame(*frames.start()))..=f64::from(clip.time_of_frame(*frames.end())),
+        step: 1.0 / f64::from(clip.keys_per_sec),
+        text: &words,
+    };
+    let (steps, value) = node.tell(ui, &response);
+    let asked_frame = value.map(|secs| clip.frame_at(secs as f32)).or_else(|| {
+        let frame = clip.frame_at(secs);
+        match steps + steps_of_keys(ui, &response, frame, &frames) {
+            0 => dragged_frame(clip, axis, &response),
+            steps => Some(frame.saturating_add_signed(steps)),
+        }
+    });
+    if let Some(frame) = asked_frame {
         commands.push(match end {
-            End::In => {
-                PlayCommand::SetRangeStart(Some(clip.time_of_frame(frame.min(out_frame.saturating_sub(1))))).into()
-            }
-            End::Out => PlayCommand::SetRangeEnd(Some(clip.time_of_frame(frame.max(in_frame + 1)))).into(),
+            End::In => PlayCommand::SetRangeStart(Some(clip.time_of_frame(frame.min(*frames.end())))).into(),
+            End::Out => PlayCommand::SetRangeEnd(Some(clip.time_of_frame(frame.max(*frames.start())))).into(),
         });
     }
     if response.double_clicked() {
         commands.push(PlayCommand::ClearRange.into());
     }
     paint_bracket(ui, session, &response, pos2(x, rect.center().y), sign, rect.height());
-    let label = format!("{name} {secs:.3} s");
-    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &label));
     let here = if end == End::In {
         &actions::RANGE_IN
     } else {
         &actions::RANGE_OUT
     };
-    response.on_hover_text(format!(
-        "{label}, frame {}\n{}: here; {}: all",
-        clip.frame_at(secs),
-        here.key(),
-        actions::CLEAR_RANGE.key(),
-    ));
+    let (here, all) = (here.key(), actions::CLEAR_RANGE.key());
+    if response.dragged() || response.has_focus() {
+        // Below the pointer egui shows no tooltip while a button is held.
+        Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), response.id, target).show(|ui| {
+            ui.label(format!("{name} {words}"));
+        });
+    } else {
+        response.on_hover_text(format!("{name} {words}\n{here}: here; {all}: all"));
+    }
 }
 
-/// The frame to which pointer or arrow keys move an end.
-fn dragged_frame(ui: &Ui, clip: &Clip, secs: f32, axis: &TimeAxis, response: &Response) -> Option<u32> {
-    let steps = arrow_steps(ui, response);
-    if steps != 0.0 {
-        return Some(clip.frame_at(clip.step_frames(secs, steps as i32)));
-    }
+/// Frames that keys move an end by: arrows by one, with Shift or the page keys by ten.
+fn steps_of_keys(ui: &Ui, response: &Response, frame: u32, frames: &RangeInclusive<u32>) -> i32 {
+    let keys = focused_keys(ui, response, &SLIDER_KEYS).into_iter();
+    let steps = keys.map(|(key, shift)| match key {
+        Key::ArrowRight | Key::ArrowUp => {
+            if shift {
+                10
+            } else {
+                1
+            }
+        }
+        Key::ArrowLeft | Key::ArrowDown => {
+            if shift {
+                -10
+            } else {
+                -1
+            }
+        }
+        Key::PageUp => 10,
+        Key::PageDown => -10,
+        Key::Home => *frames.start() as i32 - frame as i32,
+        _ => *frames.end() as i32 - frame as i32,
+    });
+    steps.sum()
+}
+
+/// The frame to which the pointer drags an end.
+fn dragged_frame(clip: &Clip, axis: &TimeAxis, response: &Response) -> Option<u32> {
     let pointer = response.interact_pointer_pos().filter(|_| response.dragged())?;
     Some(clip.frame_at(axis.seen_time_at(pointer.x)))
 }
@@ -158,5 +201,7 @@ fn loop_gap_tick(ui: &Ui, gap: &LoopGapReading, axis: &TimeAxis, rect: Rect) {
     let target = Rect::from_center_size(at + vec2(0.0, 4.0), vec2(14.0, 12.0));
     let response = ui.interact(target, ui.scope_id().with("loop gap"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
-    response.on_hover_text(words);
+    response.on_hover_text(format!(
+        "{words}\nThe triangle marks where the loop jumps. The speed's popover lists the jump of each bone."
+    ));
 }

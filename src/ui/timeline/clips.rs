@@ -2,6 +2,7 @@
 
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use super::controls::tell_choice;
 use crate::actions;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand, Session};
 use crate::ui::icons::Icon;
@@ -24,8 +25,8 @@ const LONGEST_CROSSFADE: f32 = 2.0;
 pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width: Rangef, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     let name = session.clip().map_or("", |clip| clip.name.as_str());
-    let label = format!("Clip {name}");
-    let response = TextButton::new(name, &label).list().width(width).show(ui);
+    let response = TextButton::new(name, "Clip").list().width(width).show(ui);
+    tell_choice(&response, "Clip", name);
     let response = response.on_hover_text(format!("{name}\nNext clip: {}", actions::NEXT_CLIP.key()));
     popover_above(ui, &response, WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 2.0;

@@ -1,14 +1,15 @@
 //! Controls of the time: buttons to play and step, time and frame as numbers that can be typed.
 
-use egui::{Align, FontId, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+use egui::{Align, FontId, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
-use crate::actions;
+use super::typed::{self, Unit};
+use crate::actions::{self, Action};
 use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TypedValue, action_button, control_size, icon_button, typed_number};
+use crate::ui::widgets::{TypedValue, action_button, control_size, icon_button};
 use crate::ui::wording::trimmed;
 
 /// The round button that plays and pauses.
@@ -51,7 +52,21 @@ pub(super) fn end_button(ui: &mut Ui, session: &Session, direction: Direction, c
         Direction::Backward => (Icon::SkipStart, &actions::FIRST_FRAME),
         Direction::Forward => (Icon::SkipEnd, &actions::LAST_FRAME),
     };
-    action_button(ui, session, action, icon, commands);
+    step_button(ui, session, action, icon, commands);
+}
+
+/// The button of an action that moves the time once.
+fn step_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
+    if momentary(icon_button(ui, icon, &action.hint(), false)).clicked() {
+        commands.extend(action.command(session));
+    }
+}
+
+/// Tells screen readers that a button is neither on nor off.
+pub(super) fn momentary(response: Response) -> Response {
+    let ctx = response.ctx.clone();
+    ctx.accesskit_node_builder(response.id, |node| node.clear_toggled());
+    response
 }
 
 /// Steps by one frame. With Shift, or by a long touch, by ten.
@@ -61,7 +76,7 @@ pub(super) fn frame_button(ui: &mut Ui, session: &Session, direction: Direction,
         Direction::Forward => (Icon::StepForward, &actions::FRAME_ON, &actions::TEN_FRAMES_ON),
     };
     let label = format!("{} ({}, with Shift ten)", one.label, one.key());
-    let response = icon_button(ui, icon, &label, false);
+    let response = momentary(icon_button(ui, icon, &label, false));
     // A long touch stands for Shift.
     let long = response.long_touched();
     if response.clicked() || long {
@@ -77,7 +92,7 @@ pub(super) fn key_button(ui: &mut Ui, session: &Session, direction: Direction, c
         Direction::Backward => (Icon::KeyBack, &actions::PREVIOUS_KEY),
         Direction::Forward => (Icon::KeyForward, &actions::NEXT_KEY),
     };
-    action_button(ui, session, action, icon, commands);
+    step_button(ui, session, action, icon, commands);
 }
 
 /// All buttons that move the time but play, spread over the width. For where the strip has no room for them.
@@ -105,7 +120,10 @@ pub(super) fn all_steps(ui: &mut Ui, session: &Session, commands: &mut Vec<Comma
 /// Widths of a clip's read-outs. They fit its longest numbers, so that nothing moves while these change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReadoutWidths {
+    /// Of the time alone.
     pub(super) time: f32,
+    /// Of the time and the clip's end.
+    pub(super) time_of_end: f32,
     pub(super) frame: f32,
 }
 
@@ -119,40 +137,66 @@ impl ReadoutWidths {
         // Figures are tabular, so eights are as wide as any digits.
         let eights = |text: String| text.replace(|letter: char| letter.is_ascii_digit(), "8");
         let most_secs = clip.start_secs.abs().max(clip.end_secs.abs());
-        let time = width(eights(format!("{most_secs:.3} s")), theme::mono(12.0)) + 16.0;
+        let time = eights(format!("{most_secs:.3}"));
         let last = clip.last_frame();
-        let frame = width(eights(format!("{last} of {last}")), FontId::proportional(13.0)) + 10.0;
+        let frame = width(eights(format!("{last} / {last}")), FontId::proportional(13.0)) + 10.0;
         Self {
-            time: time.max(72.0),
-            frame: frame.max(72.0),
+            time: (width(format!("{time} s"), theme::mono(12.0)) + 16.0).max(72.0),
+            time_of_end: width(format!("{time} / {time} s"), theme::mono(12.0)) + 16.0,
+            frame: frame.max(60.0),
         }
     }
 }
 
-/// The time in seconds.
-pub(super) fn time_readout(ui: &mut Ui, session: &Session, width: f32, commands: &mut Vec<Command>) {
-    let secs = session.playback().time_secs();
-    let typed = format!("{secs:.3}");
-    let text = format!("{typed} s");
-    let (entered, response) = TypedValue::new(ui, "Time", &text, &typed).width(width).show(ui);
-    response.on_hover_text("Click to type a time in seconds");
-    if let Some(secs) = entered.and_then(|typed| typed_number(&typed)) {
-        commands.push(PlayCommand::Seek { time_secs: secs as f32 }.into());
-    }
+/// The time in seconds, of how many if `with_end`.
+pub(super) fn time_readout(
+    ui: &mut Ui,
+    session: &Session,
+    clip: &Clip,
+    (width, with_end): (f32, bool),
+    commands: &mut Vec<Command>,
+) {
+    let typed = format!("{:.3}", session.playback().time_secs());
+    let text = if with_end {
+        format!("{typed} / {:.3} s", clip.end_secs)
+    } else {
+        format!("{typed} s")
+    };
+    let (time_secs, response) = TypedValue::new(ui, "Time", &text, &typed)
+        .width(width)
+        .show(ui, |typed| typed::time(typed, clip, Unit::Secs));
+    response.on_hover_text("Time, and where the clip ends\nClick to type seconds, 0.33, or a frame, f20");
+    go_to(time_secs, commands);
 }
 
 /// The frame nearest to the time, of how many.
 pub(super) fn frame_readout(ui: &mut Ui, session: &Session, clip: &Clip, width: f32, commands: &mut Vec<Command>) {
     let frame = clip.frame_at(session.playback().time_secs());
-    let text = format!("{frame} of {}", clip.last_frame());
+    let text = format!("{frame} / {}", clip.last_frame());
     let muted = Tokens::of(ui).muted;
-    let (entered, response) = TypedValue::new(ui, "Frame", &text, &frame.to_string())
+    let (time_secs, response) = TypedValue::new(ui, "Frame", &text, &frame.to_string())
         .width(width)
         .quiet(muted, Align::Min)
-        .show(ui);
+        .show(ui, |typed| typed::time(typed, clip, Unit::Frames));
     let rate = trimmed(clip.keys_per_sec);
-    response.on_hover_text(format!("Frame at {rate} keys a second\nClick to type one"));
-    if let Some(frame) = entered.and_then(|typed| typed_number(&typed)) {
-        commands.push(PlayCommand::SeekFrame(frame).into());
+    response.on_hover_text(format!(
+        "Frame at {rate} keys a second\nClick to type a frame, 20, or seconds, 0.33 s"
+    ));
+    go_to(time_secs, commands);
+}
+
+/// Pauses at a time that was typed. A clip that played on would leave it at once.
+fn go_to(time_secs: Option<f32>, commands: &mut Vec<Command>) {
+    if let Some(time_secs) = time_secs {
+        commands.push(PlayCommand::Pause.into());
+        commands.push(PlayCommand::Seek { time_secs }.into());
     }
+}
+
+/// Tells screen readers of a button that opens choices, and which one is in force.
+pub(super) fn tell_choice(response: &Response, name: &str, value: &str) {
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+    response
+        .ctx
+        .accesskit_node_builder(response.id, |node| node.set_value(value));
 }

@@ -1,16 +1,19 @@
 //! The motion of the selected joint as lines over time: controls, lines, keys as dots, names with values.
 
-use egui::{Align2, Color32, FontId, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2};
 
 use super::axis::{END_ROOM, TimeAxis};
+use super::curve_keys;
 use super::curves::{CurveOf, Curves, Part, RotationAs, SampledOf};
 use super::marks::MERGE_POINTS;
 use super::state::TimelineState;
 use super::time_area::{self, RULER_HEIGHT, segmented_of_width, split_x};
+use super::value_axis::ValueAxis;
 use crate::anim::{CurvePoint, CurveSpace};
 use crate::model::JointIndex;
 use crate::session::{Command, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
+use crate::ui::widgets::{focus_ring, is_touch};
 
 /// Distance of samples, in points.
 const SAMPLE_SPACING: f32 = 2.0;
@@ -81,8 +84,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     );
 
     let response = ui.interact(lines_rect, ui.scope_id().with("curves"), Sense::click_and_drag());
-    let label = format!("Curves of {}", session.joint_label(joint));
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
+    let now = state.curves.point_at(session, open, session.playback().time_secs());
+    curve_keys::tell(&response, session, &state.curves, joint, &now);
+    focus_ring(ui, lines_rect, &response);
+    curve_keys::read(ui, &response, session, clip, joint, state, commands);
+    curve_keys::paint_chosen(ui, state, joint, &axis, ruler_rect);
+    curve_keys::show_cursor(ui, &response, session, open, clip, state, &axis, &values);
     time_area::scrub(&response, &axis, commands);
     let ruler = time_area::ruler(ui, session, &axis, ruler_rect, commands);
     let read_secs = response
@@ -90,7 +97,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
         .filter(|_| !response.dragged())
         .map_or(session.playback().time_secs(), |at| axis.seen_time_at(at.x));
     let read = state.curves.point_at(session, open, read_secs);
-    paint_legend(ui, session, &state.curves, joint, &read, area, split);
+    paint_legend(ui, session, &mut state.curves, joint, &read, area, split);
     time_area::paint_pointer(ui, &response, &axis, lines_rect.y_range());
     time_area::paint_head_below_ruler(ui, session, &axis, ruler_rect, plot.max.y);
     time_area::navigate(ui, &response, clip, &axis, state, false);
@@ -99,6 +106,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
 
 /// Width of names and values, left of the lines.
 const LEGEND_WIDTH: f32 = 100.0;
+/// Height of a row of the legend, unless there is less room.
+const LEGEND_STEP: f32 = 18.0;
+const TOUCH_LEGEND_STEP: f32 = 32.0;
 
 /// Colours of x, y and z, those of the axes, and of w.
 fn channel_color(ui: &Ui, channel: usize) -> Color32 {
@@ -119,11 +129,10 @@ fn paint_hint(ui: &Ui, plot: Rect) {
 /// The lines, over lines at round values. Returns the value axis.
 fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_left: f32) -> ValueAxis {
     let (tokens, split) = (Tokens::of(ui), rect.min.x);
-    let channels = curves.channels().len();
     let all = curves
         .points
         .iter()
-        .flat_map(|point| (0..channels).map(move |channel| curves.value(point, channel)));
+        .flat_map(|point| curves.shown().map(move |channel| curves.value(point, channel)));
     let height = Rangef::new(rect.min.y + 4.0, rect.max.y - 4.0);
     let values = ValueAxis::fitted(height, all);
     let (lines, decimals) = values.lines();
@@ -139,7 +148,7 @@ fn paint_lines(ui: &Ui, curves: &Curves, axis: &TimeAxis, rect: Rect, legend_lef
         };
         ui.painter().text(at, anchor, text, theme::mono(10.5), tokens.faint);
     }
-    for channel in (0..channels).rev() {
+    for channel in curves.shown().rev() {
         let line = curves
             .points
             .iter()
@@ -167,7 +176,7 @@ fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, val
             continue;
         }
         before = x;
-        for channel in (0..curves.channels().len()).rev() {
+        for channel in curves.shown().rev() {
             if let Some(value) = curves.value_at(channel, time_secs) {
                 let at = pos2(x, values.y_of(value));
                 ui.painter().circle_filled(at, radius, channel_color(ui, channel));
@@ -180,7 +189,7 @@ fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, val
 fn paint_legend(
     ui: &Ui,
     session: &Session,
-    curves: &Curves,
+    curves: &mut Curves,
     joint: JointIndex,
     read: &CurvePoint,
     area: Rect,
@@ -198,119 +207,40 @@ fn paint_legend(
         theme::semibold(12.5),
         tokens.text,
     );
-    let rows = [("t", format!("{:.3} s", read.time_secs), tokens.muted)]
-        .into_iter()
-        .chain(curves.channels().iter().enumerate().map(|(channel, name)| {
-            let value = curves.value(read, channel);
-            let text = format!("{:>9}{}", format!("{value:.4}"), curves.unit());
-            (*name, text, channel_color(ui, channel))
-        }));
-    let mut words = Vec::new();
-    let step = 18.0_f32.min((area.height() - RULER_HEIGHT) / 5.5);
-    for (row, (name, text, color)) in rows.enumerate() {
-        let y = area.min.y + RULER_HEIGHT + (row as f32 + 0.6) * step;
-        painter.text(pos2(left, y), Align2::LEFT_CENTER, name, theme::mono(12.0), color);
-        let end = pos2((left + LEGEND_WIDTH).min(split - 4.0), y);
-        painter.text(end, Align2::RIGHT_CENTER, text.trim(), theme::mono(12.0), tokens.text);
-        words.push(format!("{name} {}", text.trim()));
-    }
-    let legend = Rect::from_min_size(pos2(left, area.min.y + RULER_HEIGHT), vec2(LEGEND_WIDTH, 5.0 * step));
-    let response = ui.interact(legend, ui.scope_id().with("legend"), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words.join(", ")));
-}
-
-/// Room above and below the curves, as a fraction of their height.
-const HEADROOM: f32 = 0.08;
-/// The least distance of lines, in points.
-const LINE_SPACING: f32 = 34.0;
-
-/// A range of values along a height, the greatest at the top.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct ValueAxis {
-    height: Rangef,
-    values: [f32; 2],
-}
-
-impl ValueAxis {
-    /// An axis on which all values fit, with headroom. NaN is ignored. The span is at least a thousandth of the largest
-    /// absolute value, so that noise is not magnified.
-    fn fitted(height: Rangef, values: impl Iterator<Item = f32>) -> Self {
-        let finite = values.filter(|value| value.is_finite());
-        let (least, most) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), value| {
-            (least.min(value), most.max(value))
-        });
-        let (least, most) = if least <= most { (least, most) } else { (0.0, 0.0) };
-        let middle = 0.5 * (least + most);
-        let least_half = (1e-3 * least.abs().max(most.abs())).max(1e-3);
-        let half = (0.5 * (most - least)).max(least_half) * (1.0 + 2.0 * HEADROOM);
-        Self {
-            height,
-            values: [middle - half, middle + half],
+    let most = if is_touch(ui) { TOUCH_LEGEND_STEP } else { LEGEND_STEP };
+    let step = most.min((area.height() - RULER_HEIGHT) / 5.5);
+    let end = (left + LEGEND_WIDTH).min(split - 4.0);
+    let font = || theme::mono(12.0);
+    let y_of = |row: usize| area.min.y + RULER_HEIGHT + (row as f32 + 0.6) * step;
+    let time = format!("{:.3} s", read.time_secs);
+    let time_row = Rect::from_x_y_ranges(left..=end, y_of(0) - 0.5 * step..=y_of(0) + 0.5 * step);
+    let response = ui.interact(time_row, ui.scope_id().with("time"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("t {time}")));
+    painter.text(pos2(left, y_of(0)), Align2::LEFT_CENTER, "t", font(), tokens.muted);
+    painter.text(pos2(end, y_of(0)), Align2::RIGHT_CENTER, time, font(), tokens.text);
+    let part = curves.part_name();
+    for (channel, name) in curves.channels().iter().enumerate() {
+        let (y, shown) = (y_of(channel + 1), !curves.hidden[channel]);
+        let row = Rect::from_x_y_ranges(left - 4.0..=end + 2.0, y - 0.5 * step..=y + 0.5 * step);
+        let response = ui.interact(row, ui.scope_id().with(("channel", channel)), Sense::click());
+        if response.hovered() {
+            painter.rect_filled(row, CONTROL_RADIUS, tokens.field_hovered);
         }
-    }
-
-    /// The y of a value.
-    fn y_of(&self, value: f32) -> f32 {
-        let fraction = (value - self.values[0]) / (self.values[1] - self.values[0]);
-        self.height.max - fraction * self.height.span()
-    }
-
-    /// Round values with room between them, and the decimals that tell them apart.
-    fn lines(&self) -> (Vec<f32>, usize) {
-        let [least, most] = self.values;
-        let count = (self.height.span() / LINE_SPACING).max(1.0);
-        let step = round_up((most - least) / count);
-        let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
-        let [first, last] = [(least / step).ceil(), (most / step).floor()];
-        // Counted, so that rounding loses no line.
-        let lines = (0..=(last - first).clamp(0.0, 100.0) as u32).map(|line| (first + line as f32) * step);
-        (lines.collect(), decimals)
-    }
-}
-
-/// The next of 1, 2 and 5 times a power of ten.
-fn round_up(step: f32) -> f32 {
-    let power = 10.0_f32.powf(step.max(1e-9).log10().floor());
-    let part = step / power;
-    let round = [1.0, 2.0, 5.0].into_iter().find(|&round| part <= round * 1.0001);
-    power * round.unwrap_or(10.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn axis(values: &[f32]) -> ValueAxis {
-        ValueAxis::fitted(Rangef::new(0.0, 200.0), values.iter().copied())
-    }
-
-    #[test]
-    fn all_values_are_inside_and_greater_ones_above() {
-        let axis = axis(&[-3.0, 7.0, 2.0, f32::NAN]);
-        let [low, high] = [-3.0, 7.0].map(|value| axis.y_of(value));
-        assert!(high > 5.0 && low < 195.0 && high < low);
-    }
-
-    #[test]
-    fn what_stands_still_is_in_the_middle() {
-        for value in [0.0, 5.0, -12_000.0] {
-            assert!((axis(&[value, value]).y_of(value) - 100.0).abs() < 1e-2);
-        }
-        assert!(axis(&[]).y_of(0.0).is_finite());
-    }
-
-    #[test]
-    fn lines_are_round_and_have_room() {
-        let (lines, decimals) = axis(&[-3.0, 7.0]).lines();
-        assert_eq!((lines, decimals), (vec![-2.0, 0.0, 2.0, 4.0, 6.0], 0));
-        let (lines, decimals) = axis(&[0.1, 0.2]).lines();
-        assert_eq!(decimals, 2);
-        assert!(
-            lines.windows(2).all(|pair| (pair[1] - pair[0] - 0.02).abs() < 1e-5),
-            "{lines:?}"
-        );
-        for step in [1e-4, 0.3, 1.0, 4.9, 700.0] {
-            assert!(round_up(step) >= step * 0.999 && round_up(step) <= step * 2.5);
+        focus_ring(ui, row, &response);
+        let (name_color, color) = if shown {
+            (channel_color(ui, channel), tokens.text)
+        } else {
+            (tokens.faint, tokens.faint)
+        };
+        painter.text(pos2(left, y), Align2::LEFT_CENTER, name, font(), name_color);
+        let value = curves.written(read, channel);
+        painter.text(pos2(end, y), Align2::RIGHT_CENTER, &value, font(), color);
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, format!("{part} {name}")));
+        ui.ctx()
+            .accesskit_node_builder(response.id, |node| node.set_value(value.as_str()));
+        let hint = if shown { "Hide this line" } else { "Show this line" };
+        if response.on_hover_text(hint).clicked() {
+            curves.hidden[channel] = shown;
         }
     }
 }

@@ -27,6 +27,10 @@ pub(super) struct Curves {
     pub(super) part: Part,
     pub(super) rotation: RotationAs,
     pub(super) space: CurveSpace,
+    /// Channels whose lines are hidden.
+    pub(super) hidden: [bool; 4],
+    /// The channel that the keyboard is on.
+    pub(super) channel: usize,
     of: Option<SampledOf>,
     curve: Option<Curve>,
     pub(super) points: Vec<CurvePoint>,
@@ -89,6 +93,25 @@ impl Curves {
             (Part::Rotation, RotationAs::Quaternion) => &["x", "y", "z", "w"],
             _ => &["x", "y", "z"],
         }
+    }
+
+    /// Channels whose lines are shown.
+    pub(super) fn shown(&self) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        (0..self.channels().len()).filter(|&channel| !self.hidden[channel])
+    }
+
+    /// What the lines are, in words.
+    pub(super) fn part_name(&self) -> &'static str {
+        match self.part {
+            Part::Translation => "translation",
+            Part::Rotation => "rotation",
+            Part::Scale => "scale",
+        }
+    }
+
+    /// A value of a channel as it is written.
+    pub(super) fn written(&self, point: &CurvePoint, channel: usize) -> String {
+        format!("{:.4}{}", self.value(point, channel), self.unit())
     }
 
     pub(super) fn value(&self, point: &CurvePoint, channel: usize) -> f32 {

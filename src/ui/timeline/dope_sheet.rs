@@ -2,13 +2,13 @@
 
 use egui::{
     Align2, CursorIcon, FontId, PointerButton, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    StrokeKind, Ui, UiBuilder, pos2, vec2,
 };
 
 use super::axis::{END_ROOM, TimeAxis};
 use super::marks::MarkShape;
 use super::rows::{Row, Rows};
-use super::state::{KeyBox, TimelineState};
+use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, RULER_HEIGHT, split_x};
 use crate::anim::JointActivity;
 use crate::model::{Clip, JointIndex};
@@ -97,32 +97,46 @@ impl Sheet<'_> {
         let with_bar = Rect::from_min_max(body.min, pos2(ui.clip_rect().max.x, body.max.y));
         ui.set_clip_rect(ui.clip_rect().intersect(with_bar));
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical()
+        let mut area = ScrollArea::vertical()
             .id_salt("dope sheet")
             .auto_shrink(false)
             .max_height(body.height())
-            .min_scrolled_height(body.height())
-            .show_rows(&mut ui, self.row_height, count, |ui, seen| {
-                rows.merge_folded(seen.clone(), self.session, self.open, self.clip_index);
-                let top = ui.max_rect().min.y - seen.start as f32 * self.row_height;
-                let keys = Rect::from_x_y_ranges(self.split..=body.max.x, body.y_range());
-                let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
-                response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Keys of all bones"));
-                let mut shape = MarkShape::new(ui);
-                self.reveal(ui, rows.all(), top, state);
+            .min_scrolled_height(body.height());
+        if state.keys_open(ui.ctx().cumulative_frame_nr())
+            && let Some(offset) = self.offset_of_selected(rows.all(), body.height())
+        {
+            // At once, so that no other rows are seen before.
+            area = area.vertical_scroll_offset(offset);
+            state.revealed = self.session.joints().selected();
+        }
+        area.show_rows(&mut ui, self.row_height, count, |ui, seen| {
+            rows.merge_folded(seen.clone(), self.session, self.open, self.clip_index);
+            let top = ui.max_rect().min.y - seen.start as f32 * self.row_height;
+            let keys = Rect::from_x_y_ranges(self.split..=body.max.x, body.y_range());
+            let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
+            self.tell_grid(&response, count);
+            let mut shape = MarkShape::new(ui);
+            self.reveal(ui, rows.all(), top, state);
+            self.read_keys(ui, &response, &mut rows, top, state, commands);
+            ui.scope_builder(UiBuilder::new().accessibility_parent(response.id), |ui| {
+                ui.ctx()
+                    .accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::RowGroup));
                 for row in rows.seen(seen) {
-                    self.show_row(ui, row, &response, state, &mut shape, commands);
-                }
-                shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
-                self.press_keys(ui, &response, &rows, top, state, commands);
-                time_area::navigate(ui, &response, self.clip, &self.axis, state, true);
-                if by_finger(ui) && response.dragged() {
-                    ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
-                }
-                if !response.dragged() {
-                    time_area::paint_pointer(ui, &response, &self.axis, keys.y_range());
+                    let name = self.show_row(ui, row, &response, state, &mut shape, commands);
+                    self.show_cursor(ui, &response, row.row, &name, &rows, state);
                 }
             });
+            shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
+            self.press_keys(ui, &response, &rows, top, state, commands);
+            time_area::navigate(ui, &response, self.clip, &self.axis, state, true);
+            if by_finger(ui) && response.dragged() {
+                ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
+            }
+            self.row_tooltip(&response, &rows, top);
+            if !response.dragged() {
+                time_area::paint_pointer(ui, &response, &self.axis, keys.y_range());
+            }
+        });
         state.rows = rows;
     }
 
@@ -195,17 +209,20 @@ impl Sheet<'_> {
         };
         let row = rows.all().get(row_at(at).max(0.0) as usize);
         let key = row.and_then(|row| Some((row.joint, self.key_near(ui, rows, row, at.x)?)));
+        // Enter and Space click too, wherever the pointer is.
+        let clicked = response.clicked_by(PointerButton::Primary);
         if let Some((joint, time_secs)) = key {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
-            if response.clicked() {
+            if clicked {
                 state.revealed = Some(joint);
+                state.cursor = Some(KeyCursor::at(joint, Some(time_secs)));
                 commands.push(JointCommand::Select(Some(joint)).into());
                 // Playing on would leave the key at once.
                 commands.push(PlayCommand::Pause.into());
                 commands.push(PlayCommand::Seek { time_secs }.into());
             }
         }
-        if response.clicked() {
+        if clicked {
             state.key_box = None;
         }
     }

@@ -1,18 +1,19 @@
 //! One row of the dope sheet: a joint's name and its keys.
 
-use egui::{Align2, FontId, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::accesskit::Action;
+use egui::{Align2, FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, WidgetInfo, pos2, vec2};
 
 use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
 use super::marks::{MarkShape, mark_radius};
-use super::rows::{FoldedBranch, Row, SeenRow};
+use super::rows::{FoldedBranch, Row, Rows, SeenRow};
 use super::state::TimelineState;
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark};
-use crate::ui::wording::counted;
+use crate::ui::widgets::{is_touch, paint_elided, paint_fold_mark};
+use crate::ui::wording::{counted, measured};
 
 /// Indent of each level of the tree.
 const INDENT: f32 = 11.0;
@@ -22,6 +23,14 @@ const SLIM_NAMES: f32 = 150.0;
 const FOLDED_SIZE: f32 = 0.85;
 /// Opacity of the tint of the row that moves most.
 const MOST_TINT: f32 = 0.17;
+
+/// A fraction in per cent.
+fn percent(fraction: f32) -> String {
+    match fraction * 100.0 {
+        small if small > 0.0 && small < 0.5 => "< 1 %".to_owned(),
+        percent => format!("{percent:.0} %"),
+    }
+}
 
 impl Sheet<'_> {
     /// Scrolls to the row of a joint that was selected elsewhere.
@@ -38,7 +47,65 @@ impl Sheet<'_> {
         }
     }
 
-    /// Shows it, and adds its marks to those of the other rows.
+    /// How far the sheet is scrolled with the row of the selected joint in its middle.
+    pub(super) fn offset_of_selected(&self, rows: &[Row], height: f32) -> Option<f32> {
+        let selected = self.session.joints().selected()?;
+        let index = rows.iter().position(|row| row.joint == selected)?;
+        let most = (rows.len() as f32 * self.row_height - height).max(0.0);
+        let middle = (index as f32 + 0.5) * self.row_height;
+        Some((middle - 0.5 * height).clamp(0.0, most))
+    }
+
+    /// What a row's tint means, beside the sheet so that it covers no row.
+    pub(super) fn row_tooltip(&self, keys: &Response, rows: &Rows, top: f32) {
+        let Some(at) = keys.hover_pos().filter(|_| !keys.dragged()) else {
+            return;
+        };
+        if let Some(row) = rows.all().get(((at.y - top) / self.row_height).max(0.0) as usize) {
+            self.tooltip(keys, &self.motion_words(row, rows.folded_below(row)));
+        }
+    }
+
+    /// A tooltip above the sheet.
+    fn tooltip(&self, response: &Response, words: &str) {
+        let mut tooltip = Tooltip::for_enabled(response);
+        let above = Rect::from_min_size(self.area.min, vec2(self.area.width(), 0.0));
+        tooltip.popup = tooltip.popup.anchor(above).align(RectAlign::TOP_END);
+        tooltip.show(|ui| ui.label(words));
+    }
+
+    /// How much the bone of a row moves in the clip, and what that has to do with its tint.
+    fn motion_words(&self, row: &Row, folded: Option<&FoldedBranch>) -> String {
+        let name = self.session.joint_label(row.joint);
+        let activity = self.activity_of(row.joint);
+        let amounts = [
+            (activity.path > 0.0).then(|| format!("moves by {}", measured(activity.path))),
+            (activity.turned_degrees >= 0.05).then(|| format!("turns by {:.1}°", activity.turned_degrees)),
+            (activity.scaled >= 0.0005).then(|| format!("scales by {:.1} %", activity.scaled * 100.0)),
+        ];
+        let amounts: Vec<String> = amounts.into_iter().flatten().collect();
+        if activity.constant || amounts.is_empty() {
+            let below = folded.filter(|branch| branch.most_motion > 0.0);
+            let tint = below.map_or(String::new(), |branch| {
+                format!(
+                    " A bone below it has {} of the most motion, which tints the row.",
+                    percent(branch.most_motion)
+                )
+            });
+            return format!("{name} stands still in this clip.{tint}");
+        }
+        format!(
+            "{name} {} in all, relative to its parent: {} of the most motion.\nThe more a bone moves, the stronger its row is tinted.",
+            amounts.join(", "),
+            percent(activity.fraction),
+        )
+    }
+
+    fn activity_of(&self, joint: JointIndex) -> JointActivity {
+        self.activity.get(joint.index()).copied().unwrap_or_default()
+    }
+
+    /// Shows it, and adds its marks to those of the other rows. Returns its name.
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
@@ -47,13 +114,13 @@ impl Sheet<'_> {
         state: &mut TimelineState,
         shape: &mut MarkShape,
         commands: &mut Vec<Command>,
-    ) {
+    ) -> Response {
         let tokens = Tokens::of(ui);
         let size = vec2(self.area.width(), self.row_height);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
-        let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
+        let activity = self.activity_of(row.joint);
         let fraction = folded.map_or(activity.fraction, |branch| branch.most_motion.max(activity.fraction));
         let tint = MOST_TINT * fraction;
         if tint > 0.0 {
@@ -67,11 +134,12 @@ impl Sheet<'_> {
         if self.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
-        self.name_cell(ui, row, folded, name_rect, state, commands);
+        let name = self.name_cell(ui, row, folded, name_rect, state, commands);
         if let Some(branch) = folded {
             self.add_folded_marks(row.joint, branch, rect.center().y, state, &tokens, shape);
         }
         self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
+        name
     }
 
     /// The name of a joint, which selects it, and what folds its branch.
@@ -83,10 +151,11 @@ impl Sheet<'_> {
         rect: Rect,
         state: &mut TimelineState,
         commands: &mut Vec<Command>,
-    ) {
+    ) -> Response {
         let tokens = Tokens::of(ui);
         let id = ui.scope_id().with(("row", row.joint.0));
-        let response = ui.interact(rect, id, Sense::click());
+        // Tab goes to the sheet as a whole, whose arrow keys come here.
+        let response = ui.interact(rect, id, Sense::CLICK);
         let joints = self.session.joints();
         let selected = joints.selected() == Some(row.joint);
         if response.contains_pointer() && !is_touch(ui) {
@@ -97,7 +166,6 @@ impl Sheet<'_> {
         } else if joints.hovered() == Some(row.joint) {
             ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
         }
-        focus_ring(ui, rect, &response);
         let name = self.session.joint_label(row.joint);
         response.widget_info(|| {
             let mut label = format!("{name}, {}", counted(self.key_times(row.joint).len(), "key"));
@@ -106,8 +174,24 @@ impl Sheet<'_> {
                 let times = counted(branch.times_secs.len(), "time");
                 label += &format!("; folded away: {bones} with keys at {times}");
             }
-            WidgetInfo::selected(Role::ListItem, true, selected, label)
+            if self.by_motion {
+                label += &format!(", {} of the most motion", percent(self.activity_of(row.joint).fraction));
+            }
+            WidgetInfo::labeled(Role::Row, true, label)
         });
+        ui.ctx().accesskit_node_builder(id, |node| {
+            node.set_selected(selected);
+            if row.below > 0 {
+                node.set_expanded(!row.folded);
+                node.add_action(if row.folded { Action::Expand } else { Action::Collapse });
+            }
+        });
+        let asks_for = |action| ui.input(|input| input.has_accesskit_action_request(id, action));
+        let (joint, folded_now) = (row.joint, row.folded);
+        if row.below > 0 && asks_for(if folded_now { Action::Expand } else { Action::Collapse }) {
+            let folded = !folded_now;
+            commands.push(JointCommand::SetFolded { joint, folded }.into());
+        }
         if response.clicked() {
             let joint = (!selected).then_some(row.joint);
             state.revealed = joint;
@@ -120,9 +204,9 @@ impl Sheet<'_> {
         let left = rect.min.x + 4.0 + (row.depth as f32 * indent).min(deepest * rect.width());
         let chevron_width = if self.by_motion { 4.0 } else { 16.0 };
         let mut right = rect.max.x - 6.0;
-        if row.folded {
+        let amount = self.by_motion.then(|| percent(self.activity_of(row.joint).fraction));
+        if let Some(count) = amount.or_else(|| row.folded.then(|| format!("+{}", row.below))) {
             let at = pos2(right, rect.center().y);
-            let count = format!("+{}", row.below);
             let font = FontId::proportional(11.0);
             let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, count, font, tokens.faint);
             right = drawn.min.x - 4.0;
@@ -134,6 +218,8 @@ impl Sheet<'_> {
             let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
             self.fold(ui, row, &name, place, commands);
         }
+        self.tooltip(&response, &self.motion_words(row, folded));
+        response
     }
 
     fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
@@ -144,7 +230,7 @@ impl Sheet<'_> {
         } else {
             place
         };
-        let response = ui.interact(target, ui.scope_id().with(("fold", row.joint.0)), Sense::click());
+        let response = ui.interact(target, ui.scope_id().with(("fold", row.joint.0)), Sense::CLICK);
         let color = tokens.muted_to_text(response.hovered());
         paint_fold_mark(ui.painter(), place.center(), row.folded, color);
         let verb = if row.folded { "Unfold" } else { "Fold" };

@@ -19,6 +19,8 @@ pub(super) struct LoopGapReading {
     /// All joints, the farthest travelled first. Empty if nothing loops.
     order: Vec<JointIndex>,
     words: Option<String>,
+    /// The least distance that does not count as zero, and the decimals of distances.
+    least: f32,
     decimals: usize,
     jumps: bool,
 }
@@ -48,11 +50,9 @@ impl LoopGapReading {
         self.gap = session.loop_gap().map(|gap| gap.into_owned()).unwrap_or_default();
         self.order = self.gap.by_travel();
         let size = session.open_model().map_or(1.0, |open| open.size());
-        self.decimals = (-(size * NO_FRACTION).log10()).ceil().clamp(0.0, 9.0) as usize;
+        (self.least, self.decimals) = precision(size);
         self.jumps = self.gap.joints.iter().any(|joint| {
-            joint.travel >= self.least_distance()
-                || joint.rotation_degrees >= LEAST_DEGREES
-                || joint.scale >= LEAST_SCALE
+            joint.travel >= self.least || joint.rotation_degrees >= LEAST_DEGREES || joint.scale >= LEAST_SCALE
         });
         self.words = self.told(session);
     }
@@ -96,12 +96,7 @@ impl LoopGapReading {
     /// A distance with the model's decimals. None if it rounds to zero.
     pub(super) fn distance(&self, distance: f32) -> Option<String> {
         let decimals = self.decimals;
-        (distance >= self.least_distance()).then(|| format!("{distance:.decimals$}"))
-    }
-
-    /// The least distance that does not round to zero.
-    fn least_distance(&self) -> f32 {
-        0.5 * 10.0_f32.powi(-(self.decimals as i32))
+        (distance >= self.least).then(|| format!("{distance:.decimals$}"))
     }
 
     /// The joint that jumps most relative to its parent, and the one that jumps farthest in the model. Numbers are as in the list.
@@ -135,6 +130,12 @@ impl LoopGapReading {
     }
 }
 
+/// The least distance that counts in a model of a size, and decimals that show it.
+fn precision(size: f32) -> (f32, usize) {
+    let least = size * NO_FRACTION;
+    (least, (-least.log10()).ceil().clamp(0.0, 9.0) as usize)
+}
+
 /// A change of scale in per cent. None if it rounds to zero.
 pub(super) fn scale(fraction: f32) -> Option<String> {
     (fraction >= LEAST_SCALE).then(|| format!("{:.1} %", fraction * 100.0))
@@ -143,4 +144,28 @@ pub(super) fn scale(fraction: f32) -> Option<String> {
 /// An angle in degrees. None if it rounds to zero.
 pub(super) fn angle(degrees: f32) -> Option<String> {
     (degrees >= LEAST_DEGREES).then(|| format!("{degrees:.2}°"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_files_round_away_is_zero_and_what_counts_is_not() {
+        for size in [0.08, 1.8, 73.4] {
+            let (least, decimals) = precision(size);
+            let reading = LoopGapReading {
+                least,
+                decimals,
+                ..LoopGapReading::default()
+            };
+            assert_eq!(reading.distance(7.5e-6 * size), None, "noise in a model of {size}");
+            let told: f32 = reading
+                .distance(1.1e-5 * size)
+                .expect("it counts")
+                .parse()
+                .expect("a number");
+            assert!(told > 0.0, "{size}");
+        }
+    }
 }

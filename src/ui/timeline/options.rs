@@ -1,19 +1,20 @@
 //! How a clip plays: speed, what happens at the end, the range, and the loop gap.
 
-use egui::{Align, Align2, FontId, Rect, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, WidgetInfo, pos2, vec2};
 
 use super::controls;
 use super::loop_gap::{LoopGapReading, angle, scale};
 use super::state::TimelineState;
+use super::typed::{self, Unit};
 use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
 use crate::ui::panel::{popover_gap, scrolled};
-use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
+use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
     TypedValue, control_size, focus_ring, is_touch, paint_elided, pressed_row_height, section_name,
-    section_with_action, segmented, typed_number,
+    section_with_action, segmented,
 };
 use crate::ui::wording::trimmed;
 
@@ -59,8 +60,8 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let speed = session.playback().speed();
     section_name(ui, "Speed");
     let text = speed_label(speed);
-    if let Some(speed) = typed_row(ui, "Times as fast", &text, &trimmed(speed)) {
-        commands.push(PlayCommand::SetSpeed(speed as f32).into());
+    if let Some(speed) = typed_row(ui, "Times as fast", "", &text, &trimmed(speed), typed::speed) {
+        commands.push(PlayCommand::SetSpeed(speed).into());
     }
     let labels = SPEEDS.map(speed_label);
     let choices: Vec<(f32, &str)> = SPEEDS.into_iter().zip(labels.iter().map(String::as_str)).collect();
@@ -84,10 +85,37 @@ fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         if let Some(mode) = segmented(ui, "Loop", &modes, Some(playback.wrap_mode())) {
             commands.push(PlayCommand::SetWrapMode(mode).into());
         }
+        wrap_explained(ui, playback.wrap_mode());
     }
 }
 
+/// Says how a loop begins again. As high for all modes, so that nothing moves when another is chosen.
+fn wrap_explained(ui: &mut Ui, mode: WrapMode) {
+    let words_of = |mode| match mode {
+        WrapMode::Wrap => {
+            "A step past the end goes on from the start with what is left of it: a round takes its length exactly."
+        }
+        WrapMode::BookDemo => {
+            "A step past the end goes back to time 0, or to the start where 0 is not played, and loses what is left of it."
+        }
+    };
+    let (width, color) = (ui.available_width(), Tokens::of(ui).muted);
+    let lay = |mode| {
+        let words = words_of(mode).to_owned();
+        ui.painter().layout(words, FontId::proportional(11.5), color, width)
+    };
+    let height = WrapMode::ALL
+        .map(|mode| lay(mode).size().y)
+        .into_iter()
+        .fold(0.0, f32::max);
+    let galley = lay(mode);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+    ui.painter().galley(rect.min, galley, color);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words_of(mode)));
+}
+
 fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let Some(clip) = session.clip() else { return };
     let playback = session.playback();
     let action = playback.range_secs().map(|_| "Clear");
     if section_with_action(ui, "Range", action) {
@@ -95,30 +123,54 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
     let [start_secs, end_secs] = playback.played_secs();
     for (name, secs) in [("In", start_secs), ("Out", end_secs)] {
+        let begins = name == "In";
         let typed = format!("{secs:.3}");
-        if let Some(secs) = typed_row(ui, name, &format!("{typed} s"), &typed) {
-            let secs = Some(secs as f32);
-            commands.push(if name == "In" {
-                PlayCommand::SetRangeStart(secs).into()
+        let frame = format!("frame {}", clip.frame_at(secs));
+        let read = |typed: &str| {
+            let secs = typed::time(typed, clip, Unit::Secs)?;
+            match begins {
+                true if secs >= clip.end_secs => Err("A range needs some length after its start".to_owned()),
+                false if secs <= clip.start_secs => Err("A range needs some length before its end".to_owned()),
+                _ => Ok(secs),
+            }
+        };
+        if let Some(secs) = typed_row(ui, name, &frame, &format!("{typed} s"), &typed, read) {
+            commands.push(if begins {
+                PlayCommand::SetRangeStart(Some(secs)).into()
             } else {
-                PlayCommand::SetRangeEnd(secs).into()
+                PlayCommand::SetRangeEnd(Some(secs)).into()
             });
         }
     }
 }
 
-/// A label and a number that can be typed.
-fn typed_row(ui: &mut Ui, name: &'static str, text: &str, typed: &str) -> Option<f64> {
+/// A label, a quiet text, and a number that can be typed.
+fn typed_row<T>(
+    ui: &mut Ui,
+    name: &'static str,
+    beside: &str,
+    text: &str,
+    typed: &str,
+    read: impl FnOnce(&str) -> Result<T, String>,
+) -> Option<T> {
     let height = control_size(ui).max(ROW_HEIGHT);
     ui.horizontal(|ui| {
         let tokens = Tokens::of(ui);
         let label_width = ui.available_width() - FIELD_WIDTH - ui.spacing().item_spacing.x;
         let (rect, _) = ui.allocate_exact_size(vec2(label_width, height), Sense::hover());
-        let (anchor, font) = (egui::Align2([Align::Min, Align::Center]), FontId::proportional(13.0));
-        ui.painter().text(rect.left_center(), anchor, name, font, tokens.muted);
-        let (entered, response) = TypedValue::new(ui, name, text, typed).width(FIELD_WIDTH).show(ui);
-        response.on_hover_text("Click to type");
-        entered.and_then(|typed| typed_number(&typed))
+        let painter = ui.painter();
+        let font = FontId::proportional(13.0);
+        painter.text(rect.left_center(), Align2::LEFT_CENTER, name, font, tokens.muted);
+        let font = FontId::proportional(12.0);
+        painter.text(rect.right_center(), Align2::RIGHT_CENTER, beside, font, tokens.faint);
+        let (read, response) = TypedValue::new(ui, name, text, typed).width(FIELD_WIDTH).show(ui, read);
+        let hint = if beside.is_empty() {
+            "Click to type"
+        } else {
+            "Click to type seconds, 0.33, or a frame, f20"
+        };
+        response.on_hover_text(hint);
+        read
     })
     .inner
 }
@@ -250,9 +302,16 @@ fn joint_row(
         let joint = (!selected).then_some(joint);
         commands.push(JointCommand::Select(joint).into());
     }
-    response.on_hover_ui(|ui| {
-        ui.label(format!("{name}\n{}", jump.long_words()));
-    });
+    // Beside the list, so that it covers no row.
+    let mut tooltip = Tooltip::for_enabled(&response);
+    let list = rect.expand2(vec2(2.0 * MARGIN, 0.0));
+    let beside = [RectAlign::RIGHT, RectAlign::TOP_START];
+    tooltip.popup = tooltip
+        .popup
+        .anchor(list)
+        .align(RectAlign::LEFT)
+        .align_alternatives(&beside);
+    tooltip.show(|ui| ui.label(format!("{name}\n{}", jump.long_words())));
 }
 
 /// The numbers of one row. None stands for zero.
@@ -294,7 +353,7 @@ impl Jump {
         let [distance, own, angle] = numbers.map(|number| number.as_deref().unwrap_or("0"));
         let scaled = self.scaled.iter().map(|scaled| format!(", {scaled}"));
         format!(
-            "{distance} in the model, {own} by its own keys\n{angle} relative to its parent{}",
+            "From the last pose to the first:\n{distance} in the model, {own} by its own keys\n{angle} relative to its parent{}",
             scaled.collect::<String>(),
         )
     }

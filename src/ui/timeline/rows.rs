@@ -187,6 +187,40 @@ impl FoldedBranches {
     }
 }
 
+/// Key times of a row: the joint's own, and those folded below it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowKeys<'a>(pub(super) [&'a [f32]; 2]);
+
+impl RowKeys<'_> {
+    pub(super) fn before(&self, secs: f32) -> Option<f32> {
+        let before = self
+            .0
+            .map(|times| times[..times.partition_point(|&key| key < secs)].last().copied());
+        before.into_iter().flatten().max_by(f32::total_cmp)
+    }
+
+    pub(super) fn after(&self, secs: f32) -> Option<f32> {
+        let after = self
+            .0
+            .map(|times| times.get(times.partition_point(|&key| key <= secs)).copied());
+        after.into_iter().flatten().min_by(f32::total_cmp)
+    }
+
+    pub(super) fn first(&self) -> Option<f32> {
+        self.after(f32::NEG_INFINITY)
+    }
+
+    pub(super) fn last(&self) -> Option<f32> {
+        self.before(f32::INFINITY)
+    }
+
+    pub(super) fn nearest(&self, secs: f32) -> Option<f32> {
+        let around = [self.before(secs), self.after(secs.next_down())];
+        let away = |key: &f32| (key - secs).abs();
+        around.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use glam::{Quat, Vec3};
@@ -275,5 +309,21 @@ mod tests {
         assert!(branches.get(above).is_none() && branches.get(root).is_some());
         branches.keep_of((1, 1));
         assert!(branches.get(root).is_none());
+    }
+
+    #[test]
+    fn keys_of_a_row_are_those_of_its_joint_and_of_what_is_folded_below() {
+        let keys = RowKeys([&[0.0, 1.0], &[0.5, 1.0, 2.0]]);
+        assert_eq!([keys.first(), keys.last()], [Some(0.0), Some(2.0)]);
+        assert_eq!(
+            [keys.after(0.0), keys.after(0.5), keys.after(2.0)],
+            [Some(0.5), Some(1.0), None]
+        );
+        assert_eq!([keys.before(2.0), keys.before(0.0)], [Some(1.0), None]);
+        assert_eq!(
+            [keys.nearest(0.6), keys.nearest(1.0), keys.nearest(9.0)],
+            [Some(0.5), Some(1.0), Some(2.0)]
+        );
+        assert_eq!(RowKeys([&[], &[]]).nearest(1.0), None);
     }
 }

@@ -1,6 +1,6 @@
 //! The sheet above the strip: dope sheet or curves with their controls, and the edge that opens it.
 
-use egui::{CursorIcon, FontId, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{CursorIcon, FontId, PointerButton, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::state::{SheetTab, TimelineState};
 use super::time_area::segmented_of_width;
@@ -9,7 +9,7 @@ use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{TextButton, control_size, icon_button};
+use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button};
 use crate::ui::wording::counted;
 
 /// Gap between the controls and the sheet.
@@ -52,6 +52,7 @@ fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands:
             SheetTab::Keys => keys_controls(ui, session, state, commands),
             SheetTab::Curves => curve_plot::controls(ui, &mut state.curves),
         }
+        chosen_keys(ui, session, state, commands);
         if state.window.is_part() && icon_button(ui, Icon::Frame, "All of the time", false).clicked() {
             state.window.show_all();
         }
@@ -76,6 +77,10 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
             commands.push(JointCommand::SetAllFolded(!any_folded).into());
         }
     }
+}
+
+/// How many keys are chosen, and what can be done with them.
+fn chosen_keys(ui: &mut Ui, session: &Session, state: &TimelineState, commands: &mut Vec<Command>) {
     let Some(key_box) = &state.key_box else { return };
     let [start_secs, end_secs] = key_box.span_secs;
     let words = format!(
@@ -97,6 +102,8 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     }
 }
 
+/// How far an arrow key moves the edge.
+const STEP: f32 = 24.0;
 /// How far the edge reaches into the panel's margin.
 const REACH: f32 = 9.0;
 
@@ -120,11 +127,21 @@ pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
     if response.drag_stopped() {
         state.settle_height(ui.available_height());
     }
-    if response.double_clicked() {
+    // Enter or Space, or what a screen reader asks for.
+    let typed = response.clicked() && !response.clicked_by(PointerButton::Primary);
+    if response.double_clicked() || typed {
         state.open = !state.open;
     }
+    let steps = arrow_steps(ui, &response);
+    if steps != 0.0 {
+        let height = state.sheet_height(ui.available_height()).unwrap_or(0.0);
+        state.drag_height(height + steps * STEP);
+        state.settle_height(ui.available_height());
+    }
     let tokens = Tokens::of(ui);
-    let color = if response.hovered() || response.dragged() {
+    let color = if response.has_focus() {
+        tokens.accent
+    } else if response.hovered() || response.dragged() {
         tokens.muted
     } else {
         tokens.hairline
@@ -132,4 +149,6 @@ pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
     let grip = Rect::from_center_size(edge.center() - vec2(0.0, 1.0), vec2(38.0, 3.0));
     ui.painter().rect_filled(grip, 1.5, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Height of the dope sheet"));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_expanded(state.open));
 }

@@ -45,6 +45,11 @@ pub(in crate::ui) struct TimelineState {
     pub(super) hovered: Option<JointIndex>,
     /// The selected joint to whose row the sheet has scrolled.
     pub(super) revealed: Option<JointIndex>,
+    /// The cell of the dope sheet that has the keyboard.
+    pub(super) cursor: Option<KeyCursor>,
+    /// The frames in which the dope sheet was opened and was shown last.
+    keys_opened_in: u64,
+    keys_shown_in: Option<u64>,
     of: Option<(u64, usize)>,
     head_was_seen: bool,
 }
@@ -61,9 +66,19 @@ impl TimelineState {
         if self.of != of {
             self.window.show_all();
             self.key_box = None;
+            self.cursor = None;
             self.of = of;
         }
         self.follow(session, clip);
+    }
+
+    /// Notes that the dope sheet is shown in a frame. Returns whether it was opened in it.
+    pub(super) fn keys_open(&mut self, frame: u64) -> bool {
+        if self.keys_shown_in.is_none_or(|last| last + 1 < frame) {
+            self.keys_opened_in = frame;
+        }
+        self.keys_shown_in = Some(frame);
+        self.keys_opened_in == frame
     }
 
     /// Scrolls on when the play head leaves the view while it plays.
@@ -187,5 +202,29 @@ impl KeyBox {
     pub(super) fn count(&self, session: &Session) -> usize {
         let in_box = |&joint: &JointIndex| self.part_of(joint, session.key_times(Some(joint))).len();
         self.joints.iter().map(in_box).sum()
+    }
+}
+
+/// The cell of the dope sheet that has the keyboard.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct KeyCursor {
+    pub(super) joint: JointIndex,
+    /// The time of its key. None is the name of the row.
+    pub(super) key_secs: Option<f32>,
+    /// The time that up and down look for in each row.
+    pub(super) wanted_secs: Option<f32>,
+    /// Whether Shift has chosen keys since it moved without.
+    pub(super) chooses: bool,
+}
+
+impl KeyCursor {
+    /// At a key of a row, or at its name.
+    pub(super) fn at(joint: JointIndex, key_secs: Option<f32>) -> Self {
+        Self {
+            joint,
+            key_secs,
+            wanted_secs: key_secs,
+            chooses: false,
+        }
     }
 }

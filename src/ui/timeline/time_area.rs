@@ -1,15 +1,14 @@
 //! What bar, dope sheet and curves share: the ruler, the play head, scrubbing, zooming and panning in time.
 
-use egui::{
-    Align2, FontId, PointerButton, Rangef, Rect, Response, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, FontId, Key, PointerButton, Rangef, Rect, Response, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::axis::TimeAxis;
 use super::state::TimelineState;
+use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{by_finger, control_size, is_touch, segmented};
+use crate::ui::widgets::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
 
 /// Height of the ruler.
 pub(super) const RULER_HEIGHT: f32 = 24.0;
@@ -26,7 +25,7 @@ pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Com
     let two_fingers = response.ctx.input(egui::InputState::multi_touch).is_some();
     if let Some(pointer) = response.interact_pointer_pos()
         && !two_fingers
-        && (response.dragged_by(PointerButton::Primary) || response.clicked())
+        && (response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary))
     {
         let time_secs = axis.seen_time_at(pointer.x);
         commands.push(PlayCommand::Seek { time_secs }.into());
@@ -68,10 +67,74 @@ pub(super) fn paint_head_below_ruler(ui: &Ui, session: &Session, axis: &TimeAxis
 pub(super) fn ruler(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect, commands: &mut Vec<Command>) -> Response {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
     scrub(&response, axis, commands);
-    let time_secs = f64::from(session.playback().time_secs());
-    response.widget_info(|| WidgetInfo::slider(true, time_secs, "Ruler in seconds"));
+    if let Some(clip) = session.clip() {
+        time_slider(ui, session, clip, "Ruler", &response, commands);
+    }
+    focus_ring(ui, rect, &response);
     response
 }
+
+/// The time as a slider for keyboards and screen readers: arrows go by a frame, with Shift by ten; Page Up and Page Down from key to key.
+pub(super) fn time_slider(
+    ui: &Ui,
+    session: &Session,
+    clip: &Clip,
+    name: &str,
+    response: &Response,
+    commands: &mut Vec<Command>,
+) {
+    let time_secs = session.playback().time_secs();
+    let node = SliderNode {
+        name,
+        value: f64::from(time_secs),
+        range: f64::from(clip.start_secs)..=f64::from(clip.end_secs),
+        step: 1.0 / f64::from(clip.keys_per_sec),
+        text: &spoken(clip, time_secs),
+    };
+    let (steps, value) = node.tell(ui, response);
+    if steps != 0 {
+        commands.push(PlayCommand::StepFrames(steps).into());
+    }
+    if let Some(secs) = value {
+        commands.push(PlayCommand::Pause.into());
+        commands.push(PlayCommand::Seek { time_secs: secs as f32 }.into());
+    }
+    for (key, shift) in focused_keys(ui, response, &SLIDER_KEYS) {
+        let frames = if shift { 10 } else { 1 };
+        let joint = session.joints().selected();
+        let step_key = |direction| PlayCommand::StepKey { direction, joint };
+        commands.push(Command::Play(match key {
+            Key::ArrowRight | Key::ArrowUp => PlayCommand::StepFrames(frames),
+            Key::ArrowLeft | Key::ArrowDown => PlayCommand::StepFrames(-frames),
+            Key::PageUp => step_key(Direction::Forward),
+            Key::PageDown => step_key(Direction::Backward),
+            Key::Home => PlayCommand::SeekStart,
+            _ => PlayCommand::SeekEnd,
+        }));
+    }
+}
+
+/// A time in words.
+fn spoken(clip: &Clip, time_secs: f32) -> String {
+    format!(
+        "{time_secs:.2} of {:.2} seconds, frame {} of {}",
+        clip.end_secs,
+        clip.frame_at(time_secs),
+        clip.last_frame(),
+    )
+}
+
+/// The keys of a slider of time.
+pub(super) const SLIDER_KEYS: [Key; 8] = [
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::PageUp,
+    Key::PageDown,
+    Key::Home,
+    Key::End,
+];
 
 /// Zooms (Ctrl wheel, pinch) and pans (Shift wheel, middle drag, two fingers). With `finger_pans` a drag of one finger pans too.
 pub(super) fn navigate(
@@ -102,6 +165,30 @@ pub(super) fn navigate(
     if pan_points != 0.0 && axis.points_per_sec() > 0.0 {
         let by_secs = -pan_points / axis.points_per_sec();
         state.window.pan(whole_secs, frame_secs, by_secs);
+    }
+}
+
+/// The keys that the dope sheet and the curves take while they are focused.
+pub(super) const GRID_KEYS: [Key; 10] = [
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::PageUp,
+    Key::PageDown,
+    Key::Home,
+    Key::End,
+    Key::Enter,
+    Key::Space,
+];
+
+/// Pans so that a time is seen.
+pub(super) fn bring_into_view(clip: &Clip, secs: f32, state: &mut TimelineState) {
+    let whole_secs = [clip.start_secs, clip.end_secs];
+    let [start_secs, end_secs] = state.window.span_secs(whole_secs);
+    let by_secs = (secs - end_secs).max(0.0) + (secs - start_secs).min(0.0);
+    if by_secs != 0.0 {
+        state.window.pan(whole_secs, 1.0 / clip.keys_per_sec, by_secs);
     }
 }
 
@@ -190,7 +277,7 @@ fn is_round(number: u32) -> bool {
 }
 
 /// Seconds to the thousandth, without trailing zeros.
-fn seconds(time_secs: f32) -> String {
+pub(super) fn seconds(time_secs: f32) -> String {
     let text = format!("{time_secs:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

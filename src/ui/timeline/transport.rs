@@ -13,7 +13,7 @@ use crate::ui::icons::Icon;
 use crate::ui::panel::{mark_transport, popover_above};
 use crate::ui::state::{SheetPage, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{control_size, icon_button};
+use crate::ui::widgets::{control_size, focus_ring, icon_button};
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
@@ -67,10 +67,10 @@ fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec
 
         // The read-outs have fixed widths, so that nothing moves while values change.
         let widths = ReadoutWidths::of(ui, clip);
-        let right_width = widths.time + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
+        let right_width = widths.time_of_end + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
         let bar_width = (ui.available_width() - right_width).max(60.0);
         bar::show(ui, session, &state.timeline.loop_gap, vec2(bar_width, 30.0), commands);
-        controls::time_readout(ui, session, widths.time, commands);
+        controls::time_readout(ui, session, clip, (widths.time_of_end, true), commands);
         controls::frame_readout(ui, session, clip, widths.frame, commands);
         speed_button(ui, session, &mut state.timeline, 48.0, !with_keys, commands);
         loop_button(ui, session, commands);
@@ -139,7 +139,9 @@ pub(in crate::ui) fn narrow(
 
 /// Read-outs, speed and loop mode on a phone.
 struct EndOfStrip {
-    widths: ReadoutWidths,
+    time: f32,
+    shows_end: bool,
+    frame: f32,
     shows_frame: bool,
     /// Whether its popover has the buttons that step. On an upright phone the dope sheet's page has them.
     with_steps: bool,
@@ -149,15 +151,29 @@ struct EndOfStrip {
 impl EndOfStrip {
     fn of(ui: &Ui, clip: &Clip, low: bool) -> Self {
         let widths = ReadoutWidths::of(ui, clip);
+        let room = ui.available_width() - CLIP_WIDTH_NARROW - SPACING;
         let least = widths.time + SPEED_WIDTH_NARROW + control_size(ui) + 2.0 * SPACING;
-        // The slimmest phones show the time without the frame.
+        // The slimmest phones show the time without the frame. Where there is more room, the clip's end is shown.
         let with_frame = least + widths.frame + SPACING;
-        let shows_frame = ui.available_width() >= CLIP_WIDTH_NARROW + SPACING + with_frame;
+        let with_end = with_frame + widths.time_of_end - widths.time;
+        // In a low window the bar is in the same row, with at most five buttons.
+        let beside = if low {
+            LEAST_BAR_WITH_FRAMES + 5.0 * (control_size(ui) + 10.0)
+        } else {
+            0.0
+        };
+        let (shows_frame, shows_end) = (room >= with_frame, room - beside >= with_end);
         Self {
-            widths,
+            time: if shows_end { widths.time_of_end } else { widths.time },
+            shows_end,
+            frame: widths.frame,
             shows_frame,
             with_steps: low,
-            width: if shows_frame { with_frame } else { least },
+            width: match (shows_end, shows_frame) {
+                (true, _) => with_end,
+                (false, true) => with_frame,
+                (false, false) => least,
+            },
         }
     }
 
@@ -170,9 +186,9 @@ impl EndOfStrip {
         commands: &mut Vec<Command>,
     ) {
         ui.spacing_mut().item_spacing.x = SPACING;
-        controls::time_readout(ui, session, self.widths.time, commands);
+        controls::time_readout(ui, session, clip, (self.time, self.shows_end), commands);
         if self.shows_frame {
-            controls::frame_readout(ui, session, clip, self.widths.frame, commands);
+            controls::frame_readout(ui, session, clip, self.frame, commands);
         }
         speed_button(ui, session, state, SPEED_WIDTH_NARROW, self.with_steps, commands);
         loop_button(ui, session, commands);
@@ -203,7 +219,8 @@ fn speed_button(
     let font = FontId::proportional(13.0);
     ui.painter()
         .text(rect.center(), Align2::CENTER_CENTER, &text, font, color);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Speed {text}")));
+    focus_ring(ui, rect, &response);
+    controls::tell_choice(&response, "Speed", &text);
     let hint = format!(
         "Speed ({} slower, {} faster, {} as the file), range and loop gap",
         actions::SLOWER.key(),
@@ -233,7 +250,10 @@ fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         LoopMode::PingPong => (Icon::PingPong, "Plays there and back"),
     };
     let action = &actions::NEXT_LOOP_MODE;
-    if icon_button(ui, icon, &action.hint_of(label), false).clicked() {
+    let response = controls::momentary(icon_button(ui, icon, &action.hint_of(label), false));
+    let spoken = format!("At the end: {}", label.to_lowercase());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
+    if response.clicked() {
         commands.extend(action.command(session));
     }
 }

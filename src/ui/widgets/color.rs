@@ -8,7 +8,7 @@ use egui::{
     Response, Role, Sense, Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, control_size, focus_ring, slider_keys, tell_popup};
+use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, slider_keys, tell_popup};
 use crate::scene::srgb8_from_linear;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
@@ -94,7 +94,6 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     let at = rect.min + vec2(saturation, 1.0 - value) * rect.size();
     mark(ui, at, color32(srgb_from_hsv([hue, saturation, value])));
     focus_ring(ui, rect, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, format!("{label}: saturation and brightness")));
     let text = format!(
         "saturation {:.0} %, brightness {:.0} %",
         saturation * 100.0,
@@ -105,7 +104,14 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     if brighter != 0.0 {
         return Some([hue, saturation, (value + brighter * KEY_STEP as f32).clamp(0.0, 1.0)]);
     }
-    if let Some(saturation) = slider_keys(ui, &response, f64::from(saturation), 0.0..=1.0, KEY_STEP, &text) {
+    let slider = SliderNode {
+        name: &format!("{label}: saturation and brightness"),
+        value: f64::from(saturation),
+        range: 0.0..=1.0,
+        step: KEY_STEP,
+        text: &text,
+    };
+    if let Some(saturation) = slider_keys(ui, &response, &slider) {
         return Some([hue, saturation as f32, value]);
     }
     let at = (held(&response)? - rect.min) / rect.size();
@@ -141,10 +147,16 @@ fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hs
     ui.painter().add(gradient_shape(rect.y_range(), colors));
     let at = pos2(lerp(rect.x_range(), hue), rect.center().y);
     mark(ui, at, color32(srgb_from_hsv([hue, 1.0, 1.0])));
-    response.widget_info(|| WidgetInfo::slider(true, f64::from(hue), format!("{label}: hue")));
     focus_ring(ui, rect, &response);
     let text = format!("{:.0}°", hue * 360.0);
-    if let Some(hue) = slider_keys(ui, &response, f64::from(hue), 0.0..=1.0, KEY_STEP, &text) {
+    let slider = SliderNode {
+        name: &format!("{label}: hue"),
+        value: f64::from(hue),
+        range: 0.0..=1.0,
+        step: KEY_STEP,
+        text: &text,
+    };
+    if let Some(hue) = slider_keys(ui, &response, &slider) {
         return Some([hue as f32, saturation, value]);
     }
     let fraction = (held(&response)?.x - rect.min.x) / rect.width().max(1.0);

@@ -157,70 +157,96 @@ pub(crate) fn paint_fold_mark(painter: &Painter, center: Pos2, folded: bool, col
 /// consumed, so that nothing else acts on them.
 pub(crate) fn arrow_steps(ui: &Ui, response: &Response) -> f32 {
     let asked = |action| ui.input(|input| input.num_accesskit_action_requests(response.id, action)) as f32;
-    let asked = asked(Action::Increment) - asked(Action::Decrement);
+    let steps = focused_keys(ui, response, &ARROWS)
+        .into_iter()
+        .map(|(key, _)| match key {
+            Key::ArrowRight | Key::ArrowUp => 1.0,
+            _ => -1.0,
+        });
+    asked(Action::Increment) - asked(Action::Decrement) + steps.sum::<f32>()
+}
+
+const ARROWS: [Key; 4] = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+
+/// Presses of these keys in a focused control, and whether Shift was held. They are consumed, so that nothing else acts on them. Keys
+/// with Ctrl, Alt or Command are left alone.
+pub(crate) fn focused_keys(ui: &Ui, response: &Response, wanted: &[Key]) -> Vec<(Key, bool)> {
     if !response.has_focus() {
-        return asked;
+        return Vec::new();
     }
     let filter = EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
+        horizontal_arrows: wanted.contains(&Key::ArrowRight),
+        vertical_arrows: wanted.contains(&Key::ArrowUp),
         ..EventFilter::default()
     };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-    let mut steps = asked;
+    let mut pressed = Vec::new();
     ui.input_mut(|input| {
-        input.events.retain(|event| {
-            let step = match event {
-                Event::Key { key, pressed: true, .. } => match key {
-                    Key::ArrowRight | Key::ArrowUp => 1.0,
-                    Key::ArrowLeft | Key::ArrowDown => -1.0,
-                    _ => return true,
-                },
-                _ => return true,
-            };
-            steps += step;
-            false
+        input.events.retain(|event| match event {
+            Event::Key {
+                key,
+                pressed: true,
+                modifiers,
+                ..
+            } if wanted.contains(key) && !modifiers.command && !modifiers.ctrl && !modifiers.alt => {
+                pressed.push((*key, modifiers.shift));
+                false
+            }
+            _ => true,
         });
     });
-    steps
+    pressed
+}
+
+/// A slider as screen readers have it.
+#[derive(Clone, Debug)]
+pub(crate) struct SliderNode<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) value: f64,
+    pub(crate) range: RangeInclusive<f64>,
+    pub(crate) step: f64,
+    /// The value in words.
+    pub(crate) text: &'a str,
+}
+
+impl SliderNode<'_> {
+    /// Tells of it. Returns how many steps up they ask for, and which value.
+    pub(crate) fn tell(&self, ui: &Ui, response: &Response) -> (i32, Option<f64>) {
+        response.widget_info(|| WidgetInfo::slider(true, self.value, self.name));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_min_numeric_value(*self.range.start());
+            node.set_max_numeric_value(*self.range.end());
+            node.set_numeric_value_step(self.step);
+            node.set_value(self.text);
+            for action in [Action::SetValue, Action::Increment, Action::Decrement] {
+                node.add_action(action);
+            }
+        });
+        ui.input(|input| {
+            let count = |action| input.num_accesskit_action_requests(response.id, action) as i32;
+            let set = input.accesskit_action_requests(response.id, Action::SetValue);
+            let value = set.filter_map(|request| match request.data {
+                Some(ActionData::NumericValue(value)) => Some(value),
+                Some(ActionData::Value(ref text)) => text.parse().ok(),
+                _ => None,
+            });
+            let value = value.filter(|value: &f64| value.is_finite());
+            (count(Action::Increment) - count(Action::Decrement), value.last())
+        })
+    }
 }
 
 /// Arrow steps of a page key.
 const PAGE_STEPS: f64 = 10.0;
 
-/// Makes a control a slider for programs that read the screen, and returns the value that keys or such a program ask for. `text`: the
-/// value as it is written.
-pub(crate) fn slider_keys(
-    ui: &Ui,
-    response: &Response,
-    value: f64,
-    range: RangeInclusive<f64>,
-    step: f64,
-    text: &str,
-) -> Option<f64> {
-    let (start, end) = range.into_inner();
-    ui.ctx().accesskit_node_builder(response.id, |node| {
-        node.set_role(Role::Slider);
-        node.set_numeric_value(value);
-        node.set_min_numeric_value(start);
-        node.set_max_numeric_value(end);
-        node.set_numeric_value_step(step);
-        node.set_value(text);
-        for action in [Action::SetValue, Action::Increment, Action::Decrement] {
-            node.add_action(action);
-        }
-    });
-    let set = ui.input(|input| {
-        let request = input.accesskit_action_requests(response.id, Action::SetValue).last()?;
-        match &request.data {
-            Some(ActionData::NumericValue(value)) => Some(*value),
-            Some(ActionData::Value(text)) => text.parse().ok(),
-            _ => None,
-        }
-    });
+/// Makes a control a slider for programs that read the screen, and returns the value that keys or such a program ask for.
+pub(crate) fn slider_keys(ui: &Ui, response: &Response, slider: &SliderNode<'_>) -> Option<f64> {
+    let (_, set) = slider.tell(ui, response);
+    let (value, step) = (slider.value, slider.step);
+    let (start, end) = (*slider.range.start(), *slider.range.end());
     let steps = f64::from(arrow_steps(ui, response));
     let page = |key| response.has_focus() && ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-    let asked = if let Some(value) = set.filter(|value: &f64| value.is_finite()) {
+    let asked = if let Some(value) = set {
         value
     } else if page(Key::Home) {
         start

@@ -12,10 +12,11 @@ pub(super) use button::{
 };
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
-    arrow_steps, by_finger, chip, chip_size, control_size, focus_ring, hint_beside, is_touch, paint_chip, paint_elided,
-    paint_focus_ring, paint_fold_mark, paint_row_ground, pressed_row_height, size_for_touch, slider_keys, tell_popup,
+    SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, focus_ring, focused_keys, hint_beside, is_touch,
+    paint_chip, paint_elided, paint_focus_ring, paint_fold_mark, paint_row_ground, pressed_row_height, size_for_touch,
+    slider_keys, tell_popup,
 };
-pub(super) use number::{Slider, TypedValue, number_field, typed_number};
+pub(super) use number::{Slider, TypedValue, number_field};
 pub(super) use row::{
     RowList, choice_row, closable_heading, heading_with_close, keyed_section_name, paint_ends, pressed_row, row_icon,
     rule, section_name, section_with_action, section_with_labelled_action, selected_heading, sheet_handle, value_row,

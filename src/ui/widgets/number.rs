@@ -2,13 +2,14 @@
 
 use std::ops::RangeInclusive;
 
+use egui::accesskit::{Action, ActionData, Invalid};
 use egui::text::{CCursor, CCursorRange};
 use egui::{
-    Align, Align2, Color32, CornerRadius, CursorIcon, DragValue, FontId, Id, Key, Modifiers, Rect, Response, Role,
-    Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, CornerRadius, CursorIcon, DragValue, FontId, Id, Key, LayerId, Modifiers, Order, Rect,
+    Response, Role, Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, control_size, focus_ring, slider_keys};
+use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, slider_keys};
 use crate::ui::input::press_field;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
@@ -66,7 +67,6 @@ impl<'a> Slider<'a> {
         ui.skip_ahead_auto_ids(1);
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
         self.paint(ui, *ends.start(), *ends.end(), row.center().y, &response);
-        response.widget_info(|| WidgetInfo::slider(true, f64::from(self.value), self.label));
         focus_ring(ui, target, &response);
         self.asked(ui, *ends.start(), *ends.end(), &response)
     }
@@ -74,9 +74,14 @@ impl<'a> Slider<'a> {
     /// The value that pointer or keys ask for.
     fn asked(&self, ui: &Ui, left: f32, right: f32, response: &Response) -> Option<f32> {
         let (start, end) = (*self.range.start(), *self.range.end());
-        let step = f64::from((end - start) / KEY_STEPS);
-        let range = f64::from(start)..=f64::from(end);
-        if let Some(value) = slider_keys(ui, response, f64::from(self.value), range, step, self.text) {
+        let slider = SliderNode {
+            name: self.label,
+            value: f64::from(self.value),
+            range: f64::from(start)..=f64::from(end),
+            step: f64::from((end - start) / KEY_STEPS),
+            text: self.text,
+        };
+        if let Some(value) = slider_keys(ui, response, &slider) {
             return Some(value as f32);
         }
         if response.double_clicked() {
@@ -200,27 +205,47 @@ impl<'a> TypedValue<'a> {
         }
     }
 
-    /// Shows it. Returns what was typed if Enter ended it.
-    pub(crate) fn show(self, ui: &mut Ui) -> (Option<String>, Response) {
+    /// Shows it. `read` reads what is typed once Enter ends it. Where it refuses, the field stays and says why, until Esc. Returns
+    /// what was read.
+    pub(crate) fn show<T>(self, ui: &mut Ui, read: impl FnOnce(&str) -> Result<T, String>) -> (Option<T>, Response) {
         let (rect, response) = ui.allocate_exact_size(vec2(self.width, control_size(ui)), Sense::click());
         let id = Id::unique(("typed", self.name));
         if response.is_pointer_button_down_on() {
             press_field(ui);
         }
-        if response.clicked() {
-            ui.data_mut(|data| data.insert_temp(id, self.typed.to_owned()));
+        let begins = response.clicked();
+        if begins {
+            ui.data_mut(|data| data.insert_temp(id, Typing::of(self.typed)));
         }
         let field = Rect::from_center_size(rect.center(), vec2(rect.width(), MOUSE_CONTROL));
-        let typed: Option<String> = ui.data(|data| data.get_temp(id));
-        match typed {
-            Some(typed) => (self.edit(ui, field, id, typed, response.clicked()), response),
-            None => {
-                self.paint(ui, field, &response);
-                let label = format!("{} {}", self.name, self.text);
-                response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-                (None, response.on_hover_cursor(CursorIcon::Text))
-            }
+        let typing: Option<Typing> = ui.data(|data| data.get_temp(id));
+        if let Some(typing) = typing {
+            return (self.edit(ui, field, id, typing, begins, read), response);
         }
+        self.paint(ui, field, &response);
+        let label = format!("{} {}", self.name, self.text);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+        ui.ctx()
+            .accesskit_node_builder(response.id, |node| node.add_action(Action::SetValue));
+        let set = ui.input(|input| {
+            let mut requests = input.accesskit_action_requests(response.id, Action::SetValue);
+            requests.find_map(|request| match &request.data {
+                Some(ActionData::Value(text)) => Some(text.to_string()),
+                Some(ActionData::NumericValue(number)) => Some(number.to_string()),
+                _ => None,
+            })
+        });
+        let value = set.and_then(|text| match read(&text) {
+            Ok(value) => Some(value),
+            Err(why) => {
+                let refused = Some(why);
+                ui.data_mut(|data| data.insert_temp(id, Typing { text, refused }));
+                ui.memory_mut(|memory| memory.request_focus(id.with("field")));
+                ui.ctx().request_repaint();
+                None
+            }
+        });
+        (value, response.on_hover_cursor(CursorIcon::Text))
     }
 
     fn paint(&self, ui: &Ui, field: Rect, response: &Response) {
@@ -229,83 +254,132 @@ impl<'a> TypedValue<'a> {
         let ground = if active { tokens.field_hovered } else { self.ground };
         ui.painter().rect_filled(field, CONTROL_RADIUS, ground);
         focus_ring(ui, field, response);
-        let (at, anchor) = match self.align {
-            Align::Min => (field.left_center() + vec2(4.0, 0.0), Align2::LEFT_CENTER),
-            Align::Center => (field.center(), Align2::CENTER_CENTER),
-            Align::Max => (field.right_center() - vec2(7.0, 0.0), Align2::RIGHT_CENTER),
-        };
+        let anchor = Align2([self.align, Align::Center]);
+        let at = anchor.pos_in_rect(&self.inside(field));
         ui.painter().text(at, anchor, self.text, self.font.clone(), self.color);
     }
 
-    /// The field. Returns what was typed if Enter ended it.
-    fn edit(&self, ui: &mut Ui, field: Rect, id: Id, mut typed: String, begins: bool) -> Option<String> {
+    /// Where the text is in its field, typed or not.
+    fn inside(&self, field: Rect) -> Rect {
+        let margin = if self.align == Align::Min { 4.0 } else { 7.0 };
+        field.shrink2(vec2(margin, 0.0))
+    }
+
+    /// The field. Returns what was read when Enter ended it.
+    fn edit<T>(
+        &self,
+        ui: &mut Ui,
+        field: Rect,
+        id: Id,
+        mut typing: Typing,
+        begins: bool,
+        read: impl FnOnce(&str) -> Result<T, String>,
+    ) -> Option<T> {
         let tokens = Tokens::of(ui);
         ui.painter().rect_filled(field, CONTROL_RADIUS, tokens.field_hovered);
-        let outline = Stroke::new(1.5, tokens.accent);
-        ui.painter()
-            .rect_stroke(field, CornerRadius::same(CONTROL_RADIUS), outline, StrokeKind::Inside);
-        let inside = field.shrink2(vec2(6.0, 0.0));
+        let color = if typing.refused.is_some() {
+            tokens.error
+        } else {
+            tokens.accent
+        };
+        ui.painter().rect_stroke(
+            field,
+            CornerRadius::same(CONTROL_RADIUS),
+            Stroke::new(1.5, color),
+            StrokeKind::Inside,
+        );
+        let inside = self.inside(field);
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inside));
-        let mut output = TextEdit::singleline(&mut typed)
+        // By touch egui would make the field higher than it is drawn.
+        child.spacing_mut().interact_size.y = MOUSE_CONTROL;
+        let mut output = TextEdit::singleline(&mut typing.text)
             .id(id.with("field"))
-            .font(theme::mono(12.0))
+            .font(self.font.clone())
             .text_color(tokens.text)
             .frame(egui::Frame::NONE)
             .margin(Vec2::ZERO)
             .char_limit(MOST_CHARS)
-            .align(Align2::LEFT_CENTER)
+            .align(Align2([self.align, Align::Center]))
             .min_size(inside.size())
             .desired_width(inside.width())
             .show(&mut child);
         let response = &output.response;
-        response.widget_info(|| {
-            WidgetInfo::labeled(Role::TextInput, true, format!("Type the {}", self.name.to_lowercase()))
+        response.widget_info(|| WidgetInfo {
+            current_text_value: Some(typing.text.clone()),
+            ..WidgetInfo::labeled(Role::TextInput, true, format!("Type the {}", self.name.to_lowercase()))
         });
+        if response.changed() {
+            typing.refused = None;
+        }
         if begins {
             response.request_focus();
-            let all = CCursorRange::two(CCursor::new(0), CCursor::new(typed.chars().count()));
+            let all = CCursorRange::two(CCursor::new(0), CCursor::new(typing.text.chars().count()));
             output.state.cursor.set_char_range(Some(all));
             output.state.clone().store(ui.ctx(), response.id);
         } else if response.lost_focus() || !response.has_focus() {
-            ui.data_mut(|data| data.remove::<String>(id));
             let entered = ui.input(|input| input.key_pressed(Key::Enter));
             // Esc ends typing and does nothing else.
             ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-            return entered.then_some(typed);
+            let read = entered.then(|| read(&typing.text));
+            let Some(Err(why)) = read else {
+                ui.data_mut(|data| data.remove::<Typing>(id));
+                return read?.ok();
+            };
+            typing.refused = Some(why);
+            response.request_focus();
         }
-        ui.data_mut(|data| data.insert_temp(id, typed));
+        if let Some(why) = &typing.refused {
+            ui.ctx().accesskit_node_builder(response.id, |node| {
+                node.set_invalid(Invalid::True);
+                node.set_description(why.clone());
+            });
+            say_refused(ui, field, id, why);
+        }
+        ui.data_mut(|data| data.insert_temp(id, typing));
         None
     }
 }
 
-/// The first number in a text: `1.25 s`, `1,25`, `31 of 75`. None if there is none.
-pub(crate) fn typed_number(typed: &str) -> Option<f64> {
-    let typed = typed.trim().replace(',', ".").replace('−', "-");
-    let end = typed
-        .find(|letter: char| !matches!(letter, '0'..='9' | '.' | '-' | '+'))
-        .unwrap_or(typed.len());
-    let number: f64 = typed[..end].parse().ok()?;
-    number.is_finite().then_some(number)
+/// What is being typed into a field, and why it was refused.
+#[derive(Clone, Debug)]
+struct Typing {
+    text: String,
+    refused: Option<String>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_read_as_people_write_them() {
-        for (typed, number) in [
-            ("1.25", Some(1.25)),
-            (" 1,25 s", Some(1.25)),
-            ("31 of 75", Some(31.0)),
-            ("0.5×", Some(0.5)),
-            ("−2", Some(-2.0)),
-            (".5", Some(0.5)),
-            ("", None),
-            ("soon", None),
-            ("1.2.3", None),
-        ] {
-            assert_eq!(typed_number(typed), number, "{typed:?}");
+impl Typing {
+    fn of(text: &str) -> Self {
+        Self {
+            text: text.to_owned(),
+            refused: None,
         }
     }
+}
+
+/// Says under a field, or above it at the window's lower edge, why it refused. It lies over what is there, so that nothing moves.
+fn say_refused(ui: &Ui, field: Rect, id: Id, why: &str) {
+    let tokens = Tokens::of(ui);
+    let painter = ui.ctx().layer_painter(LayerId::new(Order::Tooltip, id));
+    let galley = painter.layout_no_wrap(why.to_owned(), FontId::proportional(11.5), tokens.error);
+    let size = galley.size() + vec2(14.0, 8.0);
+    let window = ui.ctx().content_rect().shrink(4.0);
+    let left = (field.max.x - size.x).clamp(window.min.x, (window.max.x - size.x).max(window.min.x));
+    let below = field.max.y + 3.0;
+    let top = if below + size.y <= window.max.y {
+        below
+    } else {
+        field.min.y - 3.0 - size.y
+    };
+    let rect = Rect::from_min_size(pos2(left, top), size);
+    let border = Stroke::new(1.0, tokens.error.gamma_multiply(0.5));
+    painter.rect(
+        rect,
+        CONTROL_RADIUS,
+        tokens.panel.to_opaque(),
+        border,
+        StrokeKind::Inside,
+    );
+    painter.galley(rect.min + vec2(7.0, 4.0), galley, tokens.error);
+    let response = ui.interact(rect, id.with("refused"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Alert, true, why));
 }

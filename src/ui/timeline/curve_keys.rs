@@ -1,0 +1,146 @@
+//! The curves by keyboard: a key that arrows move along a line, and the keys that Shift chooses. And what screen readers are told.
+
+use egui::{Key, Rect, Response, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use super::axis::TimeAxis;
+use super::curves::Curves;
+use super::rows::RowKeys;
+use super::state::{KeyBox, KeyCursor, TimelineState};
+use super::time_area::{self, GRID_KEYS};
+use super::value_axis::ValueAxis;
+use crate::anim::CurvePoint;
+use crate::model::{Clip, JointIndex};
+use crate::session::{Command, OpenModel, PlayCommand, Session};
+use crate::ui::theme::Tokens;
+use crate::ui::widgets::focused_keys;
+
+/// Tells of the curves: what they are, and their values at the time.
+pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, joint: JointIndex, now: &CurvePoint) {
+    response.widget_info(|| {
+        let values = curves.shown().map(|channel| {
+            let name = curves.channels()[channel];
+            format!("{name} {}", curves.written(now, channel))
+        });
+        let values: Vec<String> = values.collect();
+        let (name, part) = (session.joint_label(joint), curves.part_name());
+        let label = format!(
+            "Curves of {name}, {part} at {:.2} s: {}",
+            now.time_secs,
+            values.join(", ")
+        );
+        WidgetInfo::labeled(Role::Group, true, label)
+    });
+}
+
+/// Keys of the focused curves: left and right from key to key, up and down from line to line, Enter goes to the key.
+pub(super) fn read(
+    ui: &Ui,
+    response: &Response,
+    session: &Session,
+    clip: &Clip,
+    joint: JointIndex,
+    state: &mut TimelineState,
+    commands: &mut Vec<Command>,
+) {
+    if !response.has_focus() {
+        return;
+    }
+    let keys = RowKeys([session.key_times(Some(joint)), &[]]);
+    let here = state.cursor.filter(|cursor| cursor.joint == joint);
+    let mut secs = here.and_then(|cursor| cursor.key_secs);
+    secs = secs.or_else(|| keys.nearest(session.playback().time_secs()));
+    let mut chooses = here.is_some_and(|cursor| cursor.chooses);
+    let channels = state.curves.channels().len();
+    state.curves.channel = state.curves.channel.min(channels - 1);
+    for (key, shift) in focused_keys(ui, response, &GRID_KEYS) {
+        let Some(before_secs) = secs else { continue };
+        let to_secs = match key {
+            Key::ArrowUp => {
+                state.curves.channel = (state.curves.channel + channels - 1) % channels;
+                continue;
+            }
+            Key::ArrowDown => {
+                state.curves.channel = (state.curves.channel + 1) % channels;
+                continue;
+            }
+            Key::Enter | Key::Space => {
+                commands.push(PlayCommand::Pause.into());
+                commands.push(PlayCommand::Seek { time_secs: before_secs }.into());
+                continue;
+            }
+            Key::ArrowLeft | Key::PageDown => keys.before(before_secs),
+            Key::ArrowRight | Key::PageUp => keys.after(before_secs),
+            Key::Home => keys.first(),
+            _ => keys.last(),
+        };
+        let to_secs = to_secs.unwrap_or(before_secs);
+        if shift {
+            let key_box = match &mut state.key_box {
+                Some(key_box) if chooses => key_box,
+                key_box => key_box.insert(KeyBox::at((before_secs, 0.5))),
+            };
+            let joints = [joint];
+            key_box.stretch((to_secs, 0.5), |row| (row == 0).then_some(&joints[..]));
+        } else {
+            state.key_box = None;
+        }
+        chooses = shift;
+        secs = Some(to_secs);
+        time_area::bring_into_view(clip, to_secs, state);
+    }
+    state.cursor = Some(KeyCursor {
+        chooses,
+        ..KeyCursor::at(joint, secs)
+    });
+}
+
+/// The time span of chosen keys, on the ruler.
+pub(super) fn paint_chosen(ui: &Ui, state: &TimelineState, joint: JointIndex, axis: &TimeAxis, ruler: Rect) {
+    let key_box = state.key_box.as_ref();
+    if let Some(key_box) = key_box.filter(|key_box| key_box.joints.contains(&joint)) {
+        let [start, end] = key_box.span_secs.map(|secs| axis.points().clamp(axis.x_of(secs)));
+        let band = Rect::from_x_y_ranges(start..=end, ruler.y_range());
+        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
+    }
+}
+
+/// Draws a ring round the key that the keyboard is on, and tells of it.
+#[expect(clippy::too_many_arguments, reason = "what is drawn, and where")]
+pub(super) fn show_cursor(
+    ui: &mut Ui,
+    response: &Response,
+    session: &Session,
+    open: &OpenModel,
+    clip: &Clip,
+    state: &TimelineState,
+    axis: &TimeAxis,
+    values: &ValueAxis,
+) {
+    let Some((joint, secs)) = state.cursor.and_then(|cursor| Some((cursor.joint, cursor.key_secs?))) else {
+        return;
+    };
+    if !response.has_focus() {
+        return;
+    }
+    let (curves, channel) = (&state.curves, state.curves.channel);
+    let point = curves.point_at(session, open, secs);
+    let at = pos2(axis.x_of(secs), values.y_of(curves.value(&point, channel)));
+    let painter = ui.painter().with_clip_rect(response.rect);
+    painter.circle_stroke(at, 5.5, Stroke::new(1.5, Tokens::of(ui).accent));
+    let times = session.key_times(Some(joint));
+    let number = times.iter().position(|&key| key == secs).map_or(0, |index| index + 1);
+    let words = format!(
+        "{} {} {}, key {number} of {}, frame {}, {secs:.2} s",
+        curves.part_name(),
+        curves.channels()[channel],
+        curves.written(&point, channel),
+        times.len(),
+        clip.frame_at(secs),
+    );
+    let id = response.id.with("key");
+    let child = ui.new_child(UiBuilder::new().id_salt("key").accessibility_parent(response.id));
+    let key = child.interact(Rect::from_center_size(at, vec2(12.0, 12.0)), id, Sense::hover());
+    key.widget_info(|| WidgetInfo::labeled(Role::Image, true, &words));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_active_descendant(id.accesskit_id()));
+}
