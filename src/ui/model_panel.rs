@@ -1,6 +1,6 @@
 //! The open model: counts, handedness, up axis, size, diagnostics, submeshes, textures, other models of the drop.
 
-use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
 use super::panel::scrolled;
@@ -24,6 +24,8 @@ const ROWS: f32 = 8.0;
 const WIDE_ROW: f32 = 280.0;
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
+/// Opacity of the eye of a row that nobody points at.
+const FAINT_ICON: f32 = 0.4;
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -271,9 +273,9 @@ impl<'a> SubmeshRow<'a> {
         over
     }
 
-    /// The right end: icons if the pointer is over the row or one of them is on, otherwise the count of triangles. Returns its left
-    /// edge.
-    fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, all: bool, commands: &mut Vec<Command>) -> f32 {
+    /// The right end: the eye, faint unless the pointer is over the row or the subset is hidden; beside it the other icon under the
+    /// pointer or while it is on, otherwise the count of triangles. Returns its left edge.
+    fn show_end(&self, ui: &mut Ui, rect: Rect, row: &Response, all: bool, commands: &mut Vec<Command>) -> f32 {
         let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
         let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };
         let verb = if self.visible { "Hide" } else { "Show" };
@@ -300,22 +302,27 @@ impl<'a> SubmeshRow<'a> {
         ];
         // Each icon has its place, whether or not the other is shown.
         let mut right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
-        let mut begins = None;
-        for (shown, icon, label, on, command) in icons {
+        let mut begins = right;
+        for (index, (shown, icon, label, on, command)) in icons.into_iter().enumerate() {
             let place = Rect::from_min_max(pos2(right - width, rect.min.y), pos2(right, rect.max.y));
             right = place.min.x;
-            if shown {
-                begins = Some(right);
-                if row_icon(ui, place, row, icon, &label, on) {
+            // The eye is always there, so that a quick click on it is not one on the row.
+            if shown || index == 0 {
+                begins = right;
+                let mut of_icon = ui.new_child(UiBuilder::new().id_salt(("icon", self.index, index)));
+                if !shown {
+                    of_icon.set_opacity(FAINT_ICON);
+                }
+                if row_icon(&of_icon, place, row, icon, &label, on) {
                     commands.push(command.into());
                 }
             }
         }
-        let count_at = match begins {
-            Some(x) if rect.width() >= WIDE_ROW => pos2(x - 6.0, rect.center().y),
-            Some(x) => return x,
-            None => rect.right_center(),
-        };
+        let is_covered = begins == right;
+        if is_covered && rect.width() < WIDE_ROW {
+            return begins;
+        }
+        let count_at = pos2(begins - if is_covered { 6.0 } else { 2.0 }, rect.center().y);
         let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
         let painter = ui.painter();
         painter
