@@ -12,7 +12,7 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{focus_ring, is_touch, paint_elided, paint_fold_mark};
-use crate::ui::wording::counted;
+use crate::ui::wording::{counted, grouped, measured};
 
 /// Indent of each level of the tree.
 const INDENT: f32 = 11.0;
@@ -23,7 +23,23 @@ const FOLDED_SIZE: f32 = 0.85;
 /// Opacity of the tint of the row that moves most.
 const MOST_TINT: f32 = 0.17;
 
+/// A way shorter than this fraction of the model is a rounding error.
+const LEAST_PATH: f32 = 1e-5;
+
 impl Sheet<'_> {
+    /// How much a joint moves relative to its parent, all its ways added up: degrees, and model units unless they are few or
+    /// `slim` leaves them no room.
+    fn amounts(&self, activity: &JointActivity, slim: bool) -> String {
+        if activity.constant {
+            return "–".to_owned();
+        }
+        let mut amounts = format!("{}°", grouped(activity.turned_degrees.round() as usize));
+        if !slim && activity.path > LEAST_PATH * self.open.bind_bounds.size().length() {
+            amounts += &format!(" · {} units", measured(activity.path));
+        }
+        amounts
+    }
+
     /// Scrolls to the row of a joint that was selected elsewhere.
     pub(super) fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
         let selected = self.session.joints().selected();
@@ -127,6 +143,13 @@ impl Sheet<'_> {
             let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, count, font, tokens.faint);
             right = drawn.min.x - 4.0;
         }
+        let activity = self.activity.get(row.joint.index()).copied().unwrap_or_default();
+        if self.by_motion {
+            let (at, font) = (pos2(right, rect.center().y), FontId::proportional(11.0));
+            let amounts = self.amounts(&activity, slim);
+            let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, amounts, font, tokens.muted);
+            right = drawn.min.x - 6.0;
+        }
         let color = if selected { tokens.accent } else { tokens.text };
         let at = pos2(left + chevron_width, rect.center().y);
         paint_elided(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
@@ -134,6 +157,12 @@ impl Sheet<'_> {
             let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
             self.fold(ui, row, &name, place, commands);
         }
+        let motion = if activity.constant {
+            "It stands still in this clip".to_owned()
+        } else {
+            format!("In this clip it turns and moves by {}", self.amounts(&activity, false))
+        };
+        response.on_hover_text(format!("{name}\n{motion}\nThe warmer its row, the more its skin moves"));
     }
 
     fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
