@@ -40,7 +40,6 @@ impl Session {
                 self.content.changes.materials |= self.content.materials.apply(command, of_file);
             }
             Command::Quality(command) => self.quality.apply(command),
-            Command::SelectAt(pointer) => self.select_at(pointer),
             Command::SetHandedness(handedness) => {
                 self.view.handedness = handedness;
                 self.change_goal(Self::frame_model);

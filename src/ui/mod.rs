@@ -67,7 +67,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
-    viewport::show(ui, window, &mut state.view_hold, popover_open, &mut commands);
+    let picks_bones = state.skeleton.picks_bones();
+    let hold = &mut state.view_hold;
+    viewport::show(ui, window, hold, picks_bones, popover_open, &mut commands);
     skeleton::show_marks(ui, session, &state.skeleton, window);
     state.hovered_submesh = None;
     state.timeline.update(session);

@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use egui::{Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
-use crate::session::{CameraCommand, Command, LookCommand};
+use crate::session::{CameraCommand, Command, JointCommand, LookCommand, SubmeshCommand};
 
 /// Radians of orbit for a drag over the height of the view.
 const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
@@ -22,8 +22,16 @@ pub(super) struct ViewHold {
     flight: Flight,
 }
 
-/// The whole window behind the panels. `popover_open`: a click closes the popover and does nothing else.
-pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool, commands: &mut Vec<Command>) {
+/// The whole window behind the panels. A click selects a bone or a vertex if `picks_bones`, otherwise a submesh. `popover_open`: it
+/// closes the popover and does nothing else.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    hold: &mut ViewHold,
+    picks_bones: bool,
+    popover_open: bool,
+    commands: &mut Vec<Command>,
+) {
     let response = ui.interact(rect, ui.scope_id().with("viewport"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
@@ -64,7 +72,12 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
         && !popover_open
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        commands.push(Command::SelectAt(in_picture(rect, pointer)));
+        let at = in_picture(rect, pointer);
+        commands.push(if picks_bones {
+            JointCommand::SelectAt(at).into()
+        } else {
+            SubmeshCommand::SelectAt(at).into()
+        });
     }
     if let Some(pointer) = response.hover_pos() {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
