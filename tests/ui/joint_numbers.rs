@@ -54,6 +54,8 @@ fn the_inspector_reads_the_joint_and_its_relatives_are_links() {
     assert!(window.shows("Parent none, it is a root") && window.shows("Bone 2"));
     window.click("Bone 2");
     assert_eq!(selected(&window), Some(2));
+    window.click("Bone 1");
+    assert_eq!(selected(&window), Some(1), "the bone of the other side");
 }
 
 #[test]
@@ -105,7 +107,7 @@ fn a_vertex_shows_its_weights_and_explains_its_place() {
             let copied = copied_by(&mut window, "Copy: the sum");
             assert!(copied.starts_with("vertex 4: row vectors"), "{copied}");
         }
-        window.click("Hide");
+        window.click("Hide the explanation");
         assert!(!window.shows("Copy: the sum of the vertex as text"));
         window.click("Bone 1: weight");
         assert_eq!(selected(&window), Some(1), "its weights can be seen");

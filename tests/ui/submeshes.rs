@@ -44,14 +44,39 @@ fn hover(window: &mut Window, start: &str) {
 #[test]
 fn a_row_under_the_pointer_stands_out_in_the_view_and_offers_its_icons() {
     let mut window = open();
-    assert!(!window.shows("Hide Bare"));
+    let eye = window.rect("Hide Bare");
     hover(&mut window, "Bare, 6 triangles");
     assert_eq!(window.session().submeshes().highlighted(), Some(1));
-    assert!(window.shows("Hide Bare") && window.shows("Show Bare alone (Alt click)"));
+    assert!(window.shows("Show Bare alone (Alt click)"));
+    assert_eq!(window.rect("Hide Bare"), eye, "nothing moves");
     window.harness.event(Event::PointerGone);
     window.pass_on();
     assert_eq!(window.session().submeshes().highlighted(), None);
-    assert!(!window.shows("Hide Bare"));
+    assert!(window.shows("Hide Bare") && !window.shows("Show Bare alone (Alt click)"));
+}
+
+#[test]
+fn a_click_on_an_eye_in_the_instant_that_the_pointer_comes_is_one_on_the_eye() {
+    let mut window = open();
+    window.click("Bare, 6 triangles");
+    assert_eq!(window.session().submeshes().selected(), Some(1));
+    window.harness.event(Event::PointerGone);
+    window.pass_on();
+    let at = window.rect("Hide Bare").center();
+    let button = |pressed| Event::PointerButton {
+        pos: at,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    window.frame([Event::PointerMoved(at), button(true), button(false)]);
+    window.pass_on();
+    assert_eq!(window.session().submeshes().left_out(), [false, true]);
+    assert_eq!(
+        window.session().submeshes().selected(),
+        Some(1),
+        "the row was not clicked"
+    );
 }
 
 #[test]

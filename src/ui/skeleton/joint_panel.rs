@@ -121,7 +121,7 @@ fn show_joint(
     key_list(ui, session, state, joint, commands);
 }
 
-/// Parent and children as links.
+/// Parent, children and the joint of the other side as links.
 fn relatives(
     ui: &mut Ui,
     session: &Session,
@@ -143,6 +143,9 @@ fn relatives(
             links(ui, session, state, "Children", &children[..CHILDREN], commands);
             value_row(ui, "", &format!("and {} more in the tree", count - CHILDREN));
         }
+    }
+    if let Some(partner) = state.mirrored.partner(session, joint) {
+        links(ui, session, state, "Mirror", &[partner], commands);
     }
 }
 

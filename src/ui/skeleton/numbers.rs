@@ -185,7 +185,7 @@ fn paint_columns(ui: &Ui, rect: Rect, numbers: &[String]) {
 /// A matrix row by row, as in the file.
 pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: Digits) {
     labelled(ui, Role::Table, name, matrix.0.len(), |ui| {
-        matrix_rows(ui, matrix, digits)
+        matrix_rows(ui, matrix, digits);
     });
 }
 

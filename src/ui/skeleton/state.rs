@@ -6,7 +6,7 @@ use glam::Vec2;
 use super::naming::Naming;
 use super::numbers::Digits;
 use crate::anim::{JointReadout, SkinView, VertexExplanation};
-use crate::model::JointIndex;
+use crate::model::{Handedness, JointIndex, MirrorPair, UpAxis};
 use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, Session};
 use crate::ui::viewport::in_picture;
@@ -31,6 +31,7 @@ pub(in crate::ui) struct SkeletonState {
     pub(super) space: Space,
     pub(super) key_part: KeyPart,
     pub(super) keys: KeyList,
+    pub(super) mirrored: Mirrored,
     /// The vertex that the panel showed in the last pass.
     pub(super) shown_vertex: Option<u32>,
     pub(super) explains: bool,
@@ -216,6 +217,32 @@ pub(super) enum KeyPart {
     Position,
     Rotation,
     Scale,
+}
+
+/// Which joints mirror each other. It is kept, since finding them searches the whole skeleton.
+#[derive(Debug, Default)]
+pub(super) struct Mirrored {
+    /// The model and the axes that the pairs belong to.
+    of: Option<(u64, Handedness, UpAxis)>,
+    pairs: Vec<MirrorPair>,
+}
+
+impl Mirrored {
+    /// The joint that mirrors another one in the bind pose.
+    pub(super) fn partner(&mut self, session: &Session, joint: JointIndex) -> Option<JointIndex> {
+        let of = (session.model_revision(), session.handedness(), session.up_axis());
+        if self.of != Some(of) {
+            *self = Self {
+                of: Some(of),
+                pairs: session.mirror_pairs(),
+            };
+        }
+        self.pairs.iter().find_map(|pair| match joint {
+            joint if joint == pair.left => Some(pair.right),
+            joint if joint == pair.right => Some(pair.left),
+            _ => None,
+        })
+    }
 }
 
 /// The list of keys.

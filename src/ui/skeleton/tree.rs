@@ -83,7 +83,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
                     let row = TreeRow::new(session, state, &rows[place], place, stop == place);
                     let response = row.show(ui, rect_of(place), &indent, session, state, commands);
                     let page = range.len().saturating_sub(2).max(1);
-                    let to = row.walk(ui, &response, &rows, page, session, state, commands);
+                    let to = row.walk(ui, &response, (&rows, page), session, state, commands);
                     walks_to = walks_to.or(to);
                     if response.gained_focus() {
                         ui.scroll_to_rect(response.rect, None);
@@ -336,8 +336,7 @@ impl<'a> TreeRow<'a> {
         &self,
         ui: &Ui,
         response: &Response,
-        rows: &[JointRow],
-        page: usize,
+        (rows, page): (&[JointRow], usize),
         session: &Session,
         state: &mut SkeletonState,
         commands: &mut Vec<Command>,
