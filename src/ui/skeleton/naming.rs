@@ -149,7 +149,11 @@ pub(super) fn show_field(
         .min_size(place.size())
         .desired_width(place.width())
         .align(egui::Align2::LEFT_CENTER);
-    let response = ui.new_child(egui::UiBuilder::new().max_rect(place)).add(field);
+    let centered = egui::Layout::left_to_right(egui::Align::Center);
+    let mut row = ui.new_child(egui::UiBuilder::new().max_rect(place).layout(centered));
+    // No higher than the row.
+    row.spacing_mut().interact_size.y = place.height();
+    let response = row.add(field);
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Name of the bone"));
     naming.stage = Stage::Typing { shown: true };
     if begins {
