@@ -157,6 +157,8 @@ pub struct LineMap {
     pub subsets: Vec<u32>,
     /// First line of each vertex.
     pub vertices: Vec<u32>,
+    /// The vertices whose tangent is not on the line after the first, in order, and its line.
+    pub tangents_apart: Vec<(u32, u32)>,
     /// Line of each triangle.
     pub triangles: Vec<u32>,
     /// Line of each bone offset.
@@ -168,6 +170,17 @@ pub struct LineMap {
 }
 
 impl LineMap {
+    /// Line of each tangent.
+    pub fn tangent_lines(&self) -> Vec<u32> {
+        let mut lines: Vec<u32> = self.vertices.iter().map(|line| line + 1).collect();
+        for &(vertex, line) in &self.tangents_apart {
+            if let Some(of_tangent) = lines.get_mut(vertex as usize) {
+                *of_tangent = line;
+            }
+        }
+        lines
+    }
+
     /// First line of each clip.
     pub fn clip_lines(&self) -> Vec<u32> {
         self.clips.iter().map(|lines| lines.clip).collect()

@@ -9,8 +9,8 @@ use crate::model::Mesh;
 
 /// Makes the tangents of a mesh unit vectors with a sign of ±1. The normals are unit vectors already. Tangents that are zero or
 /// not finite follow the u axis of the triangles around; where the texture coordinates give no direction, they are any vector
-/// square to the normal. `vertex_lines` has the line of each vertex in the file; it may be empty.
-pub(super) fn mend_tangents(mesh: &mut Mesh, vertex_lines: &[u32], diagnostics: &mut Diagnostics) {
+/// square to the normal. `lines` gives the line of each tangent in the file, or none; it is asked only if there is something to tell.
+pub(super) fn mend_tangents(mesh: &mut Mesh, lines: impl Fn() -> Vec<u32>, diagnostics: &mut Diagnostics) {
     let (mut missing, mut signs) = (Tally::default(), Tally::default());
     for (index, tangent) in (0u32..).zip(&mesh.tangents) {
         if !is_direction(tangent.truncate()) {
@@ -35,7 +35,7 @@ pub(super) fn mend_tangents(mesh: &mut Mesh, vertex_lines: &[u32], diagnostics: 
     }
     let mut warn = |code: &Code, tally: Tally, rule: &str| {
         if tally.count > 0 {
-            let place = Place::of_rows(&tally, Subject::Vertex, vertex_lines);
+            let place = Place::of_rows(&tally, Subject::Vertex, &lines());
             diagnostics.add(
                 code,
                 place,

@@ -47,7 +47,6 @@ impl Session {
             }
             Command::Quality(command) => self.quality.apply(command),
             Command::History(command) => self.apply_to_history(command),
-            Command::SelectAt(pointer) => self.select_at(pointer),
             Command::SetHandedness(handedness) => {
                 self.view.handedness = handedness;
                 self.change_goal(Self::frame_model);

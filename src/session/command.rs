@@ -1,7 +1,5 @@
 //! All that a person or a program can ask for, in groups that follow the parts of the session.
 
-use glam::Vec2;
-
 use super::camera::CameraCommand;
 use super::history::HistoryCommand;
 use super::look::LookCommand;
@@ -39,9 +37,6 @@ pub enum Command {
     /// Undo and redo.
     History(HistoryCommand),
 
-    /// Selects the bone, the vertex or the submesh that is shown at a point of the picture: x right, y up, −1…1. Either a submesh
-    /// is selected, or a joint and a vertex: selecting one kind clears the other.
-    SelectAt(Vec2),
     /// Takes the file as left- or right-handed; `None` is what was found.
     SetHandedness(Option<Handedness>),
     /// Takes the file's up axis as given; `None` is what was found.

@@ -121,6 +121,9 @@ impl Joints {
             self.marked.selected = joint;
             self.redraw = true;
         }
+        if joint.is_some() {
+            self.select_vertex(None);
+        }
         let mut above = joint.and_then(|joint| self.parents[joint.index()]);
         while let Some(joint) = above {
             self.folded[joint.index()] = false;

@@ -10,15 +10,17 @@ use crate::anim::dominant_joint;
 use crate::model::JointIndex;
 use crate::scene::{Hit, pick_joint};
 
-/// How far from a bone the pointer may be, in heights of the picture: 11 pixels of 900.
-const PICK_RADIUS: f32 = 0.012;
+/// How far from a bone the pointer may be, in heights of the picture: 14 pixels of 900.
+const PICK_RADIUS: f32 = 0.016;
 
-/// A command about joints and vertices. One that the model does not have is ignored.
+/// A command about joints and vertices. One that the model does not have is ignored. Selecting one clears the selected submesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointCommand {
-    /// Selects one and unfolds the branches above it, or selects none.
+    /// Selects one, clears the selected vertex and unfolds the branches above it, or selects none.
     Select(Option<JointIndex>),
-    /// Selects the bone that is drawn at a point of the picture: x right, y up, −1…1. None where no bone is.
+    /// Selects what is at a point of the picture: x right, y up, −1…1. That is the nearest bone within a few pixels, else the
+    /// strongest bone of the skin there. While the skin is coloured it is a bone that is drawn there, else the nearest vertex.
+    /// Beside the model it clears the selection, but for the bone whose weights are shown.
     SelectAt(Vec2),
     /// Selects the parent of the selected one, if it has one.
     SelectParent,
@@ -28,9 +30,6 @@ pub enum JointCommand {
     Hover(Option<JointIndex>),
     /// Highlights the bone that is drawn at a point of the picture: x right, y up, −1…1.
     HoverAt(Option<Vec2>),
-    /// Selects the vertex nearest to what is drawn of the skin at a point of the picture: x right, y up, −1…1. None beside
-    /// the skin.
-    SelectVertexAt(Vec2),
     /// Selects a vertex by its number, or none.
     SelectVertex(Option<u32>),
     /// Folds or unfolds a branch of the tree.
@@ -60,7 +59,8 @@ pub enum SubmeshCommand {
     ShowAll,
     /// Selects one, or none.
     Select(Option<usize>),
-    /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none.
+    /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none. Either way it
+    /// clears the selected joint and vertex.
     SelectAt(Vec2),
     /// Highlights one, or none.
     Hover(Option<usize>),
@@ -108,18 +108,33 @@ impl Session {
         pick_joint(self.bones(), &screen, pointer, PICK_RADIUS)
     }
 
-    /// Selects what is shown at a point of the picture (x right, y up, −1…1): a bone while bones are drawn, a vertex while the
-    /// skin is coloured, else a submesh. Beside all of them nothing is selected, but for the bone whose weights are shown.
-    pub(super) fn select_at(&mut self, pointer: Vec2) {
-        let bone = self.view.look.bones_visible.then(|| self.joint_at(pointer));
-        if let Some(bone) = bone.flatten() {
-            self.apply_to_joints(JointCommand::Select(Some(bone)));
-        } else if self.view.look.skin_view.is_some() {
-            self.apply_to_joints(JointCommand::SelectVertexAt(pointer));
-        } else {
-            self.apply_to_submeshes(SubmeshCommand::SelectAt(pointer));
-            self.selection.joints.clear_selection();
+    /// Selects the bone or the vertex at a point of the picture, as [`JointCommand::SelectAt`] says.
+    fn select_joint_at(&mut self, pointer: Vec2) {
+        let colored = self.view.look.skin_view.is_some();
+        let is_picked = self.view.look.bones_visible || !colored;
+        let bone = is_picked.then(|| self.joint_at(pointer)).flatten();
+        if bone.is_some() {
+            self.selection.joints.select(bone);
+            return;
         }
+        let hit = self.pick(pointer);
+        if colored {
+            self.selection.joints.select_vertex(hit.map(|hit| SelectedVertex {
+                vertex: hit.vertex,
+                hit: Some(hit),
+            }));
+        } else {
+            let bone = hit.and_then(|hit| self.strongest_joint(hit.vertex));
+            self.selection.joints.clear_selection();
+            self.selection.joints.select(bone);
+        }
+        self.selection.submeshes.select(None, None);
+    }
+
+    /// The joint that moves a vertex most. None if no joint moves it.
+    fn strongest_joint(&self, vertex: u32) -> Option<JointIndex> {
+        let influences = &self.open_model()?.model.mesh.influences;
+        dominant_joint(influences.get(vertex as usize)?)
     }
 
     /// Where a point of the model (model space) is in the picture: x right, y up, −1…1. None outside of it and behind the
@@ -143,6 +158,7 @@ impl Session {
             SubmeshCommand::SelectAt(pointer) => {
                 let hit = self.pick(pointer);
                 self.selection.submeshes.select(hit.map(|hit| hit.submesh), hit);
+                self.selection.joints.clear_selection();
             }
             SubmeshCommand::Hover(submesh) => self.selection.submeshes.hover(submesh),
             SubmeshCommand::HoverAt(pointer) => {
@@ -166,27 +182,16 @@ impl Session {
         let marked = self.selection.joints.marked();
         marked.hovered.or(marked.selected).or_else(|| {
             let vertex = self.selection.joints.selected_vertex()?.vertex;
-            let influences = &self.open_model()?.model.mesh.influences;
-            dominant_joint(influences.get(vertex as usize)?)
+            self.strongest_joint(vertex)
         })
     }
 
     pub(super) fn apply_to_joints(&mut self, command: JointCommand) {
         match command {
-            JointCommand::SelectAt(pointer) => {
-                let joint = self.joint_at(pointer);
-                self.selection.joints.select(joint);
-            }
+            JointCommand::SelectAt(pointer) => self.select_joint_at(pointer),
             JointCommand::HoverAt(pointer) => {
                 let joint = pointer.and_then(|pointer| self.joint_at(pointer));
                 self.selection.joints.hover(joint);
-            }
-            JointCommand::SelectVertexAt(pointer) => {
-                let hit = self.pick(pointer);
-                self.selection.joints.select_vertex(hit.map(|hit| SelectedVertex {
-                    vertex: hit.vertex,
-                    hit: Some(hit),
-                }));
             }
             JointCommand::Select(joint) => self.selection.joints.select(joint),
             JointCommand::SelectParent => self.selection.joints.select_parent(),

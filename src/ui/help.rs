@@ -21,15 +21,21 @@ const CAMERA_GESTURES: [(&str, &str); 4] = [
     ("Right + WASD", "fly; Q E down, up"),
     ("Wheel", "zoom to the pointer"),
 ];
-const PICTURE_GESTURES: [(&str, &str); 3] = [
-    ("Click", "select what is shown"),
+const PICTURE_GESTURES: [(&str, &str); 7] = [
+    ("Click", "Model tab: select a subset"),
+    ("", "Skeleton tab: select a bone,"),
+    ("", "on coloured skin a vertex"),
+    ("Shift drop", "add clips to the model"),
+    ("Cube map drop", "it becomes the sky"),
     ("Alt click", "in the list: show alone"),
     ("Alt drag", "turn the environment"),
 ];
-const FINGERS: [(&str, &str); 3] = [
+const FINGERS: [(&str, &str); 5] = [
     ("One finger", "orbit"),
     ("Two fingers", "pan and zoom"),
-    ("Tap", "select what is shown"),
+    ("Tap", "Model tab: select a subset"),
+    ("", "Skeleton tab: select a bone,"),
+    ("", "on coloured skin a vertex"),
 ];
 
 /// A part of the table.
@@ -188,5 +194,10 @@ fn row(ui: &mut Ui, keys: &str, does: &str, in_force: Option<&str>) {
         paint_elided(painter, at, in_force, font, tokens.accent, rect.max.x - at.x);
     }
     let now = in_force.map_or_else(String::new, |in_force| format!(", now {in_force}"));
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{keys}: {does}{now}")));
+    let keys = if keys.is_empty() {
+        String::new()
+    } else {
+        format!("{keys}: ")
+    };
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{keys}{does}{now}")));
 }

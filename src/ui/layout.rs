@@ -110,15 +110,19 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         let mut column = free;
         let room = free.room();
         if room.height() >= LEAST_WITH_CARD
-            && let Some(legend) = show_legend(ui, session, room, LegendShape::Card)
+            && let Some(legend) = show_legend(ui, session, state, room, LegendShape::Card)
         {
             column.cut_bottom(legend);
         }
+        let width = skeleton::side_width(ui, state.side_width.unwrap_or(SIDE_WIDTH), SIDE_WIDTH);
         let side = Panel::new("model", side_label(state), Align2::LEFT_TOP)
-            .width(SIDE_WIDTH)
+            .width(width)
             .show(ui, column.room(), |ui| {
                 side_panel(ui, "model", session, state, commands);
             });
+        if let Some(width) = skeleton::show_width_handle(ui, side, SIDE_WIDTH) {
+            state.side_width = Some(width);
+        }
         free.cut_left(side);
     }
     show_on_top(ui, session, state, &free, commands);
@@ -229,10 +233,10 @@ fn narrow(
     let room = free.room();
     if room.min.x + SIDE_WIDTH + FIGURE_REACH <= free.rect.center().x {
         if room.height() >= LEAST_BESIDE_CARD {
-            show_legend(ui, session, room, LegendShape::Card);
+            show_legend(ui, session, state, room, LegendShape::Card);
         }
     } else if room.height() >= LEAST_WITH_STRIP
-        && let Some(strip) = show_legend(ui, session, room, LegendShape::Strip)
+        && let Some(strip) = show_legend(ui, session, state, room, LegendShape::Strip)
     {
         free.cut_bottom(strip);
     }
@@ -240,14 +244,21 @@ fn narrow(
 }
 
 /// What the colours of the skin mean, if they mean something, in the lower left corner of a room.
-fn show_legend(ui: &Ui, session: &Session, room: Rect, shape: LegendShape) -> Option<Rect> {
+fn show_legend(ui: &Ui, session: &Session, state: &mut UiState, room: Rect, shape: LegendShape) -> Option<Rect> {
     let view = skeleton::colored_view(session)?;
     let panel = Panel::new("legend", "Legend", Align2::LEFT_BOTTOM);
     let panel = match shape {
         LegendShape::Card => panel.width(SIDE_WIDTH),
         LegendShape::Strip => panel.margin(skeleton::STRIP_MARGIN),
     };
-    Some(panel.show(ui, room, |ui| skeleton::show_legend(ui, session, view, shape)))
+    let side_shown = Arrangement::of(ui.max_rect()) == Arrangement::Wide || state.sheet == Some(SheetPage::Model);
+    let tree_shown = side_shown && state.skeleton.page == SidePage::Skeleton;
+    Some(panel.show(ui, room, |ui| {
+        if skeleton::show_legend(ui, session, view, shape, tree_shown) {
+            state.skeleton.show_page(session, SidePage::Skeleton);
+            state.sheet = Some(SheetPage::Model);
+        }
+    }))
 }
 
 /// The timeline at the window's lower edge, and above it what was opened, unless it stands beside the model. The transport stays in its

@@ -78,13 +78,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
     let shuts_sheet = layout::sheet_covers_view(window, state);
-    let clicked = viewport::show(
-        ui,
-        window,
-        &mut state.view_hold,
-        popover_open || shuts_sheet,
-        &mut commands,
-    );
+    let picks_bones = state.skeleton.picks_bones();
+    let blocked = popover_open || shuts_sheet;
+    let clicked = viewport::show(ui, window, &mut state.view_hold, picks_bones, blocked, &mut commands);
     if clicked && shuts_sheet && !popover_open {
         state.sheet = None;
     }

@@ -104,6 +104,8 @@ pub struct UiState {
     pub(super) hovered_submesh: Option<usize>,
     pub(super) vertex_count: VertexCount,
     pub(super) skeleton: SkeletonState,
+    /// Width of the panel on the left, once it was dragged to another.
+    pub(super) side_width: Option<f32>,
     pub(super) keyboard: Keyboard,
     pub(super) grip: Option<Grip>,
     pub(super) focus: Focus,

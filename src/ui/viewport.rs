@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use egui::{Id, Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
-use crate::session::{CameraCommand, Command, LookCommand};
+use crate::session::{CameraCommand, Command, JointCommand, LookCommand, SubmeshCommand};
 
 /// Radians of orbit for a drag over the height of the view.
 const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
@@ -34,9 +34,16 @@ pub(super) fn id(ui: &Ui) -> Id {
     ui.scope_id().with("viewport")
 }
 
-/// The whole window behind the panels. `popover_open`: a click closes what is open and does nothing else.
-/// Returns whether it was clicked.
-pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool, commands: &mut Vec<Command>) -> bool {
+/// The whole window behind the panels. A click selects a bone or a vertex if `picks_bones`, otherwise a submesh. `popover_open`: a click
+/// closes what is open and does nothing else. Returns whether it was clicked.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    hold: &mut ViewHold,
+    picks_bones: bool,
+    popover_open: bool,
+    commands: &mut Vec<Command>,
+) -> bool {
     let response = ui.interact(rect, id(ui), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
@@ -77,7 +84,12 @@ pub(super) fn show(ui: &Ui, rect: Rect, hold: &mut ViewHold, popover_open: bool,
         && !popover_open
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        commands.push(Command::SelectAt(in_picture(rect, pointer)));
+        let at = in_picture(rect, pointer);
+        commands.push(if picks_bones {
+            JointCommand::SelectAt(at).into()
+        } else {
+            SubmeshCommand::SelectAt(at).into()
+        });
     }
     // egui lets the view have a pointer that is on a panel but near its edge.
     let on_view = |&pointer: &Pos2| ui.ctx().layer_id_at(pointer) == Some(ui.layer_id());

@@ -3,6 +3,7 @@
 import { mkdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { atRest, call, settled, state, test, until } from "./harness.js";
+import { SKELETON_PAGE } from "./widgets.js";
 
 const FOLDER = fileURLToPath(new URL("../../assets/page/", import.meta.url));
 mkdirSync(FOLDER, { recursive: true });
@@ -44,6 +45,8 @@ test("dark, with the timeline open", WHOLE, async (page) => {
 
 test("one vertex explained", WHOLE, async (page) => {
   await inStep(page);
+  await page.mouse.click(...SKELETON_PAGE);
+  await settled(page);
   await page.mouse.click(...GROUND);
   await page.keyboard.press("w");
   await until(page, ({ skeleton }) => skeleton.skinView !== null);

@@ -4,12 +4,20 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { SAMPLE, atRest, keep, settled, state, test, until } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
-import { BONES, GROUND, LEGEND_BAR } from "./widgets.js";
+import { BONES, GROUND, LEGEND_BAR, SKELETON_PAGE } from "./widgets.js";
 
 
-/** Shows the bones. The click gives the view the keyboard and selects nothing. */
-async function showBones(page) {
+/** Opens the page of bones, which clicks in the view are then about. The second click gives the view the keyboard and selects nothing. */
+async function openSkeleton(page) {
+  await atRest(page);
+  await page.mouse.click(...SKELETON_PAGE);
+  await settled(page);
   await page.mouse.click(...GROUND);
+}
+
+/** Shows the bones and their page. */
+async function showBones(page) {
+  await openSkeleton(page);
   await settled(page);
   await page.keyboard.press("b");
   await until(page, ({ skeleton }) => skeleton.bonesVisible);
@@ -43,7 +51,7 @@ test("a click on a bone selects it, one beside all bones none, and Esc lets go",
   assert.equal((await picture(page)).digest, plain.digest);
 });
 
-test("a bone that is not drawn is not selected by a click", {}, async (page) => {
+test("in the model's page a click selects no bone", {}, async (page) => {
   await page.mouse.click(...Object.values(BONES)[0]);
   await atRest(page);
   assert.equal((await state(page)).skeleton.selected, null, "the click is about a subset");
@@ -129,7 +137,7 @@ test("vertices have the colours that the legend has for their weights", { fine: 
 });
 
 test("with the skin in colours a click selects the vertex that is there", {}, async (page) => {
-  await page.mouse.click(...GROUND);
+  await openSkeleton(page);
   await settled(page);
   for (const key of ["w", "k"]) await page.keyboard.press(key);
   await until(page, ({ skeleton }) => skeleton.skinView === "weight" && skeleton.bindShare === 1);

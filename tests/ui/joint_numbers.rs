@@ -3,7 +3,9 @@
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, LookCommand, PlayCommand};
-use egui::{Event, Modifiers, OutputCommand, PointerButton, vec2};
+use egui::{Event, Key, Modifiers, OutputCommand, PointerButton, Role, vec2};
+use egui_kittest::Node;
+use egui_kittest::kittest::NodeT as _;
 
 use crate::layout::assert_between_sides;
 use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
@@ -52,6 +54,8 @@ fn the_inspector_reads_the_joint_and_its_relatives_are_links() {
     assert!(window.shows("Parent none, it is a root") && window.shows("Bone 2"));
     window.click("Bone 2");
     assert_eq!(selected(&window), Some(2));
+    window.click("Bone 1");
+    assert_eq!(selected(&window), Some(1), "the bone of the other side");
 }
 
 #[test]
@@ -127,6 +131,30 @@ fn line(window: &Window, start: &str) -> [f32; 3] {
     numbers_of(name)
 }
 
+/// The numbers of a matrix, row by row, as screen readers know them.
+#[track_caller]
+fn rows_of(window: &Window, table: &str) -> [[f32; 3]; 4] {
+    let mut nodes = window.harness.root().children_recursive();
+    let is_table = |node: &Node<'_>| {
+        let node = node.accesskit_node();
+        node.role() == Role::Table && node.label().as_deref() == Some(table)
+    };
+    let table = nodes.find(is_table).unwrap_or_else(|| panic!("no table {table:?}"));
+    let rows: Vec<_> = table
+        .children_recursive()
+        .filter_map(|row| row.accesskit_node().label())
+        .collect();
+    assert_eq!(rows.len(), 4, "{rows:?}");
+    [0, 1, 2, 3].map(|row| {
+        let numbers = rows[row].strip_prefix(&format!("row {}: ", row + 1));
+        let mut numbers = numbers
+            .expect("its number")
+            .split(' ')
+            .map(|word| word.parse().expect("a number"));
+        [0; 3].map(|_| numbers.next().expect("three numbers"))
+    })
+}
+
 #[test]
 fn the_formula_can_be_followed_through_the_matrices_to_what_is_drawn() {
     let mut window = window(vec2(1440.0, 1200.0), chains(5));
@@ -142,9 +170,8 @@ fn the_formula_can_be_followed_through_the_matrices_to_what_is_drawn() {
         let mut sum = [0.0; 3];
         for (bone, weight) in [("Bone 0", 0.25), ("Bone 1", 0.75)] {
             for matrix in ["offset", "toRoot"] {
-                for row in 1..=4 {
-                    line(&window, &format!("{bone}: {matrix}, row {row}: "));
-                }
+                let [.., place] = rows_of(&window, &format!("{bone}: {matrix}"));
+                assert!(place.iter().all(|number| number.is_finite()), "{place:?}");
             }
             let rows = [1, 2, 3, 4].map(|row| line(&window, &format!("{bone}: F, row {row}: ")));
             let moved = line(&window, &format!("{bone}: v·F "));
@@ -218,4 +245,98 @@ fn the_pointer_over_a_bone_shows_its_weights_and_leaves_those_of_the_selected_on
     window.pass_on();
     assert_eq!(shown(&window), selected);
     assert!(window.shows("Legend: Weight of Bone 2"));
+}
+
+#[test]
+fn a_vertex_stands_above_the_bone_that_is_selected_with_it() {
+    for mut window in [window(vec2(1440.0, 900.0), chains(5)), phone(chains(5))] {
+        if window.shows("Model facts") {
+            window.click("Model facts");
+        }
+        window.apply(JointCommand::Select(Some(JointIndex(1))));
+        // The panel is scrolled to the bone's numbers.
+        let at = window.rect("Selected: Bone 1").center();
+        window.harness.hover_at(at);
+        window.harness.event(Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta: vec2(0.0, -300.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers: Modifiers::NONE,
+        });
+        window.wait(0.5);
+        window.apply(JointCommand::SelectVertex(Some(4)));
+        window.wait(0.5);
+        let vertex = window.rect("Selected: Vertex 4");
+        assert!(vertex.min.y < window.rect("Selected: Bone 1").min.y);
+        assert!(vertex.distance_to_pos(at) < 40.0, "it is seen: {vertex} {at}");
+        window.apply(JointCommand::Select(Some(JointIndex(3))));
+        assert!(!window.shows("Selected: Vertex 4"), "a bone instead");
+    }
+}
+
+/// A chain of two bones with a key every frame.
+fn many_keys() -> Vec<bindpose::session::File> {
+    let frames: Vec<usize> = (0..76).collect();
+    vec![crate::rigs::chain(&[&frames, &frames])]
+}
+
+#[test]
+fn the_keys_open_at_the_one_in_force_and_keys_walk_through_them() {
+    let mut window = window(vec2(1440.0, 1300.0), many_keys());
+    window.apply(PlayCommand::Seek { time_secs: 1.5 });
+    window.apply(JointCommand::Select(Some(JointIndex(1))));
+    let key = window.session().clip().expect("a clip").tracks[1]
+        .times_secs()
+        .partition_point(|&secs| secs <= 1.5)
+        - 1;
+    let in_force = format!("Key {key}, ");
+    let list = node(&window, "Keys of the bone");
+    assert_eq!(list.accesskit_node().role(), Role::ListBox);
+    assert_eq!(list.accesskit_node().data().size_of_set(), Some(76));
+    let row = node(&window, &in_force);
+    assert_eq!(row.accesskit_node().data().is_selected(), Some(true));
+    for _ in 0..80 {
+        if window.focused().is_some_and(|name| name.starts_with(&in_force)) {
+            break;
+        }
+        window.press(Modifiers::NONE, Key::Tab);
+    }
+    window.press(Modifiers::NONE, Key::ArrowDown);
+    assert_eq!(window.time_secs(), 1.5, "the focus alone does not move the time");
+    assert!(
+        window
+            .focused()
+            .is_some_and(|name| name.starts_with(&format!("Key {}, ", key + 1)))
+    );
+    window.press(Modifiers::NONE, Key::Enter);
+    assert!(window.time_secs() > 1.5);
+    for (pressed, start) in [(Key::Home, "Key 0, "), (Key::End, "Key 75, ")] {
+        window.press(Modifiers::NONE, pressed);
+        let focused = window.focused().unwrap_or_default();
+        assert!(focused.starts_with(start), "{pressed:?}: {focused:?}");
+    }
+}
+
+#[track_caller]
+fn node<'a>(window: &'a Window, start: &'a str) -> Node<'a> {
+    let begins = move |node: &Node<'_>| {
+        node.accesskit_node()
+            .label()
+            .is_some_and(|label| label.starts_with(start))
+    };
+    let mut nodes = window.harness.root().children_recursive();
+    nodes.find(begins).unwrap_or_else(|| panic!("no {start:?}"))
+}
+
+#[test]
+fn on_a_phone_the_keys_have_half_of_the_sheet_and_links_are_rows() {
+    let mut window = phone(many_keys());
+    window.click("Model facts");
+    window.apply(JointCommand::Select(Some(JointIndex(1))));
+    let link = window.rect("Bone 0");
+    assert!(link.height() >= 44.0, "{link}");
+    let keys = window.named(|name| name.starts_with("Key "));
+    let height = keys.iter().map(|(_, rect)| rect.height()).sum::<f32>();
+    assert!(height >= 0.5 * 0.47 * PHONE.y, "{height}: {keys:?}");
 }

@@ -2,7 +2,9 @@
 
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, NameCommand};
-use egui::{Event, Key, Modifiers, PointerButton};
+use egui::accesskit::{Action, ActionRequest};
+use egui::{Event, Key, Modifiers, PointerButton, Role};
+use egui_kittest::kittest::NodeT as _;
 
 use crate::page::{WIDE, Window, phone};
 use crate::skeleton::{chains, rows, selected, tree, window_of_still};
@@ -85,18 +87,201 @@ fn branches_fold_by_their_mark_by_arrow_keys_and_all_at_once() {
 
     // Tab goes on from where the last click was.
     window.click("Bone 0, ");
-    window.press(Modifiers::NONE, Key::Tab);
-    window.press(Modifiers::SHIFT, Key::Tab);
-    assert!(window.focused().is_some_and(|name| name.starts_with("Bone 0, ")));
-    window.press(Modifiers::NONE, Key::ArrowDown);
-    assert_eq!(selected(&window), Some(1));
-    window.press(Modifiers::NONE, Key::ArrowLeft);
+    tab_to(&mut window, "Bone 0, ");
+    let press = |window: &mut Window, key| window.press(Modifiers::NONE, key);
+    press(&mut window, Key::ArrowDown);
+    press(&mut window, Key::ArrowLeft);
     assert_eq!(rows(&window).len(), 4);
+    press(&mut window, Key::ArrowDown);
+    assert_eq!(focused(&window), "Bone 2, 6 vertices", "what is folded is stepped over");
+    press(&mut window, Key::ArrowUp);
+    press(&mut window, Key::ArrowRight);
+    assert_eq!(
+        (focused(&window).as_str(), rows(&window).len()),
+        ("Bone 1, 6 vertices", 5)
+    );
+}
+
+/// Presses Tab until a widget has the focus.
+#[track_caller]
+fn tab_to(window: &mut Window, start: &str) {
+    for _ in 0..60 {
+        if window.focused().is_some_and(|name| name.starts_with(start)) {
+            return;
+        }
+        window.press(Modifiers::NONE, Key::Tab);
+    }
+    panic!("Tab does not come to {start:?}");
+}
+
+fn focused(window: &Window) -> String {
+    window.focused().unwrap_or_default()
+}
+
+#[test]
+fn keys_walk_through_the_tree_and_only_enter_selects() {
+    let mut window = tree(WIDE, 5);
+    tab_to(&mut window, "Bone 0, ");
+    let after = |window: &mut Window, key| {
+        window.press(Modifiers::NONE, key);
+        focused(window)[..6].to_owned()
+    };
+    let time_secs = window.time_secs();
+    let walk = [
+        (Key::ArrowDown, "Bone 1"),
+        (Key::ArrowRight, "Bone 3"),
+        (Key::ArrowRight, "Bone 3"),
+        (Key::ArrowLeft, "Bone 1"),
+        (Key::End, "Bone 4"),
+        (Key::ArrowDown, "Bone 4"),
+        (Key::ArrowLeft, "Bone 2"),
+        (Key::Home, "Bone 0"),
+        (Key::PageDown, "Bone 2"),
+        (Key::PageUp, "Bone 0"),
+    ];
+    for (key, row) in walk {
+        assert_eq!(after(&mut window, key), row, "{key:?}");
+    }
+    assert_eq!(selected(&window), None, "the focus alone selects nothing");
+    assert_eq!(window.time_secs(), time_secs, "no key of the tree moves the time");
+    assert_eq!(
+        window.session().joints().hovered(),
+        Some(JointIndex(0)),
+        "the view shows where the focus is"
+    );
+    after(&mut window, Key::ArrowDown);
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(selected(&window), Some(1));
+    assert_eq!(focused(&window), "Bone 1, 6 vertices");
+}
+
+#[test]
+fn letters_find_a_bone_and_are_no_shortcuts_in_the_tree() {
+    let mut window = tree(WIDE, 300);
+    window.apply(NameCommand::Rename {
+        joint: JointIndex(250),
+        name: "left wrist".to_owned(),
+    });
+    tab_to(&mut window, "Bone 0, ");
+    let mut typed = |text: &str| {
+        for letter in text.chars() {
+            let key = Key::from_name(&letter.to_uppercase().to_string()).expect("a key");
+            window.harness.key_press(key);
+            window.harness.event(Event::Text(letter.to_string()));
+        }
+        window.pass_on();
+        let found = focused(&window);
+        assert!(!window.session().look().bones_visible, "B is a letter here");
+        assert_eq!(window.session().look().skin_view, None, "and W");
+        window.wait(1.5);
+        found
+    };
+    assert_eq!(typed("wr"), "left wrist, 6 vertices");
+    assert_eq!(typed("147"), "Bone 147, 6 vertices");
+    assert!(typed("b").starts_with("Bone "), "the next one");
+    assert_eq!(typed("left"), "left wrist, 6 vertices");
+    let row = window.rect("left wrist, ");
+    assert!(
+        row.max.y < window.rect("Play").min.y && row.min.y > 50.0,
+        "it came into view: {row}"
+    );
+}
+
+#[test]
+fn f2_names_the_row_with_the_focus_and_the_focus_comes_back() {
+    let mut window = tree(WIDE, 5);
+    tab_to(&mut window, "Bone 0, ");
     window.press(Modifiers::NONE, Key::ArrowDown);
-    assert_eq!(selected(&window), Some(2), "what is folded is stepped over");
-    window.press(Modifiers::NONE, Key::ArrowUp);
-    window.press(Modifiers::NONE, Key::ArrowRight);
-    assert_eq!((selected(&window), rows(&window).len()), (Some(1), 5));
+    let before = window.rect("Bone 1, ");
+    window.press(Modifiers::NONE, Key::F2);
+    assert!(window.rect("Name of the bone").center().distance(before.center()) < before.width() / 2.0);
+    type_text(&mut window, "hip");
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(window.session().joint_names().get(1), Some("hip"));
+    assert_eq!(focused(&window), "hip, 6 vertices");
+    // The old name is selected, so that typing replaces it.
+    window.press(Modifiers::NONE, Key::F2);
+    type_text(&mut window, "knee");
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(window.session().joint_names().get(1), Some("knee"));
+    window.press(Modifiers::NONE, Key::F2);
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(focused(&window), "knee, 6 vertices");
+}
+
+/// Asks for an action as a screen reader does.
+#[track_caller]
+fn ask(window: &mut Window, start: &str, action: Action) {
+    let (target_node, target_tree) = {
+        let node = node(window, start);
+        node.accesskit_node().locate()
+    };
+    window.harness.event(Event::AccessKitActionRequest(ActionRequest {
+        action,
+        target_tree,
+        target_node,
+        data: None,
+    }));
+    window.pass_on();
+}
+
+#[track_caller]
+fn node<'a>(window: &'a Window, start: &'a str) -> egui_kittest::Node<'a> {
+    let begins = move |node: &egui_kittest::Node<'_>| {
+        let label = node.accesskit_node().label();
+        label.is_some_and(|label| label.starts_with(start))
+    };
+    let mut nodes = window.harness.root().children_recursive();
+    nodes.find(begins).unwrap_or_else(|| panic!("no {start:?}"))
+}
+
+#[test]
+fn screen_readers_know_the_tree_and_its_rows_answer_them() {
+    let mut window = tree(WIDE, 300);
+    window.apply(JointCommand::Select(Some(JointIndex(3))));
+    {
+        let bones = node(&window, "Bones").accesskit_node();
+        assert_eq!(bones.role(), Role::Tree);
+        assert_eq!(
+            bones.data().size_of_set(),
+            Some(300),
+            "all rows, also those out of view"
+        );
+        let row = node(&window, "Bone 3, ").accesskit_node();
+        let parent = row.parent().expect("the tree");
+        assert_eq!((row.role(), parent.id()), (Role::TreeItem, bones.id()));
+        let row = row.data();
+        assert_eq!((row.level(), row.position_in_set()), (Some(2), Some(2)));
+        assert_eq!((row.is_selected(), row.is_expanded()), (Some(true), Some(true)));
+    }
+    ask(&mut window, "Bone 1, ", Action::Collapse);
+    assert!(window.session().joints().is_folded(JointIndex(1)));
+    assert_eq!(
+        node(&window, "Bone 1, ").accesskit_node().data().is_expanded(),
+        Some(false)
+    );
+    ask(&mut window, "Bone 1, ", Action::Expand);
+    assert!(!window.session().joints().is_folded(JointIndex(1)));
+    ask(&mut window, "Bone 5, ", Action::Focus);
+    assert!(focused(&window).starts_with("Bone 5, "));
+    ask(&mut window, "Bone 1, ", Action::Click);
+    assert_eq!(selected(&window), Some(1));
+}
+
+#[test]
+fn every_level_of_a_deep_tree_is_indented_and_names_keep_half_of_the_row() {
+    let frames: Vec<&[usize]> = vec![&[0, 10]; 40];
+    let mut window = crate::page::window(WIDE, vec![crate::rigs::chain(&frames)]);
+    window.click("Panel: Skeleton");
+    let mut lefts: Vec<f32> = (0..25)
+        .map(|bone| window.rect(&format!("Fold Bone {bone}")).min.x)
+        .collect();
+    let deepest = lefts[24];
+    lefts.dedup();
+    assert_eq!(lefts.len(), 25, "{lefts:?}");
+    assert!(lefts.is_sorted());
+    let row = window.rect("Bone 24, ");
+    assert!(deepest < row.center().x, "{deepest} {row}");
 }
 
 #[test]

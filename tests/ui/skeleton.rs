@@ -152,36 +152,53 @@ fn click_at(window: &mut Window, at: egui::Pos2) {
 }
 
 #[test]
-fn a_click_in_the_view_means_what_is_shown_there() {
+fn a_click_in_the_view_means_what_the_panel_is_about() {
     let mut window = window(WIDE, vec![models::moving("a.m3d")]);
     // A corner of the front, a little inside of the box.
     let corner = place_of_vertex(&mut window, 2);
     let center = window.harness.ctx.content_rect().center();
     let at = corner + 0.12 * (center - corner);
-    click_at(&mut window, at);
-    assert_eq!(window.session().submeshes().selected(), Some(0), "plainly a subset");
-    window.press(Modifiers::NONE, Key::W);
-    // Else it would be a double click.
-    window.wait(1.0);
-    click_at(&mut window, at);
-    let vertex = window.session().joints().selected_vertex();
-    assert!(vertex.is_some(), "a vertex of a coloured skin");
-    assert_eq!(
-        window.session().submeshes().selected(),
-        None,
-        "one thing is selected at a time"
-    );
+    let click = |window: &mut Window, at| {
+        // Else it would be a double click.
+        window.wait(1.0);
+        click_at(window, at);
+        let joints = window.session().joints();
+        let submesh = window.session().submeshes().selected();
+        (submesh, joints.selected_vertex().is_some(), selected(window))
+    };
     window.press(Modifiers::NONE, Key::B);
+    assert_eq!(
+        click(&mut window, at),
+        (Some(0), false, None),
+        "the model's page is about subsets"
+    );
     let bone = bone_place(&mut window, 1);
+    assert_eq!(click(&mut window, bone).2, None, "whatever is drawn there");
+    assert_eq!(window.session().joints().hovered(), None);
+
+    window.click("Panel: Skeleton");
     window.harness.hover_at(bone);
     window.pass_on();
     assert_eq!(window.session().joints().hovered(), Some(JointIndex(1)));
-    click_at(&mut window, bone);
-    assert_eq!(selected(&window), Some(1), "a bone before the skin");
-    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(click(&mut window, bone), (None, false, Some(1)));
+    window.press(Modifiers::NONE, Key::W);
     assert_eq!(
-        (selected(&window), window.session().joints().selected_vertex()),
-        (Some(1), None)
+        click(&mut window, at),
+        (None, true, Some(1)),
+        "a vertex of a coloured skin"
+    );
+    assert_eq!(
+        click(&mut window, bone),
+        (None, false, Some(1)),
+        "its ring goes with a bone"
+    );
+    window.press(Modifiers::NONE, Key::W);
+    window.press(Modifiers::NONE, Key::B);
+    let (submesh, vertex, joint) = click(&mut window, at);
+    assert_eq!((submesh, vertex), (None, false));
+    assert!(
+        joint.is_some(),
+        "the bone that moves the skin there, though none is drawn"
     );
     window.press(Modifiers::NONE, Key::Escape);
     assert_eq!(selected(&window), None);
@@ -229,6 +246,51 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     assert_eq!(window.session().look().trails, [JointIndex(3)]);
     window.click("Leave the trail of Bone 3");
     assert!(window.session().look().trails.is_empty());
+}
+
+#[test]
+fn weights_without_a_bone_offer_to_choose_one() {
+    for mut window in [window(WIDE, chains(5)), phone(chains(5))] {
+        window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
+        window.click("Choose a bone in the tree");
+        assert!(window.shows("Search bones"), "the tree is open");
+        window.click("Bone 3, ");
+        assert!(window.shows("Legend: Weight of Bone 3"));
+        assert!(!window.shows("Choose a bone in the tree"));
+    }
+}
+
+#[test]
+fn the_panel_with_the_tree_is_dragged_wider_and_stays_so() {
+    let mut window = tree(WIDE, 5);
+    let width = |window: &Window| window.rect("Bone 1, ").width();
+    let before = width(&window);
+    let handle = window.rect("Width of the panel").center();
+    window.harness.hover_at(handle);
+    window.harness.drag_at(handle);
+    window.pass_on();
+    window.harness.hover_at(handle + vec2(100.0, 0.0));
+    window.pass_on();
+    window.harness.drop_at(handle + vec2(100.0, 0.0));
+    window.pass_on();
+    let wider = width(&window);
+    assert!((95.0..110.0).contains(&(wider - before)), "{before} {wider}");
+    window.click("Panel: Model");
+    window.click("Panel: Skeleton");
+    assert_eq!(width(&window), wider);
+    let handle = window.rect("Width of the panel").center();
+    window.harness.hover_at(handle);
+    window.harness.drag_at(handle);
+    window.pass_on();
+    for x in [2_000.0, 0.0] {
+        window.harness.hover_at(egui::pos2(x, handle.y));
+        window.pass_on();
+        assert!(
+            (before..WIDE.x / 2.0).contains(&width(&window)),
+            "{x}: {}",
+            width(&window)
+        );
+    }
 }
 
 #[test]

@@ -22,6 +22,8 @@ pub(in crate::format) struct Vertices {
     pub(in crate::format) vertices: Vec<Vertex>,
     /// Line of each position.
     pub(in crate::format) lines: Vec<u32>,
+    /// The vertices whose tangent is not on the line after the position, and its line.
+    pub(in crate::format) tangents_apart: Vec<(u32, u32)>,
     /// The labels are single letters.
     pub(in crate::format) short_labels: bool,
 }
@@ -34,6 +36,7 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     let short_labels = reader.peek_label().is_some_and(|(label, _)| same(label.text, "p"));
     let room = reader.room_for(count, SMALLEST);
     let (mut vertices, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    let mut tangents_apart = Vec::new();
     for row in 0..count {
         let quick = if short_labels {
             quick::vertex::<true>(&mut reader.cursor, bones)
@@ -42,7 +45,13 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
         };
         let (vertex, line) = match quick {
             Some(read) => read,
-            None => vertex(reader, row, count, bones)?,
+            None => {
+                let (vertex, [line, of_tangent]) = vertex(reader, row, count, bones)?;
+                if of_tangent != line + 1 {
+                    tangents_apart.push((row, of_tangent));
+                }
+                (vertex, line)
+            }
         };
         vertices.push(vertex);
         lines.push(line);
@@ -57,6 +66,7 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     Ok(Vertices {
         vertices,
         lines,
+        tangents_apart,
         short_labels,
     })
 }
@@ -68,15 +78,15 @@ fn is_field(reader: &Reader<'_>, field: usize) -> bool {
         .is_some_and(|(label, _)| same_as_any(label.text, names))
 }
 
-/// Reads a vertex of any layout.
-fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, u32), ParseError> {
+/// Reads a vertex of any layout. Also gives the lines of its position and of its tangent.
+fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 2]), ParseError> {
     pass_blend_data(reader, row, bones);
     let line = field(reader, 0, row, count)?;
     let mut vertex = Vertex {
         position: reader.numbers(Value::Vertex("Position"), 3, [0.0; 3])?.0,
         ..Vertex::default()
     };
-    field(reader, 1, row, count)?;
+    let of_tangent = field(reader, 1, row, count)?;
     let place = reader.cursor.position();
     let (tangent, given) = reader.numbers(Value::Vertex("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
     if given < 4 {
@@ -96,7 +106,7 @@ fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(
         }
         reader.pass_surplus_numbers();
     }
-    Ok((vertex, line))
+    Ok((vertex, [line, of_tangent]))
 }
 
 /// Passes the label of a field, and unknown lines before it. Gives the label's line.

@@ -50,7 +50,7 @@ pub(super) fn mesh_from_document(
     let handedness = handedness_of(&mesh, diagnostics);
     mend_normals(&mut mesh, handedness, &lines.vertices, diagnostics);
     mesh.influences = influences_from_document(document, lines, skeleton, diagnostics)?;
-    mend_tangents(&mut mesh, &lines.vertices, diagnostics);
+    mend_tangents(&mut mesh, || lines.tangent_lines(), diagnostics);
     Ok((mesh, handedness))
 }
 

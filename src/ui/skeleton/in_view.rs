@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, FontId, Galley, Margin, Painter, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Galley, Margin, Painter, Pos2, Rangef, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
 };
 
 use super::state::SkeletonState;
@@ -11,7 +12,7 @@ use crate::anim::SkinView;
 use crate::scene::{LegendStop, legend};
 use crate::session::Session;
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{gradient_shape, paint_elided};
+use crate::ui::widgets::{TextButton, control_size, gradient_shape, paint_elided};
 use crate::ui::wording::{shortened, trimmed};
 
 /// The most characters of a name over the view. The tree shows the whole name.
@@ -38,6 +39,8 @@ const VALUE_GAP: f32 = 6.0;
 /// The greatest width of a strip's contents, and the fraction of it that the colours take.
 const STRIP_MOST: f32 = 336.0;
 const STRIP_FRACTION: f32 = 0.55;
+/// Width of a strip's title before a button.
+const STRIP_TITLE: f32 = 130.0;
 pub(in crate::ui) const STRIP_MARGIN: Margin = Margin {
     left: 14,
     right: 14,
@@ -59,13 +62,46 @@ pub(in crate::ui) fn colored_view(session: &Session) -> Option<SkinView> {
     session.look().skin_view.filter(|_| session.open_model().is_some())
 }
 
-/// The legend of the skin's colours.
-pub(in crate::ui) fn show_legend(ui: &mut Ui, session: &Session, view: SkinView, shape: LegendShape) {
+/// The legend of the skin's colours. Without a bone whose weights are shown it offers to choose one, unless the tree is there already.
+/// Returns whether the person wants to.
+pub(in crate::ui) fn show_legend(
+    ui: &mut Ui,
+    session: &Session,
+    view: SkinView,
+    shape: LegendShape,
+    tree_shown: bool,
+) -> bool {
     let (title, hint) = words(session, view);
+    // A hovered bone changes the colours, not the layout.
+    let joints = session.joints();
+    let lacks_bone = view == SkinView::Weight && joints.selected().is_none() && joints.selected_vertex().is_none();
+    let offers = lacks_bone && !tree_shown;
     match shape {
-        LegendShape::Card => card(ui, view, &title, hint),
+        LegendShape::Card => {
+            card(ui, view, &title, hint);
+            if offers {
+                ui.add_space(6.0);
+            }
+        }
+        LegendShape::Strip if offers => {
+            return ui
+                .horizontal(|ui| {
+                    let size = vec2(STRIP_TITLE, control_size(ui));
+                    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+                    show_title(ui, rect, &title);
+                    choose_bone(ui, Rangef::new(0.0, STRIP_MOST - STRIP_TITLE))
+                })
+                .inner;
+        }
         LegendShape::Strip => strip(ui, view, &title),
     }
+    let wide = Rangef::point(ui.available_width());
+    offers && choose_bone(ui, wide)
+}
+
+fn choose_bone(ui: &mut Ui, width: Rangef) -> bool {
+    let button = TextButton::new("Choose a bone", "Choose a bone in the tree");
+    button.width(width).show(ui).clicked()
 }
 
 fn card(ui: &mut Ui, view: SkinView, title: &str, hint: Option<&str>) {
@@ -138,7 +174,7 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
             let hint = match (joints.selected(), joints.selected_vertex()) {
                 (Some(_), _) => None,
                 (None, Some(_)) => Some("The strongest bone of the vertex. Choose another there or in the tree."),
-                (None, None) => Some("Select a bone in the tree, or a vertex on the skin."),
+                (None, None) => Some("Choose a bone in the tree, or click a vertex of the skin beside it."),
             };
             (title, hint)
         }

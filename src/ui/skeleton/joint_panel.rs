@@ -1,23 +1,26 @@
-//! The selected joint: its parent and children, its transform now, its matrices and keys. Below it the selected vertex.
+//! The selected joint: its parent and children, its transform now, its matrices and keys. Above it the selected vertex.
 
-use egui::{Align2, FontId, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::style::ScrollAnimation;
+use egui::{Align, Align2, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::numbers::{fitted, show_matrix, show_parts};
-use super::state::{KeyPart, SkeletonState, Space};
+use super::state::{KeyList, KeyPart, SkeletonState, Space};
 use super::vertex_panel;
+use super::walk::{focus_row, labelled, row_sense, tell_row, walked};
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, LookCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, focus_ring, paint_elided, pressed_row, pressed_row_height, rule, section_with_action,
-    section_with_labelled_action, segmented, selected_heading, switch_row, value_row,
+    TextButton, focus_ring, is_touch, paint_elided, paint_row_ground, pressed_row, pressed_row_height, rule,
+    section_with_action, section_with_labelled_action, segmented, selected_heading, switch_row, value_row,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
 
-/// Keys listed before the list scrolls.
+/// Keys listed before the list scrolls. By touch the list has this fraction of what is seen of the sheet.
 const ROWS: f32 = 8.0;
+const SHEET_FRACTION: f32 = 0.6;
 /// Right ends of the columns of frame and time.
 const FRAME_END: f32 = 34.0;
 const TIME_END: f32 = 86.0;
@@ -33,18 +36,25 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
     // Both were read in this pass, so they are about what is selected now.
     let joint = state.reading.joint.take();
     let vertex = state.reading.vertex.take();
+    let shown = vertex.as_ref().map(|explanation| explanation.vertex);
+    let newly_shown = shown.is_some() && state.shown_vertex != shown;
+    state.shown_vertex = shown;
+    if newly_shown {
+        // The panel may be scrolled to the numbers of the bone.
+        ui.scroll_to_cursor_animation(Some(Align::TOP), ScrollAnimation::none());
+    }
+    if let Some(explanation) = &vertex {
+        vertex_panel::show(ui, session, state, explanation, commands);
+    }
     if let Some(readout) = &joint {
+        if vertex.is_some() {
+            rule(ui, MARGIN);
+        }
         if selected_heading(ui, &session.joint_label(readout.joint), Tokens::of(ui).accent, None) {
             commands.push(JointCommand::Select(None).into());
         }
         rule(ui, MARGIN);
         show_joint(ui, session, state, readout, commands);
-    }
-    if let Some(explanation) = &vertex {
-        if joint.is_some() {
-            rule(ui, MARGIN);
-        }
-        vertex_panel::show(ui, session, state, explanation, commands);
     }
     (state.reading.joint, state.reading.vertex) = (joint, vertex);
 }
@@ -108,10 +118,10 @@ fn show_joint(
     if switch_row(ui, "Trail through the clip", "", trail).clicked() {
         commands.push(LookCommand::ToggleTrail(joint).into());
     }
-    key_list(ui, session, &mut state.key_part, joint, commands);
+    key_list(ui, session, state, joint, commands);
 }
 
-/// Parent and children as links.
+/// Parent, children and the joint of the other side as links.
 fn relatives(
     ui: &mut Ui,
     session: &Session,
@@ -134,9 +144,12 @@ fn relatives(
             value_row(ui, "", &format!("and {} more in the tree", count - CHILDREN));
         }
     }
+    if let Some(partner) = state.mirrored.partner(session, joint) {
+        links(ui, session, state, "Mirror", &[partner], commands);
+    }
 }
 
-/// A label, then joints on as many lines as they need.
+/// A label, then joints on as many lines as they need. By touch each joint has a row.
 fn links(
     ui: &mut Ui,
     session: &Session,
@@ -145,9 +158,24 @@ fn links(
     joints: &[JointIndex],
     commands: &mut Vec<Command>,
 ) {
+    let mut follow = |link: Response, joint: JointIndex| {
+        if link.contains_pointer() {
+            state.hovered = Some(joint);
+        }
+        if link.clicked() {
+            commands.push(JointCommand::Select(Some(joint)).into());
+        }
+    };
+    let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
+    if is_touch(ui) {
+        for (index, &joint) in joints.iter().enumerate() {
+            let label = if index == 0 { label } else { "" };
+            follow(link_row(ui, label, &session.joint_label(joint)), joint);
+        }
+        return;
+    }
     let (left, width) = (ui.cursor().min, ui.available_width());
     let at = left + vec2(0.0, 0.5 * ROW_HEIGHT);
-    let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
     ui.painter().text(at, Align2::LEFT_CENTER, label, font, color);
     let place = Rect::from_min_size(left + vec2(LABEL_WIDTH, 0.0), vec2(width - LABEL_WIDTH, ROW_HEIGHT));
     let builder = egui::UiBuilder::new()
@@ -156,15 +184,23 @@ fn links(
     ui.scope_builder(builder, |ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 0.0);
         for &joint in joints {
-            let link = joint_link(ui, &session.joint_label(joint));
-            if link.contains_pointer() {
-                state.hovered = Some(joint);
-            }
-            if link.clicked() {
-                commands.push(JointCommand::Select(Some(joint)).into());
-            }
+            follow(joint_link(ui, &session.joint_label(joint)), joint);
         }
     });
+}
+
+/// A joint's name as a link in a row of its own, after a label.
+fn link_row(ui: &mut Ui, label: &str, name: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = pressed_row(ui, false);
+    let font = FontId::proportional(13.0);
+    let left = rect.left_center();
+    ui.painter()
+        .text(left, Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
+    let at = left + vec2(LABEL_WIDTH + 5.0, 0.0);
+    paint_elided(ui.painter(), at, name, font, tokens.accent, rect.max.x - at.x);
+    response.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
+    response
 }
 
 /// A joint's name as a link.
@@ -187,8 +223,9 @@ fn joint_link(ui: &mut Ui, name: &str) -> Response {
     response
 }
 
-/// The keys of a joint's track in the open clip. Only rows in view are laid out. A click goes to the key.
-fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointIndex, commands: &mut Vec<Command>) {
+/// The keys of a joint's track in the open clip. Only rows in view are laid out. A click goes to the key. The list opens at the key
+/// in force.
+fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: JointIndex, commands: &mut Vec<Command>) {
     rule(ui, MARGIN);
     let clip = session.clip();
     let track = clip.and_then(|clip| clip.tracks.get(joint.index()));
@@ -206,35 +243,85 @@ fn key_list(ui: &mut Ui, session: &Session, part: &mut KeyPart, joint: JointInde
         (KeyPart::Rotation, "Euler"),
         (KeyPart::Scale, "Scale"),
     ];
-    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(*part)) {
-        *part = chosen;
+    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(state.key_part)) {
+        state.key_part = chosen;
     }
     ui.add_space(4.0);
     let height = pressed_row_height(ui);
+    let most = if is_touch(ui) {
+        SHEET_FRACTION * ui.clip_rect().height()
+    } else {
+        ROWS * height
+    };
     let rows = key_rows(clip, track);
     // The last key at or before the present time.
     let now_secs = session.playback().time_secs();
-    let now = track.times_secs().partition_point(|&secs| secs <= now_secs);
-    ScrollArea::vertical()
+    let in_force = track
+        .times_secs()
+        .partition_point(|&secs| secs <= now_secs)
+        .checked_sub(1);
+    let mut list = ScrollArea::vertical()
         .id_salt(("keys", joint.0))
-        .max_height(ROWS * height)
-        .min_scrolled_height(ROWS * height)
-        .auto_shrink([false, true])
-        .show_rows(ui, height, rows.len(), |ui, range| {
-            for row in rows.skip(range.start).take(range.len()) {
-                let in_force = row.key + 1 == now;
-                if key_row(ui, &row, *part, in_force) {
+        .max_height(most)
+        .min_scrolled_height(most)
+        .auto_shrink([false, true]);
+    let opened = Some((joint, session.clip_index(), session.clips_revision()));
+    if state.keys.opened != opened {
+        state.keys = KeyList { opened, stop: None };
+        let middle = in_force.unwrap_or_default() as f32 * height - 0.5 * (most - height);
+        list = list.vertical_scroll_offset(middle.max(0.0));
+    }
+    let count = rows.len();
+    let part = state.key_part;
+    list.show_rows(ui, height, count, |ui, range| {
+        labelled(ui, Role::ListBox, "Keys of the bone", count, |ui| {
+            let size = vec2(ui.available_width(), range.len() as f32 * height);
+            let (drawn, _) = ui.allocate_exact_size(size, Sense::hover());
+            let rect_of = |key: usize| {
+                let y = drawn.min.y + (key as f32 - range.start as f32) * height;
+                Rect::from_x_y_ranges(drawn.x_range(), y..=y + height)
+            };
+            let page = range.len().saturating_sub(2).max(1);
+            let layer = ui.layer_id();
+            let id_of = |key: usize| Id::unique("key row").with((layer, joint.0, key));
+            let mut walks_to = None;
+            let stop = state.keys.stop.or(in_force).unwrap_or_default().min(count - 1);
+            let has_focus = ui.memory(|memory| memory.has_focus(id_of(stop)));
+            // A row keeps the focus when it is scrolled out of view. Otherwise Tab stops at the nearest row in view.
+            let out_of_view = has_focus && !range.contains(&stop);
+            let in_view = stop.min(range.end.saturating_sub(1)).max(range.start);
+            let tab_stop = if has_focus { stop } else { in_view };
+            let in_view = rows.skip(range.start).take(range.len());
+            let out_of_view = key_rows(clip, track).skip(stop).take(usize::from(out_of_view));
+            for row in in_view.chain(out_of_view) {
+                let key = row.key;
+                let is_stop = key == tab_stop;
+                let response = ui.interact(rect_of(key), id_of(key), row_sense(is_stop));
+                if key_row(ui, &response, &row, part, in_force == Some(key)) {
+                    state.keys.stop = Some(key);
+                    focus_row(ui, response.id, response.rect);
+                }
+                if response.clicked() {
                     let time_secs = row.time_secs;
                     commands.extend([PlayCommand::Pause.into(), PlayCommand::Seek { time_secs }.into()]);
+                    state.keys.stop = Some(key);
                 }
+                walks_to = walks_to.or(walked(ui, &response, key, count, page));
+            }
+            // Only now: a row that is no stop yet would lose the focus when it is drawn.
+            if let Some(to) = walks_to {
+                state.keys.stop = Some(to);
+                focus_row(ui, id_of(to), rect_of(to));
             }
         });
+    });
 }
 
-/// A row of a key. Returns whether it was clicked.
-fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
+/// Shows a row of a key. Returns whether a screen reader asks for the focus.
+fn key_row(ui: &Ui, response: &Response, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, in_force);
+    let rect = response.rect;
+    paint_row_ground(ui, rect, response, in_force, response.contains_pointer());
     let numbers = match part {
         KeyPart::Position => row.parts.position.to_array().map(|number| fitted(number, 3)),
         KeyPart::Rotation => row.parts.euler_xyz_degrees.to_array().map(|number| fitted(number, 2)),
@@ -243,9 +330,14 @@ fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
     let (frame, time) = (grouped(row.frame as usize), format!("{:.3}", row.time_secs));
     // The scroll bar lies over the last points of the row.
     let right = rect.max.x - 8.0;
+    let (of_frame, of_time) = if in_force {
+        (tokens.accent, tokens.accent)
+    } else {
+        (tokens.faint, tokens.muted)
+    };
     let cells = [
-        (rect.min.x + FRAME_END, &frame, tokens.faint),
-        (rect.min.x + TIME_END, &time, tokens.muted),
+        (rect.min.x + FRAME_END, &frame, of_frame),
+        (rect.min.x + TIME_END, &time, of_time),
         (right - 2.0 * KEY_COLUMN, &numbers[0], tokens.text),
         (right - KEY_COLUMN, &numbers[1], tokens.text),
         (right, &numbers[2], tokens.text),
@@ -256,6 +348,5 @@ fn key_row(ui: &mut Ui, row: &KeyRow, part: KeyPart, in_force: bool) -> bool {
             .text(at, Align2::RIGHT_CENTER, text, theme::mono(10.5), color);
     }
     let label = format!("Key {}, {time} s: {}", row.key, numbers.join(" "));
-    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, in_force, &label));
-    response.clicked()
+    tell_row(ui, response, Role::ListBoxOption, &label, row.key, in_force)
 }

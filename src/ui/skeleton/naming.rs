@@ -1,6 +1,8 @@
 //! Naming joints: a field in the row, and names proposed for the other side.
 
-use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
@@ -19,6 +21,8 @@ pub(super) struct Naming {
     pub(super) of: Option<JointIndex>,
     text: String,
     stage: Stage,
+    /// A key began it in the joint's row, which gets the focus back.
+    by_key: bool,
     /// The list of proposed names stands in place of the tree.
     pub(super) proposing: bool,
     proposed: Proposed,
@@ -77,6 +81,12 @@ impl Naming {
         ui.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
+    /// The same by a key in the joint's row. The row gets the focus back when a key ends the naming.
+    pub(super) fn begin_by_key(&mut self, ui: &Ui, session: &Session, joint: JointIndex) {
+        self.begin(ui, session, joint);
+        self.by_key = true;
+    }
+
     /// Whether its field was not shown yet.
     pub(super) fn awaits_field(&self) -> bool {
         matches!(self.stage, Stage::Begins { .. })
@@ -108,32 +118,66 @@ impl Naming {
     }
 }
 
+/// Room around the letters of the field.
+const FIELD_MARGIN: Vec2 = vec2(4.0, 0.0);
+
 fn field_id() -> Id {
     Id::unique("joint name")
 }
 
-/// The field in place of a joint's name. Enter or a click elsewhere accepts the name, Esc cancels.
-pub(super) fn show_field(ui: &mut Ui, naming: &mut Naming, place: Rect, commands: &mut Vec<Command>) {
+/// The field in place of a joint's name, whose letters stand where the name's do. Enter or a click elsewhere accepts the name, Esc
+/// cancels. Returns whether the row gets the focus back.
+pub(super) fn show_field(
+    ui: &mut Ui,
+    naming: &mut Naming,
+    name: Rect,
+    unnamed: &str,
+    commands: &mut Vec<Command>,
+) -> bool {
+    let begins = naming.awaits_field();
+    if begins {
+        select_all(ui, &naming.text);
+    }
+    let place = name.expand2(vec2(FIELD_MARGIN.x, -1.0));
     let field = TextEdit::singleline(&mut naming.text)
         .id(field_id())
         .char_limit(64)
-        .hint_text("Name")
+        .hint_text(unnamed)
+        .font(FontId::proportional(13.0))
         .text_color(Tokens::of(ui).text)
-        .margin(vec2(4.0, 2.0))
+        .margin(FIELD_MARGIN)
+        .min_size(place.size())
+        .desired_width(place.width())
         .align(egui::Align2::LEFT_CENTER);
-    let response = ui.put(place.shrink2(vec2(0.0, 1.0)), field);
+    let centered = egui::Layout::left_to_right(egui::Align::Center);
+    let mut row = ui.new_child(egui::UiBuilder::new().max_rect(place).layout(centered));
+    // No higher than the row.
+    row.spacing_mut().interact_size.y = place.height();
+    let response = row.add(field);
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Name of the bone"));
-    let begins = naming.awaits_field();
     naming.stage = Stage::Typing { shown: true };
     if begins {
         response.request_focus();
     } else if !response.has_focus() {
-        if ui.input(|input| input.key_pressed(Key::Escape)) {
+        let [escape, enter] = [Key::Escape, Key::Enter].map(|key| ui.input(|input| input.key_pressed(key)));
+        let by_key = naming.by_key;
+        if escape {
             *naming = Naming::default();
         } else {
             naming.take_name(commands);
         }
+        return by_key && (escape || enter);
     }
+    false
+}
+
+/// Selects the old name in the field, so that typing replaces it.
+fn select_all(ui: &Ui, text: &str) {
+    let mut field = TextEditState::load(ui.ctx(), field_id()).unwrap_or_default();
+    let end = CCursor::new(text.chars().count());
+    let all = CCursorRange::two(CCursor::default(), end);
+    field.cursor.set_char_range(Some(all));
+    field.store(ui.ctx(), field_id());
 }
 
 /// Gap between the proposed names and the buttons below them.

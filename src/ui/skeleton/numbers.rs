@@ -4,6 +4,7 @@
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Align2, Color32, FontId, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::walk::labelled;
 use crate::anim::{RowMatrix, TransformParts};
 use crate::model::Aabb;
 use crate::ui::theme::{self, ROW_HEIGHT, Tokens};
@@ -15,18 +16,23 @@ const MATRIX_DECIMALS: usize = 5;
 const PLACE_DECIMALS: usize = 4;
 /// Numbers keep their decimals up to this multiple of the model's largest coordinate.
 const HEADROOM: f32 = 4.0;
+/// Numbers below this fraction of their scale are rounding errors of the file and of the pose. They print as 0.
+const NOISE_FRACTION: f32 = 1e-5;
 
 /// Decimals for the numbers of one model. They follow from the model's size, not from each number, so that the decimal points align
 /// and stay in place while a clip plays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Digits {
     decimals: usize,
+    /// The model's largest coordinate.
+    scale: f32,
 }
 
 impl Default for Digits {
     fn default() -> Self {
         Self {
             decimals: MATRIX_DECIMALS,
+            scale: 1.0,
         }
     }
 }
@@ -34,7 +40,8 @@ impl Default for Digits {
 impl Digits {
     /// For a model with these bounds, in its own space.
     pub(super) fn for_bounds(bounds: &Aabb) -> Self {
-        let reach = bounds.min.abs().max(bounds.max.abs()).max_element() * HEADROOM;
+        let scale = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let reach = scale * HEADROOM;
         if bounds.is_empty() || !reach.is_finite() {
             return Self::default();
         }
@@ -42,6 +49,7 @@ impl Digits {
         Self {
             // Sign and point take two characters.
             decimals: NUMBER_CHARS.saturating_sub(2 + before_point).min(MATRIX_DECIMALS),
+            scale,
         }
     }
 
@@ -52,12 +60,22 @@ impl Digits {
 
     /// One coordinate of a position.
     pub(super) fn place_of(self, number: f32) -> String {
-        fitted(number, self.decimals.min(PLACE_DECIMALS))
+        fitted(without_noise(number, self.scale), self.decimals.min(PLACE_DECIMALS))
     }
 
-    /// A row of a matrix.
-    pub(super) fn matrix(self, numbers: [f32; 3]) -> [String; 3] {
-        numbers.map(|number| fitted(number, self.decimals))
+    /// A row of a matrix: axes for the first three, the origin's place for the last.
+    pub(super) fn matrix(self, row: usize, numbers: [f32; 3]) -> [String; 3] {
+        let scale = if row < 3 { 1.0 } else { self.scale };
+        numbers.map(|number| fitted(without_noise(number, scale), self.decimals))
+    }
+}
+
+/// A number, or 0 where it is too small for its scale to mean something.
+fn without_noise(number: f32, scale: f32) -> f32 {
+    if number.abs() < NOISE_FRACTION * scale {
+        0.0
+    } else {
+        number
     }
 }
 
@@ -91,8 +109,7 @@ const FONT_SIZE: f32 = 11.0;
 /// Position, quaternion, Euler angles and scale, and shear and mirroring if there is any.
 pub(super) fn show_parts(ui: &mut Ui, parts: &TransformParts, digits: Digits) {
     row(ui, "Position", &digits.place(parts.position.to_array()));
-    let quaternion = parts.rotation.to_array().map(|number| fitted(number, 4));
-    row(ui, "Quaternion", &quaternion);
+    quaternion_rows(ui, parts.rotation.to_array());
     let euler = parts.euler_xyz_degrees.to_array();
     row(ui, "Euler XYZ", &euler.map(|number| format!("{}°", fitted(number, 2))));
     row(ui, "Scale", &parts.scale.to_array().map(|number| fitted(number, 4)));
@@ -102,6 +119,24 @@ pub(super) fn show_parts(ui: &mut Ui, parts: &TransformParts, digits: Digits) {
     if parts.is_mirrored() {
         row(ui, "Mirrored", &["yes".to_owned()]);
     }
+}
+
+/// A quaternion: its four numbers have a line of their own.
+fn quaternion_rows(ui: &mut Ui, numbers: [f32; 4]) {
+    let tokens = Tokens::of(ui);
+    let size = vec2(ui.available_width(), ROW_HEIGHT + LINE_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let (label, line) = rect.split_top_bottom_at_y(rect.min.y + ROW_HEIGHT);
+    let (font, painter) = (FontId::proportional(12.0), ui.painter());
+    let left = label.left_center();
+    painter.text(left, Align2::LEFT_CENTER, "Quaternion", font, tokens.muted);
+    let numbers = numbers.map(|number| fitted(without_noise(number, 1.0), 4));
+    let column = number_column(rect.width()).min(0.25 * rect.width());
+    for (place, number) in numbers.iter().rev().enumerate() {
+        let at = pos2(rect.max.x - place as f32 * column, line.center().y);
+        painter.text(at, Align2::RIGHT_CENTER, number, theme::mono(FONT_SIZE), tokens.text);
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Quaternion {}", numbers.join(" "))));
 }
 
 /// A label and numbers to the right of columns of one width.
@@ -139,13 +174,8 @@ pub(super) fn number_column(width: f32) -> f32 {
 
 /// Numbers in columns of one width that end at the right edge.
 fn paint_columns(ui: &Ui, rect: Rect, numbers: &[String]) {
-    // Four numbers are a unit quaternion. They are short.
-    let (column, size) = if numbers.len() > 3 {
-        (48.0, FONT_SIZE - 0.5)
-    } else {
-        (number_column(rect.width()), FONT_SIZE)
-    };
-    let (font, color) = (theme::mono(size), Tokens::of(ui).text);
+    let column = number_column(rect.width());
+    let (font, color) = (theme::mono(FONT_SIZE), Tokens::of(ui).text);
     for (place, number) in numbers.iter().rev().enumerate() {
         let at = pos2(rect.max.x - place as f32 * column, rect.center().y);
         ui.painter().text(at, Align2::RIGHT_CENTER, number, font.clone(), color);
@@ -154,6 +184,12 @@ fn paint_columns(ui: &Ui, rect: Rect, numbers: &[String]) {
 
 /// A matrix row by row, as in the file.
 pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: Digits) {
+    labelled(ui, Role::Table, name, matrix.0.len(), |ui| {
+        matrix_rows(ui, matrix, digits);
+    });
+}
+
+fn matrix_rows(ui: &mut Ui, matrix: &RowMatrix, digits: Digits) {
     let tokens = Tokens::of(ui);
     for (index, numbers) in matrix.0.iter().enumerate() {
         let size = vec2(ui.available_width(), LINE_HEIGHT);
@@ -161,7 +197,7 @@ pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: D
         let column = (rect.width() - LAST_COLUMN_WIDTH) / 3.0;
         let [x, y, z, w] = *numbers;
         let last = if w.fract() == 0.0 { fitted(w, 0) } else { fitted(w, 2) };
-        let [x, y, z] = digits.matrix([x, y, z]);
+        let [x, y, z] = digits.matrix(index, [x, y, z]);
         let texts = [x, y, z, last];
         for (place, text) in texts.iter().enumerate() {
             let right = match place {
@@ -173,8 +209,10 @@ pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: D
             ui.painter()
                 .text(at, Align2::RIGHT_CENTER, text, theme::mono(FONT_SIZE), color);
         }
-        let label = format!("{name}, row {}: {}", index + 1, texts.join(" "));
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+        let label = format!("row {}: {}", index + 1, texts.join(" "));
+        response.widget_info(|| WidgetInfo::labeled(Role::Row, true, &label));
+        ui.ctx()
+            .accesskit_node_builder(response.id, |node| node.set_row_index(index));
     }
 }
 
@@ -274,10 +312,27 @@ mod tests {
             (3_000.0, "0.50", "-12000.00"),
             (1e9, "0", "-4.00e9"),
         ] {
-            let [first, second, _] = of_reach(reach).matrix([0.5, -4.0 * reach, 0.0]);
+            let [first, second, _] = of_reach(reach).matrix(3, [0.5, -4.0 * reach, 0.0]);
             assert_eq!((first.as_str(), second.as_str()), (small, large), "{reach}");
         }
         assert_eq!(Digits::for_bounds(&Aabb::EMPTY), Digits::default());
         assert_eq!(of_reach(1.8).place_of(-0.00001), "0.0000");
+    }
+
+    #[test]
+    fn rounding_errors_print_as_zero_and_small_models_keep_their_numbers() {
+        let of_reach = |reach: f32| {
+            Digits::for_bounds(&Aabb {
+                min: glam::Vec3::ZERO,
+                max: glam::Vec3::splat(reach),
+            })
+        };
+        let noise = [9e-6, -9e-6, 3e-5];
+        assert_eq!(of_reach(1.0).matrix(0, noise), ["0.00000", "0.00000", "0.00003"]);
+        assert_eq!(
+            of_reach(2.0).matrix(3, [1.9e-5, -1.9e-5, 3e-5]),
+            ["0.00000", "0.00000", "0.00003"]
+        );
+        assert_eq!(of_reach(0.01).matrix(3, noise), ["0.00001", "-0.00001", "0.00003"]);
     }
 }

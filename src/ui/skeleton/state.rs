@@ -6,7 +6,7 @@ use glam::Vec2;
 use super::naming::Naming;
 use super::numbers::Digits;
 use crate::anim::{JointReadout, SkinView, VertexExplanation};
-use crate::model::JointIndex;
+use crate::model::{Handedness, JointIndex, MirrorPair, UpAxis};
 use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, Session};
 use crate::ui::viewport::in_picture;
@@ -30,6 +30,10 @@ pub(in crate::ui) struct SkeletonState {
     pub(super) naming: Naming,
     pub(super) space: Space,
     pub(super) key_part: KeyPart,
+    pub(super) keys: KeyList,
+    pub(super) mirrored: Mirrored,
+    /// The vertex that the panel showed in the last pass.
+    pub(super) shown_vertex: Option<u32>,
     pub(super) explains: bool,
     /// Whether the matrices of each influence of the explained vertex are unfolded. Kept for the next vertex.
     pub(super) unfolded: [bool; 4],
@@ -52,6 +56,7 @@ impl SkeletonState {
             self.page = SidePage::Model;
         }
         self.hovered = None;
+        self.tree.focused = None;
         let pointer = ui.input(|input| input.pointer.hover_pos());
         let over_view = |at| ui.ctx().layer_id_at(at) == Some(ui.layer_id());
         let held = ui.input(|input| input.pointer.any_down());
@@ -63,14 +68,20 @@ impl SkeletonState {
 
     /// Highlights the joint under the pointer. `elsewhere`: the joint hovered in another panel.
     pub(in crate::ui) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
-        let bones_at = self.pointer_in_view.filter(|_| session.look().bones_visible);
-        match (self.hovered.or(elsewhere), bones_at) {
+        let shows_picks = self.picks_bones() && session.look().bones_visible;
+        let bones_at = self.pointer_in_view.filter(|_| shows_picks);
+        match (self.hovered.or(elsewhere).or(self.tree.focused), bones_at) {
             (None, Some(pointer)) => commands.push(JointCommand::HoverAt(Some(pointer)).into()),
             (hovered, _) if session.joints().hovered() != hovered => {
                 commands.push(JointCommand::Hover(hovered).into());
             }
             _ => {}
         }
+    }
+
+    /// Whether a click in the view is about bones and vertices: the page of the side panel decides.
+    pub(in crate::ui) fn picks_bones(&self) -> bool {
+        self.page == SidePage::Skeleton
     }
 
     /// Shows a page of the side panel. The tree scrolls to the joint selected next.
@@ -119,8 +130,36 @@ pub(in crate::ui) fn has_joints(session: &Session) -> bool {
 pub(super) struct TreeState {
     pub(super) query: String,
     pub(super) rows: Vec<JointRow>,
+    /// The joint whose row Tab stops at, once a key or a selection has chosen one.
+    pub(super) stop: Option<JointIndex>,
+    /// The joint whose row has the keyboard in this pass.
+    pub(super) focused: Option<JointIndex>,
+    pub(super) typed: Typed,
     /// The selected joint to which the tree has scrolled.
     shown: Option<JointIndex>,
+}
+
+/// Typing goes on if the next letter comes within this time.
+const TYPING_SECS: f64 = 1.0;
+
+/// Letters that were typed to find a row.
+#[derive(Debug, Default)]
+pub(super) struct Typed {
+    letters: String,
+    at_secs: f64,
+}
+
+impl Typed {
+    /// Adds letters. Returns all that were typed without a pause, and whether there were some before these.
+    pub(super) fn add(&mut self, letters: &str, now_secs: f64) -> (&str, bool) {
+        let more = !self.letters.is_empty() && now_secs - self.at_secs <= TYPING_SECS;
+        if !more {
+            self.letters.clear();
+        }
+        self.letters += letters;
+        self.at_secs = now_secs;
+        (&self.letters, more)
+    }
 }
 
 impl TreeState {
@@ -141,6 +180,13 @@ impl TreeState {
     /// Says that a joint was selected by its own row, so that the tree does not scroll.
     pub(super) fn select_in_place(&mut self, joint: JointIndex) {
         self.shown = Some(joint);
+        self.stop = Some(joint);
+    }
+
+    /// The place of the row that Tab stops at.
+    pub(super) fn stop(&self, rows: &[JointRow], selected: Option<JointIndex>) -> usize {
+        let place = |joint: JointIndex| rows.iter().position(|row| row.joint == joint);
+        self.stop.and_then(place).or(selected.and_then(place)).unwrap_or(0)
     }
 
     /// The index of the selected joint's row, once after each selection.
@@ -149,6 +195,7 @@ impl TreeState {
             return None;
         }
         self.shown = selected;
+        self.stop = selected.or(self.stop);
         self.rows.iter().position(|row| Some(row.joint) == selected)
     }
 }
@@ -170,6 +217,41 @@ pub(super) enum KeyPart {
     Position,
     Rotation,
     Scale,
+}
+
+/// Which joints mirror each other. It is kept, since finding them searches the whole skeleton.
+#[derive(Debug, Default)]
+pub(super) struct Mirrored {
+    /// The model and the axes that the pairs belong to.
+    of: Option<(u64, Handedness, UpAxis)>,
+    pairs: Vec<MirrorPair>,
+}
+
+impl Mirrored {
+    /// The joint that mirrors another one in the bind pose.
+    pub(super) fn partner(&mut self, session: &Session, joint: JointIndex) -> Option<JointIndex> {
+        let of = (session.model_revision(), session.handedness(), session.up_axis());
+        if self.of != Some(of) {
+            *self = Self {
+                of: Some(of),
+                pairs: session.mirror_pairs(),
+            };
+        }
+        self.pairs.iter().find_map(|pair| match joint {
+            joint if joint == pair.left => Some(pair.right),
+            joint if joint == pair.right => Some(pair.left),
+            _ => None,
+        })
+    }
+}
+
+/// The list of keys.
+#[derive(Debug, Default)]
+pub(super) struct KeyList {
+    /// The joint, the clip and the revision of the clips for which it is open.
+    pub(super) opened: Option<(JointIndex, Option<usize>, u64)>,
+    /// The key that Tab stops at, once keys or a click have chosen one. Otherwise it is the key in force.
+    pub(super) stop: Option<usize>,
 }
 
 /// Least distance between the names of two joints, in points.

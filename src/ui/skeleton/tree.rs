@@ -1,12 +1,14 @@
 //! The tree of joints: searched, folded, named. Only the rows in view are laid out.
 
+use egui::accesskit::Action;
 use egui::{
-    Align2, Color32, EventFilter, FontId, Id, Key, Popup, Rect, Response, Role, ScrollArea, Sense, TextEdit, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
+    TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::naming::{show_field, show_proposals};
-use super::state::{SidePage, SkeletonState};
+use super::state::{SidePage, SkeletonState, TreeState};
+use super::walk::{asks, focus_row, labelled, retain_plain_keys, row_sense, tell_row, walked};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::icons::Icon;
@@ -56,18 +58,44 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
         .min_scrolled_height(most)
         .auto_shrink([false, true])
         .show_rows(ui, height, rows.len(), |ui, range| {
-            if let Some(place) = to_show {
-                let top = ui.cursor().min.y + (place as f32 - range.start as f32) * height;
-                let row = Rect::from_min_size(pos2(ui.cursor().min.x, top), vec2(1.0, height));
-                // Two neighbours on each side come into view too.
-                ui.scroll_to_rect(row.expand2(vec2(0.0, 2.0 * height)), None);
-            }
-            for (place, row) in range.clone().zip(&rows[range]) {
-                let response = TreeRow::new(session, state, row).show(ui, session, state, commands);
-                if response.has_focus() {
-                    walk(ui, &rows, place, commands);
+            labelled(ui, Role::Tree, "Bones", rows.len(), |ui| {
+                let size = vec2(ui.available_width(), range.len() as f32 * height);
+                let (drawn, _) = ui.allocate_exact_size(size, Sense::hover());
+                let top = drawn.min.y - range.start as f32 * height;
+                let rect_of = |place: usize| {
+                    let y = top + place as f32 * height;
+                    Rect::from_x_y_ranges(drawn.x_range(), y..=y + height)
+                };
+                if let Some(place) = to_show {
+                    // Two neighbours on each side come into view too.
+                    let rows = rect_of(place).expand2(vec2(0.0, 2.0 * height));
+                    ui.scroll_to_rect(rows.intersect(Rect::everything_below(top)), None);
                 }
-            }
+                let stop = state.tree.stop(&rows, session.joints().selected());
+                let has_focus = ui.memory(|memory| memory.has_focus(row_id(ui, rows[stop].joint)));
+                // A row keeps the focus when it is scrolled out of view. Otherwise Tab stops at the nearest row in view.
+                let out_of_view = Some(stop).filter(|stop| has_focus && !range.contains(stop));
+                let in_view = stop.min(range.end.saturating_sub(1)).max(range.start);
+                let stop = if has_focus { stop } else { in_view };
+                let indent = Indent::new(ui, session, drawn);
+                let mut walks_to = None;
+                for place in range.clone().chain(out_of_view) {
+                    let row = TreeRow::new(session, state, &rows[place], place, stop == place);
+                    let response = row.show(ui, rect_of(place), &indent, session, state, commands);
+                    let page = range.len().saturating_sub(2).max(1);
+                    let to = row.walk(ui, &response, (&rows, page), session, state, commands);
+                    walks_to = walks_to.or(to);
+                    if response.gained_focus() {
+                        ui.scroll_to_rect(response.rect, None);
+                    }
+                }
+                // Only now: a row that is no stop yet would lose the focus when it is drawn.
+                if let Some(to) = walks_to {
+                    let joint = rows[to].joint;
+                    state.tree.stop = Some(joint);
+                    focus_row(ui, row_id(ui, joint), rect_of(to));
+                }
+            });
         });
     state.tree.rows = rows;
 }
@@ -113,41 +141,53 @@ fn menu(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mu
     });
 }
 
-/// Arrow keys in a focused row: up and down select a neighbour, left and right fold and unfold.
-fn walk(ui: &Ui, rows: &[JointRow], place: usize, commands: &mut Vec<Command>) {
-    let filter = EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
-        ..EventFilter::default()
-    };
-    let row = &rows[place];
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(row_id(ui, row.joint), filter));
-    let pressed = |key| ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key));
-    let to = match (pressed(Key::ArrowUp), pressed(Key::ArrowDown)) {
-        (true, false) => place.checked_sub(1),
-        (false, true) => Some(place + 1),
-        _ => None,
-    };
-    if let Some(row) = to.and_then(|to| rows.get(to)) {
-        commands.push(JointCommand::Select(Some(row.joint)).into());
-        ui.memory_mut(|memory| memory.request_focus(row_id(ui, row.joint)));
+/// Width of a digit of the column of numbers.
+const DIGIT_WIDTH: f32 = 6.7;
+/// Indent of each level, unless the tree is so deep that its names would have less than half of the row.
+const INDENT: f32 = 9.0;
+/// The least distance between two guide lines.
+const BETWEEN_GUIDES: f32 = 6.0;
+/// Width of the chevron where a mouse is the pointer.
+const CHEVRON_WIDTH: f32 = 16.0;
+/// The middle of the mark that folds, from where its level begins.
+const CHEVRON_CENTER: f32 = 0.5 * CHEVRON_WIDTH - 1.0;
+
+/// Where the columns of a row begin.
+struct Indent {
+    /// The right end of the numbers.
+    number: f32,
+    /// Each level begins so far to the right of the level above it.
+    step: f32,
+}
+
+impl Indent {
+    fn new(ui: &Ui, session: &Session, rows: Rect) -> Self {
+        let joints = session.joints();
+        let digits = joints.count().to_string().len() as f32;
+        let tree = joints.tree();
+        let deepest = tree.order().iter().map(|&joint| tree.depth(joint)).max();
+        let room = 0.5 * rows.width().min(ui.clip_rect().width());
+        Self {
+            number: rows.min.x + digits * DIGIT_WIDTH,
+            step: INDENT.min(room / deepest.unwrap_or_default().max(1) as f32),
+        }
     }
-    for (key, folded) in [(Key::ArrowLeft, true), (Key::ArrowRight, false)] {
-        if pressed(key) && row.has_children {
-            let joint = row.joint;
-            commands.push(JointCommand::SetFolded { joint, folded }.into());
+
+    /// Where a level begins.
+    fn left(&self, depth: u32) -> f32 {
+        self.number + 3.0 + self.step * depth as f32
+    }
+
+    /// A thin line below the mark of each level above a row.
+    fn paint_guides(&self, ui: &Ui, depth: u32, y_range: Rangef) {
+        let every = (BETWEEN_GUIDES / self.step).ceil().max(1.0) as usize;
+        let stroke = Stroke::new(1.0, Tokens::of(ui).hairline);
+        for level in (0..depth).step_by(every) {
+            let x = self.left(level) + CHEVRON_CENTER;
+            ui.painter().vline(x, y_range, stroke);
         }
     }
 }
-
-/// Width of a digit of the column of numbers.
-const DIGIT_WIDTH: f32 = 6.7;
-/// Indent of each level …
-const INDENT: f32 = 9.0;
-/// … down to this depth. Deeper levels are not indented further, so that names keep their room.
-const DEEPEST: u32 = 10;
-/// Width of the chevron where a mouse is the pointer.
-const CHEVRON_WIDTH: f32 = 16.0;
 
 /// The id of a joint's row, wherever the row is.
 fn row_id(ui: &Ui, joint: JointIndex) -> Id {
@@ -158,6 +198,10 @@ fn row_id(ui: &Ui, joint: JointIndex) -> Id {
 /// What a row shows.
 struct TreeRow<'a> {
     row: &'a JointRow,
+    /// Its place in the list.
+    place: usize,
+    /// Tab stops at it.
+    is_stop: bool,
     label: String,
     named: bool,
     selected: bool,
@@ -167,10 +211,12 @@ struct TreeRow<'a> {
 }
 
 impl<'a> TreeRow<'a> {
-    fn new(session: &Session, state: &SkeletonState, row: &'a JointRow) -> Self {
+    fn new(session: &Session, state: &SkeletonState, row: &'a JointRow, place: usize, is_stop: bool) -> Self {
         let color = state.reading.colors_srgb.get(row.joint.index());
         Self {
             row,
+            place,
+            is_stop,
             label: session.joint_label(row.joint),
             named: session.joint_names().get(row.bone).is_some(),
             selected: session.joints().selected() == Some(row.joint),
@@ -179,45 +225,56 @@ impl<'a> TreeRow<'a> {
         }
     }
 
-    fn show(&self, ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) -> Response {
+    fn show(
+        &self,
+        ui: &mut Ui,
+        rect: Rect,
+        indent: &Indent,
+        session: &Session,
+        state: &mut SkeletonState,
+        commands: &mut Vec<Command>,
+    ) -> Response {
         let tokens = Tokens::of(ui);
-        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), pressed_row_height(ui)), Sense::hover());
         let joint = self.row.joint;
-        let response = ui.interact(rect, row_id(ui, joint), Sense::click());
+        let response = ui.interact(rect, row_id(ui, joint), row_sense(self.is_stop));
         let over = response.contains_pointer() && !is_touch(ui);
         paint_row_ground(ui, rect, &response, self.selected, over || self.hovered);
         if over {
             state.hovered = Some(joint);
         }
-
-        let digits = session.joints().count().to_string().len() as f32;
-        let number_at = pos2(rect.min.x + digits * DIGIT_WIDTH, rect.center().y);
-        let number = self.row.bone.to_string();
-        ui.painter()
-            .text(number_at, Align2::RIGHT_CENTER, number, theme::mono(11.0), tokens.faint);
-        let left = number_at.x + 3.0 + INDENT * self.row.depth.min(DEEPEST) as f32;
-        let folds = self.show_chevron(ui, &response, pos2(left, rect.center().y), commands);
-        let mut at = pos2(left + CHEVRON_WIDTH, rect.center().y);
-        if state.naming.of == Some(joint) {
-            let field = Rect::from_min_max(pos2(at.x - 4.0, rect.min.y), pos2(rect.max.x + 4.0, rect.max.y));
-            show_field(ui, &mut state.naming, field, commands);
-            return response;
+        if response.has_focus() {
+            state.tree.focused = Some(joint);
         }
+        self.tell(ui, &response, state, commands);
+
+        let middle = rect.center().y;
+        let number = self.row.bone.to_string();
+        let (at, font) = (pos2(indent.number, middle), theme::mono(11.0));
+        ui.painter().text(at, Align2::RIGHT_CENTER, number, font, tokens.faint);
+        indent.paint_guides(ui, self.row.depth, rect.y_range());
+        let left = indent.left(self.row.depth);
+        let folds = self.show_chevron(ui, &response, pos2(left, middle), commands);
+        let mut at = pos2(left + CHEVRON_WIDTH, middle);
         if let Some(color) = self.color {
             ui.painter().circle_filled(at + vec2(4.0, 0.0), 4.0, color);
             at.x += 13.0;
         }
         let right = self.show_count(ui, rect);
+        let name = Rect::from_min_max(pos2(at.x, rect.min.y), pos2(right - 6.0, rect.max.y));
+        if state.naming.of == Some(joint) {
+            if show_field(ui, &mut state.naming, name, &self.label, commands) {
+                state.tree.stop = Some(joint);
+                focus_row(ui, response.id, rect);
+            }
+            return response;
+        }
         let color = match (self.selected, self.named || self.row.found) {
             (true, _) => tokens.accent,
             (false, true) => tokens.text,
             (false, false) => tokens.muted,
         };
-        let room = right - 6.0 - at.x;
-        paint_elided(ui.painter(), at, &self.label, FontId::proportional(13.0), color, room);
-        let vertices = counted_vertices(self.row.own_vertices);
-        let reader = format!("{}, {vertices}", self.label);
-        response.widget_info(|| WidgetInfo::selected(Role::TreeItem, true, self.selected, &reader));
+        let font = FontId::proportional(13.0);
+        paint_elided(ui.painter(), at, &self.label, font, color, name.width());
 
         // egui counts a double click soon after any other click as a triple click.
         if response.double_clicked() || response.triple_clicked() {
@@ -227,20 +284,121 @@ impl<'a> TreeRow<'a> {
             // The row is in view, since it was clicked.
             state.tree.select_in_place(joint);
         }
-        let below = counted_vertices(self.row.branch_vertices);
-        let branch = if self.row.has_children {
-            format!("\nWith its branch {below}")
+        response.on_hover_text(self.details())
+    }
+
+    /// The whole name, and what the bone moves.
+    fn details(&self) -> String {
+        let mut text = format!(
+            "{} (number {} in the file)\nMoves {}",
+            self.label,
+            self.row.bone,
+            counted_vertices(self.row.own_vertices)
+        );
+        if self.row.has_children {
+            text += &format!("\nWith its branch {}", counted_vertices(self.row.branch_vertices));
+        }
+        text
+    }
+
+    /// Tells screen readers about the row, and does what they ask for.
+    fn tell(&self, ui: &Ui, response: &Response, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+        let label = format!("{}, {}", self.label, counted_vertices(self.row.own_vertices));
+        if tell_row(ui, response, Role::TreeItem, &label, self.place, self.selected) {
+            state.tree.stop = Some(self.row.joint);
+            focus_row(ui, response.id, response.rect);
+        }
+        let (folds, asked) = if self.row.folded {
+            (false, Action::Expand)
         } else {
-            String::new()
+            (true, Action::Collapse)
         };
-        response.on_hover_text(format!(
-            "{} (number {} in the file)\nMoves {vertices}{branch}",
-            self.label, self.row.bone
-        ))
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_level(self.row.depth as usize);
+            if self.row.has_children {
+                node.set_expanded(folds);
+                node.add_action(asked);
+            }
+        });
+        if self.row.has_children && asks(ui, response.id, asked) {
+            self.fold(folds, commands);
+        }
+    }
+
+    fn fold(&self, folded: bool, commands: &mut Vec<Command>) {
+        let joint = self.row.joint;
+        commands.push(JointCommand::SetFolded { joint, folded }.into());
+    }
+
+    /// Keys of the focused row: ← folds the branch or goes to the parent, → unfolds it or goes to the first child, F2 names the bone,
+    /// letters and digits go to the next bone with such a name or number. Returns the place of the row that gets the focus.
+    fn walk(
+        &self,
+        ui: &Ui,
+        response: &Response,
+        (rows, page): (&[JointRow], usize),
+        session: &Session,
+        state: &mut SkeletonState,
+        commands: &mut Vec<Command>,
+    ) -> Option<usize> {
+        if !response.has_focus() {
+            return None;
+        }
+        let mut to = walked(ui, response, self.place, rows.len(), page);
+        // A search shows all branches unfolded.
+        let folds = self.row.has_children && state.tree.query.is_empty();
+        let mut names = false;
+        retain_plain_keys(ui, |key| {
+            match key {
+                Key::ArrowLeft if folds && !self.row.folded => self.fold(true, commands),
+                Key::ArrowLeft => {
+                    let above = rows[..self.place].iter();
+                    to = above.clone().rposition(|row| row.depth < self.row.depth).or(to);
+                }
+                Key::ArrowRight if folds && self.row.folded => self.fold(false, commands),
+                Key::ArrowRight if self.row.has_children => to = Some(self.place + 1),
+                Key::ArrowRight => {}
+                Key::F2 => names = true,
+                // What is typed comes as text too. No letter is a shortcut here.
+                key => return !is_letter_or_digit(key),
+            }
+            false
+        });
+        if names {
+            state.naming.begin_by_key(ui, session, self.row.joint);
+        }
+        self.jump(ui, rows, session, &mut state.tree).or(to)
+    }
+
+    /// The place of the next row that what was typed begins: its number, its name or a word of it.
+    fn jump(&self, ui: &Ui, rows: &[JointRow], session: &Session, tree: &mut TreeState) -> Option<usize> {
+        let mut typed = String::new();
+        ui.input_mut(|input| {
+            input.events.retain(|event| match event {
+                Event::Text(text) if text.chars().all(char::is_alphanumeric) => {
+                    typed += &text.to_lowercase();
+                    false
+                }
+                _ => true,
+            });
+        });
+        if typed.is_empty() {
+            return None;
+        }
+        let (words, more) = tree.typed.add(&typed, ui.input(|input| input.time));
+        let begins = |row: &JointRow| {
+            let label = session.joint_label(row.joint).to_lowercase();
+            let mut parts = label.split_whitespace();
+            row.bone.to_string().starts_with(words) || parts.any(|part| part.starts_with(words))
+        };
+        // A second letter may leave the focus where the first one brought it.
+        let first = self.place + usize::from(!more);
+        let mut places = (0..rows.len()).map(|step| (first + step) % rows.len());
+        places.find(|&place| begins(&rows[place]))
     }
 
     /// The mark before a joint with children. Returns whether it was clicked.
-    fn show_chevron(&self, ui: &Ui, row: &Response, left: egui::Pos2, commands: &mut Vec<Command>) -> bool {
+    fn show_chevron(&self, ui: &mut Ui, row: &Response, left: Pos2, commands: &mut Vec<Command>) -> bool {
         if !self.row.has_children {
             return false;
         }
@@ -250,16 +408,17 @@ impl<'a> TreeRow<'a> {
             pos2(left.x + CHEVRON_WIDTH - width, row.rect.min.y),
             pos2(left.x + CHEVRON_WIDTH - 1.0, row.rect.max.y),
         );
-        let response = ui.interact(place, row.id.with("fold"), Sense::click());
-        let color = Tokens::of(ui).muted_to_text(response.hovered() || response.has_focus());
-        let center = left + vec2(CHEVRON_WIDTH * 0.5 - 1.0, 0.0);
-        paint_fold_mark(ui.painter(), center, self.row.folded, color);
+        let inside = UiBuilder::new().max_rect(place).accessibility_parent(row.id);
+        let inside = ui.new_child(inside.id_salt(("fold", row.id)));
+        // Keys fold the focused row.
+        let response = inside.interact(place, row.id.with("fold"), Sense::CLICK);
+        let color = Tokens::of(ui).muted_to_text(response.hovered());
+        paint_fold_mark(ui.painter(), left + vec2(CHEVRON_CENTER, 0.0), self.row.folded, color);
         let verb = if self.row.folded { "Unfold" } else { "Fold" };
         let label = format!("{verb} {}", self.label);
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
         if response.clicked() {
-            let (joint, folded) = (self.row.joint, !self.row.folded);
-            commands.push(JointCommand::SetFolded { joint, folded }.into());
+            self.fold(!self.row.folded, commands);
         }
         response.clicked()
     }
@@ -282,4 +441,9 @@ impl<'a> TreeRow<'a> {
             .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color);
         drawn.min.x
     }
+}
+
+fn is_letter_or_digit(key: Key) -> bool {
+    let name = key.name();
+    name.len() == 1 && name.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }

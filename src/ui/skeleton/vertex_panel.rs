@@ -1,17 +1,18 @@
 //! The selected vertex: which joints move it and how much, and how its position is computed.
 
 use egui::text::LayoutJob;
-use egui::{Align2, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Id, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::Vec3;
 
 use super::numbers::{Digits, Formula, LINE_HEIGHT, number_column, row, rule_over_numbers, show_line, show_matrix};
 use super::state::SkeletonState;
+use super::walk::{focus_row, labelled, tell_row, walked};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    is_touch, paint_elided, paint_fold_mark, pressed_row, rule, section_name, section_with_labelled_action,
-    selected_heading,
+    is_touch, paint_elided, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height, rule, section_name,
+    section_with_labelled_action, selected_heading,
 };
 use crate::ui::wording::grouped;
 
@@ -43,8 +44,13 @@ pub(super) fn show(
         let words = "No bone has weight: it stays where bind space has it.";
         ui.label(egui::RichText::new(words).color(Tokens::of(ui).muted));
     }
-    for influence in &explanation.influences {
-        influence_bar(ui, session, state, influence, commands);
+    let count = explanation.influences.len();
+    if count > 0 {
+        labelled(ui, Role::ListBox, "Weights of the vertex", count, |ui| {
+            for slot in 0..count {
+                influence_bar(ui, session, state, explanation, slot, commands);
+            }
+        });
     }
     rule(ui, MARGIN);
     let action = if state.explains {
@@ -69,12 +75,18 @@ fn influence_bar(
     ui: &mut Ui,
     session: &Session,
     state: &mut SkeletonState,
-    influence: &ExplainedInfluence,
+    explanation: &VertexExplanation,
+    slot: usize,
     commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
+    let influence = &explanation.influences[slot];
     let selected = session.joints().selected() == Some(influence.joint);
-    let (rect, response) = pressed_row(ui, selected);
+    let size = vec2(ui.available_width(), pressed_row_height(ui));
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let id_of = |slot: usize| Id::unique("weight").with((ui.layer_id(), slot));
+    let response = ui.interact(rect, id_of(slot), Sense::click());
+    paint_row_ground(ui, rect, &response, selected, response.contains_pointer());
     if response.contains_pointer() && !is_touch(ui) {
         state.hovered = Some(influence.joint);
     }
@@ -94,9 +106,19 @@ fn influence_bar(
     let (right, font) = (rect.right_center(), theme::mono(11.5));
     ui.painter()
         .text(right, Align2::RIGHT_CENTER, &weight, font, tokens.text);
-    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("{name}: weight {weight}")));
+    let label = format!("{name}: weight {weight}");
+    if tell_row(ui, &response, Role::ListBoxOption, &label, slot, selected) {
+        focus_row(ui, response.id, rect);
+    }
+    let count = explanation.influences.len();
+    if let Some(to) = walked(ui, &response, slot, count, count) {
+        let below = vec2(0.0, (to as f32 - slot as f32) * rect.height());
+        focus_row(ui, id_of(to), rect.translate(below));
+    }
     if response.clicked() {
+        // The vertex stays selected beside its bone.
         commands.push(JointCommand::Select(Some(influence.joint)).into());
+        commands.push(JointCommand::SelectVertex(Some(explanation.vertex)).into());
     }
 }
 
@@ -203,7 +225,7 @@ fn show_matrices(
     let factors = [x, y, z, "1".to_owned()];
     for (row, (factor, [x, y, z, _])) in factors.iter().zip(influence.final_transform.0).enumerate() {
         let spoken = format!("{name}: F, row {}: {factor} times", row + 1);
-        product_line(ui, &spoken, factor, &digits.matrix([x, y, z]));
+        product_line(ui, &spoken, factor, &digits.matrix(row, [x, y, z]));
     }
     rule_over_numbers(ui);
     let label = Formula::new(LABEL_SIZE, tokens.muted).moved(slot).into_job();

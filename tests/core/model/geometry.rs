@@ -1,6 +1,7 @@
 //! Vertices: normals, tangents, handedness, limits.
 
-use bindpose::format::{Dialect, Document};
+use bindpose::format::{Dialect, Document, parse, write};
+use bindpose::import::m3d;
 use bindpose::model::{Handedness, UpAxis};
 use glam::{Vec2, Vec3, Vec4};
 
@@ -225,4 +226,25 @@ fn more_vertices_than_16_bits_name_are_fine_and_told() {
         message_of(&document, "many-vertices"),
         "There are 65536 vertices; the books' 16-bit indices name 65535."
     );
+}
+
+#[test]
+fn a_finding_about_tangents_is_on_their_own_lines() {
+    let mut document = quad();
+    for index in [0, 1, 3] {
+        document.vertices[index].tangent = [0.0; 4];
+    }
+    // Between the position and the tangent of the second vertex is an empty line.
+    let text = write(&document);
+    let second = text.match_indices("Tangent:").nth(1).expect("four vertices").0;
+    let text = format!("{}\n{}", &text[..second], &text[second..]);
+    let parsed = parse(text.as_bytes()).expect("sound");
+    let (_, findings) = m3d::from_parsed(&parsed).expect("sound");
+    let finding = findings.iter().find(|finding| finding.code == "tangents-missing");
+    let places = &finding.expect("it is told").places;
+    let lines: Vec<&str> = text.lines().collect();
+    let tangents = (1..).zip(&lines).filter(|(_, line)| line.starts_with("Tangent:"));
+    let tangents: Vec<u32> = tangents.map(|(number, _)| number).collect();
+    let expected = [tangents[0], tangents[1], tangents[3]];
+    assert_eq!(places.iter().map(|place| place.line).collect::<Vec<_>>(), expected);
 }

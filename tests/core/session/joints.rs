@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use bindpose::anim::{SkinView, skin_positions};
+use bindpose::anim::{SkinView, dominant_joint, skin_positions};
 use bindpose::model::{JointIndex, SavedNames};
 use bindpose::scene::{BoneStyle, OverlayGeometry, ViewPreset, colors_of_values, legend};
 use bindpose::session::{
@@ -17,7 +17,7 @@ use crate::chains::mirrored;
 use crate::documents::shared_bytes;
 
 use JointCommand::{
-    Hover, HoverAt, Select, SelectAt, SelectChild, SelectParent, SelectVertex, SelectVertexAt, SetAllFolded, SetFolded,
+    Hover, HoverAt, Select, SelectAt, SelectChild, SelectParent, SelectVertex, SetAllFolded, SetFolded,
 };
 use LookCommand::{ClearTrails, SetBoneStyle, SetBonesVisible, SetLabelsVisible, SetSkinView, ToggleTrail};
 
@@ -196,7 +196,8 @@ fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_
     let mut session = opened(moving("a.m3d"));
     session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     session.apply(PlayCommand::Seek { time_secs: 0.0 });
-    session.apply(SelectVertexAt(Vec2::new(0.02, 0.05)));
+    session.apply(SetSkinView(Some(SkinView::Weight)));
+    session.apply(SelectAt(Vec2::new(0.02, 0.05)));
     let selected = *session.joints().selected_vertex().expect("the front is there");
     assert_eq!(selected.hit.map(|hit| hit.vertex), Some(selected.vertex));
     let mut places = Vec::new();
@@ -221,7 +222,7 @@ fn a_clicked_vertex_stays_the_same_while_time_goes_on_and_is_explained_where_it_
         .expect("selected")
         .to_text(|joint| session.joint_name(joint));
     assert!(text.contains("bone 1 \"upper\", weight"), "{text}");
-    session.apply(SelectVertexAt(Vec2::splat(0.999)));
+    session.apply(SelectAt(Vec2::splat(0.999)));
     assert_eq!(session.joints().selected_vertex(), None, "beside the skin");
 }
 
@@ -535,7 +536,8 @@ fn the_soldier_is_inspected_explained_and_coloured() {
     };
     let mut session = opened(File::new("soldier.m3d", bytes));
     session.apply(PlayCommand::Seek { time_secs: 0.517 });
-    session.apply(SelectVertexAt(Vec2::ZERO));
+    session.apply(SetSkinView(Some(SkinView::Weight)));
+    session.apply(SelectAt(Vec2::ZERO));
     assert!(
         session
             .explain_vertex()
@@ -552,7 +554,7 @@ fn the_soldier_is_inspected_explained_and_coloured() {
 }
 
 #[test]
-fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
+fn a_click_selects_what_it_is_about_and_one_thing_at_a_time() {
     let mut session = opened(moving("a.m3d"));
     session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     session.apply(PlayCommand::Seek { time_secs: 0.0 });
@@ -570,25 +572,55 @@ fn a_click_selects_what_is_shown_there_and_one_thing_at_a_time() {
         )
     };
     let at = inside(&mut session);
-    session.apply(Command::SelectAt(at));
+    session.apply(SubmeshCommand::SelectAt(at));
     assert_eq!(selected(&session), (Some(0), false, None));
     session.apply(SetSkinView(Some(SkinView::Weight)));
-    session.apply(Command::SelectAt(at));
-    assert_eq!(selected(&session), (None, true, None));
-    session.apply(SetBonesVisible(true));
+    session.apply(SelectAt(at));
+    assert_eq!(selected(&session), (None, true, None), "a vertex of a coloured skin");
     let at_bone = bone(&mut session);
-    session.apply(Command::SelectAt(at_bone));
-    assert_eq!(selected(&session), (None, true, Some(JointIndex(0))));
+    session.apply(SetBonesVisible(true));
+    session.apply(SelectAt(at_bone));
+    assert_eq!(selected(&session), (None, false, Some(JointIndex(0))), "a bone instead");
+    session.apply(SelectAt(at));
+    assert_eq!(
+        selected(&session),
+        (None, true, Some(JointIndex(0))),
+        "a vertex with its bone"
+    );
     // Beside the skin the bone stays whose weights are shown.
     let nowhere = Vec2::splat(0.99);
-    session.apply(Command::SelectAt(nowhere));
+    session.apply(SelectAt(nowhere));
     assert_eq!(selected(&session), (None, false, Some(JointIndex(0))));
     session.apply(SetSkinView(None));
-    session.apply(Command::SelectAt(nowhere));
+    session.apply(SelectAt(nowhere));
     assert_eq!(selected(&session), (None, false, None));
+    session.apply(Select(Some(JointIndex(1))));
+    session.apply(SubmeshCommand::SelectAt(nowhere));
+    assert_eq!(selected(&session), (None, false, None), "a click about subsets");
     session.apply(Select(Some(JointIndex(1))));
     session.apply(SubmeshCommand::Select(Some(0)));
     assert_eq!(selected(&session), (Some(0), false, None));
+}
+
+#[test]
+fn beside_all_bones_a_click_on_the_skin_selects_the_one_that_moves_it_most() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    session.apply(PlayCommand::Seek { time_secs: 0.0 });
+    let corners = session.open_model().expect("open").model.mesh.clone();
+    let mut met = 0;
+    for step in 0..40 {
+        let at = Vec2::new((step % 8) as f32 - 3.5, (step / 8) as f32 - 2.0) * 0.2;
+        if session.joint_at(at).is_some() {
+            continue;
+        }
+        let hit = session.pick(at);
+        session.apply(SelectAt(at));
+        let expected = hit.and_then(|hit| dominant_joint(&corners.influences[hit.vertex as usize]));
+        assert_eq!(session.joints().selected(), expected, "{at}");
+        met += u32::from(expected.is_some());
+    }
+    assert!(met > 3, "{met} places of the skin are beside all bones");
 }
 
 #[test]

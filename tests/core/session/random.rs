@@ -83,12 +83,11 @@ fn joint_command() -> impl Strategy<Value = JointCommand> {
     let any_joint = || (0u32..9).prop_map(JointIndex);
     prop_oneof![
         4 => prop::option::of(any_joint()).prop_map(JointCommand::Select),
-        2 => vector().prop_map(JointCommand::SelectAt),
+        4 => vector().prop_map(JointCommand::SelectAt),
         1 => Just(JointCommand::SelectParent),
         1 => Just(JointCommand::SelectChild),
         1 => prop::option::of(any_joint()).prop_map(JointCommand::Hover),
         1 => prop::option::of(vector()).prop_map(JointCommand::HoverAt),
-        2 => vector().prop_map(JointCommand::SelectVertexAt),
         1 => prop::option::of(0u32..40).prop_map(JointCommand::SelectVertex),
         1 => (any_joint(), any::<bool>()).prop_map(|(joint, folded)| JointCommand::SetFolded { joint, folded }),
         1 => any::<bool>().prop_map(JointCommand::SetAllFolded),
@@ -244,7 +243,6 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
             .prop_map(Command::SetHandedness),
         prop::sample::select(vec![None, Some(UpAxis::Y), Some(UpAxis::Z)]).prop_map(Command::SetUpAxis),
         prop::sample::select(vec![Theme::Dark, Theme::Light]).prop_map(Command::SetTheme),
-        vector().prop_map(Command::SelectAt),
     ];
     let history = prop::sample::select(vec![
         HistoryCommand::Undo,
