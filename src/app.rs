@@ -65,6 +65,9 @@ impl App {
             ui.ctx().request_repaint();
         }
 
+        if !ui.ctx().will_discard() {
+            self.state.announce(&session);
+        }
         let requests = self.state.take_requests();
         for request in &requests {
             if let Request::UseTheme(theme) = request {
@@ -114,11 +117,6 @@ impl App {
     /// How many pictures of the model were drawn: stands still while nothing changes.
     pub fn frames_rendered(&self) -> u64 {
         self.painter.frames_rendered
-    }
-
-    /// Whether Esc would shut something, end what is being typed or let go of a selection.
-    pub fn escape_shuts(&self, ctx: &egui::Context) -> bool {
-        ui::escape_shuts(ctx, &self.session.borrow(), &self.state)
     }
 
     /// The longest side of a picture that this device can draw, in pixels.

@@ -1,5 +1,6 @@
 //! The interface. It reads a [`Session`] and answers with [`Command`]s; what is open and shut is its own [`UiState`].
 
+mod announce;
 mod diagnostics_panel;
 mod error_card;
 mod help;
@@ -9,6 +10,7 @@ mod inspector;
 mod keys;
 mod layout;
 mod light;
+mod mirror;
 mod model_panel;
 mod overlays;
 mod panel;
@@ -27,7 +29,9 @@ mod wording;
 
 use egui::{Popup, Rect, Ui};
 
-pub use keys::{escape_shuts, owns_key};
+pub use announce::{Announcement, view_in_words};
+pub use keys::owns_key;
+pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
 pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 

@@ -2,6 +2,7 @@
 
 use egui::{Rect, Ui};
 
+use super::announce::{Announcement, Announcer};
 use super::input::Keyboard;
 use super::skeleton::state::SkeletonState;
 use super::thumbnails::Thumbnails;
@@ -11,12 +12,13 @@ use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
+use crate::session::Session;
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// What only the page around the interface can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
     /// Let the person pick files.
     PickFiles,
@@ -33,6 +35,8 @@ pub enum Request {
         /// Without a background.
         transparent: bool,
     },
+    /// Have a screen reader speak.
+    Announce(Announcement),
 }
 
 /// What the bottom sheet of a narrow window shows below the timeline.
@@ -88,6 +92,7 @@ pub struct UiState {
     pub(super) skeleton: SkeletonState,
     pub(super) keyboard: Keyboard,
     pub(super) requests: Vec<Request>,
+    pub(super) announcer: Announcer,
 }
 
 impl UiState {
@@ -111,6 +116,12 @@ impl UiState {
     /// The requests to the page since the last call.
     pub fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
+    }
+
+    /// Asks the page to tell what the session shows now and did not before.
+    pub fn announce(&mut self, session: &Session) {
+        let told = self.announcer.observe(session);
+        self.requests.extend(told.into_iter().map(Request::Announce));
     }
 
     /// Asks for a picture as chosen. `transparent`: in any case without a background.

@@ -7,6 +7,7 @@
 
 mod backend;
 mod joint_names;
+mod mirror;
 mod picture;
 mod run;
 mod state;

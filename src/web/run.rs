@@ -10,11 +10,12 @@ use web_sys::{HtmlCanvasElement, HtmlElement};
 
 use super::backend::{self, Chosen, Preference};
 use super::joint_names::JointNames;
+use super::mirror::MirrorLink;
 use super::picture::{self, AppSlot};
 use super::{coarse_pointer, field, object, sleep, state, text_of};
 use crate::app::App;
 use crate::session::Session;
-use crate::ui::{Request, picture_name};
+use crate::ui::{Announcement, Request, picture_name};
 
 /// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
@@ -23,6 +24,7 @@ const OVERTAKEN: &str = "another start came after this one";
 pub(super) struct Shared {
     pub(super) session: Rc<RefCell<Session>>,
     pub(super) running: RefCell<Option<Running>>,
+    pub(super) mirror: MirrorLink,
     /// Counts starts and stops, so that events of an earlier start or its device are ignored.
     starts: Cell<u32>,
     /// Hears of events until the viewer is dropped.
@@ -59,8 +61,9 @@ impl Running {
 }
 
 impl Shared {
-    pub(super) fn new(session: Session, listener: Function) -> Self {
+    pub(super) fn new(session: Session, mirror: MirrorLink, listener: Function) -> Self {
         Self {
+            mirror,
             session: Rc::new(RefCell::new(session)),
             running: RefCell::new(None),
             starts: Cell::new(0),
@@ -182,6 +185,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
                 watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
+                shell.shared.mirror.install(&creation.egui_ctx);
                 let session = Rc::clone(&shell.shared.session);
                 let app = App::new(&creation.egui_ctx, &gpu, session, coarse_pointer());
                 shell.app.replace(Some(app));
@@ -231,7 +235,16 @@ impl Shell {
         let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
         wasm_bindgen_futures::spawn_local(async move {
             match drawn.await {
-                Ok(bytes) => shared.emit("picture", &object([("name", name.into()), ("bytes", bytes)])),
+                Ok(bytes) => {
+                    let [width, height] = size.map(JsValue::from);
+                    let detail = [
+                        ("name", name.into()),
+                        ("bytes", bytes),
+                        ("width", width),
+                        ("height", height),
+                    ];
+                    shared.emit("picture", &object(detail));
+                }
                 Err(error) => {
                     let message = field(&error.into(), "message");
                     shared.emit("picturefailed", &object([("message", message)]));
@@ -242,10 +255,17 @@ impl Shell {
 }
 
 impl eframe::App for Shell {
+    fn raw_input_hook(&mut self, ctx: &egui::Context, input: &mut egui::RawInput) {
+        self.shared.mirror.begin_frame(ctx, input);
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         if let Ok(reason) = self.loss.try_recv() {
             self.shared.emit_loss(self.start, &reason);
             return;
+        }
+        if ui.ctx().current_pass_index() == 0 {
+            self.shared.tell_mirror(ui.ctx());
         }
         let mut requests = Vec::new();
         if let Some(app) = self.app.borrow_mut().as_mut() {
@@ -258,6 +278,10 @@ impl eframe::App for Shell {
                 Request::ReadAgain => self.shared.emit("readagain", &JsValue::UNDEFINED),
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
                 Request::SavePicture { size, transparent } => self.save_picture(size, transparent),
+                Request::Announce(Announcement { text, assertive }) => {
+                    let detail = object([("text", text.into()), ("assertive", assertive.into())]);
+                    self.shared.emit("announce", &detail);
+                }
                 // The app did this itself.
                 Request::UseTheme(_) => {}
             }

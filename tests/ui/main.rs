@@ -16,6 +16,7 @@ mod joint_tree;
 mod keys;
 mod layout;
 mod look;
+mod mirror;
 #[path = "../core/session/models.rs"]
 #[allow(dead_code, reason = "shared with the tests of the session, which need more of it")]
 mod models;

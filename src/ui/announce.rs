@@ -1,0 +1,238 @@
+//! Sentences for screen readers: what has changed and is seen on the canvas alone.
+
+use crate::model::JointIndex;
+use crate::scene::{Light, Pass, ViewMode};
+use crate::session::{PassState, Session};
+
+use super::wording::{counted, grouped};
+use crate::anim::SkinView;
+
+/// What a screen reader is told.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Announcement {
+    /// One sentence or a few.
+    pub text: String,
+    /// It may interrupt what is being spoken.
+    pub assertive: bool,
+}
+
+/// Compares a session with what it was, and has words for what differs.
+#[derive(Debug, Default)]
+pub(super) struct Announcer {
+    seen: Option<Seen>,
+    said: Vec<String>,
+}
+
+/// What of a session is told of.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Seen {
+    model: u64,
+    is_open: bool,
+    error: Option<String>,
+    view_mode: ViewMode,
+    skin_view: Option<SkinView>,
+    light: Light,
+    split: bool,
+    joint: Option<JointIndex>,
+    vertex: Option<u32>,
+    submesh: Option<usize>,
+    playing: bool,
+    clip: Option<usize>,
+    time_secs: f32,
+    slow: Vec<Pass>,
+}
+
+impl Seen {
+    fn of(session: &Session) -> Self {
+        let (look, playback, joints) = (session.look(), session.playback(), session.joints());
+        let is_slow = |pass: &Pass| session.quality().state(*pass) == PassState::TooSlow;
+        Self {
+            model: session.model_revision(),
+            is_open: session.open_model().is_some(),
+            error: session
+                .error()
+                .map(|error| failure(session, &error.file_name, &error.diagnostic.message)),
+            view_mode: look.view_mode,
+            skin_view: look.skin_view,
+            light: look.light,
+            split: look.split.is_some(),
+            joint: joints.selected(),
+            vertex: joints.selected_vertex().map(|selected| selected.vertex),
+            submesh: session.submeshes().selected(),
+            playing: playback.is_playing(),
+            clip: session.clip_index(),
+            time_secs: playback.time_secs(),
+            slow: Pass::ALL.into_iter().filter(is_slow).collect(),
+        }
+    }
+}
+
+impl Announcer {
+    /// Says a sentence with the next ones.
+    pub(super) fn say(&mut self, text: impl Into<String>) {
+        self.said.push(text.into());
+    }
+
+    /// What there is to tell since the last call: at most one of each kind. A failure comes first.
+    pub(super) fn observe(&mut self, session: &Session) -> Vec<Announcement> {
+        let now = Seen::of(session);
+        let before = self.seen.replace(now.clone()).unwrap_or_default();
+        let failure = now.error.clone().filter(|_| now.error != before.error);
+        for sentence in changes(session, &before, &now) {
+            self.say(sentence);
+        }
+        let sentences = std::mem::take(&mut self.said);
+        let told = |text: String, assertive| (!text.is_empty()).then_some(Announcement { text, assertive });
+        let failure = told(failure.unwrap_or_default(), true);
+        failure.into_iter().chain(told(sentences.join(" "), false)).collect()
+    }
+}
+
+/// Sentences about what differs, the most important first.
+fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
+    if now.model != before.model {
+        // All else is new with it.
+        return opened(session).into_iter().collect();
+    }
+    let mut sentences = Vec::new();
+    if now.view_mode != before.view_mode {
+        sentences.push(format!("View mode: {}.", now.view_mode.label()));
+    }
+    if now.skin_view != before.skin_view {
+        sentences.push(match now.skin_view {
+            Some(view) => format!("Colours of the skin: {}.", view.label()),
+            None => "The skin as it is.".to_owned(),
+        });
+    }
+    if (now.light, now.split) != (before.light, before.split) {
+        sentences.push(match now.split {
+            true => "Two lights, side by side.".to_owned(),
+            false => format!("Light: {}.", now.light.label()),
+        });
+    }
+    if (now.joint, now.vertex, now.submesh) != (before.joint, before.vertex, before.submesh) {
+        sentences.push(selection(session, now));
+    }
+    if now.clip != before.clip
+        && let Some(clip) = session.clip()
+    {
+        sentences.push(format!("Clip {}.", clip.name));
+    }
+    if now.playing != before.playing {
+        sentences.push(if now.playing {
+            "Playing.".to_owned()
+        } else {
+            format!("Paused at {}.", time(session))
+        });
+    } else if !now.playing && now.time_secs != before.time_secs && !session.is_scrubbing() {
+        sentences.push(format!("{}.", time(session)));
+    }
+    let slower: Vec<&str> = now
+        .slow
+        .iter()
+        .filter(|&pass| !before.slow.contains(pass))
+        .map(|pass| pass.label())
+        .collect();
+    if !slower.is_empty() {
+        sentences.push(format!("Left out for speed: {}.", slower.join(", ").to_lowercase()));
+    }
+    sentences
+}
+
+fn opened(session: &Session) -> Option<String> {
+    let open = session.open_model()?;
+    let model = &open.model;
+    let counts = [
+        (model.mesh.submeshes.len(), "subset"),
+        (session.joints().count(), "bone"),
+        (model.clips.len(), "clip"),
+    ];
+    let counts: Vec<String> = counts
+        .into_iter()
+        .filter(|&(count, _)| count > 0)
+        .map(|(count, word)| counted(count, word))
+        .collect();
+    let findings = match session.diagnostics().count() {
+        0 => "no findings".to_owned(),
+        count => counted(count, "finding"),
+    };
+    Some(format!(
+        "{} is open: {}; {findings}.",
+        open.file.base_name(),
+        counts.join(", ")
+    ))
+}
+
+fn failure(session: &Session, file_name: &str, message: &str) -> String {
+    let subject = if file_name.is_empty() {
+        String::new()
+    } else {
+        format!("{file_name} was not opened: ")
+    };
+    let stays = session
+        .open_model()
+        .map(|open| format!(" {} stays open.", open.file.base_name()));
+    format!("{subject}{message}{}", stays.unwrap_or_default())
+}
+
+fn selection(session: &Session, now: &Seen) -> String {
+    if let Some(vertex) = now.vertex {
+        return format!("Vertex {}.", grouped(vertex as usize));
+    }
+    if let Some(joint) = now.joint {
+        let label = session.numbered_joint_label(joint);
+        return if label.starts_with("Bone") {
+            format!("{label}.")
+        } else {
+            format!("Bone {label}.")
+        };
+    }
+    match now.submesh {
+        Some(submesh) => format!("Subset {}.", submesh + 1),
+        None => "Nothing is selected.".to_owned(),
+    }
+}
+
+fn time(session: &Session) -> String {
+    let secs = session.playback().time_secs();
+    match session.clip() {
+        Some(clip) => format!("{secs:.2} s, frame {}", clip.frame_at(secs)),
+        None => format!("{secs:.2} s"),
+    }
+}
+
+/// What the view shows, for somebody who does not see it: `soldier.m3d, Take1, 0.90 s, weights of bone 50`.
+pub fn view_in_words(session: &Session) -> String {
+    let Some(open) = session.open_model() else {
+        return "3D view, no model is open".to_owned();
+    };
+    let mut parts = vec![open.file.base_name().to_owned()];
+    if let Some(clip) = session.clip() {
+        parts.push(clip.name.clone());
+        parts.push(if session.playback().is_playing() {
+            "playing".to_owned()
+        } else {
+            format!("{:.2} s", session.playback().time_secs())
+        });
+    }
+    let look = session.look();
+    let joint = session.joints().selected().map(|joint| session.joint_label(joint));
+    match (look.skin_view, joint) {
+        (Some(SkinView::Weight), Some(joint)) => parts.push(format!("weights of {}", lower_bone(&joint))),
+        (Some(view), _) => parts.push(view.label().to_lowercase()),
+        (None, Some(joint)) => parts.push(format!("{} selected", lower_bone(&joint))),
+        (None, None) => {}
+    }
+    if look.skin_view.is_none() && look.view_mode != ViewMode::default() {
+        parts.push(look.view_mode.label().to_lowercase());
+    }
+    parts.join(", ")
+}
+
+/// `bone 12` inside of a sentence; names stay as they are.
+fn lower_bone(label: &str) -> String {
+    match label.strip_prefix("Bone ") {
+        Some(number) => format!("bone {number}"),
+        None => label.to_owned(),
+    }
+}
