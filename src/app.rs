@@ -12,7 +12,7 @@ use crate::render::{
 };
 use crate::scene::{FrameOptions, Theme};
 use crate::session::Session;
-use crate::ui::{self, Request, UiState};
+use crate::ui::{self, Contrast, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
 const MAX_STEP_SECS: f32 = 0.25;
@@ -100,6 +100,11 @@ impl App {
             ui.ctx().request_repaint();
         }
         requests
+    }
+
+    /// Shows the interface with the contrast that the person asks for.
+    pub fn set_contrast(&mut self, contrast: Contrast) {
+        self.state.contrast = contrast;
     }
 
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.

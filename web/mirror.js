@@ -166,15 +166,17 @@ export function mirrorOf(viewer, canvas) {
       mirrored.set(record.id, Object.assign(fresh, { record }));
       update(fresh, record);
     }
-    for (const { id, children } of changes.changed) if (children.length) arrange(elementOf(id), children);
-    arrange(root, changes.children);
     const shut = changes.removed.filter((id) => openers.has(id));
-    const heir = shut.map((id) => openers.get(id)).find((id) => elementOf(id));
+    const heir = shut.map((id) => openers.get(id)).find((id) => !changes.removed.includes(id));
     for (const id of changes.removed) {
       elementOf(id)?.remove();
       mirrored.delete(id);
       openers.delete(id);
     }
+    for (const { id, children } of changes.changed) if (children.length) arrange(elementOf(id), children);
+    arrange(root, changes.children);
+    // What was moved to another place has lost it.
+    if (within && root.contains(had) && !hasFocus()) giveFocus(had);
     for (const id of opened) openers.set(id, idOf(had));
     const moved = changes.focus !== focus;
     focus = changes.focus;
@@ -260,7 +262,7 @@ export function mirrorOf(viewer, canvas) {
     const { record } = mirrored.get(idOf(target)) ?? {};
     if (!record || isOwnKey(target, record, event)) return;
     if (target.localName === "input" && target.type === "text" && key === "Enter") target.dispatchEvent(new Event("change", { bubbles: true }));
-    if ((key === "Enter" || key === " ") && record.clickable) {
+    if ((key === "Enter" || key === " ") && record.clickable && target.localName === "div") {
       event.preventDefault();
       return void (event.repeat || target.click());
     }

@@ -295,8 +295,15 @@ impl Reader<'_> {
             node: record(id, node, role, name, &children),
             children,
         };
+        // What hangs from a control follows it: a control cannot have others in it.
+        let is_overlay = |child: &mut Branch| matches!(child.node.role, "dialog" | "alertdialog" | "menu" | "listbox");
+        let hung: Vec<Branch> = match branch.node.clickable {
+            true => branch.children.extract_if(.., is_overlay).collect(),
+            false => Vec::new(),
+        };
         settle(&mut branch);
         branches.push(branch);
+        branches.extend(hung);
     }
 
     /// Its own name, or that of what labels it.

@@ -34,6 +34,7 @@ pub use keys::owns_key;
 pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
 pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
+pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, Session, SubmeshCommand};

@@ -5,6 +5,7 @@ use egui::{Rect, Ui};
 use super::announce::{Announcement, Announcer};
 use super::input::Keyboard;
 use super::skeleton::state::SkeletonState;
+use super::theme::Contrast;
 use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
@@ -75,6 +76,8 @@ pub struct UiState {
     pub diagnostics_open: bool,
     /// What the bottom sheet of a narrow window shows. None while it is closed.
     pub sheet: Option<SheetPage>,
+    /// How much contrast the person asks for.
+    pub contrast: Contrast,
     pub(super) coarse_pointer: bool,
     pub(super) shown_diagnostic: Option<ShownDiagnostic>,
     /// The names of missing maps are listed.

@@ -24,6 +24,18 @@ pub const LOW_WIDTH: f32 = 600.0;
 /// Semibold family, for titles.
 pub const SEMIBOLD: &str = "semibold";
 
+/// How much contrast the person asks the system for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Contrast {
+    /// Quiet panels that let a little of the view through.
+    #[default]
+    Normal,
+    /// Opaque panels, stronger lines, all text at 7 : 1.
+    More,
+    /// Few colours, as the system forces them: text on its opposite, and a border on every control.
+    Forced,
+}
+
 /// The tokens of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Tokens {

@@ -9,6 +9,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::{HtmlCanvasElement, HtmlElement};
 
 use super::backend::{self, Chosen, Preference};
+use super::contrast::{ContrastWatch, contrast};
 use super::joint_names::JointNames;
 use super::mirror::MirrorLink;
 use super::picture::{self, AppSlot};
@@ -41,6 +42,7 @@ pub(super) struct Running {
     pub(super) frames_rendered: Rc<Cell<u64>>,
     runner: eframe::WebRunner,
     _context_watch: ContextWatch,
+    _contrast_watch: ContrastWatch,
 }
 
 impl Running {
@@ -203,6 +205,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         return Err(JsError::new(&format!("{backend}: {}", text_of(&error))));
     }
     let (ctx, adapter) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
+    let contrast_watch = ContrastWatch::new(&ctx);
     Ok(Running {
         canvas,
         app,
@@ -212,6 +215,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         frames_rendered,
         runner,
         _context_watch: context_watch,
+        _contrast_watch: contrast_watch,
     })
 }
 
@@ -269,6 +273,7 @@ impl eframe::App for Shell {
         }
         let mut requests = Vec::new();
         if let Some(app) = self.app.borrow_mut().as_mut() {
+            app.set_contrast(contrast());
             requests = app.ui(ui);
             self.frames.set(app.frames_rendered());
         }
