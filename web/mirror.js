@@ -19,7 +19,10 @@ const SLIDER_KEYS = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", 
 /** Keys of a field that are the viewer's: they end the typing, or walk through what was found. */
 const KEYS_OUT_OF_FIELD = new Set(["Enter", "Escape", "ArrowUp", "ArrowDown"]);
 
+/** The canvas is not called otherwise more often than this. */
 const LABEL_EVERY_MS = 1000;
+/** So many times the viewer may tell of something else before it has the focus that it was asked for. */
+const MOST_ANSWERS = 4;
 
 /**
  * Mirrors the controls of `viewer`, which was made with `mirrored`, behind the canvas that it runs on. Gives what takes its `mirror`
@@ -46,6 +49,9 @@ export function mirrorOf(viewer, canvas) {
   const openers = new Map();
   let focus = null; // What has the focus in the viewer.
   let follows = false; // The viewer's focus is being followed, and need not be told of it.
+  /** What the viewer was asked to focus, until it says so; `undefined` when nothing is asked. What it says meanwhile is of before. */
+  let asked;
+  let answers = 0;
   let pressing = false; // A pointer went down on the canvas, and takes the focus there by itself.
   const held = new Set(); // Keys that the viewer was told of and that are not up again.
 
@@ -54,6 +60,10 @@ export function mirrorOf(viewer, canvas) {
   const active = () => root.getRootNode().activeElement;
   const hasFocus = () => root.contains(active());
   const act = (element, action, value) => viewer.act({ node: idOf(element), action, value });
+  const askFocus = (id) => {
+    [asked, answers] = [id, 0];
+    viewer.act(id === null ? { action: "blur" } : { node: id, action: "focus" });
+  };
 
   /** Gives an element the focus that the viewer says it has. */
   const giveFocus = (element) => {
@@ -178,8 +188,13 @@ export function mirrorOf(viewer, canvas) {
     // What was moved to another place has lost it.
     if (within && root.contains(had) && !hasFocus()) giveFocus(had);
     for (const id of opened) openers.set(id, idOf(had));
-    const moved = changes.focus !== focus;
+    let moved = changes.focus !== focus;
     focus = changes.focus;
+    if (asked !== undefined) {
+      // One that cannot have the focus never answers.
+      if (focus === asked || ++answers === MOST_ANSWERS) asked = undefined;
+      moved = false;
+    }
     if (within || [canvas, input].includes(active())) followFocus({ had, within, opened, heir, moved });
   };
 
@@ -201,7 +216,7 @@ export function mirrorOf(viewer, canvas) {
       if (next) next.focus({ preventScroll: true });
       else canvas.focus({ preventScroll: true });
     } else if (within && moved && !wanted) {
-      act(had, "focus");
+      askFocus(idOf(had));
     }
   };
 
@@ -221,7 +236,7 @@ export function mirrorOf(viewer, canvas) {
   root.addEventListener("focusin", ({ target }) => {
     viewer.setMirrorFocused(true);
     if (!follows) {
-      act(target, "focus");
+      askFocus(idOf(target));
       act(target, "scrollIntoView");
     }
   });
@@ -284,7 +299,7 @@ export function mirrorOf(viewer, canvas) {
   const onTab = (event) => {
     if (event.key !== "Tab" || ![canvas, input].includes(active())) return;
     event.stopImmediatePropagation();
-    const from = elementOf(focus);
+    const from = elementOf(asked === undefined ? focus : asked);
     if (from) giveFocus(from);
     else if (!event.shiftKey && active() !== canvas) canvas.focus({ preventScroll: true });
   };
@@ -294,7 +309,7 @@ export function mirrorOf(viewer, canvas) {
   };
   const leavesForCanvas = ({ relatedTarget }) => {
     // The keyboard came here from a control, which the viewer still has in its focus.
-    if (!pressing && root.contains(relatedTarget) && focus) viewer.act({ node: focus, action: "blur" });
+    if (!pressing && root.contains(relatedTarget)) askFocus(null);
   };
   globalThis.addEventListener("keydown", onTab, true);
   canvas.addEventListener("pointerdown", onPointer, true);

@@ -127,6 +127,17 @@ pub enum MirrorAction {
 }
 
 impl MirrorAction {
+    /// Whether an input gives a widget the focus.
+    pub fn is_focus(event: &Event) -> bool {
+        matches!(
+            event,
+            Event::AccessKitActionRequest(ActionRequest {
+                action: Action::Focus,
+                ..
+            })
+        )
+    }
+
     /// As input of egui.
     pub fn event(self, id: MirrorId) -> Event {
         let (action, data) = match self {
@@ -251,7 +262,11 @@ impl Snapshot {
     /// Keeps these records, placed from a corner. Returns their ids.
     fn keep(&mut self, branches: Vec<Branch>, [left, top]: [f32; 2]) -> Vec<MirrorId> {
         let mut ids = Vec::with_capacity(branches.len());
-        for Branch { mut node, children } in branches {
+        for mut branch in branches {
+            if is_overlay(&branch) && branch.node.name.is_empty() {
+                branch.node.name = first_words(&branch.children);
+            }
+            let Branch { mut node, children } = branch;
             let [x, y, ..] = node.bounds;
             node.children = self.keep(children, [x, y]);
             (node.bounds[0], node.bounds[1]) = (x - left, y - top);
@@ -281,29 +296,30 @@ impl Reader<'_> {
         for &child in node.children() {
             self.read(child, &mut children);
         }
-        let mut name = self.name_of(node);
+        let name = self.name_of(node);
         let clickable = node.supports_action(Action::Click);
         let Some(role) = role_of(node.role(), !name.is_empty(), clickable) else {
             branches.append(&mut children);
             return;
         };
-        if name.is_empty() && matches!(role, "dialog" | "alertdialog" | "menu") {
-            // What opens over the rest begins with its title, or is a short list.
-            name = first_words(&children);
-        }
         let mut branch = Branch {
             node: record(id, node, role, name, &children),
             children,
         };
-        // What hangs from a control follows it: a control cannot have others in it.
-        let is_overlay = |child: &mut Branch| matches!(child.node.role, "dialog" | "alertdialog" | "menu" | "listbox");
-        let hung: Vec<Branch> = match branch.node.clickable {
-            true => branch.children.extract_if(.., is_overlay).collect(),
+        settle(&mut branch);
+        // A control cannot have others in it, so what hangs from it follows it, and is called by it.
+        let mut hung = match is_pressed(role) {
+            true => std::mem::take(&mut branch.children),
             false => Vec::new(),
         };
-        settle(&mut branch);
+        for child in hung
+            .iter_mut()
+            .filter(|child| is_overlay(child) && child.node.name.is_empty())
+        {
+            child.node.name.clone_from(&branch.node.name);
+        }
         branches.push(branch);
-        branches.extend(hung);
+        branches.append(&mut hung);
     }
 
     /// Its own name, or that of what labels it.
@@ -371,6 +387,16 @@ fn record(id: NodeId, node: &Node, role: &'static str, name: String, children: &
         bounds,
         children: Vec::new(),
     }
+}
+
+/// Whether it is a control that is pressed as a whole.
+fn is_pressed(role: &str) -> bool {
+    matches!(role, "button" | "checkbox" | "switch" | "radio" | "tab" | "link")
+}
+
+/// Whether it lies over the rest while it is open.
+fn is_overlay(branch: &Branch) -> bool {
+    matches!(branch.node.role, "dialog" | "alertdialog" | "menu" | "listbox")
 }
 
 /// The first title or words among these.
@@ -478,12 +504,9 @@ fn settle(branch: &mut Branch) {
             for (child, role) in branch.children.iter_mut().zip(roles) {
                 child.node.role = role;
             }
-            if container == "listbox" && branch.node.name.is_empty() {
-                branch.node.name = "Choices".to_owned();
-            }
         }
         _ => {
-            branch.node.role = "group";
+            branch.node.role = if is_overlay(branch) { "dialog" } else { "group" };
             branch.children = among_others(branch.node.id, std::mem::take(&mut branch.children));
         }
     }

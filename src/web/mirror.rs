@@ -58,7 +58,11 @@ impl MirrorLink {
     pub(super) fn act(&self, asked: &JsValue) {
         let value = field(asked, "value");
         let action = match field(asked, "action").as_string().as_deref() {
-            Some("blur") => return self.blurs.set(true),
+            Some("blur") => {
+                // What had the focus for a moment needs no more.
+                self.input.borrow_mut().retain(|event| !MirrorAction::is_focus(event));
+                return self.blurs.set(true);
+            }
             Some("click") => Some(MirrorAction::Click),
             Some("focus") => Some(MirrorAction::Focus),
             Some("increment") => Some(MirrorAction::Increment),
