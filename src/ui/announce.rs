@@ -236,3 +236,132 @@ fn lower_bone(label: &str) -> String {
         None => label.to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::{File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
+
+    const SKINNED: &[u8] = include_bytes!("../../tests/fixtures/good/d3d12_skinned.m3d");
+
+    fn open() -> (Session, Announcer) {
+        let mut session = Session::new(true);
+        session.apply(FileCommand::Add(vec![File::new("arm.m3d", SKINNED)]));
+        let mut announcer = Announcer::default();
+        announcer.observe(&session);
+        (session, announcer)
+    }
+
+    fn told(announcer: &mut Announcer, session: &Session) -> Vec<(String, bool)> {
+        let told = announcer.observe(session);
+        told.into_iter().map(|told| (told.text, told.assertive)).collect()
+    }
+
+    #[track_caller]
+    fn assert_says(announcer: &mut Announcer, session: &Session, text: &str) {
+        assert_eq!(told(announcer, session), [(text.to_owned(), false)]);
+        assert_eq!(told(announcer, session), [], "once");
+    }
+
+    #[test]
+    fn an_opened_model_is_told_with_its_counts_and_findings() {
+        let mut announcer = Announcer::default();
+        let mut session = Session::new(true);
+        assert_eq!(told(&mut announcer, &session), []);
+        session.apply(FileCommand::Add(vec![File::new("arm.m3d", SKINNED)]));
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(
+            text.starts_with("arm.m3d is open: ") && text.contains(" clip") && text.contains("finding"),
+            "{text}"
+        );
+        assert_eq!(told(&mut announcer, &session), [], "once");
+    }
+
+    #[test]
+    fn a_failure_interrupts_and_says_what_stays() {
+        let (mut session, mut announcer) = open();
+        session.apply(FileCommand::Add(vec![File::new(
+            "bad.m3d",
+            *b"m3d-File-Header\n#Materials x\n",
+        )]));
+        let [(text, true)] = &told(&mut announcer, &session)[..] else {
+            panic!("one that interrupts");
+        };
+        assert!(
+            text.starts_with("bad.m3d was not opened: ") && text.ends_with(" arm.m3d stays open."),
+            "{text}"
+        );
+        session.apply(FileCommand::DismissError);
+        assert_eq!(told(&mut announcer, &session), []);
+    }
+
+    #[test]
+    fn view_mode_and_light_are_told_by_their_labels() {
+        let (mut session, mut announcer) = open();
+        session.apply(LookCommand::SetViewMode(ViewMode::Depth));
+        session.apply(LookCommand::SetLight(Light::Book));
+        let text = format!(
+            "View mode: {}. Light: {}.",
+            ViewMode::Depth.label(),
+            Light::Book.label()
+        );
+        assert_says(&mut announcer, &session, &text);
+        session.apply(LookCommand::SetSplit(Some(0.5)));
+        assert_says(&mut announcer, &session, "Two lights, side by side.");
+    }
+
+    #[test]
+    fn what_is_selected_is_told_and_that_nothing_is() {
+        let (mut session, mut announcer) = open();
+        session.apply(JointCommand::Select(Some(JointIndex(1))));
+        assert_says(&mut announcer, &session, "Bone 1.");
+        session.apply(JointCommand::Select(None));
+        assert_says(&mut announcer, &session, "Nothing is selected.");
+        session.apply(SubmeshCommand::Select(Some(0)));
+        assert_says(&mut announcer, &session, "Subset 1.");
+    }
+
+    #[test]
+    fn playing_and_steps_are_told_and_a_passing_time_is_not() {
+        let (mut session, mut announcer) = open();
+        session.apply(PlayCommand::Seek { time_secs: 0.5 });
+        let frame = session.clip().map_or(0, |clip| clip.frame_at(0.5));
+        assert_says(&mut announcer, &session, &format!("0.50 s, frame {frame}."));
+        session.apply(PlayCommand::Play);
+        assert_says(&mut announcer, &session, "Playing.");
+        session.advance(0.1);
+        assert_eq!(told(&mut announcer, &session), []);
+        session.apply(PlayCommand::Pause);
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(text.starts_with("Paused at 0."), "{text}");
+    }
+
+    #[test]
+    fn what_was_said_comes_first() {
+        let (session, mut announcer) = open();
+        announcer.say("Undone: visibility.");
+        assert_says(&mut announcer, &session, "Undone: visibility.");
+    }
+
+    #[test]
+    fn the_view_is_called_by_what_it_shows() {
+        let (mut session, _) = open();
+        let clip = session.clip().map_or(String::new(), |clip| clip.name.clone());
+        session.apply(PlayCommand::Seek { time_secs: 0.5 });
+        session.apply(JointCommand::Select(Some(JointIndex(1))));
+        assert_eq!(
+            view_in_words(&session),
+            format!("arm.m3d, {clip}, 0.50 s, bone 1 selected")
+        );
+        session.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
+        assert_eq!(
+            view_in_words(&session),
+            format!("arm.m3d, {clip}, 0.50 s, weights of bone 1")
+        );
+        assert_eq!(view_in_words(&Session::new(true)), "3D view, no model is open");
+    }
+}

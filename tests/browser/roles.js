@@ -84,6 +84,24 @@ test("by roles and names alone a model is opened, played, scrubbed, a bone's mat
   await spoken(page, /^d3d12_skinned.*\.png is saved, \d+ × \d+ pixels/);
 });
 
+test("all that steps the time is a button, and where it led is spoken", {}, async (page) => {
+  const { model } = await state(page);
+  const [{ endSecs, keysPerSec }] = model.clips;
+  await call(page, "pause");
+  await call(page, "seek", 0);
+  for (const [button, frame] of [
+    ["One frame on", 1],
+    ["One frame on", 2],
+    ["One frame back", 1],
+    ["Last frame", endSecs * keysPerSec],
+    ["First frame", 0],
+  ]) {
+    await press(page, button);
+    await until(page, ({ timeSecs }) => Math.abs(timeSecs * keysPerSec - frame) < 1e-2);
+    await spoken(page, new RegExp(`^${(frame / keysPerSec).toFixed(2)} s, frame ${Math.round(frame)}\\.$`));
+  }
+});
+
 test("what is typed into a field of the mirror is in the viewer, and Tab goes on from a field on the canvas", {}, async (page) => {
   await press(page, "(Panel: )?Skeleton", "Space");
   const search = page.getByRole("textbox", { name: "Search bones" });
