@@ -3,15 +3,13 @@
 //! A tree for screen readers is made in frames that input brings, and else four times a second: what plays is not told more often.
 
 use std::cell::{Cell, RefCell};
-use std::rc::Rc;
 
 use egui::{Context, Event, Key, Modifiers, RawInput};
 use serde::Serialize as _;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
-use super::run::Shared;
-use super::{field, object, sleep};
+use super::{field, sleep};
 use crate::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId};
 
 /// Without input a tree is told no more often than this.
@@ -164,31 +162,29 @@ impl MirrorLink {
     }
 }
 
-impl Shared {
-    /// Tells the page what a frame has changed, once the frame has ended: called in its first pass.
-    pub(super) fn tell_mirror(self: &Rc<Self>, ctx: &Context) {
-        let link = &self.mirror;
-        if !link.wanted || link.due.get() {
+impl MirrorLink {
+    /// Whether a frame tells the page, once it has ended.
+    pub(super) fn tells(&self) -> bool {
+        self.wanted && !self.due.get()
+    }
+
+    /// Waits until a frame without input may tell again, and asks for one if there was something to tell. Once at a time.
+    pub(super) async fn rest(&self, ctx: &Context) {
+        if self.waits.replace(true) {
             return;
         }
-        let (shared, ctx) = (Rc::clone(self), ctx.clone());
-        wasm_bindgen_futures::spawn_local(async move {
-            let changes = ctx.plugin::<Mirror>().lock().take_changes();
-            if let Some(changes) = changes {
-                let view = crate::ui::view_in_words(&shared.session.borrow());
-                let detail = object([("changes", plain(&changes)), ("view", view.into())]);
-                shared.emit("mirror", &detail);
-            }
-            if shared.mirror.waits.replace(true) {
-                return;
-            }
-            sleep(PERIOD_MS).await;
-            shared.mirror.waits.set(false);
-            if shared.mirror.due.replace(false) {
-                ctx.request_repaint();
-            }
-        });
+        sleep(PERIOD_MS).await;
+        self.waits.set(false);
+        if self.due.replace(false) {
+            ctx.request_repaint();
+        }
     }
+}
+
+/// What changed since the last call; `None` when nothing did.
+pub(super) fn take_changes(ctx: &Context) -> Option<JsValue> {
+    let changes = ctx.plugin::<Mirror>().lock().take_changes()?;
+    Some(plain(&changes))
 }
 
 /// As plain objects; a copy with other keys would take longer than the rest.

@@ -11,12 +11,12 @@ use web_sys::{HtmlCanvasElement, HtmlElement};
 use super::backend::{self, Chosen, Preference};
 use super::contrast::{ContrastWatch, contrast};
 use super::joint_names::JointNames;
-use super::mirror::MirrorLink;
+use super::mirror::{self, MirrorLink};
 use super::picture::{self, AppSlot};
 use super::{coarse_pointer, field, object, sleep, state, text_of};
 use crate::app::App;
 use crate::session::Session;
-use crate::ui::{Announcement, Request, picture_name};
+use crate::ui::{Announcement, Request, picture_name, view_in_words};
 
 /// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
@@ -89,6 +89,21 @@ impl Shared {
             let detail = state::event_detail(&self.session.borrow(), event);
             self.emit(event.name(), &detail);
         }
+    }
+
+    /// Tells the page what a frame has changed of the controls, once the frame has ended: called in its first pass.
+    fn tell_mirror(self: &Rc<Self>, ctx: &egui::Context) {
+        if !self.mirror.tells() {
+            return;
+        }
+        let (shared, ctx) = (Rc::clone(self), ctx.clone());
+        wasm_bindgen_futures::spawn_local(async move {
+            if let Some(changes) = mirror::take_changes(&ctx) {
+                let view = view_in_words(&shared.session.borrow());
+                shared.emit("mirror", &object([("changes", changes), ("view", view.into())]));
+            }
+            shared.mirror.rest(&ctx).await;
+        });
     }
 
     /// Tells of a lost device or context, unless it is that of an earlier start.

@@ -54,7 +54,7 @@ export const LARGE = { width: 1280, height: 800 };
 export const CENTRE = [520, 260];
 
 /** Long enough for a debug build on a software GPU that shares two cores. */
-const PATIENCE_MS = 25_000;
+const PATIENCE_MS = 120_000;
 
 // The pictures of the last run would be taken for those of this one.
 for (const picture of filesIn(OUT, ".png")) {
