@@ -469,7 +469,7 @@ actions! {
     /// Show or hide the table of keys.
     HELP: Action::new(Group::Picture, &["?"], "this table", "Keys", |_| Some(Ask::Help));
     /// Close what is on top, or clear the selection.
-    CLOSE: Action::new(Group::Picture, &["Esc"], "close, then leave with Tab", "Close", |_| Some(Ask::Close));
+    CLOSE: Action::new(Group::Picture, &["Esc"], "close, or let go", "Close", |_| Some(Ask::Close));
 }
 
 #[cfg(test)]

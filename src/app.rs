@@ -13,8 +13,7 @@ use crate::render::{
 };
 use crate::scene::{FrameOptions, Theme};
 use crate::session::{Quality, Session};
-use crate::ui::theme::Contrast;
-use crate::ui::{self, Request, UiState};
+use crate::ui::{self, Contrast, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
 const MAX_STEP_SECS: f32 = 0.25;
@@ -67,6 +66,9 @@ impl App {
             ui.ctx().request_repaint();
         }
 
+        if !ui.ctx().will_discard() {
+            self.state.announce(&session);
+        }
         let requests = self.state.take_requests();
         for request in &requests {
             if let Request::UseTheme(theme) = request {
@@ -130,11 +132,6 @@ impl App {
     /// How many pictures of the model were drawn: stands still while nothing changes.
     pub fn frames_rendered(&self) -> u64 {
         self.painter.frames_rendered
-    }
-
-    /// Whether Esc would shut something, end what is being typed or let go of a selection.
-    pub fn escape_shuts(&self, ctx: &egui::Context) -> bool {
-        ui::escape_shuts(ctx, &self.session.borrow(), &self.state)
     }
 
     /// The longest side of a picture that this device can draw, in pixels.

@@ -6,10 +6,10 @@ import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
 } from "./fault.js";
+import { mirrorOf } from "./mirror.js";
 import { printView } from "./print.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFile, readAgain, rememberSources } from "./sources.js";
-import { letTabLeave, mirrorTransport, nameTextInput } from "./transport.js";
 
 /** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
 const SAMPLE = {
@@ -35,6 +35,9 @@ const SIMD_PROGRAM = [
 /** How long the bytes of a saved file stay in memory: the browser may take this long to begin the download. */
 const DOWNLOAD_KEPT_MS = 60_000;
 
+/** A region that speaks is empty for so long before other words come. */
+const SPOKEN_AFTER_MS = 60;
+
 const element = (id) => document.getElementById(id);
 const view = element("view");
 /** What the address asks for, before the `#` or after it. */
@@ -45,6 +48,8 @@ globalThis.bindpose = bindpose;
 let viewer = null;
 let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
 let openName = ""; // Name of the open model. Kept here since a drag over the page reads it many times a second.
+let mirror = null; // The viewer's controls as elements, of its present canvas.
+let gpuWasLost = false;
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
 
@@ -63,13 +68,32 @@ bindpose.reset = async () => {
 const refuse = (words) => showNotice("Some files could not be read", words);
 /** Tells of a failed opening, but not of one that ended because the person opened something else meanwhile. */
 const refuseError = (error) => error.name === "AbortError" || refuse(wordsOf(error));
-const say = (words) => (element("spoken").textContent = words);
+
+/**
+ * Has a screen reader speak. The words are put in anew, since the same ones would not be spoken again; what comes close together is
+ * spoken together.
+ */
+const say = (words, region = "spoken") => {
+  const { textContent: spoken, dataset } = element(region);
+  if (dataset.next === undefined) {
+    if (spoken) element(region).textContent = "";
+    setTimeout(() => {
+      element(region).textContent = dataset.next;
+      delete dataset.next;
+    }, SPOKEN_AFTER_MS);
+  }
+  dataset.next = [dataset.next, words].filter(Boolean).join(" ");
+};
 const focusView = () => view.querySelector("canvas").focus();
 
 const receive = async (files, addsClips = false) => {
   clearNotice();
   received = true;
-  if (!bindpose.state().backend) element("progress-words").textContent = `${files[0].name} opens as soon as the viewer is here`;
+  if (!bindpose.state().backend) {
+    const words = `${files[0].name} opens as soon as the viewer is here`;
+    element("progress-words").textContent = words;
+    say(`${words}.`);
+  }
   await hand(files, addsClips);
 };
 
@@ -86,12 +110,8 @@ const hand = async (files, addsClips) => {
 const pick = takeChoices({ files: element("files"), folder: element("folder"), clips: element("clips") }, { receive, refuse });
 // The page has one viewer, so all of it is the viewer's.
 takeDrops(globalThis, { receive, refuse, openModel: () => openName, show: showDrop });
-const refreshTransport = mirrorTransport(bindpose, {
-  section: element("transport"), control: (name) => element(`transport-${name}`), say, focusView,
-});
 takeUnclaimedKeys();
 printView(bindpose);
-letTabLeave(view, () => !hasFailed() && Boolean(viewer?.escapeShuts()));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
 element("notice-close").addEventListener("click", clearNotice);
@@ -111,7 +131,7 @@ async function boot() {
   addEventListener("unhandledrejection", ({ reason }) => isPanic(reason) && onPanic(wordsOf(reason)));
   try {
     const { Viewer } = await load();
-    viewer = new Viewer({ renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs() }, onEvent);
+    viewer = new Viewer({ renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), mirrored: true }, onEvent);
   } catch (error) {
     fail(error);
     showDownloadFailure(error);
@@ -122,14 +142,14 @@ async function boot() {
     hideShell();
     const files = await opensAtOnce;
     if (files && !wasUsed() && !received) await give(files, "open").catch(refuseError);
-    refreshTransport();
   }, () => {});
   onCanvas = keepOnCanvas(viewer, {
     canvas: element("canvas"),
     backend,
     isOver: hasFailed,
     onStart() {
-      nameTextInput(view);
+      if (gpuWasLost) say("The graphics are back.");
+      gpuWasLost = false;
       view.classList.add("drawn");
       attach(viewer);
     },
@@ -244,7 +264,13 @@ function wantedBackend() {
 function onEvent(type, detail) {
   // What was under way when the viewer failed may still end.
   if (hasFailed()) return;
-  if (type === "devicelost") return void onCanvas.restart(detail.reason);
+  if (type === "mirror") return showMirror(detail);
+  if (type === "announce") return sayUnlessHeard(detail);
+  if (type === "devicelost") {
+    gpuWasLost = true;
+    say("The graphics went away and are started again.", "alarm");
+    return void onCanvas.restart(detail.reason);
+  }
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
@@ -254,10 +280,23 @@ function onEvent(type, detail) {
     clearNotice();
     const name = (openName = detail?.name ?? "");
     document.title = name ? `${name} · Bindpose` : "Bindpose";
-    say(name ? `${name} is open` : "");
   }
-  if (type === "error") say(detail?.message ?? "");
   emit(type, detail);
+}
+
+/** Shows what changed of the viewer's controls; those of another start stand behind another canvas. */
+function showMirror(detail) {
+  if (detail.changes.fresh) {
+    mirror?.remove();
+    mirror = mirrorOf(viewer, view.querySelector("canvas"));
+  }
+  mirror?.take(detail);
+}
+
+/** Says what the viewer tells of. A slider that has the focus speaks for itself. */
+function sayUnlessHeard({ text, assertive }) {
+  if (assertive) say(text, "alarm");
+  else if (document.activeElement?.type !== "range") say(text);
 }
 
 /** A panic of the program is reported with its words; the error that ends the program follows, and comes alone in old browsers. */

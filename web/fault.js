@@ -21,7 +21,7 @@ export function clearNotice() {
 function showFault(title, words, details, actions) {
   if (!element("fault").hidden) return;
   element("shell").hidden = true;
-  element("transport").hidden = true;
+  element("view").inert = true;
   element("fault-title").textContent = title;
   element("fault-words").textContent = words;
   element("fault-details").textContent = details;

@@ -52,8 +52,8 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
         restarts = restarts.filter((at) => now - at < RESTARTS_FORGOTTEN_MS);
         if (restarts.length === MAX_RESTARTS) throw new Error(`The GPU went away ${MAX_RESTARTS} times: ${reason}`);
         restarts.push(now);
-        // The viewer's hidden input stands behind its canvas.
-        const hadFocus = [canvas, canvas.nextElementSibling].includes(document.activeElement);
+        // The viewer's hidden input and its mirror stand behind its canvas.
+        const hadFocus = document.activeElement !== document.body && canvas.parentElement.contains(document.activeElement);
         viewer.stop();
         lostMeanwhile = null;
         replaceCanvas();

@@ -9,6 +9,8 @@ use std::num::NonZeroUsize;
 
 use egui::{Context, Event, Id, Key, RawInput, Ui};
 
+use super::mirror::MirrorAction;
+
 /// The most passes of one frame. Events that are left wait for the next frame.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
 
@@ -27,6 +29,9 @@ impl egui::Plugin for InputOrder {
         self.waiting.extend(input.events.drain(..));
         let count = first_pass(&self.waiting);
         input.events.extend(self.waiting.drain(..count));
+        if input.events.iter().any(MirrorAction::is_focus) {
+            ctx.request_discard("a widget claims its arrow keys in the pass after it got the focus");
+        }
         if !self.waiting.is_empty() {
             ctx.request_discard("there is input that depends on this pass");
             // The next frame takes the events that are left.
@@ -66,6 +71,7 @@ impl Kind {
                 pressed: true,
                 ..
             } => Self::MovesFocus,
+            event if MirrorAction::is_focus(event) => Self::MovesFocus,
             Event::Key { pressed: true, .. } | Event::Text(_) | Event::Ime(_) | Event::Paste(_) => Self::Typed,
             Event::Copy | Event::Cut => Self::Typed,
             _ => Self::Other,

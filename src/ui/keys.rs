@@ -1,6 +1,6 @@
 //! Maps keys to actions: those of the table and those that fly. All others are the browser's.
 
-use egui::{Context, Event, Key, Modifiers, Popup, Ui};
+use egui::{Event, Key, Modifiers, Ui};
 
 use super::state::UiState;
 use super::viewport::{self, FLIGHT_KEYS};
@@ -153,14 +153,6 @@ fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
 /// Whether Esc would close a panel or clear a selection.
 pub(super) fn escape_shuts_panel(session: &Session, state: &UiState) -> bool {
     on_top(session, state).is_some()
-}
-
-/// Whether Esc would close something, end typing or clear a selection. If not, it lets Tab leave the page's canvas.
-pub fn escape_shuts(ctx: &Context, session: &Session, state: &UiState) -> bool {
-    Popup::is_any_open(ctx)
-        || ctx.text_edit_focused()
-        || state.skeleton.is_naming()
-        || escape_shuts_panel(session, state)
 }
 
 /// Clears what was selected last: the vertex before the joint before the submesh.

@@ -1,5 +1,6 @@
 //! The interface. It reads a [`Session`] and answers with [`Command`]s; what is open and shut is its own [`UiState`].
 
+mod announce;
 mod chips;
 mod diagnostics_panel;
 mod error_card;
@@ -12,6 +13,7 @@ mod keys;
 mod layout;
 mod light;
 mod message;
+mod mirror;
 mod model_panel;
 mod overlays;
 mod panel;
@@ -31,10 +33,13 @@ mod wording;
 
 use egui::{Popup, Rect, Ui};
 
-pub use keys::{escape_shuts, owns_key};
+pub use announce::{Announcement, view_in_words};
+pub use keys::owns_key;
 pub use message::Messages;
+pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
 pub use picture::picture_name;
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
+pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCommand};

@@ -2,6 +2,7 @@
 
 use egui::{Rect, Ui};
 
+use super::announce::{Announcement, Announcer};
 use super::focus::Focus;
 use super::input::{Grip, Keyboard};
 use super::message::Messages;
@@ -21,7 +22,7 @@ use crate::session::Session;
 pub const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// What only the page around the interface can do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
     /// Let the person pick files.
     PickFiles,
@@ -40,6 +41,8 @@ pub enum Request {
         /// Without a background.
         transparent: bool,
     },
+    /// Have a screen reader speak.
+    Announce(Announcement),
 }
 
 /// What the bottom sheet of a narrow window shows below the timeline.
@@ -110,6 +113,7 @@ pub struct UiState {
     pub(super) grip: Option<Grip>,
     pub(super) focus: Focus,
     pub(super) requests: Vec<Request>,
+    pub(super) announcer: Announcer,
 }
 
 impl UiState {
@@ -140,6 +144,15 @@ impl UiState {
     /// The requests to the page since the last call.
     pub fn take_requests(&mut self) -> Vec<Request> {
         std::mem::take(&mut self.requests)
+    }
+
+    /// Asks the page to tell what the session shows now and did not before.
+    pub fn announce(&mut self, session: &Session) {
+        if let Some(words) = self.messages.take_spoken() {
+            self.announcer.say(words);
+        }
+        let told = self.announcer.observe(session);
+        self.requests.extend(told.into_iter().map(Request::Announce));
     }
 
     /// Asks for a picture as chosen. `transparent`: in any case without a background.

@@ -6,7 +6,9 @@
 //! input. After a lost GPU the page gives the viewer a fresh canvas, which shows what was open.
 
 mod backend;
+mod contrast;
 mod joint_names;
+mod mirror;
 mod picture;
 mod run;
 mod state;
@@ -61,8 +63,11 @@ fn coarse_pointer() -> bool {
 }
 
 fn matches_media(query: &str) -> bool {
-    let query = web_sys::window().and_then(|window| window.match_media(query).ok().flatten());
-    query.is_some_and(|query| query.matches())
+    media_query(query).is_some_and(|query| query.matches())
+}
+
+fn media_query(query: &str) -> Option<web_sys::MediaQueryList> {
+    web_sys::window()?.match_media(query).ok()?
 }
 
 /// Waits for a task of its own, so that input and frames that are due come first. A message is used since timers wait longer, and

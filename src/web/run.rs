@@ -9,13 +9,15 @@ use wasm_bindgen::prelude::*;
 use web_sys::{HtmlCanvasElement, HtmlElement};
 
 use super::backend::{self, Chosen, Preference};
+use super::contrast::{ContrastWatch, contrast};
 use super::joint_names::JointNames;
+use super::mirror::{self, MirrorLink};
 use super::picture::{self, AppSlot};
 use super::{coarse_pointer, field, object, sleep, state, text_of};
 use crate::app::App;
 use crate::render::device;
 use crate::session::{QualityCommand, Session};
-use crate::ui::{Request, picture_name};
+use crate::ui::{Announcement, Request, picture_name, view_in_words};
 
 /// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
@@ -24,6 +26,7 @@ const OVERTAKEN: &str = "another start came after this one";
 pub(super) struct Shared {
     pub(super) session: Rc<RefCell<Session>>,
     pub(super) running: RefCell<Option<Running>>,
+    pub(super) mirror: MirrorLink,
     /// Counts starts and stops, so that events of an earlier start or its device are ignored.
     starts: Cell<u32>,
     /// Hears of events until the viewer is dropped.
@@ -40,6 +43,7 @@ pub(super) struct Running {
     pub(super) frames_rendered: Rc<Cell<u64>>,
     runner: eframe::WebRunner,
     _context_watch: ContextWatch,
+    _contrast_watch: ContrastWatch,
 }
 
 impl Running {
@@ -60,8 +64,9 @@ impl Running {
 }
 
 impl Shared {
-    pub(super) fn new(session: Session, listener: Function) -> Self {
+    pub(super) fn new(session: Session, mirror: MirrorLink, listener: Function) -> Self {
         Self {
+            mirror,
             session: Rc::new(RefCell::new(session)),
             running: RefCell::new(None),
             starts: Cell::new(0),
@@ -85,6 +90,21 @@ impl Shared {
             let detail = state::event_detail(&self.session.borrow(), event);
             self.emit(event.name(), &detail);
         }
+    }
+
+    /// Tells the page what a frame has changed of the controls, once the frame has ended: called in its first pass.
+    fn tell_mirror(self: &Rc<Self>, ctx: &egui::Context) {
+        if !self.mirror.tells() {
+            return;
+        }
+        let (shared, ctx) = (Rc::clone(self), ctx.clone());
+        wasm_bindgen_futures::spawn_local(async move {
+            if let Some(changes) = mirror::take_changes(&ctx) {
+                let view = view_in_words(&shared.session.borrow());
+                shared.emit("mirror", &object([("changes", changes), ("view", view.into())]));
+            }
+            shared.mirror.rest(&ctx).await;
+        });
     }
 
     /// Tells of a lost device or context, unless it is that of an earlier start.
@@ -184,6 +204,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
                 watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
+                shell.shared.mirror.install(&creation.egui_ctx);
                 let session = Rc::clone(&shell.shared.session);
                 let app = App::new(&creation.egui_ctx, &gpu, session, coarse_pointer());
                 shell.app.replace(Some(app));
@@ -207,6 +228,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         return Err(JsError::new(&format!("{backend}: {}", text_of(&error))));
     }
     let (ctx, adapter) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
+    let contrast_watch = ContrastWatch::new(&ctx);
     Ok(Running {
         canvas,
         app,
@@ -216,6 +238,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         frames_rendered,
         runner,
         _context_watch: context_watch,
+        _contrast_watch: contrast_watch,
     })
 }
 
@@ -269,13 +292,21 @@ impl Shell {
 }
 
 impl eframe::App for Shell {
+    fn raw_input_hook(&mut self, ctx: &egui::Context, input: &mut egui::RawInput) {
+        self.shared.mirror.begin_frame(ctx, input);
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         if let Ok(reason) = self.loss.try_recv() {
             self.shared.emit_loss(self.start, &reason);
             return;
         }
+        if ui.ctx().current_pass_index() == 0 {
+            self.shared.tell_mirror(ui.ctx());
+        }
         let mut requests = Vec::new();
         if let Some(app) = self.app.borrow_mut().as_mut() {
+            app.set_contrast(contrast());
             requests = app.ui(ui);
             self.frames.set(app.frames_rendered());
         }
@@ -286,6 +317,10 @@ impl eframe::App for Shell {
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
                 Request::SavePicture { size, transparent } => self.save_picture(ui.ctx(), size, transparent),
                 Request::SavePictureAs => self.save_picture_as(),
+                Request::Announce(Announcement { text, assertive }) => {
+                    let detail = object([("text", text.into()), ("assertive", assertive.into())]);
+                    self.shared.emit("announce", &detail);
+                }
                 // The app did this itself.
                 Request::UseTheme(_) => {}
             }

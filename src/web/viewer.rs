@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
 use super::backend::Preference;
+use super::mirror::MirrorLink;
 use super::run::{self, Shared};
 use super::{abort_error, field, is_absent, next_task, picture, promise, reduced_motion, state};
 use crate::anim::{Direction, LoopMode, WrapMode};
@@ -34,10 +35,12 @@ pub struct Viewer {
 impl Viewer {
     /// Makes a viewer with nothing open and no canvas.
     ///
-    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number}`, 1 and `auto` where they are absent;
-    /// `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`,
-    /// `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page can do: `pickfiles`, `pickclips`,
-    /// `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it) and `picturefailed` (`{message}`). It may call any method but `free`.
+    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number, mirrored: boolean}`, 1, `auto` and false where
+    /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)`
+    /// hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
+    /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
+    /// `picturefailed` (`{message}`) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
+    /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
         report_panics();
@@ -52,7 +55,11 @@ impl Viewer {
             session.apply(QualityCommand::SetMode(mode));
         }
         Self {
-            shared: Rc::new(Shared::new(session, on_event)),
+            shared: Rc::new(Shared::new(
+                session,
+                MirrorLink::new(field(options, "mirrored").is_truthy()),
+                on_event,
+            )),
         }
     }
 
@@ -76,14 +83,25 @@ impl Viewer {
         self.shared.state()
     }
 
-    /// Whether Esc would shut something in the viewer, end what is being typed or let go of a selection. Then it does not mean that
-    /// Tab should leave the canvas.
-    #[wasm_bindgen(js_name = escapeShuts)]
-    pub fn escape_shuts(&self) -> bool {
-        self.shared.running.borrow().as_ref().is_some_and(|running| {
-            let app = running.app.try_borrow();
-            app.is_ok_and(|app| app.as_ref().is_some_and(|app| app.escape_shuts(&running.ctx)))
-        })
+    /// Does what a person did with an element of the mirror: `{node, action, value}`, where the action is `click`, `focus`, `setValue`,
+    /// `increment`, `decrement`, `expand`, `collapse` or `scrollIntoView`; `{action: "blur"}` lets go of the focus within the viewer.
+    pub fn act(&self, asked: &JsValue) {
+        self.shared.mirror.act(asked);
+        self.shared.request_repaint();
+    }
+
+    /// Takes a `keydown` or `keyup` event of an element of the mirror. Returns whether the viewer uses the key, so that the browser must not.
+    pub fn press(&self, event: &JsValue) -> bool {
+        let used = self.shared.mirror.press(event);
+        self.shared.request_repaint();
+        used
+    }
+
+    /// Hears whether an element of the mirror has the focus of the page. Then the viewer has the keyboard.
+    #[wasm_bindgen(js_name = setMirrorFocused)]
+    pub fn set_mirror_focused(&self, focused: bool) {
+        self.shared.mirror.set_focused(focused);
+        self.shared.request_repaint();
     }
 
     /// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens, in steps between which the
@@ -381,10 +399,14 @@ impl Shared {
     }
 
     fn tell_of_changes(&self) {
+        self.request_repaint();
+        self.emit_events();
+    }
+
+    fn request_repaint(&self) {
         if let Some(running) = &*self.running.borrow() {
             running.ctx.request_repaint();
         }
-        self.emit_events();
     }
 
     fn step_key(&self, direction: Direction) {

@@ -3,6 +3,7 @@ import "./page.js";
 import "./opening.js";
 import "./playing.js";
 import "./keys.js";
+import "./roles.js";
 import "./skeleton.js";
 import "./names.js";
 import "./pictures.js";

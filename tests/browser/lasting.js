@@ -117,7 +117,7 @@ test("a start that was overtaken by another leaves nothing behind", {
   await settled(page);
   assert.equal(await page.isHidden("#fault"), true);
   assert.equal((await page.$$("#view canvas")).length, 1);
-  assert.equal((await page.$$("#view input")).length, 1, "one viewer listens");
+  assert.equal((await page.$$("#view canvas + input")).length, 1, "one viewer listens");
   const { framesRendered } = await state(page);
   await call(page, "play");
   await until(page, (now) => now.framesRendered > framesRendered + 1);

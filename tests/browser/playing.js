@@ -1,7 +1,7 @@
-// Time: it advances, it can be scrubbed, and the same time is the same picture. Keys, and the transport in the DOM.
+// Time: it advances, it can be scrubbed, and the same time is the same picture.
 
 import assert from "node:assert/strict";
-import { CENTRE, call, drag, keep, settled, state, test, until } from "./harness.js";
+import { call, drag, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
 import {
   BLEND_END, BLEND_KNOB, BLEND_MOST, BLEND_SECOND_CLIP, CLIPS_BUTTON, RANGE_IN, RANGE_OUT, TIME_BAR,
@@ -134,96 +134,6 @@ test("the ends of the range are dragged from frame to frame, and playing stays b
   assert.deepEqual(outside, [], `of ${times}`);
   await page.mouse.dblclick(...onBar((20 + 0.4) / frames));
   await until(page, ({ rangeSecs }) => rangeSecs === null);
-});
-
-/** Presses keys in the viewer, the way a person does after a click into the view. */
-async function focusView(page) {
-  await page.mouse.click(...CENTRE);
-  await settled(page);
-}
-
-test("the transport is there for screen readers and moves with the viewer", { motion: true }, async (page) => {
-  await page.focus("#transport-play");
-  await page.keyboard.press("Space");
-  await until(page, ({ playing }) => !playing);
-  await settled(page);
-  await keep(page, "transport-focused");
-  assert.equal(await page.textContent("#transport-play"), "Play");
-  const { model } = await state(page);
-  await page.selectOption("#transport-clip", model.clips[1].name);
-  await until(page, ({ clip }) => clip === model.clips[1].name);
-  await page.focus("#transport-time");
-  await page.keyboard.press("End");
-  await until(page, ({ timeSecs }) => Math.abs(timeSecs - model.clips[1].endSecs) < 1e-3);
-  assert.match(await page.getAttribute("#transport-time", "aria-valuetext"), /seconds$/);
-});
-
-test("all that moves the time is there for screen readers, and stays in step", {}, async (page) => {
-  const { model } = await state(page);
-  const [{ name, startSecs, endSecs, keysPerSec }] = model.clips;
-  await call(page, "pause");
-  await call(page, "seek", startSecs);
-  const press = async (button) => {
-    await page.focus(`#transport-${button}`);
-    await page.keyboard.press("Enter");
-  };
-  const spoken = () => page.textContent("#spoken");
-  const comesTo = (secs) => until(page, ({ timeSecs }) => Math.abs(timeSecs - secs) < 1e-3);
-  const frame = (number) => startSecs + number / keysPerSec;
-  for (const [button, secs] of [
-    ["on", frame(1)],
-    ["next-key", frame(2)],
-    ["next-key", frame(3)],
-    ["back", frame(2)],
-    ["previous-key", frame(1)],
-    ["last", endSecs],
-    ["first", startSecs],
-  ]) {
-    await press(button);
-    await comesTo(secs);
-    assert.equal(await spoken(), `${secs.toFixed(2)} seconds`, button);
-  }
-  assert.equal((await state(page)).clip, name);
-
-  await call(page, "seek", frame(4));
-  await press("in");
-  await call(page, "seek", frame(10));
-  await press("out");
-  const { rangeSecs } = await until(page, ({ rangeSecs }) => rangeSecs?.[1] < endSecs);
-  assert.ok(Math.abs(rangeSecs[0] - frame(4)) < 1e-3 && Math.abs(rangeSecs[1] - frame(10)) < 1e-3, `${rangeSecs}`);
-  const words = `From ${frame(4).toFixed(2)} to ${frame(10).toFixed(2)} seconds`;
-  assert.deepEqual([await page.textContent("#transport-range"), await spoken()], [words, words]);
-  await press("all");
-  await until(page, ({ rangeSecs }) => rangeSecs === null);
-  assert.equal(await page.isDisabled("#transport-all"), true);
-  assert.equal(await page.evaluate(() => document.activeElement.id), "transport-play", "the focus is not lost");
-
-  await page.fill("#transport-speed", "0.3");
-  await page.keyboard.press("Enter");
-  await until(page, ({ speed }) => Math.abs(speed - 0.3) < 1e-6);
-  await page.fill("#transport-speed", "100");
-  await page.keyboard.press("Enter");
-  await until(page, ({ speed }) => speed === 4);
-  assert.equal(await page.inputValue("#transport-speed"), "4", "as fast as it can be");
-  await page.selectOption("#transport-wrap", "book-demo");
-  await until(page, ({ wrap }) => wrap === "book-demo");
-  await page.selectOption("#transport-loop", "pingpong");
-  await until(page, ({ loop }) => loop === "pingpong");
-  assert.equal(await page.isDisabled("#transport-wrap"), true, "only a loop wraps");
-  await settled(page);
-  await keep(page, "transport-all");
-
-  // What happens elsewhere is there too, without a look at it.
-  await focusView(page);
-  await page.keyboard.press("l");
-  await until(page, ({ loop }) => loop === "once");
-  assert.equal(await page.inputValue("#transport-loop"), "once");
-  await call(page, "setSpeed", 0.5);
-  assert.equal(await page.inputValue("#transport-speed"), "0.5");
-  await call(page, "selectClip", model.clips[1].name);
-  assert.equal(await page.inputValue("#transport-clip"), model.clips[1].name);
-  await call(page, "setLoop", "sideways");
-  assert.equal((await state(page)).loop, "once", "a name that is none changes nothing");
 });
 
 test("calls that make no sense throw, say what they take, and change nothing", {}, async (page) => {

@@ -4,12 +4,12 @@ use bindpose::actions::{self, Group};
 use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
 use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, PlayCommand, SPEEDS, SubmeshCommand};
-use bindpose::ui::{Request, escape_shuts};
+use bindpose::ui::Request;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
 
 use crate::models::moving;
 use crate::page::{WIDE, Window, window};
-use crate::skeleton::{selected, tree};
+use crate::skeleton::tree;
 
 const PLAIN: Modifiers = Modifiers::NONE;
 const SHIFT: Modifiers = Modifiers::SHIFT;
@@ -723,39 +723,4 @@ fn with_a_mouse_nothing_takes_the_keyboard() {
     assert_eq!(window.focused(), None);
     window.press(PLAIN, Key::Space);
     assert!(window.session().is_animating(), "Space plays");
-}
-
-#[test]
-fn esc_is_known_to_shut_something_before_it_is_pressed() {
-    type Step = fn(&mut Window);
-    let mut window = tree(WIDE, 5);
-    let shuts = |window: &Window| escape_shuts(&window.harness.ctx, window.session(), &window.harness.state().state);
-    assert!(!shuts(&window));
-    let steps: [(&str, Step); 6] = [
-        ("help", |window| window.click("Keys (?)")),
-        ("a popover", |window| window.click("Lighting")),
-        ("a selection", |window| window.click("Bone 3, ")),
-        ("the findings", |window| {
-            window.click("Panel: Model");
-            window.click("Diagnostics");
-        }),
-        ("an error", |window| {
-            window.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
-        }),
-        ("a field", |window| window.click("Search bones")),
-    ];
-    for (what, open) in steps {
-        if what == "a field" {
-            window.click("Panel: Skeleton");
-        }
-        open(&mut window);
-        assert!(shuts(&window), "{what}");
-        for _ in 0..3 {
-            if shuts(&window) {
-                window.press(PLAIN, Key::Escape);
-            }
-        }
-        assert!(!shuts(&window), "{what} is shut");
-    }
-    assert_eq!(selected(&window), None);
 }

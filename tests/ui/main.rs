@@ -21,6 +21,7 @@ mod keys;
 mod layout;
 mod look;
 mod messages;
+mod mirror;
 #[path = "../core/session/models.rs"]
 #[allow(dead_code, reason = "shared with the tests of the session, which need more of it")]
 mod models;

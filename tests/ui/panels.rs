@@ -199,7 +199,7 @@ fn opening_and_the_theme_are_asked_of_the_page() {
     wide.click("Open files");
     wide.click("Light theme");
     let light = Request::UseTheme(bindpose::scene::Theme::Light);
-    assert_eq!(wide.harness.state().requests, [Request::PickFiles, light]);
+    assert_eq!(wide.harness.state().requests, [Request::PickFiles, light.clone()]);
 
     let mut narrow = phone(vec![]);
     narrow.click("Open files");

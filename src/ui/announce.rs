@@ -1,0 +1,372 @@
+//! Sentences for screen readers: what has changed and is seen on the canvas alone.
+
+use crate::model::JointIndex;
+use crate::scene::{Light, ViewMode};
+use crate::session::{QualityMode, Session};
+
+use super::wording::{counted, grouped};
+use crate::anim::SkinView;
+
+/// What a screen reader is told.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Announcement {
+    /// One sentence or a few.
+    pub text: String,
+    /// It may interrupt what is being spoken.
+    pub assertive: bool,
+}
+
+/// Compares a session with what it was, and has words for what differs.
+#[derive(Debug, Default)]
+pub(super) struct Announcer {
+    seen: Option<Seen>,
+    said: Vec<String>,
+}
+
+/// What of a session is told of.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Seen {
+    model: u64,
+    is_open: bool,
+    error: Option<String>,
+    view_mode: ViewMode,
+    skin_view: Option<SkinView>,
+    light: Light,
+    split: bool,
+    joint: Option<JointIndex>,
+    vertex: Option<u32>,
+    submesh: Option<usize>,
+    playing: bool,
+    clip: Option<usize>,
+    time_secs: f32,
+    /// The device is too slow for all the detail, now or before with this model.
+    lowered: bool,
+    undone: u64,
+}
+
+impl Seen {
+    fn of(session: &Session) -> Self {
+        let (look, playback, joints) = (session.look(), session.playback(), session.joints());
+        let quality = session.quality();
+        Self {
+            model: session.model_revision(),
+            is_open: session.open_model().is_some(),
+            error: session
+                .error()
+                .map(|error| failure(session, &error.file_name, &error.diagnostic.message)),
+            view_mode: look.view_mode,
+            skin_view: look.skin_view,
+            light: look.light,
+            split: look.split.is_some(),
+            joint: joints.selected(),
+            vertex: joints.selected_vertex().map(|selected| selected.vertex),
+            submesh: session.submeshes().selected(),
+            playing: playback.is_playing(),
+            clip: session.clip_index(),
+            time_secs: playback.time_secs(),
+            lowered: quality.mode() == QualityMode::Auto && quality.lowered().is_some(),
+            undone: session.history().revision(),
+        }
+    }
+}
+
+impl Announcer {
+    /// Says a sentence with the next ones.
+    pub(super) fn say(&mut self, text: impl Into<String>) {
+        self.said.push(text.into());
+    }
+
+    /// What there is to tell since the last call: at most one of each kind. A failure comes first.
+    pub(super) fn observe(&mut self, session: &Session) -> Vec<Announcement> {
+        let mut now = Seen::of(session);
+        let before = self.seen.take().unwrap_or_default();
+        // Once for each model: detail comes and goes.
+        now.lowered |= before.lowered && before.model == now.model;
+        self.seen = Some(now.clone());
+        let failure = now.error.clone().filter(|_| now.error != before.error);
+        for sentence in changes(session, &before, &now) {
+            self.say(sentence);
+        }
+        let sentences = std::mem::take(&mut self.said);
+        let told = |text: String, assertive| (!text.is_empty()).then_some(Announcement { text, assertive });
+        let failure = told(failure.unwrap_or_default(), true);
+        failure.into_iter().chain(told(sentences.join(" "), false)).collect()
+    }
+}
+
+/// Sentences about what differs, the most important first.
+fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
+    if now.model != before.model {
+        // All else is new with it.
+        return opened(session).into_iter().collect();
+    }
+    let mut sentences = Vec::new();
+    if now.view_mode != before.view_mode {
+        sentences.push(format!("View mode: {}.", now.view_mode.label()));
+    }
+    if now.skin_view != before.skin_view {
+        sentences.push(match now.skin_view {
+            Some(view) => format!("Colours of the skin: {}.", view.label()),
+            None => "The skin as it is.".to_owned(),
+        });
+    }
+    if (now.light, now.split) != (before.light, before.split) {
+        sentences.push(match now.split {
+            true => "Two lights, side by side.".to_owned(),
+            false => format!("Light: {}.", now.light.label()),
+        });
+    }
+    if (now.joint, now.vertex, now.submesh) != (before.joint, before.vertex, before.submesh) {
+        sentences.push(selection(session, now));
+    }
+    if now.clip != before.clip
+        && let Some(clip) = session.clip()
+    {
+        sentences.push(format!("Clip {}.", clip.name));
+    }
+    if now.playing != before.playing {
+        sentences.push(if now.playing {
+            "Playing.".to_owned()
+        } else {
+            format!("Paused at {}.", time(session))
+        });
+    } else if !now.playing && now.time_secs != before.time_secs && !session.is_scrubbing() {
+        sentences.push(format!("{}.", time(session)));
+    }
+    if now.lowered && !before.lowered {
+        sentences.push("The picture has less detail while it moves, for speed.".to_owned());
+    }
+    if now.undone != before.undone
+        && let Some(what) = session.history().last()
+    {
+        sentences.push(format!("{what}."));
+    }
+    sentences
+}
+
+fn opened(session: &Session) -> Option<String> {
+    let open = session.open_model()?;
+    let model = &open.model;
+    let counts = [
+        (model.mesh.submeshes.len(), "subset"),
+        (session.joints().count(), "bone"),
+        (model.clips.len(), "clip"),
+    ];
+    let counts: Vec<String> = counts
+        .into_iter()
+        .filter(|&(count, _)| count > 0)
+        .map(|(count, word)| counted(count, word))
+        .collect();
+    let findings = match session.diagnostics().count() {
+        0 => "no findings".to_owned(),
+        count => counted(count, "finding"),
+    };
+    Some(format!(
+        "{} is open: {}; {findings}.",
+        open.file.base_name(),
+        counts.join(", ")
+    ))
+}
+
+fn failure(session: &Session, file_name: &str, message: &str) -> String {
+    let subject = if file_name.is_empty() {
+        String::new()
+    } else {
+        format!("{file_name} was not opened: ")
+    };
+    let stays = session
+        .open_model()
+        .map(|open| format!(" {} stays open.", open.file.base_name()));
+    format!("{subject}{message}{}", stays.unwrap_or_default())
+}
+
+fn selection(session: &Session, now: &Seen) -> String {
+    if let Some(vertex) = now.vertex {
+        return format!("Vertex {}.", grouped(vertex as usize));
+    }
+    if let Some(joint) = now.joint {
+        let label = session.numbered_joint_label(joint);
+        return if label.starts_with("Bone") {
+            format!("{label}.")
+        } else {
+            format!("Bone {label}.")
+        };
+    }
+    match now.submesh {
+        Some(submesh) => format!("Subset {}.", submesh + 1),
+        None => "Nothing is selected.".to_owned(),
+    }
+}
+
+fn time(session: &Session) -> String {
+    let secs = session.playback().time_secs();
+    match session.clip() {
+        Some(clip) => format!("{secs:.2} s, frame {}", clip.frame_at(secs)),
+        None => format!("{secs:.2} s"),
+    }
+}
+
+/// What the view shows, for somebody who does not see it: `soldier.m3d, Take1, 0.90 s, weights of bone 50`.
+pub fn view_in_words(session: &Session) -> String {
+    let Some(open) = session.open_model() else {
+        return "3D view, no model is open".to_owned();
+    };
+    let mut parts = vec![open.file.base_name().to_owned()];
+    if let Some(clip) = session.clip() {
+        parts.push(clip.name.clone());
+        parts.push(if session.playback().is_playing() {
+            "playing".to_owned()
+        } else {
+            format!("{:.2} s", session.playback().time_secs())
+        });
+    }
+    let look = session.look();
+    let joint = session.joints().selected().map(|joint| session.joint_label(joint));
+    match (look.skin_view, joint) {
+        (Some(SkinView::Weight), Some(joint)) => parts.push(format!("weights of {}", lower_bone(&joint))),
+        (Some(view), _) => parts.push(view.label().to_lowercase()),
+        (None, Some(joint)) => parts.push(format!("{} selected", lower_bone(&joint))),
+        (None, None) => {}
+    }
+    if look.skin_view.is_none() && look.view_mode != ViewMode::default() {
+        parts.push(look.view_mode.label().to_lowercase());
+    }
+    parts.join(", ")
+}
+
+/// `bone 12` inside of a sentence; names stay as they are.
+fn lower_bone(label: &str) -> String {
+    match label.strip_prefix("Bone ") {
+        Some(number) => format!("bone {number}"),
+        None => label.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::{File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
+
+    const SKINNED: &[u8] = include_bytes!("../../tests/fixtures/good/d3d12_skinned.m3d");
+
+    fn open() -> (Session, Announcer) {
+        let mut session = Session::new(true);
+        session.apply(FileCommand::Add(vec![File::new("arm.m3d", SKINNED)]));
+        let mut announcer = Announcer::default();
+        announcer.observe(&session);
+        (session, announcer)
+    }
+
+    fn told(announcer: &mut Announcer, session: &Session) -> Vec<(String, bool)> {
+        let told = announcer.observe(session);
+        told.into_iter().map(|told| (told.text, told.assertive)).collect()
+    }
+
+    #[track_caller]
+    fn assert_says(announcer: &mut Announcer, session: &Session, text: &str) {
+        assert_eq!(told(announcer, session), [(text.to_owned(), false)]);
+        assert_eq!(told(announcer, session), [], "once");
+    }
+
+    #[test]
+    fn an_opened_model_is_told_with_its_counts_and_findings() {
+        let mut announcer = Announcer::default();
+        let mut session = Session::new(true);
+        assert_eq!(told(&mut announcer, &session), []);
+        session.apply(FileCommand::Add(vec![File::new("arm.m3d", SKINNED)]));
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(
+            text.starts_with("arm.m3d is open: ") && text.contains(" clip") && text.contains("finding"),
+            "{text}"
+        );
+        assert_eq!(told(&mut announcer, &session), [], "once");
+    }
+
+    #[test]
+    fn a_failure_interrupts_and_says_what_stays() {
+        let (mut session, mut announcer) = open();
+        session.apply(FileCommand::Add(vec![File::new(
+            "bad.m3d",
+            *b"m3d-File-Header\n#Materials x\n",
+        )]));
+        let [(text, true)] = &told(&mut announcer, &session)[..] else {
+            panic!("one that interrupts");
+        };
+        assert!(
+            text.starts_with("bad.m3d was not opened: ") && text.ends_with(" arm.m3d stays open."),
+            "{text}"
+        );
+        session.apply(FileCommand::DismissError);
+        assert_eq!(told(&mut announcer, &session), []);
+    }
+
+    #[test]
+    fn view_mode_and_light_are_told_by_their_labels() {
+        let (mut session, mut announcer) = open();
+        session.apply(LookCommand::SetViewMode(ViewMode::Depth));
+        session.apply(LookCommand::SetLight(Light::Book));
+        let text = format!(
+            "View mode: {}. Light: {}.",
+            ViewMode::Depth.label(),
+            Light::Book.label()
+        );
+        assert_says(&mut announcer, &session, &text);
+        session.apply(LookCommand::SetSplit(Some(0.5)));
+        assert_says(&mut announcer, &session, "Two lights, side by side.");
+    }
+
+    #[test]
+    fn what_is_selected_is_told_and_that_nothing_is() {
+        let (mut session, mut announcer) = open();
+        session.apply(JointCommand::Select(Some(JointIndex(1))));
+        assert_says(&mut announcer, &session, "Bone 1.");
+        session.apply(JointCommand::Select(None));
+        assert_says(&mut announcer, &session, "Nothing is selected.");
+        session.apply(SubmeshCommand::Select(Some(0)));
+        assert_says(&mut announcer, &session, "Subset 1.");
+    }
+
+    #[test]
+    fn playing_and_steps_are_told_and_a_passing_time_is_not() {
+        let (mut session, mut announcer) = open();
+        session.apply(PlayCommand::Seek { time_secs: 0.5 });
+        let frame = session.clip().map_or(0, |clip| clip.frame_at(0.5));
+        assert_says(&mut announcer, &session, &format!("0.50 s, frame {frame}."));
+        session.apply(PlayCommand::Play);
+        assert_says(&mut announcer, &session, "Playing.");
+        session.advance(0.1);
+        assert_eq!(told(&mut announcer, &session), []);
+        session.apply(PlayCommand::Pause);
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(text.starts_with("Paused at 0."), "{text}");
+    }
+
+    #[test]
+    fn what_was_said_comes_first() {
+        let (session, mut announcer) = open();
+        announcer.say("Undone: visibility.");
+        assert_says(&mut announcer, &session, "Undone: visibility.");
+    }
+
+    #[test]
+    fn the_view_is_called_by_what_it_shows() {
+        let (mut session, _) = open();
+        let clip = session.clip().map_or(String::new(), |clip| clip.name.clone());
+        session.apply(PlayCommand::Seek { time_secs: 0.5 });
+        session.apply(JointCommand::Select(Some(JointIndex(1))));
+        assert_eq!(
+            view_in_words(&session),
+            format!("arm.m3d, {clip}, 0.50 s, bone 1 selected")
+        );
+        session.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
+        assert_eq!(
+            view_in_words(&session),
+            format!("arm.m3d, {clip}, 0.50 s, weights of bone 1")
+        );
+        assert_eq!(view_in_words(&Session::new(true)), "3D view, no model is open");
+    }
+}

@@ -1,0 +1,195 @@
+//! The interface as elements of the page: what changed goes out after a frame, and what is done with an element comes in before one.
+//!
+//! A tree for screen readers is made in frames that input brings, and else four times a second: what plays is not told more often.
+
+use std::cell::{Cell, RefCell};
+
+use egui::{Context, Event, Key, Modifiers, RawInput};
+use serde::Serialize as _;
+use serde_wasm_bindgen::Serializer;
+use wasm_bindgen::prelude::*;
+
+use super::{field, sleep};
+use crate::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId};
+
+/// Without input a tree is told no more often than this.
+const PERIOD_MS: i32 = 250;
+/// What input opens may need some frames until all of it is there.
+const FRAMES_AFTER_INPUT: u8 = 3;
+
+/// What comes in and goes out between two frames.
+#[derive(Debug, Default)]
+pub(super) struct MirrorLink {
+    wanted: bool,
+    /// An element of the mirror has the focus of the page.
+    focused: Cell<bool>,
+    /// The widget that has the focus in egui is to let go of it.
+    blurs: Cell<bool>,
+    input: RefCell<Vec<Event>>,
+    modifiers: Cell<Modifiers>,
+    /// Frames that tell at once.
+    eager: Cell<u8>,
+    /// No frame without input tells before this has passed.
+    waits: Cell<bool>,
+    /// A frame had something to tell meanwhile.
+    due: Cell<bool>,
+}
+
+impl MirrorLink {
+    /// `wanted`: the page makes elements of it. Else no tree is made.
+    pub(super) fn new(wanted: bool) -> Self {
+        Self {
+            wanted,
+            ..Self::default()
+        }
+    }
+
+    /// Gives a new context what watches its widgets.
+    pub(super) fn install(&self, ctx: &Context) {
+        if self.wanted {
+            ctx.add_plugin(Mirror::default());
+            self.eager.set(FRAMES_AFTER_INPUT);
+        }
+    }
+
+    /// Does what was asked of an element: `{node, action, value}`. An unknown one is ignored.
+    pub(super) fn act(&self, asked: &JsValue) {
+        let value = field(asked, "value");
+        let action = match field(asked, "action").as_string().as_deref() {
+            Some("blur") => {
+                // What had the focus for a moment needs no more.
+                self.input.borrow_mut().retain(|event| !MirrorAction::is_focus(event));
+                return self.blurs.set(true);
+            }
+            Some("click") => Some(MirrorAction::Click),
+            Some("focus") => Some(MirrorAction::Focus),
+            Some("increment") => Some(MirrorAction::Increment),
+            Some("decrement") => Some(MirrorAction::Decrement),
+            Some("expand") => Some(MirrorAction::Expand),
+            Some("collapse") => Some(MirrorAction::Collapse),
+            Some("scrollIntoView") => Some(MirrorAction::ScrollIntoView),
+            Some("setValue") => match value.as_f64() {
+                Some(number) => Some(MirrorAction::SetNumber(number)),
+                None => value.as_string().map(MirrorAction::SetText),
+            },
+            _ => None,
+        };
+        let node = field(asked, "node").as_string();
+        let node = node.and_then(|text| MirrorId::from_text(&text));
+        if let (Some(action), Some(node)) = (action, node) {
+            self.input.borrow_mut().push(action.event(node));
+        }
+    }
+
+    /// Takes a key event of an element. Returns whether the browser should leave the key alone.
+    pub(super) fn press(&self, event: &JsValue) -> bool {
+        let text = |name| field(event, name).as_string().unwrap_or_default();
+        let held = |name| field(event, name).is_truthy();
+        let modifiers = Modifiers {
+            alt: held("altKey"),
+            ctrl: held("ctrlKey"),
+            shift: held("shiftKey"),
+            mac_cmd: held("metaKey"),
+            command: held("ctrlKey") || held("metaKey"),
+        };
+        let mut input = self.input.borrow_mut();
+        if self.modifiers.replace(modifiers) != modifiers {
+            input.push(Event::ModifiersChanged(modifiers));
+        }
+        let pressed = text("type") == "keydown";
+        let words = text("key");
+        if pressed && !modifiers.command && words.chars().count() == 1 {
+            input.push(Event::Text(words.clone()));
+        }
+        let physical_key = Key::from_name(&text("code"));
+        let Some(key) = Key::from_name(&words).or(physical_key) else {
+            return false;
+        };
+        input.push(Event::Key {
+            key,
+            physical_key,
+            pressed,
+            repeat: false,
+            modifiers,
+        });
+        let scrolls = [
+            Key::ArrowUp,
+            Key::ArrowDown,
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::Space,
+        ];
+        pressed && (crate::ui::owns_key(key, modifiers) || (!modifiers.any() && scrolls.contains(&key)))
+    }
+
+    /// Hears whether an element of the mirror has the focus of the page.
+    pub(super) fn set_focused(&self, focused: bool) {
+        self.focused.set(focused);
+        self.modifiers.take();
+    }
+
+    /// Adds what came in to the input of a frame.
+    pub(super) fn begin_frame(&self, ctx: &Context, input: &mut RawInput) {
+        if !self.wanted {
+            return;
+        }
+        input.events.append(&mut self.input.borrow_mut());
+        if self.blurs.take() {
+            ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
+        }
+        if self.focused.get() {
+            // The elements are the viewer's, as its canvas is.
+            input.focused = true;
+            input.events.retain(|event| *event != Event::WindowFocused(false));
+        }
+        let only_moves = |event: &Event| {
+            matches!(
+                event,
+                Event::PointerMoved(_) | Event::MouseMoved(_) | Event::PointerGone
+            )
+        };
+        if !input.events.iter().all(only_moves) {
+            self.eager.set(FRAMES_AFTER_INPUT);
+        }
+        let tells = self.eager.get() > 0 || !self.waits.get();
+        self.eager.set(self.eager.get().saturating_sub(1));
+        self.due.set(!tells);
+        if tells {
+            ctx.enable_accesskit();
+        } else {
+            ctx.disable_accesskit();
+        }
+    }
+}
+
+impl MirrorLink {
+    /// Whether a frame tells the page, once it has ended.
+    pub(super) fn tells(&self) -> bool {
+        self.wanted && !self.due.get()
+    }
+
+    /// Waits until a frame without input may tell again, and asks for one if there was something to tell. Once at a time.
+    pub(super) async fn rest(&self, ctx: &Context) {
+        if self.waits.replace(true) {
+            return;
+        }
+        sleep(PERIOD_MS).await;
+        self.waits.set(false);
+        if self.due.replace(false) {
+            ctx.request_repaint();
+        }
+    }
+}
+
+/// What changed since the last call; `None` when nothing did.
+pub(super) fn take_changes(ctx: &Context) -> Option<JsValue> {
+    let changes = ctx.plugin::<Mirror>().lock().take_changes()?;
+    Some(plain(&changes))
+}
+
+/// As plain objects; a copy with other keys would take longer than the rest.
+fn plain(changes: &MirrorChanges) -> JsValue {
+    let changes = changes.serialize(&Serializer::json_compatible());
+    // All of our values can be written.
+    changes.unwrap_or(JsValue::NULL)
+}

@@ -1,0 +1,351 @@
+// The viewer's controls as elements of the page, for screen readers and for Tab: a canvas has only pixels.
+// They lie where the controls are drawn, unseen and out of the pointer's way; the viewer draws the ring round the one that has the focus.
+
+/** Roles that are pressed, and are a `<button>` here. */
+const PRESSED = new Set([
+  "button", "checkbox", "switch", "radio", "tab", "option", "link", "menuitem", "menuitemcheckbox", "menuitemradio",
+]);
+/** What says by which attribute that it is on or chosen; others say it by `aria-selected`. */
+const ON = {
+  button: "aria-pressed", checkbox: "aria-checked", switch: "aria-checked", radio: "aria-checked",
+  menuitemcheckbox: "aria-checked", menuitemradio: "aria-checked",
+};
+/** Roles that are called by `aria-label`; a name of others would be ignored or forbidden. */
+const UNNAMED = new Set(["text", "heading", "listitem", "gridcell", "columnheader", "rowheader", "status", "alert"]);
+/** What opens over the rest, and takes the focus with it. */
+const OVERLAYS = new Set(["dialog", "alertdialog", "menu", "listbox"]);
+/** Keys of a slider that the browser turns into a value. */
+const SLIDER_KEYS = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"]);
+/** Keys of a field that are the viewer's: they end the typing, or walk through what was found. */
+const KEYS_OUT_OF_FIELD = new Set(["Enter", "Escape", "ArrowUp", "ArrowDown"]);
+
+/** The canvas is not called otherwise more often than this. */
+const LABEL_EVERY_MS = 1000;
+/** So many times the viewer may tell of something else before it has the focus that it was asked for. */
+const MOST_ANSWERS = 4;
+
+/**
+ * Mirrors the controls of `viewer`, which was made with `mirrored`, behind the canvas that it runs on. Gives what takes its `mirror`
+ * events, and `remove()`.
+ */
+export function mirrorOf(viewer, canvas) {
+  const root = document.createElement("div");
+  // By its style object, since a page may forbid styles in attributes.
+  Object.assign(root.style, {
+    position: "absolute", left: "0", top: "0", width: "100%", height: "100%", overflow: "hidden", opacity: "0",
+    pointerEvents: "none", userSelect: "none",
+  });
+  canvas.parentElement.append(root);
+  // What is typed into fields on the canvas goes through a hidden input, which has the focus only meanwhile.
+  const input = canvas.nextElementSibling;
+  input.tabIndex = -1;
+  input.setAttribute("aria-label", "Text of the field in the 3D view");
+  canvas.setAttribute("role", "application");
+  canvas.setAttribute("aria-roledescription", "3D view");
+
+  /** By id: `{record, element}`. */
+  const mirrored = new Map();
+  /** What opens over the rest, with the element that had the focus before it. */
+  const openers = new Map();
+  let focus = null; // What has the focus in the viewer.
+  let follows = false; // The viewer's focus is being followed, and need not be told of it.
+  /** What the viewer was asked to focus, until it says so; `undefined` when nothing is asked. What it says meanwhile is of before. */
+  let asked;
+  let answers = 0;
+  let pressing = false; // A pointer went down on the canvas, and takes the focus there by itself.
+  const held = new Set(); // Keys that the viewer was told of and that are not up again.
+
+  const idOf = (element) => element?.closest?.("[data-mirror]")?.dataset.mirror;
+  const elementOf = (id) => mirrored.get(id)?.element;
+  const active = () => root.getRootNode().activeElement;
+  const hasFocus = () => root.contains(active());
+  const act = (element, action, value) => viewer.act({ node: idOf(element), action, value });
+  const askFocus = (id) => {
+    [asked, answers] = [id, 0];
+    viewer.act(id === null ? { action: "blur" } : { node: id, action: "focus" });
+  };
+
+  /** Gives an element the focus that the viewer says it has. */
+  const giveFocus = (element) => {
+    follows = true;
+    element.focus({ preventScroll: true });
+    follows = false;
+  };
+
+  const create = (record) => {
+    const element = document.createElement(tagOf(record));
+    element.dataset.mirror = record.id;
+    element.style.position = "absolute";
+    element.style.margin = element.style.padding = "0";
+    element.style.border = "0";
+    if (element.localName === "button") {
+      element.type = "button";
+      if (record.role !== "button") element.setAttribute("role", record.role);
+    } else if (element.localName === "input") {
+      element.type = record.role === "slider" ? "range" : "text";
+      if (record.role === "spinbutton") element.inputMode = "decimal";
+      element.autocomplete = "off";
+    } else if (record.role !== "text") {
+      element.setAttribute("role", record.role);
+    }
+    return element;
+  };
+
+  const update = (entry, record) => {
+    const { element } = entry;
+    const { role } = record;
+    // A button has no value of its own.
+    const name = PRESSED.has(role) && record.value ? `${record.name}: ${record.value}` : record.name;
+    const set = (attribute, value) => {
+      if (value === null || value === undefined || value === "") element.removeAttribute(attribute);
+      else if (element.getAttribute(attribute) !== String(value)) element.setAttribute(attribute, value);
+    };
+    const [left, top, width, height] = record.bounds;
+    Object.assign(element.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+    if (UNNAMED.has(role) && !record.children.length) {
+      if (element.textContent !== name) element.textContent = name;
+    } else {
+      set("aria-label", name);
+    }
+    set("aria-description", record.description);
+    set("aria-disabled", record.disabled || null);
+    set("aria-invalid", record.invalid || null);
+    if (record.on !== null) set(ON[role] ?? "aria-selected", record.on);
+    if (element.localName !== "input") set("aria-expanded", record.expanded);
+    set("aria-haspopup", record.popup);
+    set("aria-modal", record.modal || null);
+    if (role === "treeitem" || role === "heading") set("aria-level", record.level ?? (role === "heading" ? 2 : null));
+    if (role !== "heading") {
+      set("aria-posinset", record.place);
+      set("aria-setsize", record.of);
+    }
+    if (element.localName === "input") updateInput(entry, record, set);
+    else if (role === "slider" || role === "progressbar" || role === "spinbutton") {
+      set("aria-valuenow", record.number ?? 0);
+      set("aria-valuemin", record.min);
+      set("aria-valuemax", record.max);
+      set("aria-valuetext", record.value ?? (record.number === null ? name : null));
+    }
+    const reachable = record.focusable && !record.disabled;
+    if (reachable || PRESSED.has(role) || element.localName === "input") element.tabIndex = reachable ? 0 : -1;
+    else element.removeAttribute("tabindex");
+  };
+
+  /** A value that the person has just given is not taken back by one that was on its way. */
+  const updateInput = (entry, record, set) => {
+    const { element } = entry;
+    element.disabled = record.disabled;
+    if (element.type === "range") {
+      element.min = record.min ?? 0;
+      element.max = record.max ?? 1;
+      element.step = record.step ?? "any";
+      element.value = record.number ?? 0;
+      set("aria-valuetext", record.value);
+      return;
+    }
+    set("placeholder", record.placeholder);
+    const value = record.role === "spinbutton" ? record.value ?? rounded(record.number) : record.value ?? "";
+    if (entry.typed === value) entry.typed = undefined;
+    if (entry.typed === undefined && element.value !== value) element.value = value;
+  };
+
+  /** Puts these children in this order, and moves only those that stand elsewhere: what is moved loses the focus. */
+  const arrange = (parent, ids) => {
+    let next = null;
+    for (const id of ids.toReversed()) {
+      const element = elementOf(id);
+      if (!element) continue;
+      if (element.parentElement !== parent || element.nextElementSibling !== next) parent.insertBefore(element, next);
+      next = element;
+    }
+  };
+
+  /** Takes `{changes, view}` of the viewer's event. */
+  const take = ({ changes, view }) => {
+    describe(view);
+    const had = active();
+    const within = hasFocus();
+    const opened = [];
+    for (const record of changes.changed) {
+      const entry = mirrored.get(record.id);
+      // A role is for life.
+      const stays = entry && entry.record.role === record.role && tagOf(record) === entry.element.localName;
+      const fresh = stays ? entry : { element: create(record) };
+      if (entry && !stays) entry.element.remove();
+      if (!entry && OVERLAYS.has(record.role)) opened.push(record.id);
+      mirrored.set(record.id, Object.assign(fresh, { record }));
+      update(fresh, record);
+    }
+    const shut = changes.removed.filter((id) => openers.has(id));
+    const heir = shut.map((id) => openers.get(id)).find((id) => !changes.removed.includes(id));
+    for (const id of changes.removed) {
+      elementOf(id)?.remove();
+      mirrored.delete(id);
+      openers.delete(id);
+    }
+    for (const { id, children } of changes.changed) if (children.length) arrange(elementOf(id), children);
+    arrange(root, changes.children);
+    // What was moved to another place has lost it.
+    if (within && root.contains(had) && !hasFocus()) giveFocus(had);
+    for (const id of opened) openers.set(id, idOf(had));
+    let moved = changes.focus !== focus;
+    focus = changes.focus;
+    if (asked !== undefined) {
+      // One that cannot have the focus never answers.
+      if (focus === asked || ++answers === MOST_ANSWERS) asked = undefined;
+      moved = false;
+    }
+    if (within || [canvas, input].includes(active())) followFocus({ had, within, opened, heir, moved });
+  };
+
+  /** The focus of the page goes where the viewer's is; where that is nowhere, the page's is kept. */
+  const followFocus = ({ had, within, opened, heir, moved }) => {
+    const wanted = elementOf(focus);
+    if (within && opened.length && !opened.some((id) => elementOf(id).contains(wanted))) {
+      // Opened by an element, so the keyboard goes into it.
+      const [first] = opened.flatMap((id) => Array.from(elementOf(id).querySelectorAll("[tabindex='0']")));
+      if (first) return void first.focus({ preventScroll: true });
+    }
+    if (wanted && moved) {
+      // What is typed into a field on the canvas goes to the viewer's hidden input.
+      if (!within && wanted.matches("input[type=text]")) return;
+      if (wanted !== active()) giveFocus(wanted);
+    } else if (within && !root.contains(had)) {
+      // It is gone.
+      const next = elementOf(heir) ?? wanted;
+      if (next) next.focus({ preventScroll: true });
+      else canvas.focus({ preventScroll: true });
+    } else if (within && moved && !wanted) {
+      askFocus(idOf(had));
+    }
+  };
+
+  let label = "";
+  let labelTimer = 0;
+  /** Calls the canvas by what it shows, not too often. */
+  const describe = (words) => {
+    label = words;
+    if (labelTimer) return;
+    canvas.setAttribute("aria-label", label);
+    labelTimer = setTimeout(() => {
+      labelTimer = 0;
+      if (canvas.getAttribute("aria-label") !== label) describe(label);
+    }, LABEL_EVERY_MS);
+  };
+
+  root.addEventListener("focusin", ({ target }) => {
+    viewer.setMirrorFocused(true);
+    if (!follows) {
+      askFocus(idOf(target));
+      act(target, "scrollIntoView");
+    }
+  });
+  root.addEventListener("focusout", ({ target, relatedTarget }) => {
+    const entry = mirrored.get(idOf(target));
+    if (entry?.typed !== undefined) {
+      entry.typed = undefined;
+      update(entry, entry.record);
+    }
+    if (!root.contains(relatedTarget)) {
+      viewer.setMirrorFocused(false);
+      held.clear();
+    }
+  });
+  root.addEventListener("click", ({ target }) => {
+    const { record } = mirrored.get(idOf(target)) ?? {};
+    if (record?.clickable && !record.disabled) act(target, "click");
+  });
+  root.addEventListener("input", ({ target }) => {
+    const entry = mirrored.get(idOf(target));
+    if (!entry) return;
+    if (target.type === "range") return act(target, "setValue", target.valueAsNumber);
+    if (entry.record.role === "spinbutton") return;
+    entry.typed = target.value;
+    act(target, "setValue", target.value);
+  });
+  // A number is taken when it is complete.
+  root.addEventListener("change", ({ target }) => {
+    const entry = mirrored.get(idOf(target));
+    if (entry?.record.role !== "spinbutton") return;
+    const number = Number.parseFloat(target.value.replace(",", "."));
+    if (Number.isFinite(number)) act(target, "setValue", number);
+    update(entry, entry.record);
+  });
+  root.addEventListener("keydown", (event) => {
+    const { key, code, target } = event;
+    if (key === "Tab" || event.isComposing) return;
+    const { record } = mirrored.get(idOf(target)) ?? {};
+    if (!record || isOwnKey(target, record, event)) return;
+    if (target.localName === "input" && target.type === "text" && key === "Enter") target.dispatchEvent(new Event("change", { bubbles: true }));
+    if ((key === "Enter" || key === " ") && record.clickable && target.localName === "div") {
+      event.preventDefault();
+      return void (event.repeat || target.click());
+    }
+    if (record.folds && !modified(event) && (key === "ArrowRight" || key === "ArrowLeft")) {
+      const expands = key === "ArrowRight";
+      if (record.expanded === !expands) {
+        event.preventDefault();
+        return act(target, expands ? "expand" : "collapse");
+      }
+    }
+    held.add(code);
+    if (viewer.press(event)) event.preventDefault();
+  });
+  root.addEventListener("keyup", (event) => {
+    if (held.delete(event.code)) viewer.press(event);
+  });
+
+  // Tab leaves the canvas for the element that the viewer's focus is at, and goes on from there.
+  const onTab = (event) => {
+    if (event.key !== "Tab" || ![canvas, input].includes(active())) return;
+    event.stopImmediatePropagation();
+    const from = elementOf(asked === undefined ? focus : asked);
+    if (from) giveFocus(from);
+    else if (!event.shiftKey && active() !== canvas) canvas.focus({ preventScroll: true });
+  };
+  const onPointer = () => {
+    pressing = true;
+    setTimeout(() => (pressing = false));
+  };
+  const leavesForCanvas = ({ relatedTarget }) => {
+    // The keyboard came here from a control, which the viewer still has in its focus.
+    if (!pressing && root.contains(relatedTarget)) askFocus(null);
+  };
+  globalThis.addEventListener("keydown", onTab, true);
+  canvas.addEventListener("pointerdown", onPointer, true);
+  canvas.addEventListener("focus", leavesForCanvas);
+
+  return {
+    take,
+    remove() {
+      clearTimeout(labelTimer);
+      globalThis.removeEventListener("keydown", onTab, true);
+      canvas.removeEventListener("pointerdown", onPointer, true);
+      canvas.removeEventListener("focus", leavesForCanvas);
+      root.remove();
+    },
+  };
+}
+
+/** The element for a record. */
+function tagOf({ role, settable, min, max, children }) {
+  if (role === "textbox" || (role === "spinbutton" && settable)) return "input";
+  if (role === "slider" && settable && min !== null && max !== null) return "input";
+  // A button cannot have other controls in it.
+  if (PRESSED.has(role) && !children.length) return "button";
+  return role === "text" ? "span" : "div";
+}
+
+const modified = ({ ctrlKey, altKey, metaKey }) => ctrlKey || altKey || metaKey;
+
+/** Whether the browser does with a key what the element is for. */
+function isOwnKey(target, { role }, event) {
+  const { key } = event;
+  if (target.localName === "button") return !modified(event) && (key === "Enter" || key === " ");
+  if (target.localName !== "input") return false;
+  if (target.type === "range") return !modified(event) && SLIDER_KEYS.has(key);
+  if (role === "spinbutton" && (key === "ArrowUp" || key === "ArrowDown")) return false;
+  return !KEYS_OUT_OF_FIELD.has(key) && !/^F\d/.test(key);
+}
+
+const rounded = (number) => (number === null ? "" : String(Number(number.toFixed(4))));
