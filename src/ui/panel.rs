@@ -1,6 +1,6 @@
 //! Panels that float over the view, the room that they leave, popovers and menus.
 
-use egui::accesskit::{Action, HasPopup};
+use egui::accesskit::HasPopup;
 use egui::{
     Align2, Area, CornerRadius, Frame, Id, LayerId, Margin, Order, Popup, PopupCloseBehavior, Pos2, Rect, RectAlign,
     Response, Role, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
@@ -300,20 +300,4 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
     let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);
     let corner = (pos2(left, bottom), RectAlign::TOP_START);
     hang(ui, button, corner, vec2(width, room), contents);
-    tell_expanded(ui, button);
-}
-
-/// Tells screen readers whether a button's popover is open, and opens or closes it where they ask.
-fn tell_expanded(ui: &Ui, button: &Response) {
-    let (ctx, popup) = (ui.ctx(), Popup::default_response_id(button));
-    let open = Popup::is_id_open(ctx, popup);
-    let ask = if open { Action::Collapse } else { Action::Expand };
-    ctx.accesskit_node_builder(button.id, |node| {
-        node.set_expanded(open);
-        node.set_has_popup(HasPopup::Dialog);
-        node.add_action(ask);
-    });
-    if ui.input(|input| input.has_accesskit_action_request(button.id, ask)) {
-        Popup::toggle_id(ctx, popup);
-    }
 }

@@ -1,7 +1,7 @@
 //! The name of the open file: a menu of the models of a drop and of what was open before it.
 
 use bindpose::session::{File, FileCommand};
-use egui::{Key, Modifiers};
+use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::NodeT as _;
 
 use crate::models::{jointed, moving, still};
@@ -22,7 +22,8 @@ fn lines(window: &Window) -> Vec<(String, bool)> {
         let node = node.accesskit_node();
         let name = node.label()?;
         let is_marked = node.toggled() == Some(egui::accesskit::Toggled::True);
-        (name.ends_with(".m3d") && node.role() == egui::accesskit::Role::RadioButton).then_some((name, is_marked))
+        let is_line = matches!(node.role(), Role::MenuItem | Role::MenuItemRadio);
+        (is_line && name.ends_with(".m3d")).then_some((name, is_marked))
     });
     lines.collect()
 }
@@ -82,7 +83,7 @@ fn of_a_drop_of_several_a_message_says_which_was_opened() {
     assert!(window.shows(said));
     assert_eq!(
         window.harness.state_mut().state.messages.take_spoken().as_deref(),
-        Some(said)
+        Some(format!("{said}.").as_str())
     );
     assert_eq!(
         window.harness.state_mut().state.messages.take_spoken(),

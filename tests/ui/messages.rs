@@ -74,7 +74,7 @@ fn the_cross_ends_it_and_the_next_takes_its_place() {
     assert!(window.shows("Something else") && !window.shows(WORDS) && !window.shows("Save the picture as…"));
     assert_eq!(
         window.harness.state_mut().state.messages.take_spoken().as_deref(),
-        Some("Something else")
+        Some("Something else.")
     );
     window.click("Close the message");
     assert!(!window.shows("Something else"));

@@ -184,7 +184,7 @@ fn the_error_card_leaves_the_transport_free_and_shows_the_mark() {
             let card = panel(&window, "error");
             let bar = panel(&window, "title");
             assert!(!card.intersects(bar), "{size}: {card} lies on the bar {bar}");
-            for control in ["Play", "Time in seconds"] {
+            for control in ["Play", "Time"] {
                 let rect = window.rect(control);
                 assert!(!card.intersects(rect), "{size}: {card} lies on {control} {rect}");
             }
@@ -198,7 +198,7 @@ fn more_than_half_of_the_sheet_of_the_timeline_is_keys() {
     let mut window = phone(vec![moving("a.m3d")]);
     window.click("Dope sheet and");
     let sheet = panel(&window, "sheet");
-    let ruler = window.rect("Ruler in seconds");
+    let ruler = window.rect("Ruler");
     let keys = Rect::from_min_max(ruler.min, pos2(sheet.max.x, window.rect("Play").min.y));
     assert!(keys.height() >= 0.5 * sheet.height(), "{keys} of {sheet}");
 }
