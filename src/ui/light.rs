@@ -73,6 +73,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) 
     }
     popover_gap(ui);
     passes(ui, session, commands);
+    popover_gap(ui);
     quality(ui, session, commands);
 }
 

@@ -1,7 +1,7 @@
 // Every key does what the table behind `?` says, in the order of that table: what is asked for is read from the state.
 
 import assert from "node:assert/strict";
-import { atRest, drag, settled, state, test, until } from "./harness.js";
+import { atRest, call, drag, settled, state, test, until } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
 import { GROUND } from "./widgets.js";
 

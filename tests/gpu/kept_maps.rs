@@ -10,13 +10,15 @@ use crate::textures::{card_once, diffuse, square};
 const NO_MAPS: &[MaterialImages<'_>] = &[];
 const SIZE: [u32; 2] = [96, 72];
 
-/// Changes of what is in the picture, each with what it is.
-const CHANGES: [(&str, fn(&mut Scene)); 9] = [
+/// A change of what is in the picture, with its name.
+type Change = (&'static str, fn(&mut Scene));
+
+const CHANGES: [Change; 9] = [
     ("another pose", |scene| scene.palette = bent(0.9)),
     ("another camera", |scene| scene.camera.yaw_radians += 0.4),
     ("another light", |scene| scene.options.light = Light::Book),
     ("the book's lights turned", |scene| {
-        scene.options.book_lights_turn_radians = 1.0
+        scene.options.book_lights_turn_radians = 1.0;
     }),
     ("two lights", |scene| scene.options.split = Some(0.4)),
     ("the divider moved", |scene| scene.options.split = Some(0.6)),
@@ -25,7 +27,7 @@ const CHANGES: [(&str, fn(&mut Scene)); 9] = [
     }),
     ("brighter", |scene| scene.options.exposure_stops = 1.0),
     ("nothing in view", |scene| {
-        scene.hidden = vec![true; scene.model.mesh.submeshes.len()]
+        scene.hidden = vec![true; scene.model.mesh.submeshes.len()];
     }),
 ];
 
