@@ -253,7 +253,10 @@ export function mirrorOf(viewer, canvas) {
   });
   root.addEventListener("click", ({ target }) => {
     const { record } = mirrored.get(idOf(target)) ?? {};
-    if (record?.clickable && !record.disabled) act(target, "click");
+    if (!record?.clickable || record.disabled) return;
+    // From here on the viewer says where the focus is: what opens may take it before the viewer has told that it was here.
+    asked = undefined;
+    act(target, "click");
   });
   root.addEventListener("input", ({ target }) => {
     const entry = mirrored.get(idOf(target));
@@ -289,6 +292,7 @@ export function mirrorOf(viewer, canvas) {
       }
     }
     held.add(code);
+    asked = undefined;
     if (viewer.press(event)) event.preventDefault();
   });
   root.addEventListener("keyup", (event) => {

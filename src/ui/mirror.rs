@@ -465,6 +465,11 @@ fn role_of(role: Role, named: bool, clickable: bool) -> Option<&'static str> {
     })
 }
 
+/// Whether it is a row without cells, to be read and not to be used.
+fn is_line(branch: &Branch) -> bool {
+    branch.node.role == "row" && branch.children.is_empty() && !branch.node.focusable && !branch.node.clickable
+}
+
 /// What ARIA lets a container have in it; None for what may have anything.
 fn items_of(container: &str) -> Option<&'static [&'static str]> {
     Some(match container {
@@ -485,6 +490,14 @@ fn settle(branch: &mut Branch) {
         branch.children = among_others(branch.node.id, std::mem::take(&mut branch.children));
         return;
     };
+    if branch.node.role == "grid" && !branch.children.is_empty() && branch.children.iter().all(is_line) {
+        // A table whose rows are read as a whole.
+        branch.node.role = "list";
+        for child in &mut branch.children {
+            child.node.role = "listitem";
+        }
+        return;
+    }
     let container = branch.node.role;
     branch.children = adopted(std::mem::take(&mut branch.children));
     let as_item = |child: &Branch| match (container, child.node.role) {
@@ -503,6 +516,10 @@ fn settle(branch: &mut Branch) {
         Some(roles) if !roles.is_empty() => {
             for (child, role) in branch.children.iter_mut().zip(roles) {
                 child.node.role = role;
+                if role == "menuitem" {
+                    // It does something, and is nothing that is chosen.
+                    child.node.on = None;
+                }
             }
         }
         _ => {
