@@ -13,7 +13,7 @@ const ON = {
 /** Roles that are called by `aria-label`; a name of others would be ignored or forbidden. */
 const UNNAMED = new Set(["text", "heading", "listitem", "gridcell", "columnheader", "rowheader", "status", "alert"]);
 /** What opens over the rest, and takes the focus with it. */
-const OVERLAYS = new Set(["dialog", "alertdialog", "menu", "listbox"]);
+const OVERLAYS = new Set(["dialog", "alertdialog", "menu"]);
 /** Keys of a slider that the browser turns into a value. */
 const SLIDER_KEYS = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"]);
 /** Keys of a field that are the viewer's: they end the typing, or walk through what was found. */

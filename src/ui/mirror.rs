@@ -490,6 +490,9 @@ fn settle(branch: &mut Branch) {
         branch.children = among_others(branch.node.id, std::mem::take(&mut branch.children));
         return;
     };
+    if branch.node.role == "row" && branch.children.is_empty() {
+        return;
+    }
     if branch.node.role == "grid" && !branch.children.is_empty() && branch.children.iter().all(is_line) {
         // A table whose rows are read as a whole.
         branch.node.role = "list";
