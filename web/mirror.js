@@ -10,6 +10,12 @@ const ON = {
   button: "aria-pressed", checkbox: "aria-checked", switch: "aria-checked", radio: "aria-checked",
   menuitemcheckbox: "aria-checked", menuitemradio: "aria-checked",
 };
+/** What else is on is chosen, where ARIA knows such a state. */
+const CHOSEN = new Set(["option", "tab", "treeitem", "row", "gridcell", "columnheader", "rowheader"]);
+/** Roles that ARIA lets be folded. */
+const FOLDED = new Set(["button", "link", "row", "tab", "treeitem", "gridcell", "checkbox", "switch", "menuitem", "menuitemcheckbox", "menuitemradio"]);
+/** Roles that have a place among their like. */
+const PLACED = new Set(["treeitem", "option", "listitem", "radio", "tab", "menuitem", "menuitemradio"]);
 /** Roles that are called by `aria-label`; a name of others would be ignored or forbidden. */
 const UNNAMED = new Set(["text", "heading", "listitem", "gridcell", "columnheader", "rowheader", "status", "alert"]);
 /** What opens over the rest, and takes the focus with it. */
@@ -21,6 +27,8 @@ const KEYS_OUT_OF_FIELD = new Set(["Enter", "Escape", "ArrowUp", "ArrowDown"]);
 
 /** The canvas is not called otherwise more often than this. */
 const LABEL_EVERY_MS = 1000;
+/** How long the viewer has to say where the focus is when its element is gone. */
+const HEIR_AFTER_MS = 400;
 /** So many times the viewer may tell of something else before it has the focus that it was asked for. */
 const MOST_ANSWERS = 4;
 
@@ -52,6 +60,8 @@ export function mirrorOf(viewer, canvas) {
   /** What the viewer was asked to focus, until it says so; `undefined` when nothing is asked. What it says meanwhile is of before. */
   let asked;
   let answers = 0;
+  let lost = null; // The element with the focus is gone, and it is not known yet which one has it next.
+  let returning = 0; // The timer after which the viewer is told where the focus of the page is.
   let pressing = false; // A pointer went down on the canvas, and takes the focus there by itself.
   const held = new Set(); // Keys that the viewer was told of and that are not up again.
 
@@ -61,7 +71,8 @@ export function mirrorOf(viewer, canvas) {
   const hasFocus = () => root.contains(active());
   const act = (element, action, value) => viewer.act({ node: idOf(element), action, value });
   const askFocus = (id) => {
-    [asked, answers] = [id, 0];
+    // What has it already does not answer.
+    [asked, answers] = [id === focus ? undefined : id, 0];
     viewer.act(id === null ? { action: "blur" } : { node: id, action: "focus" });
   };
 
@@ -110,12 +121,13 @@ export function mirrorOf(viewer, canvas) {
     set("aria-description", record.description);
     set("aria-disabled", record.disabled || null);
     set("aria-invalid", record.invalid || null);
-    if (record.on !== null) set(ON[role] ?? "aria-selected", record.on);
-    if (element.localName !== "input") set("aria-expanded", record.expanded);
+    const on = ON[role] ?? (CHOSEN.has(role) ? "aria-selected" : null);
+    if (on) set(on, record.on);
+    if (FOLDED.has(role)) set("aria-expanded", record.expanded);
     set("aria-haspopup", record.popup);
     set("aria-modal", record.modal || null);
     if (role === "treeitem" || role === "heading") set("aria-level", record.level ?? (role === "heading" ? 2 : null));
-    if (role !== "heading") {
+    if (PLACED.has(role)) {
       set("aria-posinset", record.place);
       set("aria-setsize", record.of);
     }
@@ -127,7 +139,7 @@ export function mirrorOf(viewer, canvas) {
       set("aria-valuetext", record.value ?? (record.number === null ? name : null));
     }
     const reachable = record.focusable && !record.disabled;
-    if (reachable || PRESSED.has(role) || element.localName === "input") element.tabIndex = reachable ? 0 : -1;
+    if (reachable || PRESSED.has(role) || element.localName === "input") element.tabIndex = reachable && record.stop ? 0 : -1;
     else element.removeAttribute("tabindex");
   };
 
@@ -160,11 +172,29 @@ export function mirrorOf(viewer, canvas) {
     }
   };
 
+  /** The focus was on an element that is gone: unless the viewer soon says where it is, it goes to what is nearest. */
+  const seekHeir = ({ left, top, width, height }) => {
+    clearTimeout(lost?.timer);
+    const timer = setTimeout(() => {
+      lost = null;
+      if (active() !== root.ownerDocument.body) return;
+      const away = (element) => {
+        const box = element.getBoundingClientRect();
+        return Math.hypot(box.left + box.width / 2 - left - width / 2, box.top + box.height / 2 - top - height / 2);
+      };
+      const stops = Array.from(root.querySelectorAll("[tabindex='0']"));
+      const [nearest] = stops.map((element) => [away(element), element]).sort(([a], [b]) => a - b);
+      (nearest?.[1] ?? canvas).focus({ preventScroll: true });
+    }, HEIR_AFTER_MS);
+    lost = { timer };
+  };
+
   /** Takes `{changes, view}` of the viewer's event. */
   const take = ({ changes, view }) => {
     describe(view);
     const had = active();
-    const within = hasFocus();
+    const within = hasFocus() || (lost !== null && had === root.ownerDocument.body);
+    const place = within && had.getBoundingClientRect();
     const opened = [];
     for (const record of changes.changed) {
       const entry = mirrored.get(record.id);
@@ -195,11 +225,11 @@ export function mirrorOf(viewer, canvas) {
       if (focus === asked || ++answers === MOST_ANSWERS) asked = undefined;
       moved = false;
     }
-    if (within || [canvas, input].includes(active())) followFocus({ had, within, opened, heir, moved });
+    if (within || [canvas, input].includes(active())) followFocus({ had, within, opened, heir, moved, place });
   };
 
   /** The focus of the page goes where the viewer's is; where that is nowhere, the page's is kept. */
-  const followFocus = ({ had, within, opened, heir, moved }) => {
+  const followFocus = ({ had, within, opened, heir, moved, place }) => {
     const wanted = elementOf(focus);
     if (within && opened.length && !opened.some((id) => elementOf(id).contains(wanted))) {
       // Opened by an element, so the keyboard goes into it.
@@ -214,9 +244,11 @@ export function mirrorOf(viewer, canvas) {
       // It is gone.
       const next = elementOf(heir) ?? wanted;
       if (next) next.focus({ preventScroll: true });
-      else canvas.focus({ preventScroll: true });
-    } else if (within && moved && !wanted) {
-      askFocus(idOf(had));
+      else if (!lost) seekHeir(place);
+    } else if (within && moved && focus === null) {
+      // It may be on its way to what is not drawn yet.
+      clearTimeout(returning);
+      returning = setTimeout(() => focus === null && hasFocus() && askFocus(idOf(active())), HEIR_AFTER_MS);
     }
   };
 
@@ -323,6 +355,8 @@ export function mirrorOf(viewer, canvas) {
     take,
     remove() {
       clearTimeout(labelTimer);
+      clearTimeout(lost?.timer);
+      clearTimeout(returning);
       globalThis.removeEventListener("keydown", onTab, true);
       canvas.removeEventListener("pointerdown", onPointer, true);
       canvas.removeEventListener("focus", leavesForCanvas);

@@ -89,7 +89,11 @@ fn modes(session: &Session) -> Vec<Mode> {
     }
     if let Some(view) = look.skin_view {
         let leaves = LookCommand::SetSkinView(None);
-        modes.push(match (view, session.joints().selected()) {
+        let joints = session.joints();
+        // A bone that is only pointed at would make the chip change under the pointer.
+        let of_vertex = || session.weighed_joint().filter(|_| joints.selected_vertex().is_some());
+        let joint = joints.selected().or_else(of_vertex);
+        modes.push(match (view, joint) {
             (SkinView::Weight, Some(joint)) => {
                 let words = format!("Weights of {}", session.joint_label(joint));
                 Mode::new(words, Some(&actions::WEIGHTS), leaves)

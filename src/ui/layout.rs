@@ -404,7 +404,15 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         timeline::page(ui, session, state, commands);
         return;
     }
-    scrolled("sheet", ui.available_height()).show(ui, |ui| match page {
+    // Each page begins at its top, and so does what is inspected next.
+    let joints = session.joints();
+    let inspected = (
+        joints.selected(),
+        joints.selected_vertex().map(|selected| selected.vertex),
+        session.submeshes().selected(),
+    );
+    let area = scrolled("sheet", ui.available_height()).id_salt(("sheet", page as u8, inspected));
+    area.show(ui, |ui| match page {
         SheetPage::Model if session.submeshes().selected().is_some() => inspector::show(ui, session, state, commands),
         SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {
@@ -446,7 +454,7 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
     if !state.offers_frame {
         return;
     }
-    Panel::new("frame", "Frame", Align2::CENTER_TOP)
+    Panel::new("frame", "Frame", Align2::RIGHT_BOTTOM)
         .margin(Margin::same(3))
         .show(ui, free.room(), |ui| {
             let action = &actions::FRAME_MODEL;

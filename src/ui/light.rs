@@ -193,11 +193,11 @@ fn quality(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
 }
 
-/// `50 % of the width and height, coarser ambient occlusion: frames took 83 ms`.
+/// `50 % of the pixels each way, coarser ambient occlusion: frames took 83 ms`.
 fn lowered_words(lowered: &Lowered) -> String {
     let mut parts = Vec::new();
     if lowered.scale < 1.0 {
-        parts.push(format!("{:.0} % of the width and height", lowered.scale * 100.0));
+        parts.push(format!("{:.0} % of the pixels each way", lowered.scale * 100.0));
     }
     if lowered.without_occlusion {
         parts.push("no ambient occlusion".to_owned());

@@ -54,13 +54,8 @@ impl Messages {
     /// The words of a message that no call before returned, for a screen reader.
     pub fn take_spoken(&mut self) -> Option<String> {
         let is_new = std::mem::take(&mut self.unspoken);
-        self.shown.as_ref().filter(|_| is_new).map(|message| {
-            if message.saves_picture {
-                format!("Saved {}.", message.words)
-            } else {
-                format!("{}.", message.words)
-            }
-        })
+        let message = self.shown.as_ref().filter(|_| is_new)?;
+        Some(format!("{}.", message.words))
     }
 }
 

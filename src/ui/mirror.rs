@@ -70,6 +70,8 @@ pub struct MirrorNode {
     pub modal: bool,
     /// It can have the keyboard focus.
     pub focusable: bool,
+    /// Tab comes to it. Of the items of a tree or a list box only one is a stop; arrow keys lead to the others.
+    pub stop: bool,
     /// It can be pressed.
     pub clickable: bool,
     /// It can be folded and unfolded.
@@ -97,7 +99,7 @@ pub struct MirrorChanges {
     pub removed: Vec<MirrorId>,
     /// The children of the whole.
     pub children: Vec<MirrorId>,
-    /// What has the keyboard focus in egui.
+    /// What has the keyboard focus in egui; it may be no record, as a row that is still out of view.
     pub focus: Option<MirrorId>,
     /// Nothing was told before, so that older elements are of another start.
     pub fresh: bool,
@@ -252,11 +254,38 @@ impl Snapshot {
         {
             reader.read(child, &mut branches);
         }
-        let branches = among_others(MirrorId(root.map_or(0, |root| root.0)), branches);
+        let mut branches = among_others(MirrorId(root.map_or(0, |root| root.0)), branches);
+        branches.sort_by_key(|branch| reading_rank(&branch.node));
         let mut snapshot = Self::default();
         snapshot.children = snapshot.keep(branches, [0.0; 2]);
-        snapshot.focus = Some(MirrorId(update.focus.0)).filter(|id| snapshot.nodes.contains_key(id));
+        snapshot.focus = Some(update.focus)
+            .filter(|&focus| Some(focus) != root)
+            .map(|focus| MirrorId(focus.0));
+        snapshot.choose_stops();
         snapshot
+    }
+
+    /// Of the items of each tree and list box the one with the focus, the chosen one or the first is a stop of Tab.
+    fn choose_stops(&mut self) {
+        let is_walked = |node: &&MirrorNode| matches!(node.role, "tree" | "listbox");
+        let walked: Vec<_> = self
+            .nodes
+            .values()
+            .filter(is_walked)
+            .map(|node| node.children.clone())
+            .collect();
+        for items in walked {
+            let is_on = |id: &&MirrorId| self.nodes.get(id).is_some_and(|item| item.on == Some("true"));
+            let focused = items.iter().find(|&&id| Some(id) == self.focus);
+            let Some(&stop) = focused.or_else(|| items.iter().find(is_on)).or(items.first()) else {
+                continue;
+            };
+            for id in items.iter().filter(|&&id| id != stop) {
+                if let Some(item) = self.nodes.get_mut(id) {
+                    item.stop = false;
+                }
+            }
+        }
     }
 
     /// Keeps these records, placed from a corner. Returns their ids.
@@ -266,7 +295,14 @@ impl Snapshot {
             if is_overlay(&branch) && branch.node.name.is_empty() {
                 branch.node.name = first_words(&branch.children);
             }
-            let Branch { mut node, children } = branch;
+            let Branch { mut node, mut children } = branch;
+            if let Some(count) = node.of.filter(|_| items_of(node.role).is_some()) {
+                // ARIA tells the size of a set with its items.
+                node.of = None;
+                for item in &mut children {
+                    item.node.of = item.node.of.or(Some(count));
+                }
+            }
             let [x, y, ..] = node.bounds;
             node.children = self.keep(children, [x, y]);
             (node.bounds[0], node.bounds[1]) = (x - left, y - top);
@@ -274,6 +310,28 @@ impl Snapshot {
             self.nodes.insert(node.id, node);
         }
         ids
+    }
+}
+
+/// The panels in the order in which a person reads them, by their names. A failure comes first, what has no place between those on the
+/// left and those on the right.
+fn reading_rank(node: &MirrorNode) -> usize {
+    const LEFT: [&str; 7] = [
+        "Title",
+        "Toolbar",
+        "Tools",
+        "Model",
+        "Skeleton",
+        "Legend",
+        "Diagnostics",
+    ];
+    const RIGHT: [&str; 4] = ["Inspector", "Timeline", "Sheet", "Keys"];
+    let place = |names: &[&str]| names.iter().position(|&name| name == node.name);
+    match (node.role, place(&LEFT), place(&RIGHT)) {
+        ("alertdialog", ..) => 0,
+        (_, Some(place), _) => 1 + place,
+        (_, _, Some(place)) => 2 + LEFT.len() + place,
+        _ => 1 + LEFT.len(),
     }
 }
 
@@ -378,11 +436,13 @@ fn record(id: NodeId, node: &Node, role: &'static str, name: String, children: &
         disabled: node.is_disabled(),
         modal: node.is_modal(),
         focusable: node.supports_action(Action::Focus),
+        stop: true,
         clickable: node.supports_action(Action::Click),
         folds: node.supports_action(Action::Expand) || node.supports_action(Action::Collapse),
         settable: node.supports_action(Action::SetValue),
-        level: node.level(),
-        place: node.position_in_set(),
+        // AccessKit counts from 0.
+        level: node.level().map(|level| level + usize::from(role == "treeitem")),
+        place: node.position_in_set().map(|place| place + 1),
         of: node.size_of_set(),
         bounds,
         children: Vec::new(),

@@ -180,7 +180,7 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     let at = window.rect("Lighting").center();
     window.harness.hover_at(at);
     window.wait(0.6);
-    let note = "50 % of the width and height: frames took 200 ms";
+    let note = "50 % of the pixels each way: frames took 200 ms";
     assert!(
         window.shows(&format!("While it moves: {note}")),
         "the dot is explained where it is seen"
@@ -189,7 +189,7 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     assert!(window.shows(note));
     slow_frames(&mut window, 24);
     window.pass_on();
-    assert!(window.shows("50 % of the width and height, no ambient occlusion, coarser shadows: frames took 200 ms"));
+    assert!(window.shows("50 % of the pixels each way, no ambient occlusion, coarser shadows: frames took 200 ms"));
     window.click("Ambient occlusion: at rest");
     let quality = window.session().quality();
     assert_eq!(quality.choice(Pass::AmbientOcclusion), PassChoice::On);

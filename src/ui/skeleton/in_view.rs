@@ -174,7 +174,7 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
             let hint = match (joints.selected(), joints.selected_vertex()) {
                 (Some(_), _) => None,
                 (None, Some(_)) => Some("The strongest bone of the vertex. Choose another there or in the tree."),
-                (None, None) => Some("Choose a bone in the tree, or click a vertex of the skin beside it."),
+                (None, None) => Some("Choose a bone in the Skeleton tab: in its tree, or on the skin."),
             };
             (title, hint)
         }

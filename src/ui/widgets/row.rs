@@ -31,7 +31,9 @@ pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
 /// A small icon in a row. `on` marks a switch that is on. Returns whether it was clicked.
 pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
     let tokens = Tokens::of(ui);
-    let response = ui.interact(place, row.id.with(icon), Sense::click());
+    // It is one control whichever picture it has now.
+    let from_right = (row.rect.max.x - place.max.x).round() as i32;
+    let response = ui.interact(place, row.id.with(("icon", from_right)), Sense::click());
     let color = match (on, response.hovered() || response.has_focus()) {
         (true, _) => tokens.accent,
         (false, hovered) => tokens.muted_to_text(hovered),
