@@ -39,7 +39,7 @@ impl Messages {
 
     /// Shows that a picture was saved, and offers to save it elsewhere.
     pub fn say_saved(&mut self, name: &str, [width, height]: [u32; 2]) {
-        self.show_next(format!("{name}, {width} × {height}"), true);
+        self.show_next(format!("Saved {name}, {width} × {height}"), true);
     }
 
     fn show_next(&mut self, words: String, saves_picture: bool) {

@@ -81,7 +81,7 @@ test("by roles and names alone a model is opened, played, scrubbed, a bone's mat
   await control(page, "Save").waitFor({ state: "attached" });
   const [saved] = await Promise.all([page.waitForEvent("download"), press(page, "Save")]);
   assert.match(saved.suggestedFilename(), /^d3d12_skinned-.*\.png$/);
-  await spoken(page, /^d3d12_skinned.*\.png is saved, \d+ × \d+ pixels/);
+  await spoken(page, /^Saved d3d12_skinned.*\.png, \d+ × \d+\.$/);
 });
 
 test("all that steps the time is a button, and where it led is spoken", {}, async (page) => {

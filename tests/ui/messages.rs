@@ -6,7 +6,7 @@ use crate::models::moving;
 use crate::page::{WIDE, Window, phone, window};
 use bindpose::ui::Request;
 
-const WORDS: &str = "a-Bend-15.png, 1920 × 1080";
+const WORDS: &str = "Saved a-Bend-15.png, 1920 × 1080";
 
 /// A window in which a picture was just saved.
 fn saved(mut window: Window) -> Window {
