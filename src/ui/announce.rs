@@ -1,7 +1,7 @@
 //! Sentences for screen readers: what has changed and is seen on the canvas alone.
 
 use crate::model::JointIndex;
-use crate::scene::{Light, ViewMode};
+use crate::scene::{Light, Overlay, Overlays, ViewMode};
 use crate::session::{QualityMode, Session};
 
 use super::wording::{counted, grouped};
@@ -42,6 +42,9 @@ struct Seen {
     /// The device is too slow for all the detail, now or before with this model.
     lowered: bool,
     undone: u64,
+    left_out: Vec<bool>,
+    overlays: Overlays,
+    turntable: bool,
 }
 
 impl Seen {
@@ -66,6 +69,9 @@ impl Seen {
             time_secs: playback.time_secs(),
             lowered: quality.mode() == QualityMode::Auto && quality.lowered().is_some(),
             undone: session.history().revision(),
+            left_out: session.submeshes().left_out().to_vec(),
+            overlays: look.overlays,
+            turntable: session.turntable(),
         }
     }
 }
@@ -136,6 +142,19 @@ fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
     if now.lowered && !before.lowered {
         sentences.push("The picture has less detail while it moves, for speed.".to_owned());
     }
+    if now.left_out != before.left_out {
+        sentences.push(subsets(session, &now.left_out));
+    }
+    let on_off = |on| if on { "on" } else { "off" };
+    for overlay in Overlay::ALL {
+        let on = now.overlays.has(overlay);
+        if on != before.overlays.has(overlay) {
+            sentences.push(format!("{} {}.", overlay.label(), on_off(on)));
+        }
+    }
+    if now.turntable != before.turntable {
+        sentences.push(format!("Turntable {}.", on_off(now.turntable)));
+    }
     if now.undone != before.undone
         && let Some(what) = session.history().last()
     {
@@ -193,8 +212,25 @@ fn selection(session: &Session, now: &Seen) -> String {
         };
     }
     match now.submesh {
-        Some(submesh) => format!("Subset {}.", submesh + 1),
+        Some(submesh) => format!("Subset {}.", session.submesh_name(submesh)),
         None => "Nothing is selected.".to_owned(),
+    }
+}
+
+/// Which subsets are shown: those that are fewer are named, unless they are many.
+fn subsets(session: &Session, left_out: &[bool]) -> String {
+    const MOST_NAMES: usize = 3;
+    let (hidden, shown): (Vec<usize>, Vec<usize>) = (0..left_out.len()).partition(|&index| left_out[index]);
+    let names = |of: &[usize]| {
+        let names: Vec<&str> = of.iter().map(|&index| session.submesh_name(index)).collect();
+        names.join(", ")
+    };
+    match (hidden.len(), shown.len()) {
+        (0, _) => "All subsets are shown.".to_owned(),
+        (_, 0) => "All subsets are hidden.".to_owned(),
+        (_, 1) => format!("Only {} is shown.", names(&shown)),
+        (count, _) if count <= MOST_NAMES => format!("Hidden: {}.", names(&hidden)),
+        (count, _) => format!("{} hidden.", counted(count, "subset")),
     }
 }
 
@@ -245,7 +281,7 @@ fn lower_bone(label: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::{File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
+    use crate::session::{CameraCommand, File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
 
     const SKINNED: &[u8] = include_bytes!("../../tests/fixtures/good/d3d12_skinned.m3d");
 
@@ -325,7 +361,24 @@ mod tests {
         session.apply(JointCommand::Select(None));
         assert_says(&mut announcer, &session, "Nothing is selected.");
         session.apply(SubmeshCommand::Select(Some(0)));
-        assert_says(&mut announcer, &session, "Subset 1.");
+        let name = session.submesh_name(0).to_owned();
+        assert_says(&mut announcer, &session, &format!("Subset {name}."));
+    }
+
+    #[test]
+    fn subsets_lines_and_the_turntable_are_told() {
+        let (mut session, mut announcer) = open();
+        session.apply(SubmeshCommand::SetVisible {
+            submesh: 0,
+            visible: false,
+        });
+        assert_says(&mut announcer, &session, "All subsets are hidden.");
+        session.apply(SubmeshCommand::ShowAll);
+        assert_says(&mut announcer, &session, "All subsets are shown.");
+        session.apply(LookCommand::SetOverlay(Overlay::Wireframe, true));
+        assert_says(&mut announcer, &session, "Wireframe on.");
+        session.apply(CameraCommand::SetTurntable(true));
+        assert_says(&mut announcer, &session, "Turntable on.");
     }
 
     #[test]

@@ -251,9 +251,12 @@ struct Shell {
     loss: mpsc::Receiver<String>,
     frames: Rc<Cell<u64>>,
     names: JointNames,
-    /// Name and bytes of the picture that was saved last.
-    saved: Rc<RefCell<Option<[(&'static str, JsValue); 2]>>>,
+    /// The picture that was saved last.
+    saved: Rc<RefCell<Option<SavedPicture>>>,
 }
+
+/// Name and bytes of a picture, as fields of what the page is told.
+type SavedPicture = [(&'static str, JsValue); 2];
 
 impl Shell {
     /// Hands the last picture to the page once more, which lets the person choose where it is saved.

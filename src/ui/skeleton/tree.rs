@@ -50,6 +50,10 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
     }
     let height = pressed_row_height(ui);
     let most = ui.available_height().max(LEAST_ROWS * height);
+    if state.tree.room.replace(most) != Some(most) {
+        // What was in view may not be any more.
+        state.tree.show_again();
+    }
     let to_show = state.tree.row_to_show(session.joints().selected());
     let rows = std::mem::take(&mut state.tree.rows);
     ScrollArea::vertical()
