@@ -11,7 +11,7 @@ use crate::render::{
     Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, SampleCount, Target, UploadError, device,
     watched,
 };
-use crate::scene::{FrameOptions, Theme};
+use crate::scene::{FrameCost, FrameOptions, Theme};
 use crate::session::{Quality, Session};
 use crate::ui::{self, Contrast, Request, UiState};
 
@@ -88,8 +88,8 @@ impl App {
             .painter
             .sizes(session.quality(), window.size() * ui.pixels_per_point());
         let told = (session.model_revision(), session.error().is_some());
-        let drawn = self.painter.draw(&mut session, size);
-        let goes_on = drawn && session.frame_drawn();
+        let cost = self.painter.draw(&mut session, size);
+        let goes_on = cost.is_some_and(|cost| session.frame_drawn(cost));
 
         self.painter.was_moving = session.is_moving();
         if goes_on
@@ -230,8 +230,8 @@ impl SessionPainter {
         }
     }
 
-    /// Draws if the picture would differ from the last one. Returns whether it drew.
-    fn draw(&mut self, session: &mut Session, sizes: Sizes) -> bool {
+    /// Draws if the picture would differ from the last one. Returns what that cost, if it drew.
+    fn draw(&mut self, session: &mut Session, sizes: Sizes) -> Option<FrameCost> {
         self.update(session);
         let wanted = Drawn {
             picture: session.picture_revision(),
@@ -239,16 +239,18 @@ impl SessionPainter {
         };
         self.poll_target(session);
         if self.drawn == Some(wanted) {
-            return false;
+            return None;
         }
+        let cost;
         if self.target.size() == sizes.now {
-            self.renderer.render(&session.frame(), &mut self.target);
+            cost = self.renderer.render(&session.frame(), &mut self.target);
         } else {
             let device = self.gpu.device.clone();
-            let (stayed, answer) = watched(&device, || {
+            let stayed;
+            let answer;
+            ((stayed, cost), answer) = watched(&device, || {
                 let stayed = self.target.resize(&device, sizes.now, sizes.at_rest);
-                self.renderer.render(&session.frame(), &mut self.target);
-                stayed
+                (stayed, self.renderer.render(&session.frame(), &mut self.target))
             });
             // Maps of the light have the picture's size, but they are small.
             if !stayed {
@@ -261,7 +263,7 @@ impl SessionPainter {
         }
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
-        true
+        Some(cost)
     }
 
     /// Shows the GPU's error about a resized target in the session, if there is one.

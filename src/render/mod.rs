@@ -41,7 +41,7 @@ use glam::Affine3A;
 
 use crate::image::Image;
 use crate::model::{Material, Model};
-use crate::scene::{Background, Light, Pass, RenderFrame, ViewMode};
+use crate::scene::{Background, FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
 use instances::Instances;
@@ -198,8 +198,8 @@ impl Renderer {
         self.shape.replace();
     }
 
-    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space.
-    pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) {
+    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost.
+    pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
         self.common.environments.write(&self.common.queue, frame);
         let Common { device, queue, .. } = &self.common;
         if let Some(model) = &mut self.model {
@@ -260,6 +260,7 @@ impl Renderer {
         }
         self.draw_picture(frame, target, &parts, model, &mut encoder);
         self.common.queue.submit([encoder.finish()]);
+        FrameCost::default()
     }
 
     /// Draws a frame into a target of its own. The picture's pixels come with what the device answered: it may have too little
@@ -269,7 +270,9 @@ impl Renderer {
     /// When the device draws no picture of this size.
     pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.clone());
-        Picture::start(&device, &queue, self.samples, size, |target| self.render(frame, target))
+        Picture::start(&device, &queue, self.samples, size, |target| {
+            self.render(frame, target);
+        })
     }
 
     fn draw_picture(

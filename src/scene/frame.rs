@@ -64,13 +64,15 @@ impl FrameOptions {
 pub struct RenderFrame<'a> {
     /// The camera.
     pub camera: Camera,
-    /// Model space -> world. May mirror. The frame has one instance of the model, posed by `palette`. A renderer draws ghosts and
-    /// the highlighted submesh as further instances.
+    /// Model space -> world. May mirror. This instance of the model is posed by `palette`; colours of vertices, ghosts, the highlighted
+    /// submesh and lines of the model are its alone.
     pub world_from_model: Affine3A,
-    /// Box of everything the clip reaches, world space: depth range, grid, shadow.
+    /// Box of everything that the clips of all instances reach, world space: depth range, grid, shadow.
     pub world_bounds: Aabb,
     /// Joint matrices; empty for a static model.
     pub palette: &'a Palette,
+    /// The model's other instances.
+    pub crowd: Crowd<'a>,
     /// For each submesh whether it is hidden; submeshes beyond the slice are drawn.
     pub hidden_submeshes: &'a [bool],
     /// The highlighted submesh.
@@ -91,6 +93,26 @@ impl RenderFrame<'_> {
         let is_read = pass != Pass::AmbientOcclusion || self.vertex_colors.is_none();
         is_read && self.options.draws_under(pass, light)
     }
+}
+
+/// The instances of the model beside the one that the frame names. Empty where there is one model.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Crowd<'a> {
+    /// Those in sight of the camera come first.
+    pub instances: &'a [CrowdInstance],
+    /// How many of them, from the first on, may be in sight. The others may cast shadows into it.
+    pub in_sight: usize,
+    /// Joint matrices of the poses, one palette after another, each as long as the frame's. Instances in equal poses share one.
+    pub palettes: &'a [Affine3A],
+}
+
+/// One more instance of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrowdInstance {
+    /// Model space -> world. It mirrors if the frame's does.
+    pub world_from_model: Affine3A,
+    /// Which of [`Crowd::palettes`] poses it, counted in palettes.
+    pub palette: u32,
 }
 
 /// A vertex of the lines and triangles over the model.

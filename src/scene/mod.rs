@@ -5,6 +5,7 @@ mod bone_picking;
 mod bone_shapes;
 mod bones;
 mod camera;
+mod cost;
 mod flight;
 mod frame;
 mod framing;
@@ -20,7 +21,10 @@ pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
 pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones};
 pub use bones::{Bone, Bones};
 pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, MAX_PITCH_RADIANS, Projection, ViewPreset};
-pub use frame::{FrameOptions, Ghosts, OverlayGeometry, OverlayVertex, RenderFrame, VertexColors};
+pub use cost::{FrameCost, TimedPass};
+pub use frame::{
+    Crowd, CrowdInstance, FrameOptions, Ghosts, OverlayGeometry, OverlayVertex, RenderFrame, VertexColors,
+};
 pub use framing::Insets;
 pub use ground::Ground;
 pub use pick::{Hit, pick, tex_coord_at};

@@ -1,6 +1,7 @@
 //! All that a person or a program can ask for, in groups that follow the parts of the session.
 
 use super::camera::CameraCommand;
+use super::crowd::CrowdCommand;
 use super::history::HistoryCommand;
 use super::look::LookCommand;
 use super::materials::MaterialCommand;
@@ -34,6 +35,8 @@ pub enum Command {
     Material(MaterialCommand),
     /// Which costly passes are drawn, and how fine the picture is.
     Quality(QualityCommand),
+    /// Several instances of the model.
+    Crowd(CrowdCommand),
     /// Undo and redo.
     History(HistoryCommand),
 
@@ -69,6 +72,7 @@ groups! {
     Look(LookCommand),
     Material(MaterialCommand),
     Quality(QualityCommand),
+    Crowd(CrowdCommand),
     History(HistoryCommand),
 }
 

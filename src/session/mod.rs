@@ -7,6 +7,7 @@ mod changes;
 mod clip_swap;
 mod command;
 mod content;
+mod crowd;
 mod event;
 mod files;
 mod framing;
@@ -45,6 +46,7 @@ mod view_state;
 pub use camera::CameraCommand;
 pub use changes::Changes;
 pub use command::Command;
+pub use crowd::{CrowdCommand, CrowdState, MAX_CROWD};
 pub use event::Event;
 pub use files::{File, FileSet};
 pub use history::{History, HistoryCommand};
@@ -81,7 +83,7 @@ use std::sync::Arc;
 use crate::anim::Playback;
 use crate::image::Image;
 use crate::model::{Clip, Material};
-use crate::scene::{Aabb, FrameOptions, Overlay};
+use crate::scene::{Aabb, FrameCost, FrameOptions, Overlay};
 
 /// Speeds of the slower and faster keys.
 pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
@@ -93,9 +95,12 @@ pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 
 pub struct Session {
     content: Content,
     actors: Actors,
+    crowd: CrowdState,
     view: View,
     selection: Selection,
     quality: Quality,
+    /// Of the frame that was drawn last.
+    cost: FrameCost,
     history: History,
     /// Made from the parts above, and from nothing else.
     caches: Caches,
@@ -227,10 +232,16 @@ impl Session {
 
     /// The window drew the picture. Returns whether it moves, by itself or under a pointer that holds the camera or the time: the next
     /// pass is then to begin at once, so that the time until it is what the frame took and not how long the pointer rested.
-    pub fn frame_drawn(&mut self) -> bool {
+    pub fn frame_drawn(&mut self, cost: FrameCost) -> bool {
+        self.cost = cost;
         let moves = self.is_in_motion();
         self.quality.frame_drawn(moves);
         moves
+    }
+
+    /// What the frame that was drawn last cost.
+    pub fn frame_cost(&self) -> FrameCost {
+        self.cost
     }
 
     fn is_in_motion(&self) -> bool {

@@ -5,7 +5,7 @@ use super::view::View;
 use super::{Caches, Session};
 use crate::anim::{JointReadout, SkinView, VertexExplanation, explain_vertex};
 use crate::model::{JointIndex, Skeleton};
-use crate::scene::{Bones, LabelPlace, RenderFrame, Screen, label_places};
+use crate::scene::{Bones, Crowd, LabelPlace, RenderFrame, Screen, label_places};
 
 impl Session {
     /// All that a renderer needs for the picture of now. The box is empty and the palette too when nothing is open.
@@ -17,6 +17,7 @@ impl Session {
             world_from_model: self.world_from_model(),
             world_bounds: self.world_bounds(),
             palette: &self.actors.picked().pose.palette,
+            crowd: Crowd::default(),
             hidden_submeshes: self.selection.submeshes.left_out(),
             highlighted_submesh: self.selection.submeshes.highlighted(),
             vertex_colors: self.caches.overlays.vertex_colors(),

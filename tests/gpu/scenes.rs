@@ -3,7 +3,7 @@
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
 use bindpose::scene::{
-    Aabb, Camera, FrameOptions, Ghosts, Overlay, OverlayGeometry, Overlays, Projection, RenderFrame, Theme,
+    Aabb, Camera, Crowd, FrameOptions, Ghosts, Overlay, OverlayGeometry, Overlays, Projection, RenderFrame, Theme,
     VertexColors,
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
@@ -87,6 +87,7 @@ impl Scene {
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
             palette: &self.palette,
+            crowd: Crowd::default(),
             hidden_submeshes: &self.hidden,
             highlighted_submesh: self.highlighted,
             vertex_colors: (!self.colors_srgb.is_empty()).then_some(VertexColors {

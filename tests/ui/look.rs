@@ -1,7 +1,7 @@
 //! View modes, light, background, overlays, passes: each control does what it says.
 
 use bindpose::image::{Image, encode_png};
-use bindpose::scene::{Background, Light, Overlay, Pass, ViewMode};
+use bindpose::scene::{Background, FrameCost, Light, Overlay, Pass, ViewMode};
 use bindpose::session::{FileCommand, LookCommand, PassChoice, PassState, PlayCommand, QualityMode};
 use egui::{Key, Modifiers, pos2};
 
@@ -172,7 +172,7 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
         for _ in 0..count {
             let session = &mut window.harness.state_mut().session;
             session.begin_pass(0.2);
-            session.frame_drawn();
+            session.frame_drawn(FrameCost::default());
         }
     };
     window.apply(PlayCommand::Play);

@@ -2,7 +2,7 @@
 
 use bindpose::anim::LoopMode;
 use bindpose::model::Handedness;
-use bindpose::scene::{Pass, ViewPreset};
+use bindpose::scene::{FrameCost, Pass, ViewPreset};
 use bindpose::session::{
     CameraCommand, Command, Event, File, FileCommand, PassChoice, PlayCommand, QualityCommand, Session,
 };
@@ -252,7 +252,7 @@ fn what_was_too_slow_for_one_model_is_tried_again_with_the_next() {
     session.apply(QualityCommand::SetPass(Pass::Shadow, PassChoice::Off));
     for _ in 0..20 {
         session.begin_pass(1.0);
-        session.frame_drawn();
+        session.frame_drawn(FrameCost::default());
     }
     let lowered = session.quality().lowered();
     assert!(lowered.is_some());

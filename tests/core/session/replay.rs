@@ -98,6 +98,7 @@ fn told_to_renderer(session: &mut Session) -> String {
         world_from_model,
         world_bounds,
         palette,
+        crowd,
         hidden_submeshes,
         highlighted_submesh,
         vertex_colors,
@@ -107,7 +108,7 @@ fn told_to_renderer(session: &mut Session) -> String {
     } = session.frame();
     let colors = vertex_colors.map(|colors| colors.colors_srgb);
     format!(
-        "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {hidden_submeshes:?} {highlighted_submesh:?} {colors:?} \
+        "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {crowd:?} {hidden_submeshes:?} {highlighted_submesh:?} {colors:?} \
          {ghosts:?} {over_model:?} {options:?}"
     )
 }

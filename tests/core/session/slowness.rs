@@ -1,6 +1,6 @@
 //! What a device that is too slow is spared, with a clock made up.
 
-use bindpose::scene::{Pass, Passes};
+use bindpose::scene::{FrameCost, Pass, Passes};
 use bindpose::session::{CameraCommand, Command, LookCommand, PassChoice, QualityCommand, QualityMode, Session};
 
 use super::models::{moving, still};
@@ -43,7 +43,7 @@ impl Window {
         self.session.follow_motion();
         let draws = self.session.picture_revision() != self.drawn;
         self.drawn = self.session.picture_revision();
-        self.goes_on = draws && self.session.frame_drawn();
+        self.goes_on = draws && self.session.frame_drawn(FrameCost::default());
         let scale = self.session.quality().scale_now();
         self.pass_secs = if draws { self.frame_secs * scale * scale } else { QUICK };
     }

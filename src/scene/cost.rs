@@ -1,0 +1,33 @@
+//! What a frame cost, for people to read and for the pace of a moving picture.
+
+use crate::modes::modes;
+
+modes! {
+    /// Parts of a frame that a GPU may time.
+    pub enum TimedPass {
+        /// The model's depth from the key light.
+        ShadowMap = "shadow map", "Shadow map";
+        /// Normals and depth of the model in view.
+        Geometry = "geometry", "Normals and depth";
+        /// Ambient occlusion and its blur.
+        AmbientOcclusion = "ambient occlusion", "Ambient occlusion";
+        /// The model from below, and its blur.
+        Contact = "contact", "Ground contact";
+        /// The picture itself.
+        Picture = "picture", "Picture";
+    }
+}
+
+/// What drawing one frame cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameCost {
+    /// Time that the CPU spent on posing and drawing, seconds; `None` where nobody took it.
+    pub cpu_secs: Option<f32>,
+    /// Time that the GPU spent on each of [`TimedPass::ALL`], seconds, in an earlier frame: its answer takes a while. 0 for a pass that was
+    /// not drawn. `None` where the device tells no times.
+    pub gpu_secs: Option<[f32; TimedPass::ALL.len()]>,
+    /// Vertices that were transformed, in all passes.
+    pub vertices: u64,
+    /// Bytes that were uploaded.
+    pub uploaded_bytes: u64,
+}
