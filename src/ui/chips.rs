@@ -6,9 +6,10 @@ use std::sync::Arc;
 use super::icons::{self, Icon};
 use super::theme::{self, Tokens};
 use super::widgets::{control_size, focus_ring, is_touch};
+use super::wording::grouped;
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
-use crate::session::{Command, LookCommand, PlayCommand, Session, SubmeshCommand};
+use crate::session::{Command, CrowdCommand, LookCommand, PlayCommand, Session, SubmeshCommand};
 
 /// Height of a chip that is drawn. Its target is as high as a control.
 const HEIGHT: f32 = 24.0;
@@ -76,6 +77,15 @@ fn modes(session: &Session) -> Vec<Mode> {
         };
         let key = Some(&actions::BIND_POSE).filter(|_| bind_weight >= 0.5);
         modes.push(Mode::new(words, key, PlayCommand::SetBindWeight(0.0)));
+    }
+    let crowd = session.crowd();
+    if crowd.count > 1 {
+        let words = format!("Crowd of {}", grouped(crowd.count));
+        let alone = CrowdCommand::Set {
+            count: 1,
+            seed: crowd.seed,
+        };
+        modes.push(Mode::new(words, None, alone).with_article());
     }
     if let Some(submesh) = session.submeshes().solo() {
         let name = session.submesh_name(submesh);

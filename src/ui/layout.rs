@@ -418,7 +418,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::ViewMode => {
             toolbar::view_mode_items(ui, session, commands);
         }
-        SheetPage::Light => light::show(ui, session, commands),
+        SheetPage::Light => light::show(ui, session, &mut state.cost, commands),
         SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewFrom => {
             toolbar::view_from_items(ui, session, commands);

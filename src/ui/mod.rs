@@ -2,6 +2,8 @@
 
 mod announce;
 mod chips;
+mod cost;
+mod crowd;
 mod diagnostics_panel;
 mod error_card;
 mod focus;

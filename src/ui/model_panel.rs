@@ -2,6 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use super::crowd;
 use super::icons::Icon;
 use super::skeleton::state::has_joints;
 use super::state::UiState;
@@ -37,6 +38,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     if has_maps && !subsets_first {
         textures::show(ui, session, open, state);
     }
+    rule(ui, MARGIN);
+    crowd::show(ui, session, &mut state.cost, commands);
     rule(ui, MARGIN);
     submesh_list(ui, session, open, state, commands);
     if has_maps && subsets_first {

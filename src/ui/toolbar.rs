@@ -3,6 +3,7 @@
 
 use egui::{Align2, Color32, Label, Rangef, RectAlign, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
+use super::cost::SteadyCost;
 use super::icons::Icon;
 use super::model_panel::summary;
 use super::panel::{popover, popover_menu};
@@ -10,8 +11,8 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
-    TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside, icon_button, keyed_menu_item,
-    menu_item, paint_chip, push_button, section_name, valued_menu_item,
+    ICON_SIZE, TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside, icon_button,
+    keyed_menu_item, menu_item, paint_chip, push_button, section_name, untold_icon_button, valued_menu_item,
 };
 use super::wording::{dialect_name, shortened_front};
 use super::{light, overlays, picture};
@@ -63,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
             });
         }
         view_mode_menu(ui, session, commands);
-        light_button(ui, session, commands);
+        light_button(ui, session, &mut state.cost, commands);
         overlays_button(ui, session, &mut state.skeleton, commands);
         view_from_menu(ui, session, commands);
         action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
@@ -104,8 +105,10 @@ pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, c
     });
     open_button(ui, state);
     let shown = state.sheet == Some(SheetPage::Light);
-    let button = icon_button(ui, Icon::Sun, &lighting(session), shown);
-    light::mark_button(ui, session, &button);
+    let lighting = lighting(session);
+    let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
+    let icon = button.rect.center();
+    let button = light::mark_button(ui, session, button, icon, &lighting);
     if button.clicked() {
         state.sheet = (!shown).then_some(SheetPage::Light);
     }
@@ -124,17 +127,17 @@ fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
-fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
     let button = TextButton::new(light::label(session), &lighting(session))
         .icon(Icon::Sun)
         .list()
         .width(Rangef::point(LIGHT_BUTTON_WIDTH))
         .show(ui);
-    light::mark_button(ui, session, &button);
     let other = &actions::OTHER_LIGHT;
     let hint = format!("Light and background ({}: {})", other.key(), other.does);
-    let button = button.on_hover_text(hint);
-    popover(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, commands));
+    let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
+    let button = light::mark_button(ui, session, button, icon, &hint);
+    popover(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, cost, commands));
 }
 
 fn lighting(session: &Session) -> String {

@@ -15,7 +15,7 @@ use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
 /// Side of an icon.
-const ICON_SIZE: f32 = 16.0;
+pub(crate) const ICON_SIZE: f32 = 16.0;
 /// Gap between the parts of a button.
 const GAP: f32 = 5.0;
 /// Width of the chevron of a drop-down.
@@ -27,12 +27,17 @@ const MENU_LINE: f32 = 26.0;
 
 /// A square button with an icon. `on` marks a switch that is on.
 pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+    untold_icon_button(ui, icon, label, on).on_hover_text(label)
+}
+
+/// The same without a tooltip.
+pub(crate) fn untold_icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let side = control_size(ui);
     let place = vec2(side - 2.0 * ui.spacing().button_padding.x, ICON_SIZE);
     let response = ui.add(Button::selectable(on, icon_atom(icon, place)).min_size(Vec2::splat(side)));
     focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, label));
-    response.on_hover_text(label)
+    response
 }
 
 /// The same without a state: it does something, or opens something.
@@ -245,6 +250,17 @@ const TRACK_HEIGHT: f32 = 15.0;
 /// A row with a switch at its end, and the key that does the same (or none). Painted here: egui has a check box, but no row that can
 /// be pressed as a whole with a switch at its end.
 pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Response {
+    let (key, color) = (key_hint(ui, key), Tokens::of(ui).faint);
+    noted_switch_row(ui, label, (key, theme::mono(11.0), color), on)
+}
+
+/// The same with a note in place of the key.
+pub(crate) fn noted_switch_row(
+    ui: &mut Ui,
+    label: &str,
+    (note, note_font, note_color): (&str, FontId, Color32),
+    on: bool,
+) -> Response {
     let tokens = Tokens::of(ui);
     let height = control_size(ui).max(MOUSE_CONTROL);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
@@ -257,10 +273,9 @@ pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Respo
         vec2(TRACK_WIDTH, TRACK_HEIGHT),
     );
     paint_track(ui, track, &response, on);
-    let key_at = pos2(track.min.x - 10.0, rect.center().y);
-    let key = key_hint(ui, key);
+    let note_at = pos2(track.min.x - 10.0, rect.center().y);
     ui.painter()
-        .text(key_at, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
+        .text(note_at, Align2::RIGHT_CENTER, note, note_font, note_color);
     response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
     response
 }
