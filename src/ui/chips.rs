@@ -192,10 +192,10 @@ impl Chip {
     }
 }
 
-/// Shows a chip for each mode, in rows at the top of a room.
-pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Command>) {
+/// Shows a chip for each mode, in rows at the top of a room. Returns the lower edge of the last row.
+pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Command>) -> Option<f32> {
     if session.open_model().is_none() || room.width() < 2.0 * control_size(ui) {
-        return;
+        return None;
     }
     let most = room.width() - 2.0 * PADDING - GAP - CROSS - 40.0;
     let chips: Vec<Chip> = modes(session)
@@ -211,7 +211,7 @@ pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Co
         } else {
             0.0
         };
-    let mut index = 0;
+    let (mut index, mut bottom) = (0, None);
     for row in 0.. {
         let (mut width, mut end) = (0.0, index);
         while let Some(chip) = chips.get(end)
@@ -221,10 +221,11 @@ pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Co
             end += 1;
         }
         if end == index {
-            return;
+            break;
         }
         let mut left = room.center().x - 0.5 * width;
         let y = top + row as f32 * step;
+        bottom = Some(y + 0.5 * (height + HEIGHT));
         for chip in &chips[index..end] {
             let place = Rect::from_min_size(pos2(left, y), vec2(chip.width, height));
             if chip.show(ui, index, place) {
@@ -234,4 +235,5 @@ pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Co
             index += 1;
         }
     }
+    bottom
 }

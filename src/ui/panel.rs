@@ -145,7 +145,14 @@ impl<'a> Panel<'a> {
     /// Shows it in a room, and returns the rect that it took. What is available to the contents is the room without border and
     /// margins.
     pub(super) fn show(self, ui: &Ui, room: Rect, contents: impl FnOnce(&mut Ui)) -> Rect {
-        let frame: Frame = theme::panel_frame(&Tokens::of(ui))
+        let tokens = Tokens::of(ui);
+        let fill = match self.order {
+            // It lies over other panels.
+            Order::Foreground => tokens.panel.to_opaque(),
+            _ => tokens.panel,
+        };
+        let frame: Frame = theme::panel_frame(&tokens)
+            .fill(fill)
             .inner_margin(self.margin)
             .corner_radius(self.corner_radius);
         let before = ui.memory(|memory| memory.area_rect(id_of(self.name)));

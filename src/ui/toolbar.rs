@@ -11,8 +11,9 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
-    ICON_SIZE, TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside, icon_button,
-    keyed_menu_item, menu_item, paint_chip, push_button, section_name, untold_icon_button, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside,
+    icon_button, keyed_menu_item, menu_item, paint_chip, push_button, section_name, untold_icon_button,
+    valued_menu_item,
 };
 use super::wording::{dialect_name, shortened_front};
 use super::{light, overlays, picture};
@@ -58,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         for (action, icon, label) in history(session).into_iter().filter(|_| has_room) {
             let hint = action.hint_of(&label);
             ui.add_enabled_ui(action.ask(session).is_some(), |ui| {
-                if icon_button(ui, icon, &hint, false).clicked() {
+                if push_button(ui, icon, &hint).clicked() {
                     commands.extend(action.command(session));
                 }
             });
@@ -191,12 +192,13 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
             _ => actions::key_of(session, &command),
         };
-        if keyed_menu_item(ui, preset.label(), key, false).clicked() {
+        if keyed_menu_item(ui, preset.label(), key, MenuLine::Action).clicked() {
             commands.push(command);
         }
     }
     let projection = &actions::ORTHOGRAPHIC;
-    if keyed_menu_item(ui, projection.label, projection.key(), projection.is_on(session)).clicked() {
+    let on = MenuLine::Switch(projection.is_on(session));
+    if keyed_menu_item(ui, projection.label, projection.key(), on).clicked() {
         commands.extend(projection.command(session));
     }
     commands.len() > before
@@ -240,24 +242,25 @@ fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
 fn action_items(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     for (action, _, label) in history(session) {
         if let Some(command) = action.command(session)
-            && menu_item(ui, &label, false).clicked()
+            && menu_item(ui, &label, MenuLine::Action).clicked()
         {
             commands.push(command);
             ui.close();
         }
     }
-    for action in [&actions::FRAME_MODEL, &actions::TURNTABLE] {
-        if menu_item(ui, action.label, action.is_on(session)).clicked() {
+    let turns = MenuLine::Switch(actions::TURNTABLE.is_on(session));
+    for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
+        if menu_item(ui, action.label, line).clicked() {
             commands.extend(action.command(session));
             ui.close();
         }
     }
     let (label, request) = other_theme(ui);
-    if menu_item(ui, label, false).clicked() {
+    if menu_item(ui, label, MenuLine::Action).clicked() {
         state.requests.push(request);
         ui.close();
     }
-    if menu_item(ui, actions::HELP.label, false).clicked() {
+    if menu_item(ui, actions::HELP.label, MenuLine::Action).clicked() {
         state.help_open = true;
         ui.close();
     }
@@ -275,7 +278,7 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
             ""
         };
         let on = mode == in_force && skin_view.is_none();
-        if keyed_menu_item(ui, mode.label(), key, on).clicked() {
+        if keyed_menu_item(ui, mode.label(), key, MenuLine::Choice(on)).clicked() {
             commands.push(LookCommand::SetViewMode(mode).into());
             commands.push(LookCommand::SetSkinView(None).into());
             chosen = true;
@@ -287,7 +290,8 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
         for view in SkinView::ALL {
             let on = skin_view == Some(view);
             let command = LookCommand::SetSkinView((!on).then_some(view)).into();
-            if keyed_menu_item(ui, view.label(), actions::key_of(session, &command), on).clicked() {
+            let key = actions::key_of(session, &command);
+            if keyed_menu_item(ui, view.label(), key, MenuLine::Choice(on)).clicked() {
                 commands.push(command);
                 chosen = true;
             }
@@ -353,7 +357,11 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
     popover_menu(ui, &button, RectAlign::BOTTOM_START, FILES_WIDTH, |ui| {
         for file in models {
             let is_open = file.path == path;
-            let item = menu_item(ui, &shortened_front(&file.path, MOST_OF_PATH), is_open);
+            let item = menu_item(
+                ui,
+                &shortened_front(&file.path, MOST_OF_PATH),
+                MenuLine::Choice(is_open),
+            );
             if hint_beside(item, None, &file.path).clicked() {
                 if !is_open {
                     commands.push(FileCommand::Open(file.path.clone()).into());

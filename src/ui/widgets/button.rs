@@ -138,38 +138,55 @@ impl<'a> TextButton<'a> {
     }
 }
 
-/// A line of a menu. `on` marks the current choice.
-pub(crate) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
-    menu_line(ui, text, "", theme::mono(11.0), on)
+/// What a line of a menu is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MenuLine {
+    /// It does something.
+    Action,
+    /// One of a group to choose from, and whether it is the current choice.
+    Choice(bool),
+    /// It is on or off by itself.
+    Switch(bool),
+}
+
+/// A line of a menu, or of a page of the sheet.
+pub(crate) fn menu_item(ui: &mut Ui, text: &str, line: MenuLine) -> Response {
+    menu_line(ui, text, "", theme::mono(11.0), line)
 }
 
 /// A line of a menu with the key that does the same.
-pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, on: bool) -> Response {
+pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, line: MenuLine) -> Response {
     let key = key_hint(ui, key);
-    menu_line(ui, text, key, theme::mono(11.0), on)
+    menu_line(ui, text, key, theme::mono(11.0), line)
 }
 
 /// A line of a menu that opens a page, with the current choice of that page.
 pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
-    menu_line(ui, text, value, FontId::proportional(12.0), on)
+    menu_line(ui, text, value, FontId::proportional(12.0), MenuLine::Choice(on))
 }
 
-fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: bool) -> Response {
+fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, line: MenuLine) -> Response {
     let tokens = Tokens::of(ui);
+    let on = matches!(line, MenuLine::Choice(true) | MenuLine::Switch(true));
     let words = RichText::new(text).color(if on { tokens.accent } else { tokens.text });
     let behind = RichText::new(behind).font(font_behind).color(tokens.faint);
     let height = if is_touch(ui) { TOUCH_CONTROL } else { MENU_LINE };
-    let line = Button::selectable(on, words).small().right_text(behind);
+    let button = Button::selectable(on, words).small().right_text(behind);
     // egui's menus have next to no padding.
     let padding = std::mem::replace(&mut ui.spacing_mut().button_padding.x, MENU_PADDING);
-    let response = ui.add(line.min_size(vec2(ui.available_width(), height)));
+    let response = ui.add(button.min_size(vec2(ui.available_width(), height)));
     ui.spacing_mut().button_padding.x = padding;
     focus_ring(ui, response.rect, &response);
     let in_menu = ui.stack().contained_in(UiKind::Menu);
-    response.widget_info(|| match (in_menu, on) {
-        (true, true) => WidgetInfo::selected(Role::MenuItemRadio, true, on, text),
-        (true, false) => WidgetInfo::labeled(Role::MenuItem, true, text),
-        (false, _) => WidgetInfo::selected(Role::RadioButton, true, on, text),
+    let (role, other_role) = match line {
+        MenuLine::Action => (Role::MenuItem, Role::Button),
+        MenuLine::Choice(_) => (Role::MenuItemRadio, Role::RadioButton),
+        MenuLine::Switch(_) => (Role::MenuItemCheckBox, Role::CheckBox),
+    };
+    let role = if in_menu { role } else { other_role };
+    response.widget_info(|| match line {
+        MenuLine::Action => WidgetInfo::labeled(role, true, text),
+        _ => WidgetInfo::selected(role, true, on, text),
     });
     response
 }

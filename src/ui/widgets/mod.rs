@@ -7,8 +7,8 @@ mod number;
 mod row;
 
 pub(super) use button::{
-    ICON_SIZE, TextButton, action_button, action_switch, icon_button, keyed_menu_item, menu_item, noted_switch_row,
-    push_button, segmented, switch_row, untold_icon_button, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, icon_button, keyed_menu_item, menu_item,
+    noted_switch_row, push_button, segmented, switch_row, untold_icon_button, valued_menu_item,
 };
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
