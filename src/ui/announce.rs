@@ -21,6 +21,8 @@ pub struct Announcement {
 pub(super) struct Announcer {
     seen: Option<Seen>,
     said: Vec<String>,
+    left_out: Vec<bool>,
+    left_out_revision: u64,
 }
 
 /// What of a session is told of.
@@ -42,14 +44,14 @@ struct Seen {
     /// The device is too slow for all the detail, now or before with this model.
     lowered: bool,
     undone: u64,
-    left_out: Vec<bool>,
+    left_out_revision: u64,
     overlays: Overlays,
     turntable: bool,
     crowd: CrowdState,
 }
 
 impl Seen {
-    fn of(session: &Session) -> Self {
+    fn of(session: &Session, left_out_revision: u64) -> Self {
         let (look, playback, joints) = (session.look(), session.playback(), session.joints());
         let quality = session.quality();
         Self {
@@ -70,7 +72,7 @@ impl Seen {
             time_secs: playback.time_secs(),
             lowered: quality.mode() == QualityMode::Auto && quality.lowered().is_some(),
             undone: session.history().revision(),
-            left_out: session.submeshes().left_out().to_vec(),
+            left_out_revision,
             overlays: look.overlays,
             turntable: session.turntable(),
             crowd: session.crowd(),
@@ -86,7 +88,12 @@ impl Announcer {
 
     /// What there is to tell since the last call: at most one of each kind. A failure comes first.
     pub(super) fn observe(&mut self, session: &Session) -> Vec<Announcement> {
-        let mut now = Seen::of(session);
+        let left_out = session.submeshes().left_out();
+        if self.left_out != left_out {
+            self.left_out = left_out.to_vec();
+            self.left_out_revision += 1;
+        }
+        let mut now = Seen::of(session, self.left_out_revision);
         let before = self.seen.take().unwrap_or_default();
         // Once for each model: detail comes and goes.
         now.lowered |= before.lowered && before.model == now.model;
@@ -144,8 +151,8 @@ fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
     if now.lowered && !before.lowered {
         sentences.push("The picture has less detail while it moves, for speed.".to_owned());
     }
-    if now.left_out != before.left_out {
-        sentences.push(subsets(session, &now.left_out));
+    if now.left_out_revision != before.left_out_revision {
+        sentences.push(subsets(session, session.submeshes().left_out()));
     }
     let on_off = |on| if on { "on" } else { "off" };
     for overlay in Overlay::ALL {

@@ -40,8 +40,9 @@ const MOST_BESIDE: f32 = 560.0;
 const FIGURE_REACH: f32 = 80.0;
 /// The least width beside the diagnostics in which something of a model is seen.
 const LEAST_BESIDE_DIAGNOSTICS: f32 = 200.0;
-/// On each side of the selection's name: the button that frames.
-const BESIDE_SELECTION: f32 = 100.0;
+/// The least width of the selection's name, and the room that it leaves to the button that frames.
+const LEAST_SELECTION: f32 = 88.0;
+const BESIDE_SELECTION: f32 = 110.0;
 /// The least height in which a legend leaves something to see: of the panel above a card, of the view beside a card, of the model
 /// above a strip.
 const LEAST_WITH_CARD: f32 = 220.0;
@@ -236,20 +237,23 @@ fn narrow(
         }
     }
     show_on_top(ui, session, state, &free, commands);
-    frame_button(ui, session, state, &free, commands);
-    selection_button(ui, session, state, &free);
 
     // A card stands beside a figure. Where there is no room for it, a strip stands below the model.
+    let mut beside_card = None;
     let room = free.room();
     if room.min.x + SIDE_WIDTH + FIGURE_REACH <= free.rect.center().x {
         if room.height() >= LEAST_BESIDE_CARD {
-            show_legend(ui, session, state, room, LegendShape::Card);
+            beside_card = show_legend(ui, session, state, room, LegendShape::Card);
         }
     } else if room.height() >= LEAST_WITH_STRIP
         && let Some(strip) = show_legend(ui, session, state, room, LegendShape::Strip)
     {
         free.cut_bottom(strip);
     }
+    frame_button(ui, session, state, &free, commands);
+    let room = free.room();
+    let room = beside_card.map_or(room, |card| room.with_min_x(card.max.x + MARGIN));
+    selection_button(ui, session, state, room);
     free
 }
 
@@ -476,7 +480,7 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
 }
 
 /// Names what is selected while the sheet is shut, and opens its inspector. A message takes its place.
-fn selection_button(ui: &Ui, session: &Session, state: &mut UiState, free: &Free) {
+fn selection_button(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
     let joints = session.joints();
     let submesh = session.submeshes().selected();
     let name = joints.selected().map(|joint| session.joint_label(joint));
@@ -485,12 +489,12 @@ fn selection_button(ui: &Ui, session: &Session, state: &mut UiState, free: &Free
     let Some(name) = name.filter(|_| state.sheet.is_none() && !state.messages.is_shown()) else {
         return;
     };
-    let room = free.room();
-    Panel::new("selection", "Selection", Align2::CENTER_BOTTOM)
+    Panel::new("selection", "Selection", Align2::LEFT_BOTTOM)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
             let label = format!("Show {name}");
-            let width = Rangef::new(0.0, (room.width() - 2.0 * BESIDE_SELECTION).max(BESIDE_SELECTION));
+            let most = (room.width() - BESIDE_SELECTION).max(LEAST_SELECTION);
+            let width = Rangef::new(LEAST_SELECTION, most);
             if TextButton::new(&name, &label).width(width).show(ui).clicked() {
                 state.diagnostics_open = false;
                 state.sheet = Some(SheetPage::Model);

@@ -294,9 +294,10 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
         .flatten()
         .find(|&bottom| bottom >= least)
         .unwrap_or(above(button.rect.min.y));
-    // It scrolls rather than cover the bars at the top.
+    // It scrolls rather than cover the bars at the top, unless the window is low.
     let below_bars = below_bars(ui);
-    let top = if bottom - below_bars >= LEAST_ROOM {
+    let is_low = ui.ctx().content_rect().height() < theme::LOW_HEIGHT;
+    let top = if bottom - below_bars >= LEAST_ROOM && !is_low {
         below_bars
     } else {
         window.min.y

@@ -30,8 +30,8 @@ const LIGHT_WIDTH: f32 = 288.0;
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
 /// Width of the menus of view modes and directions.
 const MENU_WIDTH: f32 = 190.0;
-/// The least room for undo and redo too, in buttons: the title has its place beside them.
-const LEAST_WITH_HISTORY: f32 = 22.0;
+/// The least room for the program's name beside that of the file.
+const LEAST_WITH_PROGRAM: f32 = 170.0;
 /// Room between buttons.
 const SPACING: f32 = 4.0;
 /// The least width that chips leave to the name of the file.
@@ -55,8 +55,7 @@ fn as_toolbar(ui: &Ui) {
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = SPACING;
-        let has_room = ui.available_width() >= LEAST_WITH_HISTORY * control_size(ui);
-        for (action, icon, label) in history(session).into_iter().filter(|_| has_room) {
+        for (action, icon, label) in history(session) {
             let hint = action.hint_of(&label);
             ui.add_enabled_ui(action.ask(session).is_some(), |ui| {
                 if push_button(ui, icon, &hint).clicked() {
@@ -307,7 +306,11 @@ pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>,
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = TITLE_SPACING;
         // A narrow bar has no room for this and for a menu of files.
-        if state.is_some() || session.models().len() < 2 {
+        let has_room = match state {
+            Some(_) => session.open_model().is_none() || ui.available_width() >= LEAST_WITH_PROGRAM,
+            None => session.models().len() < 2,
+        };
+        if has_room {
             ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
         }
         let Some(open) = session.open_model() else { return };

@@ -8,14 +8,14 @@ use egui::{
 
 use super::naming::{show_field, show_proposals};
 use super::state::{SidePage, SkeletonState, TreeState};
-use super::walk::{asks, focus_row, labelled, retain_plain_keys, row_sense, tell_row, walked};
+use super::walk::{asks, focus_row, labelled, row_sense, tell_row};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
     MenuLine, control_size, is_touch, menu_item, paint_elided, paint_fold_mark, paint_row_ground, pressed_row_height,
-    push_button, segmented, tell_popup,
+    push_button, retain_plain_keys, segmented, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
@@ -358,11 +358,11 @@ impl<'a> TreeRow<'a> {
         if !response.has_focus() {
             return None;
         }
-        let mut to = walked(ui, response, self.place, rows.len(), page);
+        let mut to = walked(ui, response.id, self.place, rows.len(), page);
         // A search shows all branches unfolded.
         let folds = self.row.has_children && state.tree.query.is_empty();
         let mut names = false;
-        retain_plain_keys(ui, |key| {
+        retain_plain_keys(ui, |key, _| {
             match key {
                 Key::ArrowLeft if folds && !self.row.folded => self.fold(true, commands),
                 Key::ArrowLeft => {
