@@ -13,11 +13,18 @@ const SHOWN_SECS: f64 = 0.25;
 pub(super) struct SteadyCost {
     shown: FrameCost,
     until_secs: f64,
+    picture: u64,
 }
 
 impl SteadyCost {
     /// The cost to show. If that is not the last frame's yet, it asks for a pass in which it will be.
     pub(super) fn read(&mut self, ui: &Ui, session: &Session) -> FrameCost {
+        // A frame is drawn after the panels: its cost is read in the next pass.
+        let rests = session.quality().rests_in_secs() == Some(0.0);
+        if self.picture != session.picture_revision() || rests {
+            self.picture = session.picture_revision();
+            ui.ctx().request_repaint();
+        }
         let cost = session.frame_cost();
         if cost != self.shown {
             let now_secs = ui.input(|input| input.time);

@@ -13,6 +13,8 @@ use crate::session::{Command, CrowdCommand, CrowdState, MAX_CROWD, Session};
 const COUNTS: [usize; 4] = [1, 10, 100, MAX_CROWD];
 /// Width of a field: the selected one of the largest crowd fits.
 const FIELD_WIDTH: f32 = 116.0;
+/// The least width of the seed beside its button.
+const SEED_WIDTH: f32 = 86.0;
 
 /// The section. One model alone has neither seed nor selection nor costs.
 pub(super) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
@@ -34,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, comman
 }
 
 fn seed_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
-    let button = control_size(ui) + ui.spacing().item_spacing.x;
+    let button = button_width(ui);
     let seed = crowd.seed.to_string();
     let read = |typed: &str| {
         let typed = typed.trim().parse::<u32>();
@@ -67,6 +69,10 @@ fn selected_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
     }
 }
 
+fn button_width(ui: &Ui) -> f32 {
+    control_size(ui) + ui.spacing().item_spacing.x
+}
+
 /// A label and a number that can be typed, with room for something behind it.
 fn field<T>(
     ui: &mut Ui,
@@ -77,12 +83,13 @@ fn field<T>(
     read: impl FnOnce(&str) -> Result<T, String>,
 ) -> Option<T> {
     let tokens = Tokens::of(ui);
-    let label_width = ui.available_width() - FIELD_WIDTH - ui.spacing().item_spacing.x;
+    let width = FIELD_WIDTH.max(SEED_WIDTH + button_width(ui));
+    let label_width = ui.available_width() - width - ui.spacing().item_spacing.x;
     let (rect, _) = ui.allocate_exact_size(vec2(label_width, control_size(ui)), Sense::hover());
     let font = FontId::proportional(13.0);
     ui.painter()
         .text(rect.left_center(), Align2::LEFT_CENTER, name, font, tokens.muted);
-    let value = TypedValue::new(ui, name, text, typed).width(FIELD_WIDTH - behind);
+    let value = TypedValue::new(ui, name, text, typed).width(width - behind);
     let (read, response) = value.show(ui, read);
     response.on_hover_text("Click to type");
     read

@@ -1,7 +1,7 @@
 //! The crowd in the model panel, and what a frame of it costs.
 
 use bindpose::scene::FrameCost;
-use bindpose::session::CrowdCommand;
+use bindpose::session::{CrowdCommand, LookCommand};
 use bindpose::ui::SheetPage;
 use egui::accesskit::{Action, ActionData, Role, Toggled};
 use egui::{Key, Modifiers, vec2};
@@ -125,6 +125,22 @@ fn the_cost_of_a_frame_is_read_and_a_window_at_rest_asks_for_no_pass() {
         "{:?}",
         window.harness.ctx.repaint_causes()
     );
+}
+
+#[test]
+fn the_cost_of_a_single_frame_at_rest_is_read_too() {
+    let mut window = open();
+    window.apply(CrowdCommand::Set { count: 100, seed: 1 });
+    window.harness.run();
+    // A program changes the picture. The window draws it after the panels of that pass.
+    let session = &mut window.harness.state_mut().session;
+    session.apply(LookCommand::SetExposure(1.0));
+    window.harness.step();
+    draw_frame(&mut window, COST);
+    assert!(window.harness.ctx.has_requested_repaint());
+    window.harness.run();
+    assert!(window.shows("Vertices a frame 1\u{2009}234\u{2009}567"));
+    assert!(!window.harness.ctx.has_requested_repaint());
 }
 
 #[test]
