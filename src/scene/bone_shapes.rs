@@ -40,6 +40,7 @@ enum State {
 
 impl State {
     const ALL: [Self; 4] = [Self::Plain, Self::ChildOfSelected, Self::Hovered, Self::Selected];
+    const MARKED: [Self; 2] = [Self::Hovered, Self::Selected];
 
     fn of(joint: JointIndex, bones: &Bones, marked: MarkedJoints) -> Self {
         let parent = bones.parents().get(joint.index()).copied().flatten();
@@ -124,9 +125,33 @@ pub fn draw_bones(
     colors: BoneColors,
     out: &mut OverlayGeometry,
 ) {
+    draw_states(&State::ALL, bones, style, marked, colors, out);
+}
+
+/// Appends only the bones of the hovered and of the selected joint.
+pub fn draw_marked_bones(
+    bones: &Bones,
+    style: BoneStyle,
+    marked: MarkedJoints,
+    colors: BoneColors,
+    out: &mut OverlayGeometry,
+) {
+    if marked != MarkedJoints::default() {
+        draw_states(&State::MARKED, bones, style, marked, colors, out);
+    }
+}
+
+fn draw_states(
+    states: &[State],
+    bones: &Bones,
+    style: BoneStyle,
+    marked: MarkedJoints,
+    colors: BoneColors,
+    out: &mut OverlayGeometry,
+) {
     let crowding = (CROWDED_FROM / bones.bones().len().max(1) as f32).sqrt();
     let thinness = crowding.clamp(LEAST_THICKNESS, 1.0);
-    for state in State::ALL {
+    for &state in states {
         let color = colors.get(state);
         let in_state = bones
             .bones()

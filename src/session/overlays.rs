@@ -11,7 +11,9 @@ use super::open_model::OpenModel;
 use super::skeleton_cache::{SkeletonCache, SkinColorsKey};
 use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
 use crate::model::{JointIndex, Model};
-use crate::scene::{BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, joint_colors};
+use crate::scene::{
+    BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, draw_marked_bones, joint_colors,
+};
 
 /// How opaque the nearest ghost is, and the farthest.
 const GHOST_ALPHA: [u8; 2] = [110, 40];
@@ -106,6 +108,15 @@ impl OverlayCache {
         let bone_colors = BoneColors::of(theme);
         if look.bones_visible {
             skeleton.draw_bones(look.bone_style, marked, bone_colors, &mut self.geometry);
+        } else if look.skin_view.is_none() {
+            // Colours of the skin tell by themselves which bone they are of.
+            draw_marked_bones(
+                skeleton.bones(),
+                look.bone_style,
+                marked,
+                bone_colors,
+                &mut self.geometry,
+            );
         }
         let Some(open) = open else { return };
         if look.trails.is_empty() || actor.clip.is_none() {

@@ -2,7 +2,7 @@
 
 use crate::model::JointIndex;
 use crate::scene::{Light, Overlay, Overlays, ViewMode};
-use crate::session::{QualityMode, Session};
+use crate::session::{CrowdState, QualityMode, Session};
 
 use super::wording::{counted, grouped};
 use crate::anim::SkinView;
@@ -21,6 +21,8 @@ pub struct Announcement {
 pub(super) struct Announcer {
     seen: Option<Seen>,
     said: Vec<String>,
+    left_out: Vec<bool>,
+    left_out_revision: u64,
 }
 
 /// What of a session is told of.
@@ -42,13 +44,14 @@ struct Seen {
     /// The device is too slow for all the detail, now or before with this model.
     lowered: bool,
     undone: u64,
-    left_out: Vec<bool>,
+    left_out_revision: u64,
     overlays: Overlays,
     turntable: bool,
+    crowd: CrowdState,
 }
 
 impl Seen {
-    fn of(session: &Session) -> Self {
+    fn of(session: &Session, left_out_revision: u64) -> Self {
         let (look, playback, joints) = (session.look(), session.playback(), session.joints());
         let quality = session.quality();
         Self {
@@ -69,9 +72,10 @@ impl Seen {
             time_secs: playback.time_secs(),
             lowered: quality.mode() == QualityMode::Auto && quality.lowered().is_some(),
             undone: session.history().revision(),
-            left_out: session.submeshes().left_out().to_vec(),
+            left_out_revision,
             overlays: look.overlays,
             turntable: session.turntable(),
+            crowd: session.crowd(),
         }
     }
 }
@@ -84,7 +88,12 @@ impl Announcer {
 
     /// What there is to tell since the last call: at most one of each kind. A failure comes first.
     pub(super) fn observe(&mut self, session: &Session) -> Vec<Announcement> {
-        let mut now = Seen::of(session);
+        let left_out = session.submeshes().left_out();
+        if self.left_out != left_out {
+            self.left_out = left_out.to_vec();
+            self.left_out_revision += 1;
+        }
+        let mut now = Seen::of(session, self.left_out_revision);
         let before = self.seen.take().unwrap_or_default();
         // Once for each model: detail comes and goes.
         now.lowered |= before.lowered && before.model == now.model;
@@ -142,8 +151,8 @@ fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
     if now.lowered && !before.lowered {
         sentences.push("The picture has less detail while it moves, for speed.".to_owned());
     }
-    if now.left_out != before.left_out {
-        sentences.push(subsets(session, &now.left_out));
+    if now.left_out_revision != before.left_out_revision {
+        sentences.push(subsets(session, session.submeshes().left_out()));
     }
     let on_off = |on| if on { "on" } else { "off" };
     for overlay in Overlay::ALL {
@@ -155,6 +164,7 @@ fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
     if now.turntable != before.turntable {
         sentences.push(format!("Turntable {}.", on_off(now.turntable)));
     }
+    sentences.extend(crowd(&before.crowd, &now.crowd));
     if now.undone != before.undone
         && let Some(what) = session.history().last()
     {
@@ -234,6 +244,20 @@ fn subsets(session: &Session, left_out: &[bool]) -> String {
     }
 }
 
+/// How many there are, if that changed; or else which is selected.
+fn crowd(before: &CrowdState, now: &CrowdState) -> Option<String> {
+    let count = grouped(now.count);
+    if now.count == 1 {
+        (before.count > 1).then(|| "One model, no crowd.".to_owned())
+    } else if now.count != before.count {
+        Some(format!("A crowd of {count}."))
+    } else if now.selected != before.selected {
+        Some(format!("Number {} of {count}.", grouped(now.selected + 1)))
+    } else {
+        (now.seed != before.seed).then(|| format!("Another crowd of {count}, seed {}.", now.seed))
+    }
+}
+
 fn time(session: &Session) -> String {
     let secs = session.playback().time_secs();
     match session.clip() {
@@ -248,6 +272,10 @@ pub fn view_in_words(session: &Session) -> String {
         return "3D view, no model is open".to_owned();
     };
     let mut parts = vec![open.file.base_name().to_owned()];
+    let crowd = session.crowd();
+    if crowd.count > 1 {
+        parts.push(format!("crowd of {}", grouped(crowd.count)));
+    }
     if let Some(clip) = session.clip() {
         parts.push(clip.name.clone());
         parts.push(if session.playback().is_playing() {
@@ -281,7 +309,9 @@ fn lower_bone(label: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::{CameraCommand, File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
+    use crate::session::{
+        CameraCommand, CrowdCommand, File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand,
+    };
 
     const SKINNED: &[u8] = include_bytes!("../../tests/fixtures/good/d3d12_skinned.m3d");
 
@@ -379,6 +409,29 @@ mod tests {
         assert_says(&mut announcer, &session, "Wireframe on.");
         session.apply(CameraCommand::SetTurntable(true));
         assert_says(&mut announcer, &session, "Turntable on.");
+    }
+
+    #[test]
+    fn a_crowd_is_told_with_its_size_its_seed_and_who_is_selected() {
+        let (mut session, mut announcer) = open();
+        session.apply(CrowdCommand::Set { count: 100, seed: 1 });
+        assert_says(&mut announcer, &session, "A crowd of 100.");
+        assert!(view_in_words(&session).starts_with("arm.m3d, crowd of 100, "));
+        session.apply(CrowdCommand::Select(36));
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(text.contains("Number 37 of 100."), "{text}");
+        session.apply(CrowdCommand::Set { count: 100, seed: 2 });
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(text.contains("Another crowd of 100, seed 2."), "{text}");
+        session.apply(CrowdCommand::Set { count: 1, seed: 2 });
+        let [(text, false)] = &told(&mut announcer, &session)[..] else {
+            panic!("one polite sentence");
+        };
+        assert!(text.contains("One model, no crowd."), "{text}");
     }
 
     #[test]

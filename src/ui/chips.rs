@@ -6,9 +6,10 @@ use std::sync::Arc;
 use super::icons::{self, Icon};
 use super::theme::{self, Tokens};
 use super::widgets::{control_size, focus_ring, is_touch};
+use super::wording::grouped;
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
-use crate::session::{Command, LookCommand, PlayCommand, Session, SubmeshCommand};
+use crate::session::{Command, CrowdCommand, LookCommand, PlayCommand, Session, SubmeshCommand};
 
 /// Height of a chip that is drawn. Its target is as high as a control.
 const HEIGHT: f32 = 24.0;
@@ -76,6 +77,15 @@ fn modes(session: &Session) -> Vec<Mode> {
         };
         let key = Some(&actions::BIND_POSE).filter(|_| bind_weight >= 0.5);
         modes.push(Mode::new(words, key, PlayCommand::SetBindWeight(0.0)));
+    }
+    let crowd = session.crowd();
+    if crowd.count > 1 {
+        let words = format!("Crowd of {}", grouped(crowd.count));
+        let alone = CrowdCommand::Set {
+            count: 1,
+            seed: crowd.seed,
+        };
+        modes.push(Mode::new(words, None, alone).with_article());
     }
     if let Some(submesh) = session.submeshes().solo() {
         let name = session.submesh_name(submesh);
@@ -182,10 +192,10 @@ impl Chip {
     }
 }
 
-/// Shows a chip for each mode, in rows at the top of a room.
-pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Command>) {
+/// Shows a chip for each mode, in rows at the top of a room. Returns the lower edge of the last row.
+pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Command>) -> Option<f32> {
     if session.open_model().is_none() || room.width() < 2.0 * control_size(ui) {
-        return;
+        return None;
     }
     let most = room.width() - 2.0 * PADDING - GAP - CROSS - 40.0;
     let chips: Vec<Chip> = modes(session)
@@ -201,7 +211,7 @@ pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Co
         } else {
             0.0
         };
-    let mut index = 0;
+    let (mut index, mut bottom) = (0, None);
     for row in 0.. {
         let (mut width, mut end) = (0.0, index);
         while let Some(chip) = chips.get(end)
@@ -211,10 +221,11 @@ pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Co
             end += 1;
         }
         if end == index {
-            return;
+            break;
         }
         let mut left = room.center().x - 0.5 * width;
         let y = top + row as f32 * step;
+        bottom = Some(y + 0.5 * (height + HEIGHT));
         for chip in &chips[index..end] {
             let place = Rect::from_min_size(pos2(left, y), vec2(chip.width, height));
             if chip.show(ui, index, place) {
@@ -224,4 +235,5 @@ pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Co
             index += 1;
         }
     }
+    bottom
 }

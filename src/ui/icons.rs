@@ -2,7 +2,7 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
 
 /// Line weight in points.
 const LINE_WIDTH: f32 = 1.4;
@@ -38,6 +38,8 @@ pub(super) enum Icon {
     Blend,
     /// One more.
     Plus,
+    /// Others by chance.
+    Dice,
     /// Stop at the end.
     Once,
     /// Start over at the end.
@@ -288,6 +290,12 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
         Icon::Plus => {
             line(&[(8.0, 3.4), (8.0, 12.6)]);
             line(&[(3.4, 8.0), (12.6, 8.0)]);
+        }
+        Icon::Dice => {
+            painter.rect_stroke(box_of(2.6, 2.6, 13.4, 13.4), 2.4, stroke, StrokeKind::Middle);
+            for (x, y) in [(5.4, 5.4), (8.0, 8.0), (10.6, 10.6)] {
+                painter.circle_filled(at(x, y), 1.1, color);
+            }
         }
         Icon::ChevronDown => line(&[(4.6, 6.4), (8.0, 9.8), (11.4, 6.4)]),
         Icon::Dots => {

@@ -4,7 +4,7 @@
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
 //! the model is framed.
 
-use egui::{Align2, Id, Margin, Rect, Role, Sides, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align2, Id, Margin, Rangef, Rect, Role, Sides, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::icons::Icon;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
@@ -13,6 +13,8 @@ use super::skeleton::state::{SidePage, has_joints, is_inspected};
 use super::skeleton::{self, LegendShape};
 use super::state::{SheetPage, UiState};
 use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
+use super::widgets::TextButton;
+use super::wording::grouped;
 use super::{
     diagnostics_panel, error_card, focus, help, inspector, light, model_panel, overlays, picture, timeline, toolbar,
     widgets,
@@ -38,6 +40,9 @@ const MOST_BESIDE: f32 = 560.0;
 const FIGURE_REACH: f32 = 80.0;
 /// The least width beside the diagnostics in which something of a model is seen.
 const LEAST_BESIDE_DIAGNOSTICS: f32 = 200.0;
+/// The least width of the selection's name, and the room that it leaves to the button that frames.
+const LEAST_SELECTION: f32 = 88.0;
+const BESIDE_SELECTION: f32 = 110.0;
 /// The least height in which a legend leaves something to see: of the panel above a card, of the view beside a card, of the model
 /// above a strip.
 const LEAST_WITH_CARD: f32 = 220.0;
@@ -65,6 +70,11 @@ impl Arrangement {
             Self::Narrow
         }
     }
+}
+
+/// Whether the panels stand around the view.
+pub(super) fn is_wide(window: Rect) -> bool {
+    Arrangement::of(window) == Arrangement::Wide
 }
 
 /// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
@@ -227,19 +237,23 @@ fn narrow(
         }
     }
     show_on_top(ui, session, state, &free, commands);
-    frame_button(ui, session, state, &free, commands);
 
     // A card stands beside a figure. Where there is no room for it, a strip stands below the model.
+    let mut beside_card = None;
     let room = free.room();
     if room.min.x + SIDE_WIDTH + FIGURE_REACH <= free.rect.center().x {
         if room.height() >= LEAST_BESIDE_CARD {
-            show_legend(ui, session, state, room, LegendShape::Card);
+            beside_card = show_legend(ui, session, state, room, LegendShape::Card);
         }
     } else if room.height() >= LEAST_WITH_STRIP
         && let Some(strip) = show_legend(ui, session, state, room, LegendShape::Strip)
     {
         free.cut_bottom(strip);
     }
+    frame_button(ui, session, state, &free, commands);
+    let room = free.room();
+    let room = beside_card.map_or(room, |card| room.with_min_x(card.max.x + MARGIN));
+    selection_button(ui, session, state, room);
     free
 }
 
@@ -418,7 +432,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::ViewMode => {
             toolbar::view_mode_items(ui, session, commands);
         }
-        SheetPage::Light => light::show(ui, session, commands),
+        SheetPage::Light => light::show(ui, session, &mut state.cost, commands),
         SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewFrom => {
             toolbar::view_from_items(ui, session, commands);
@@ -461,6 +475,29 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
             let button = widgets::TextButton::new("Frame", action.label).icon(Icon::Frame);
             if button.show(ui).on_hover_text(action.hint()).clicked() {
                 commands.extend(action.command(session));
+            }
+        });
+}
+
+/// Names what is selected while the sheet is shut, and opens its inspector. A message takes its place.
+fn selection_button(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
+    let joints = session.joints();
+    let submesh = session.submeshes().selected();
+    let name = joints.selected().map(|joint| session.joint_label(joint));
+    let name = name.or_else(|| Some(format!("Vertex {}", grouped(joints.selected_vertex()?.vertex as usize))));
+    let name = name.or_else(|| Some(session.submesh_name(submesh?).to_owned()));
+    let Some(name) = name.filter(|_| state.sheet.is_none() && !state.messages.is_shown()) else {
+        return;
+    };
+    Panel::new("selection", "Selection", Align2::LEFT_BOTTOM)
+        .margin(Margin::same(3))
+        .show(ui, room, |ui| {
+            let label = format!("Show {name}");
+            let most = (room.width() - BESIDE_SELECTION).max(LEAST_SELECTION);
+            let width = Rangef::new(LEAST_SELECTION, most);
+            if TextButton::new(&name, &label).width(width).show(ui).clicked() {
+                state.diagnostics_open = false;
+                state.sheet = Some(SheetPage::Model);
             }
         });
 }

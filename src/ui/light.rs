@@ -1,16 +1,18 @@
 //! The light, the background, the passes that cost time, and how fine a moving picture is.
 
-use egui::{Align2, Color32, FontId, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Pos2, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use super::cost::SteadyCost;
 use super::icons::Icon;
 use super::panel::popover_gap;
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, color_picker, control_size, keyed_section_name, paint_elided, paint_ends, pressed_row, push_button,
-    section_name, segmented, switch_row,
+    Slider, color_picker, control_size, keyed_section_name, noted_switch_row, paint_elided, push_button, section_name,
+    segmented, switch_row, value_row,
 };
+use super::wording::milliseconds;
 use crate::actions;
-use crate::scene::{Background, Detail, Light, Pass};
+use crate::scene::{Background, Detail, Light, Pass, TimedPass};
 use crate::session::{
     Command, FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode,
     Session,
@@ -28,22 +30,23 @@ pub(super) fn label(session: &Session) -> &'static str {
     }
 }
 
-/// Puts a dot on the button while the device is too slow for all the detail, and says so in a tooltip.
-pub(super) fn mark_button(ui: &Ui, session: &Session, button: &Response) {
+/// Puts a dot at the button's icon while the device is too slow for all the detail, and says so below the tooltip's words.
+pub(super) fn mark_button(ui: &Ui, session: &Session, button: Response, icon: Pos2, words: &str) -> Response {
     let quality = session.quality();
     let lowered = quality.lowered().filter(|_| quality.mode() == QualityMode::Auto);
-    if let Some(lowered) = lowered {
-        let note = format!("While it moves: {}", lowered_words(&lowered));
-        let at = pos2(button.rect.max.x - 4.0, button.rect.min.y + 4.0);
-        ui.painter().circle_filled(at, 3.0, Tokens::of(ui).warning);
-        ui.ctx()
-            .accesskit_node_builder(button.id, |node| node.set_description(note.as_str()));
-        button.clone().on_hover_text(note);
-    }
+    let Some(lowered) = lowered else {
+        return button.on_hover_text(words);
+    };
+    let note = format!("While it moves: {}", lowered_words(&lowered));
+    ui.painter()
+        .circle_filled(icon + vec2(7.0, -7.0), 3.0, Tokens::of(ui).warning);
+    ui.ctx()
+        .accesskit_node_builder(button.id, |node| node.set_description(note.as_str()));
+    button.on_hover_text(format!("{words}\n{note}"))
 }
 
 /// The popover's contents.
-pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
     let look = session.look();
     keyed_section_name(ui, "Light", actions::OTHER_LIGHT.key());
     let lights = Light::ALL.map(|light| (light, light.label()));
@@ -75,6 +78,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) 
     passes(ui, session, commands);
     popover_gap(ui);
     quality(ui, session, commands);
+    pass_times(ui, session, cost);
 }
 
 fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
@@ -149,16 +153,10 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
 
 /// The passes: which are on, and for which the device is too slow.
 fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let tokens = Tokens::of(ui);
     section_name(ui, "Passes");
     let quality = session.quality();
     for pass in Pass::ALL {
         let state = quality.state(pass);
-        let (words, color) = match state {
-            PassState::Drawn => ("on", tokens.text),
-            PassState::Off => ("off", tokens.faint),
-            PassState::TooSlow => ("at rest", tokens.warning),
-        };
         let (choice, hint) = match state {
             PassState::Drawn => (PassChoice::Off, "Leave it out"),
             PassState::Off => (PassChoice::Auto, "Draw it"),
@@ -167,7 +165,15 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 "Too slow here while the picture moves. Draw it however long frames take",
             ),
         };
-        if pass_row(ui, pass.label(), words, color).on_hover_text(hint).clicked() {
+        let too_slow = state == PassState::TooSlow;
+        let note = if too_slow { "at rest" } else { "" };
+        let note_style = (note, FontId::proportional(12.0), Tokens::of(ui).warning);
+        let row = noted_switch_row(ui, pass.label(), note_style, state == PassState::Drawn);
+        if too_slow {
+            ui.ctx()
+                .accesskit_node_builder(row.id, |node| node.set_description("Drawn only at rest"));
+        }
+        if row.on_hover_text(hint).clicked() {
             commands.push(QualityCommand::SetPass(pass, choice).into());
         }
     }
@@ -215,9 +221,15 @@ fn lowered_words(lowered: &Lowered) -> String {
     }
 }
 
-fn pass_row(ui: &mut Ui, label: &str, words: &str, color: Color32) -> Response {
-    let (rect, response) = pressed_row(ui, false);
-    paint_ends(ui, rect, (label, Tokens::of(ui).text), (words, color));
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {words}")));
-    response
+/// What the GPU spent on each pass of a frame, where it tells that.
+fn pass_times(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {
+    let Some(gpu_secs) = cost.read(ui, session).gpu_secs else {
+        return;
+    };
+    popover_gap(ui);
+    section_name(ui, "GPU time of a frame");
+    for (pass, secs) in TimedPass::ALL.into_iter().zip(gpu_secs) {
+        value_row(ui, pass.label(), &milliseconds(secs));
+    }
+    value_row(ui, "Together", &milliseconds(gpu_secs.iter().sum()));
 }

@@ -5,7 +5,7 @@ use egui::{Align2, Label, Margin, Rangef, Rect, RichText, Ui};
 use super::icons::Icon;
 use super::panel::Panel;
 use super::theme::Tokens;
-use super::widgets::{TextButton, control_size, icon_button};
+use super::widgets::{TextButton, control_size, push_button};
 
 /// How long a message is shown. The time begins anew while the pointer is over it or one of its buttons has the focus.
 const SHOWN_SECS: f64 = 6.0;
@@ -51,6 +51,11 @@ impl Messages {
         });
     }
 
+    /// Whether there is one to show.
+    pub(super) fn is_shown(&self) -> bool {
+        self.shown.is_some()
+    }
+
     /// The words of a message that no call before returned, for a screen reader.
     pub fn take_spoken(&mut self) -> Option<String> {
         let is_new = std::mem::take(&mut self.unspoken);
@@ -68,6 +73,8 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
     let ends_secs = *message.ends_secs.get_or_insert(now_secs + SHOWN_SECS);
     if now_secs >= ends_secs || room.width() < LEAST_WIDTH {
         messages.shown = None;
+        // What it stood in the place of comes back.
+        ui.ctx().request_repaint();
         return false;
     }
     let (mut shut, mut saves, mut held) = (false, false, false);
@@ -96,7 +103,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
                     saves = button.clicked();
                     held |= button.has_focus();
                 }
-                let cross = icon_button(ui, Icon::Close, "Close the message", false);
+                let cross = push_button(ui, Icon::Close, "Close the message");
                 shut = cross.clicked();
                 held |= cross.has_focus();
             });

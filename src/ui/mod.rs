@@ -2,6 +2,8 @@
 
 mod announce;
 mod chips;
+mod cost;
+mod crowd;
 mod diagnostics_panel;
 mod error_card;
 mod focus;
@@ -46,6 +48,9 @@ use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCom
 use input::{Grip, InputOrder, MOST_PASSES};
 use state::Framed;
 use theme::MARGIN;
+
+/// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
+const LEAST_BELOW_CHIPS: f32 = 0.2;
 
 /// Gives a context what the interface needs: fonts, styles, and the order of input.
 pub fn install(ctx: &egui::Context) {
@@ -96,9 +101,15 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.hovered_submesh = None;
     state.timeline.update(session);
     state.offers_frame &= !session.is_framed() && session.open_model().is_some();
-    let (free, uncovered) = layout::show(ui, session, state, &mut commands);
+    let (mut free, uncovered) = layout::show(ui, session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
-    chips::show(ui, session, uncovered, &mut commands);
+    if let Some(bottom) = chips::show(ui, session, uncovered, &mut commands)
+        && !layout::is_wide(window)
+        && free.max.y - bottom >= LEAST_BELOW_CHIPS * window.height()
+    {
+        // In a narrow window they would lie over the model's head.
+        free.min.y = free.min.y.max(bottom + MARGIN);
+    }
     if message::show(ui, &mut state.messages, uncovered) {
         state.requests.push(Request::SavePictureAs);
     }
@@ -205,7 +216,7 @@ fn insets(window: Rect, free: Rect) -> Insets {
     Insets {
         left: left / window.width(),
         right: right / window.width(),
-        top: (top / window.height()).clamp(0.0, 0.3),
+        top: (top / window.height()).clamp(0.0, 0.4),
         bottom: (bottom / window.height()).clamp(0.0, 0.75),
     }
 }

@@ -1,15 +1,17 @@
 //! The open model: counts, handedness, up axis, size, diagnostics, maps, submeshes.
 
+use egui::accesskit::HasPopup;
 use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use super::crowd;
 use super::icons::Icon;
 use super::skeleton::state::has_joints;
 use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_elided, paint_swatch, pressed_row,
-    row_icon, rule, section_with_action, value_row,
+    MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_elided, paint_swatch,
+    pressed_row, row_icon, rule, section_with_action, tell_popup, value_row,
 };
 use super::wording::{counted, dialect_name, grouped, measured};
 use crate::diagnostic::Severity;
@@ -38,7 +40,15 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         textures::show(ui, session, open, state);
     }
     rule(ui, MARGIN);
+    if !subsets_first {
+        crowd::show(ui, session, &mut state.cost, commands);
+        rule(ui, MARGIN);
+    }
     submesh_list(ui, session, open, state, commands);
+    if subsets_first {
+        rule(ui, MARGIN);
+        crowd::show(ui, session, &mut state.cost, commands);
+    }
     if has_maps && subsets_first {
         rule(ui, MARGIN);
         textures::show(ui, session, open, state);
@@ -71,14 +81,15 @@ fn space_rows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     };
     let chosen = session.handedness_override();
     let row = choice_row(ui, "Handedness", hand(session.handedness()), how(chosen.is_some()));
-    Popup::menu(&row).show(|ui| {
+    let name = tell_popup(ui, &row, HasPopup::Menu);
+    Popup::menu(&row).accessible_name(name).show(|ui| {
         ui.set_width(150.0);
         for (label, choice) in [
             ("As found", None),
             ("Left-handed", Some(Handedness::Left)),
             ("Right-handed", Some(Handedness::Right)),
         ] {
-            if menu_item(ui, label, chosen == choice).clicked() {
+            if menu_item(ui, label, MenuLine::Choice(chosen == choice)).clicked() {
                 commands.push(Command::SetHandedness(choice));
                 ui.close();
             }
@@ -91,10 +102,11 @@ fn space_rows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     };
     let chosen = session.up_axis_override();
     let row = choice_row(ui, "Up axis", axis(session.up_axis()), how(chosen.is_some()));
-    Popup::menu(&row).show(|ui| {
+    let name = tell_popup(ui, &row, HasPopup::Menu);
+    Popup::menu(&row).accessible_name(name).show(|ui| {
         ui.set_width(150.0);
         for (label, choice) in [("As found", None), ("Y up", Some(UpAxis::Y)), ("Z up", Some(UpAxis::Z))] {
-            if menu_item(ui, label, chosen == choice).clicked() {
+            if menu_item(ui, label, MenuLine::Choice(chosen == choice)).clicked() {
                 commands.push(Command::SetUpAxis(choice));
                 ui.close();
             }

@@ -145,7 +145,14 @@ impl<'a> Panel<'a> {
     /// Shows it in a room, and returns the rect that it took. What is available to the contents is the room without border and
     /// margins.
     pub(super) fn show(self, ui: &Ui, room: Rect, contents: impl FnOnce(&mut Ui)) -> Rect {
-        let frame: Frame = theme::panel_frame(&Tokens::of(ui))
+        let tokens = Tokens::of(ui);
+        let fill = match self.order {
+            // It lies over other panels.
+            Order::Foreground => tokens.panel.to_opaque(),
+            _ => tokens.panel,
+        };
+        let frame: Frame = theme::panel_frame(&tokens)
+            .fill(fill)
             .inner_margin(self.margin)
             .corner_radius(self.corner_radius);
         let before = ui.memory(|memory| memory.area_rect(id_of(self.name)));
@@ -287,9 +294,10 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
         .flatten()
         .find(|&bottom| bottom >= least)
         .unwrap_or(above(button.rect.min.y));
-    // It scrolls rather than cover the bars at the top.
+    // It scrolls rather than cover the bars at the top, unless the window is low.
     let below_bars = below_bars(ui);
-    let top = if bottom - below_bars >= LEAST_ROOM {
+    let is_low = ui.ctx().content_rect().height() < theme::LOW_HEIGHT;
+    let top = if bottom - below_bars >= LEAST_ROOM && !is_low {
         below_bars
     } else {
         window.min.y

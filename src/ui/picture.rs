@@ -5,7 +5,7 @@ use egui::{Rangef, Ui, vec2};
 use super::panel::popover_gap;
 use super::state::{MAX_PICTURE_SIDE, PictureChoice, UiState};
 use super::theme::Tokens;
-use super::widgets::{TextButton, control_size, menu_item, number_field, section_name, switch_row};
+use super::widgets::{MenuLine, TextButton, control_size, menu_item, number_field, section_name, switch_row};
 use crate::actions;
 use crate::session::Session;
 
@@ -20,11 +20,11 @@ const PRESETS: [(&str, [u32; 2]); 3] = [
 pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     let size = state.picture.size_in_pixels(ui);
     section_name(ui, "Picture");
-    if menu_item(ui, "As the window", state.picture.size.is_none()).clicked() {
+    if menu_item(ui, "As the window", MenuLine::Choice(state.picture.size.is_none())).clicked() {
         state.picture.size = None;
     }
     for (label, preset) in PRESETS {
-        if menu_item(ui, label, state.picture.size == Some(preset)).clicked() {
+        if menu_item(ui, label, MenuLine::Choice(state.picture.size == Some(preset))).clicked() {
             state.picture.size = Some(preset);
         }
     }

@@ -3,6 +3,7 @@
 use egui::{Rect, Ui};
 
 use super::announce::{Announcement, Announcer};
+use super::cost::SteadyCost;
 use super::focus::Focus;
 use super::input::{Grip, Keyboard};
 use super::message::Messages;
@@ -88,6 +89,7 @@ pub struct UiState {
     /// How much contrast the person asks for.
     pub contrast: Contrast,
     pub(super) sheet_height: SheetHeight,
+    pub(super) cost: SteadyCost,
     /// The camera was moved by hand, and the panels have changed since: a button offers to frame the model.
     pub(super) offers_frame: bool,
     pub(super) coarse_pointer: bool,

@@ -3,6 +3,7 @@
 
 use egui::{Align2, Color32, Label, Rangef, RectAlign, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
+use super::cost::SteadyCost;
 use super::icons::Icon;
 use super::model_panel::summary;
 use super::panel::{popover, popover_menu};
@@ -10,8 +11,9 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
-    TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside, icon_button, keyed_menu_item,
-    menu_item, paint_chip, push_button, section_name, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside,
+    icon_button, keyed_menu_item, menu_item, paint_chip, push_button, section_name, untold_icon_button,
+    valued_menu_item,
 };
 use super::wording::{dialect_name, shortened_front};
 use super::{light, overlays, picture};
@@ -28,8 +30,8 @@ const LIGHT_WIDTH: f32 = 288.0;
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
 /// Width of the menus of view modes and directions.
 const MENU_WIDTH: f32 = 190.0;
-/// The least room for undo and redo too, in buttons: the title has its place beside them.
-const LEAST_WITH_HISTORY: f32 = 22.0;
+/// The least room for the program's name beside that of the file.
+const LEAST_WITH_PROGRAM: f32 = 170.0;
 /// Room between buttons.
 const SPACING: f32 = 4.0;
 /// The least width that chips leave to the name of the file.
@@ -53,17 +55,16 @@ fn as_toolbar(ui: &Ui) {
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = SPACING;
-        let has_room = ui.available_width() >= LEAST_WITH_HISTORY * control_size(ui);
-        for (action, icon, label) in history(session).into_iter().filter(|_| has_room) {
+        for (action, icon, label) in history(session) {
             let hint = action.hint_of(&label);
             ui.add_enabled_ui(action.ask(session).is_some(), |ui| {
-                if icon_button(ui, icon, &hint, false).clicked() {
+                if push_button(ui, icon, &hint).clicked() {
                     commands.extend(action.command(session));
                 }
             });
         }
         view_mode_menu(ui, session, commands);
-        light_button(ui, session, commands);
+        light_button(ui, session, &mut state.cost, commands);
         overlays_button(ui, session, &mut state.skeleton, commands);
         view_from_menu(ui, session, commands);
         action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
@@ -104,8 +105,10 @@ pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, c
     });
     open_button(ui, state);
     let shown = state.sheet == Some(SheetPage::Light);
-    let button = icon_button(ui, Icon::Sun, &lighting(session), shown);
-    light::mark_button(ui, session, &button);
+    let lighting = lighting(session);
+    let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
+    let icon = button.rect.center();
+    let button = light::mark_button(ui, session, button, icon, &lighting);
     if button.clicked() {
         state.sheet = (!shown).then_some(SheetPage::Light);
     }
@@ -124,17 +127,17 @@ fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
-fn light_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
     let button = TextButton::new(light::label(session), &lighting(session))
         .icon(Icon::Sun)
         .list()
         .width(Rangef::point(LIGHT_BUTTON_WIDTH))
         .show(ui);
-    light::mark_button(ui, session, &button);
     let other = &actions::OTHER_LIGHT;
     let hint = format!("Light and background ({}: {})", other.key(), other.does);
-    let button = button.on_hover_text(hint);
-    popover(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, commands));
+    let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
+    let button = light::mark_button(ui, session, button, icon, &hint);
+    popover(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, cost, commands));
 }
 
 fn lighting(session: &Session) -> String {
@@ -188,12 +191,13 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
             _ => actions::key_of(session, &command),
         };
-        if keyed_menu_item(ui, preset.label(), key, false).clicked() {
+        if keyed_menu_item(ui, preset.label(), key, MenuLine::Action).clicked() {
             commands.push(command);
         }
     }
     let projection = &actions::ORTHOGRAPHIC;
-    if keyed_menu_item(ui, projection.label, projection.key(), projection.is_on(session)).clicked() {
+    let on = MenuLine::Switch(projection.is_on(session));
+    if keyed_menu_item(ui, projection.label, projection.key(), on).clicked() {
         commands.extend(projection.command(session));
     }
     commands.len() > before
@@ -237,24 +241,25 @@ fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
 fn action_items(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     for (action, _, label) in history(session) {
         if let Some(command) = action.command(session)
-            && menu_item(ui, &label, false).clicked()
+            && menu_item(ui, &label, MenuLine::Action).clicked()
         {
             commands.push(command);
             ui.close();
         }
     }
-    for action in [&actions::FRAME_MODEL, &actions::TURNTABLE] {
-        if menu_item(ui, action.label, action.is_on(session)).clicked() {
+    let turns = MenuLine::Switch(actions::TURNTABLE.is_on(session));
+    for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
+        if menu_item(ui, action.label, line).clicked() {
             commands.extend(action.command(session));
             ui.close();
         }
     }
     let (label, request) = other_theme(ui);
-    if menu_item(ui, label, false).clicked() {
+    if menu_item(ui, label, MenuLine::Action).clicked() {
         state.requests.push(request);
         ui.close();
     }
-    if menu_item(ui, actions::HELP.label, false).clicked() {
+    if menu_item(ui, actions::HELP.label, MenuLine::Action).clicked() {
         state.help_open = true;
         ui.close();
     }
@@ -272,7 +277,7 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
             ""
         };
         let on = mode == in_force && skin_view.is_none();
-        if keyed_menu_item(ui, mode.label(), key, on).clicked() {
+        if keyed_menu_item(ui, mode.label(), key, MenuLine::Choice(on)).clicked() {
             commands.push(LookCommand::SetViewMode(mode).into());
             commands.push(LookCommand::SetSkinView(None).into());
             chosen = true;
@@ -284,7 +289,8 @@ pub(super) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec
         for view in SkinView::ALL {
             let on = skin_view == Some(view);
             let command = LookCommand::SetSkinView((!on).then_some(view)).into();
-            if keyed_menu_item(ui, view.label(), actions::key_of(session, &command), on).clicked() {
+            let key = actions::key_of(session, &command);
+            if keyed_menu_item(ui, view.label(), key, MenuLine::Choice(on)).clicked() {
                 commands.push(command);
                 chosen = true;
             }
@@ -300,7 +306,11 @@ pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>,
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = TITLE_SPACING;
         // A narrow bar has no room for this and for a menu of files.
-        if state.is_some() || session.models().len() < 2 {
+        let has_room = match state {
+            Some(_) => session.open_model().is_none() || ui.available_width() >= LEAST_WITH_PROGRAM,
+            None => session.models().len() < 2,
+        };
+        if has_room {
             ui.label(RichText::new("Bindpose").font(theme::semibold(13.5)).color(tokens.text));
         }
         let Some(open) = session.open_model() else { return };
@@ -350,7 +360,11 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
     popover_menu(ui, &button, RectAlign::BOTTOM_START, FILES_WIDTH, |ui| {
         for file in models {
             let is_open = file.path == path;
-            let item = menu_item(ui, &shortened_front(&file.path, MOST_OF_PATH), is_open);
+            let item = menu_item(
+                ui,
+                &shortened_front(&file.path, MOST_OF_PATH),
+                MenuLine::Choice(is_open),
+            );
             if hint_beside(item, None, &file.path).clicked() {
                 if !is_open {
                     commands.push(FileCommand::Open(file.path.clone()).into());

@@ -34,6 +34,29 @@ pub(super) fn measured(length: f32) -> String {
     }
 }
 
+/// A time in milliseconds: `0.42 ms`, `12.3 ms`.
+pub(super) fn milliseconds(secs: f32) -> String {
+    let millisecs = secs * 1e3;
+    let decimals = if millisecs < 9.995 { 2 } else { 1 };
+    format!("{millisecs:.decimals$} ms")
+}
+
+/// An amount of data with about three digits: `96 B`, `1.54 kB`, `12.3 MB`.
+pub(super) fn bytes(count: u64) -> String {
+    if count < 1000 {
+        return format!("{count} B");
+    }
+    let mut amount = count as f64 / 1e3;
+    let mut unit = "kB";
+    for larger in ["MB", "GB"] {
+        if amount >= 999.5 {
+            (amount, unit) = (amount / 1e3, larger);
+        }
+    }
+    let decimals = if amount < 9.995 { 2 } else { usize::from(amount < 99.95) };
+    format!("{amount:.decimals$} {unit}")
+}
+
 /// A name cut to some characters, with an ellipsis.
 pub(super) fn shortened(name: &str, most: usize) -> String {
     if name.chars().count() <= most {
@@ -96,6 +119,32 @@ mod tests {
         ];
         for (number, text) in cases {
             assert_eq!(grouped(number), text);
+        }
+    }
+
+    #[test]
+    fn times_and_amounts_of_data_keep_about_three_digits() {
+        let times = [
+            (0.0, "0.00 ms"),
+            (0.000_418, "0.42 ms"),
+            (0.009_996, "10.0 ms"),
+            (0.25, "250.0 ms"),
+        ];
+        for (secs, text) in times {
+            assert_eq!(milliseconds(secs), text);
+        }
+        let amounts = [
+            (0, "0 B"),
+            (999, "999 B"),
+            (1_540, "1.54 kB"),
+            (48_000, "48.0 kB"),
+            (999_600, "1.00 MB"),
+            (123_456_789, "123 MB"),
+            (5_000_000_000, "5.00 GB"),
+            (5_000_000_000_000, "5000 GB"),
+        ];
+        for (count, text) in amounts {
+            assert_eq!(bytes(count), text);
         }
     }
 

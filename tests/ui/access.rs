@@ -240,6 +240,31 @@ fn arrows_go_through_the_parts_of_a_switch() {
 }
 
 #[test]
+fn lines_to_choose_from_are_radios_and_lines_that_do_something_are_not() {
+    let roles = |window: &Window, wanted: Role| {
+        let nodes = controls(window);
+        let lines = nodes.iter().filter(|node| node_role(node) == wanted);
+        lines
+            .filter_map(|node| node.accesskit_node().label())
+            .collect::<Vec<_>>()
+    };
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click("View mode");
+    let radios = roles(&window, Role::MenuItemRadio);
+    assert!(radios.len() > 11 && radios.contains(&"Lit".to_owned()) && radios.contains(&"Depth".to_owned()));
+    assert!(roles(&window, Role::MenuItem).is_empty());
+    window.press(PLAIN, Key::Escape);
+    window.click("View from");
+    assert_eq!(roles(&window, Role::MenuItemCheckBox), ["Orthographic"]);
+    assert!(roles(&window, Role::MenuItem).contains(&"Front".to_owned()));
+    window.press(PLAIN, Key::Escape);
+    let row = window.named(|name| name.starts_with("Up axis")).remove(0).0;
+    ask(&mut window, &row, Action::Expand, None);
+    assert_eq!(roles(&window, Role::MenuItemRadio), ["As found", "Y up", "Z up"]);
+    assert_has(&window, Role::Menu, "Up axis");
+}
+
+#[test]
 fn keys_go_through_a_menu() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     ask(&mut window, "View from", Action::Focus, None);

@@ -685,7 +685,17 @@ fn curves_are_read_by_keyboard_and_their_lines_are_hidden() {
 fn curves_show_the_chosen_bone_and_follow_the_choices() {
     let mut window = sheet(5, 31);
     window.click("Sheet: Curves");
-    assert!(window.shows("Choose a bone in the dope sheet to see how it moves."));
+    assert!(window.shows("Curves are those of one bone. Choose it in the dope sheet or in the skeleton."));
+    window.click("Choose the bone that moves most");
+    let most = window.session().joints().selected().expect("a bone");
+    let session = window.session();
+    let activity = session
+        .open_model()
+        .expect("open")
+        .activity(session.clip_index().expect("a clip"));
+    assert_eq!(activity.expect("of each bone")[most.index()].fraction, 1.0);
+    assert!(!window.shows("Choose the bone that moves most"));
+    window.press(Modifiers::NONE, Key::Escape);
     window.click("Sheet: Dope sheet");
     window.click("Bone 4, ");
     window.click("Sheet: Curves");

@@ -311,6 +311,27 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
     }
 }
 
+#[test]
+fn chips_leave_the_models_head_free_on_phones() {
+    for (size, sheet) in [(PHONE, Some(SheetPage::Model)), (vec2(844.0, 390.0), None)] {
+        let mut window = touch_window(size, vec![moving("a.m3d")]);
+        window.harness.state_mut().state.sheet = sheet;
+        window.wait(1.0);
+        let free = model_rect(&mut window, size);
+        window.apply(PlayCommand::SetSpeed(0.5));
+        window.wait(1.0);
+        let chip = window.rect("Leave speed 0.5×");
+        // It is drawn 24 points high, whatever the target.
+        let lower_edge = chip.center().y + 12.0;
+        let model = model_rect(&mut window, size);
+        assert!(model.min.y >= lower_edge, "{chip} lies on {model} in {size}");
+        assert!(free.min.y < lower_edge, "without a chip the model has the room");
+        window.click("Leave speed 0.5×");
+        window.wait(1.0);
+        assert!((model_rect(&mut window, size).min - free.min).length() < 1.0);
+    }
+}
+
 #[track_caller]
 fn assert_model_is_free(window: &mut Window, size: Vec2) {
     let model = model_rect(window, size).shrink(4.0);

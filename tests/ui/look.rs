@@ -3,6 +3,7 @@
 use bindpose::image::{Image, encode_png};
 use bindpose::scene::{Background, FrameCost, Light, Overlay, Pass, ViewMode};
 use bindpose::session::{FileCommand, LookCommand, PassChoice, PassState, PlayCommand, QualityMode};
+use egui::accesskit::Toggled;
 use egui::{Key, Modifiers, pos2};
 
 use crate::models::moving;
@@ -152,16 +153,16 @@ fn each_overlay_has_its_switch_and_lines_have_a_length() {
 }
 
 #[test]
-fn passes_say_their_state_and_a_click_changes_it() {
+fn passes_are_switches() {
     let mut window = open();
     window.click("Lighting");
     for pass in Pass::ALL {
-        let [on, off] = ["on", "off"].map(|words| format!("{}: {words}", pass.label()));
-        window.click(&on);
-        assert_eq!(window.session().quality().choice(pass), PassChoice::Off);
-        window.click(&off);
-        assert_eq!(window.session().quality().choice(pass), PassChoice::Auto);
-        assert!(window.shows(&on));
+        let toggled = |window: &Window| window.node(pass.label()).toggled();
+        for (is_on, choice) in [(Toggled::False, PassChoice::Off), (Toggled::True, PassChoice::Auto)] {
+            window.click(pass.label());
+            assert_eq!(window.session().quality().choice(pass), choice);
+            assert_eq!(toggled(&window), Some(is_on));
+        }
     }
 }
 
@@ -182,15 +183,22 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     window.wait(0.6);
     let note = "50 % of the pixels each way: frames took 200 ms";
     assert!(
-        window.shows(&format!("While it moves: {note}")),
-        "the dot is explained where it is seen"
+        window
+            .named(|name| name.starts_with("Light and background") && name.ends_with(&format!("While it moves: {note}")))
+            .len()
+            == 1,
+        "the dot is explained where it is seen, in the button's one tooltip"
     );
     window.click("Lighting");
     assert!(window.shows(note));
     slow_frames(&mut window, 24);
     window.pass_on();
     assert!(window.shows("50 % of the pixels each way, no ambient occlusion, coarser shadows: frames took 200 ms"));
-    window.click("Ambient occlusion: at rest");
+    assert_eq!(
+        window.node("Ambient occlusion").data().description(),
+        Some("Drawn only at rest")
+    );
+    window.click("Ambient occlusion");
     let quality = window.session().quality();
     assert_eq!(quality.choice(Pass::AmbientOcclusion), PassChoice::On);
     assert_eq!(quality.state(Pass::AmbientOcclusion), PassState::Drawn);
@@ -198,6 +206,31 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     window.click("Quality while it moves: Full");
     assert_eq!(window.session().quality().mode(), QualityMode::Full);
     assert!(!window.shows(note));
+}
+
+#[test]
+fn the_time_of_each_pass_is_told_where_the_gpu_tells_it() {
+    let mut window = open();
+    window.click("Lighting");
+    let of_passes = |window: &Window| window.named(|name| name.ends_with(" ms"));
+    assert!(of_passes(&window).is_empty());
+    let gpu_secs = Some([0.000_5, 0.000_25, 0.001, 0.0, 0.012]);
+    let session = &mut window.harness.state_mut().session;
+    session.frame_drawn(FrameCost {
+        gpu_secs,
+        ..FrameCost::default()
+    });
+    window.pass_on();
+    for row in [
+        "Shadow map 0.50 ms",
+        "Normals and depth 0.25 ms",
+        "Ambient occlusion 1.00 ms",
+        "Ground contact 0.00 ms",
+        "Picture 12.0 ms",
+        "Together 13.8 ms",
+    ] {
+        assert!(window.shows(row), "{row} of {:?}", of_passes(&window));
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod camera_motion;
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod chains;
 mod chips;
+mod crowd;
 #[path = "../core/documents.rs"]
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod documents;

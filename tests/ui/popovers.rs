@@ -11,7 +11,7 @@ use crate::page::{PHONE, WIDE, Window, touch_window, window};
 /// What hangs from each button of the toolbar, and something in it.
 const POPOVERS: [(&str, &str); 5] = [
     ("View mode", "Depth"),
-    ("Lighting", "Ambient occlusion: on"),
+    ("Lighting", "Contact shadow"),
     ("Lines over the model", "Axes"),
     ("View from", "Isometric"),
     ("Picture", "Save PNG (P)"),

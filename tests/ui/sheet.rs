@@ -1,6 +1,7 @@
 //! The sheet of a phone: its handle, its title, what it covers and what stays in its place.
 
-use bindpose::session::{CameraCommand, FileCommand};
+use bindpose::model::JointIndex;
+use bindpose::session::{CameraCommand, FileCommand, JointCommand, SubmeshCommand};
 use bindpose::ui::SheetPage;
 use egui::{Key, Modifiers, Rect, Vec2, pos2, vec2};
 
@@ -40,6 +41,40 @@ fn the_transport_stays_where_it_is_whatever_the_sheet_does() {
     assert_eq!(window.rect("Play"), play);
     window.click("Close");
     assert_eq!(window.rect("Play"), play);
+}
+
+#[test]
+fn what_is_picked_while_the_sheet_is_shut_is_named_and_its_name_opens_the_inspector() {
+    for size in [PHONE, vec2(844.0, 390.0)] {
+        let mut window = touch_window(size, vec![moving("a.m3d")]);
+        assert!(!window.shows("Show Painted"));
+        window.apply(SubmeshCommand::Select(Some(0)));
+        let button = window.rect("Show Painted");
+        assert!(button.height() >= 44.0);
+        assert!(!button.intersects(panel(&window, "sheet")) && !button.intersects(panel(&window, "title")));
+        window.click("Show Painted");
+        assert!(window.shows("Selected: Painted") && !window.shows("Show Painted"));
+        window.click("Close the sheet");
+        window.apply(JointCommand::Select(Some(JointIndex(1))));
+        window.harness.state_mut().state.diagnostics_open = true;
+        window.pass_on();
+        window.click("Show Bone 1");
+        assert!(window.shows("Selected: Bone 1"), "{:?}", window.widgets());
+        window.click("Close the sheet");
+        window.apply(JointCommand::Select(None));
+        assert!(window.named(|name| name.starts_with("Show ")).is_empty());
+    }
+}
+
+#[test]
+fn a_message_takes_the_place_of_the_selections_name() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    window.apply(SubmeshCommand::Select(Some(0)));
+    window.harness.state_mut().state.messages.say("Done");
+    window.pass_on();
+    assert!(!window.shows("Show Painted"));
+    window.wait(7.0);
+    assert!(window.shows("Show Painted"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use egui::{Event, Key, Modifiers, pos2, vec2};
 
 use crate::dope_sheet::wheel;
 use crate::models::{moving, still};
-use crate::page::{WIDE, Window, phone, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
 use crate::rigs::{growing, rig};
 
 fn playing() -> Window {
@@ -202,6 +202,49 @@ fn time_and_frame_are_typed() {
 }
 
 #[test]
+fn a_click_elsewhere_takes_what_was_typed_if_it_makes_sense() {
+    for (size, mut window) in [
+        (WIDE, window(WIDE, vec![moving("a.m3d")])),
+        (PHONE, phone(vec![moving("a.m3d")])),
+    ] {
+        let click_beside = |window: &mut Window| {
+            let at = pos2(0.85 * size.x, 0.3 * size.y);
+            window.harness.hover_at(at);
+            window.harness.drag_at(at);
+            window.harness.drop_at(at);
+            window.pass_on();
+            window.wait(0.6);
+        };
+        let type_and_click = |window: &mut Window, read_out: &str, typed: &str| {
+            window.click(read_out);
+            window.harness.event(Event::Text(typed.to_owned()));
+            window.pass_on();
+            click_beside(window);
+        };
+        type_and_click(&mut window, "Time 0.000 ", "0.25");
+        assert_eq!(window.time_secs(), 0.25);
+        type_and_click(&mut window, "Time 0.250 ", "soon");
+        assert_eq!(window.time_secs(), 0.25, "it makes no sense");
+        window.rect("Time 0.250 ");
+        window.apply(PlayCommand::Play);
+        window.click("Time 0.");
+        click_beside(&mut window);
+        assert!(window.session().playback().is_playing(), "nothing was typed");
+        window.apply(PlayCommand::Pause);
+        window.apply(PlayCommand::Seek { time_secs: 0.0 });
+        // What went away with its popover does not come back.
+        window.click("Speed 1×");
+        window.click("Times as fast 1×");
+        window.harness.event(Event::Text("3".to_owned()));
+        window.pass_on();
+        window.click("Speed 1×");
+        window.click("Speed 1×");
+        window.rect("Times as fast 1×");
+        assert_eq!(window.session().playback().speed(), 1.0);
+    }
+}
+
+#[test]
 fn a_time_that_is_typed_while_it_plays_pauses_there() {
     let mut window = playing();
     type_into(&mut window, "Time 0.", "0.5", Key::Enter);
@@ -311,6 +354,17 @@ fn speed_loop_wrap_and_range_are_set_in_one_place() {
         type_into(&mut window, "In 0.300 s", "1", Key::Enter);
         assert!(window.shows("A range needs some length after its start"));
         window.press(Modifiers::NONE, Key::Escape);
+        type_into(&mut window, "In 0.300 s", "0.95", Key::Enter);
+        assert!(window.shows("Beyond the range's end, 0.9 s"));
+        window.press(Modifiers::NONE, Key::Escape);
+        type_into(&mut window, "Out 0.900 s", "0.2", Key::Enter);
+        assert!(window.shows("Before the range's start, 0.3 s"));
+        window.press(Modifiers::NONE, Key::Escape);
+        assert_eq!(
+            window.session().playback().range_secs(),
+            Some([0.3, 0.9]),
+            "no end moves the other"
+        );
         window.click("Clear");
         assert_eq!(window.session().playback().range_secs(), None);
         assert!(window.shows("Times as fast 0.3×"), "it stays open");

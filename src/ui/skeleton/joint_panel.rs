@@ -6,7 +6,7 @@ use egui::{Align, Align2, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, 
 use super::numbers::{fitted, show_matrix, show_parts};
 use super::state::{KeyList, KeyPart, SkeletonState, Space};
 use super::vertex_panel;
-use super::walk::{focus_row, labelled, row_sense, tell_row, walked};
+use super::walk::{focus_row, labelled, row_sense, tell_row};
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::model::JointIndex;
@@ -14,7 +14,7 @@ use crate::session::{Command, JointCommand, LookCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
     TextButton, focus_ring, is_touch, paint_elided, paint_row_ground, pressed_row, pressed_row_height, rule,
-    section_with_action, section_with_labelled_action, segmented, selected_heading, switch_row, value_row,
+    section_with_action, section_with_labelled_action, segmented, selected_heading, switch_row, value_row, walked,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
 
@@ -306,7 +306,7 @@ fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: Jo
                     commands.extend([PlayCommand::Pause.into(), PlayCommand::Seek { time_secs }.into()]);
                     state.keys.stop = Some(key);
                 }
-                walks_to = walks_to.or(walked(ui, &response, key, count, page));
+                walks_to = walks_to.or(walked(ui, response.id, key, count, page));
             }
             // Only now: a row that is no stop yet would lose the focus when it is drawn.
             if let Some(to) = walks_to {

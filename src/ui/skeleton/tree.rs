@@ -1,6 +1,6 @@
 //! The tree of joints: searched, folded, named. Only the rows in view are laid out.
 
-use egui::accesskit::Action;
+use egui::accesskit::{Action, HasPopup};
 use egui::{
     Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
     TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
@@ -8,14 +8,14 @@ use egui::{
 
 use super::naming::{show_field, show_proposals};
 use super::state::{SidePage, SkeletonState, TreeState};
-use super::walk::{asks, focus_row, labelled, retain_plain_keys, row_sense, tell_row, walked};
+use super::walk::{asks, focus_row, labelled, row_sense, tell_row};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
-    control_size, icon_button, is_touch, menu_item, paint_elided, paint_fold_mark, paint_row_ground,
-    pressed_row_height, segmented,
+    MenuLine, control_size, is_touch, menu_item, paint_elided, paint_fold_mark, paint_row_ground, pressed_row_height,
+    push_button, retain_plain_keys, segmented, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
@@ -124,17 +124,18 @@ fn search(ui: &mut Ui, query: &mut String) {
 }
 
 fn menu(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    let dots = icon_button(ui, Icon::Dots, "Names and branches", false);
-    Popup::menu(&dots).show(|ui| {
+    let dots = push_button(ui, Icon::Dots, "Names and branches");
+    let name = tell_popup(ui, &dots, HasPopup::Menu);
+    Popup::menu(&dots).accessible_name(name).show(|ui| {
         ui.set_width(206.0);
         let mut chosen = true;
-        if menu_item(ui, "Propose mirrored names…", false).clicked() {
+        if menu_item(ui, "Propose mirrored names…", MenuLine::Action).clicked() {
             state.naming.proposing = true;
-        } else if !session.joint_names().is_empty() && menu_item(ui, "Clear names", false).clicked() {
+        } else if !session.joint_names().is_empty() && menu_item(ui, "Clear names", MenuLine::Action).clicked() {
             commands.push(NameCommand::Clear.into());
-        } else if menu_item(ui, "Fold all", false).clicked() {
+        } else if menu_item(ui, "Fold all", MenuLine::Action).clicked() {
             commands.push(JointCommand::SetAllFolded(true).into());
-        } else if menu_item(ui, "Unfold all", false).clicked() {
+        } else if menu_item(ui, "Unfold all", MenuLine::Action).clicked() {
             commands.push(JointCommand::SetAllFolded(false).into());
         } else {
             chosen = false;
@@ -147,8 +148,14 @@ fn menu(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mu
 
 /// Width of a digit of the column of numbers.
 const DIGIT_WIDTH: f32 = 6.7;
-/// Indent of each level, unless the tree is so deep that its names would have less than half of the row.
+/// Indent of each level, unless the tree is so deep that its names would have less than half of the row, or less than they need
+/// without a name of their own.
 const INDENT: f32 = 9.0;
+/// Room for `Bone 999`, and for the count behind it.
+const LEAST_LABEL: f32 = 62.0;
+const COUNT_WIDTH: f32 = 46.0;
+/// Gap between the number and the tree.
+const NUMBER_GAP: f32 = 3.0;
 /// The least distance between two guide lines.
 const BETWEEN_GUIDES: f32 = 6.0;
 /// Width of the chevron where a mouse is the pointer.
@@ -170,16 +177,19 @@ impl Indent {
         let digits = joints.count().to_string().len() as f32;
         let tree = joints.tree();
         let deepest = tree.order().iter().map(|&joint| tree.depth(joint)).max();
-        let room = 0.5 * rows.width().min(ui.clip_rect().width());
+        let width = rows.width().min(ui.clip_rect().width());
+        let number = digits * DIGIT_WIDTH;
+        let others = number + NUMBER_GAP + CHEVRON_WIDTH + LEAST_LABEL + COUNT_WIDTH;
+        let room = (0.5 * width).min(width - others).max(0.0);
         Self {
-            number: rows.min.x + digits * DIGIT_WIDTH,
+            number: rows.min.x + number,
             step: INDENT.min(room / deepest.unwrap_or_default().max(1) as f32),
         }
     }
 
     /// Where a level begins.
     fn left(&self, depth: u32) -> f32 {
-        self.number + 3.0 + self.step * depth as f32
+        self.number + NUMBER_GAP + self.step * depth as f32
     }
 
     /// A thin line below the mark of each level above a row.
@@ -348,11 +358,11 @@ impl<'a> TreeRow<'a> {
         if !response.has_focus() {
             return None;
         }
-        let mut to = walked(ui, response, self.place, rows.len(), page);
+        let mut to = walked(ui, response.id, self.place, rows.len(), page);
         // A search shows all branches unfolded.
         let folds = self.row.has_children && state.tree.query.is_empty();
         let mut names = false;
-        retain_plain_keys(ui, |key| {
+        retain_plain_keys(ui, |key, _| {
             match key {
                 Key::ArrowLeft if folds && !self.row.folded => self.fold(true, commands),
                 Key::ArrowLeft => {

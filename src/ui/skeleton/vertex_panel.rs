@@ -6,13 +6,13 @@ use glam::Vec3;
 
 use super::numbers::{Digits, Formula, LINE_HEIGHT, number_column, row, rule_over_numbers, show_line, show_matrix};
 use super::state::SkeletonState;
-use super::walk::{focus_row, labelled, tell_row, walked};
+use super::walk::{focus_row, labelled, tell_row};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
     is_touch, paint_elided, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height, rule, section_name,
-    section_with_labelled_action, selected_heading,
+    section_with_labelled_action, selected_heading, walked,
 };
 use crate::ui::wording::grouped;
 
@@ -111,7 +111,7 @@ fn influence_bar(
         focus_row(ui, response.id, rect);
     }
     let count = explanation.influences.len();
-    if let Some(to) = walked(ui, &response, slot, count, count) {
+    if let Some(to) = walked(ui, response.id, slot, count, count) {
         let below = vec2(0.0, (to as f32 - slot as f32) * rect.height());
         focus_row(ui, id_of(to), rect.translate(below));
     }

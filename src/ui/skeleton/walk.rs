@@ -1,55 +1,8 @@
-//! Lists of rows by keys: one row of a list is a stop of Tab, and keys move the focus from row to row.
+//! Rows of long lists: one row is a stop of Tab, and screen readers know the place of each.
 
 use egui::accesskit::{self, Action};
 use egui::style::ScrollAnimation;
-use egui::{Event, EventFilter, FocusDirection, Id, Key, Rect, Response, Role, Sense, Ui, WidgetInfo};
-
-/// Reads the keys that move the focus through a list: ↑ ↓ to a neighbour, the page keys by a page, Home and End to an end. They are
-/// consumed, so that they are not shortcuts too. Returns the place of the row that gets the focus, if it is another one.
-pub(super) fn walked(ui: &Ui, row: &Response, place: usize, count: usize, page: usize) -> Option<usize> {
-    if !row.has_focus() {
-        return None;
-    }
-    let filter = EventFilter {
-        horizontal_arrows: true,
-        vertical_arrows: true,
-        ..EventFilter::default()
-    };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(row.id, filter));
-    let last = count.saturating_sub(1);
-    let mut to = place;
-    retain_plain_keys(ui, |key| {
-        to = match key {
-            Key::ArrowUp => to.saturating_sub(1),
-            Key::ArrowDown => to + 1,
-            Key::PageUp => to.saturating_sub(page),
-            Key::PageDown => to + page,
-            Key::Home => 0,
-            Key::End => last,
-            _ => return true,
-        }
-        .min(last);
-        false
-    });
-    // egui sees the arrows of a row that got the focus in the pass before.
-    ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-    (to != place).then_some(to)
-}
-
-/// Consumes the pressed keys that `keep` refuses. Keys with Ctrl, Alt or Command are left alone.
-pub(super) fn retain_plain_keys(ui: &Ui, mut keep: impl FnMut(Key) -> bool) {
-    ui.input_mut(|input| {
-        input.events.retain(|event| match event {
-            Event::Key {
-                key,
-                pressed: true,
-                modifiers,
-                ..
-            } if !modifiers.command && !modifiers.ctrl && !modifiers.alt => keep(*key),
-            _ => true,
-        });
-    });
-}
+use egui::{Id, Rect, Response, Role, Sense, Ui, WidgetInfo};
 
 /// Gives a row of a list the keyboard's focus, and brings it into view.
 pub(super) fn focus_row(ui: &Ui, row: Id, rect: Rect) {

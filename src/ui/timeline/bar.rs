@@ -140,7 +140,7 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
 
 /// Frames that keys move an end by: arrows by one, with Shift or the page keys by ten.
 fn steps_of_keys(ui: &Ui, response: &Response, frame: u32, frames: &RangeInclusive<u32>) -> i32 {
-    let keys = focused_keys(ui, response, &SLIDER_KEYS).into_iter();
+    let keys = focused_keys(ui, response, SLIDER_KEYS).into_iter();
     let steps = keys.map(|(key, shift)| match key {
         Key::ArrowRight | Key::ArrowUp => {
             if shift {

@@ -9,7 +9,7 @@ use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TypedValue, action_button, control_size, icon_button};
+use crate::ui::widgets::{TypedValue, action_button, control_size, push_button};
 use crate::ui::wording::trimmed;
 
 /// The round button that plays and pauses.
@@ -57,16 +57,9 @@ pub(super) fn end_button(ui: &mut Ui, session: &Session, direction: Direction, c
 
 /// The button of an action that moves the time once.
 fn step_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
-    if momentary(icon_button(ui, icon, &action.hint(), false)).clicked() {
+    if push_button(ui, icon, &action.hint()).clicked() {
         commands.extend(action.command(session));
     }
-}
-
-/// Tells screen readers that a button is neither on nor off.
-pub(super) fn momentary(response: Response) -> Response {
-    let ctx = response.ctx.clone();
-    ctx.accesskit_node_builder(response.id, |node| node.clear_toggled());
-    response
 }
 
 /// Steps by one frame. With Shift, or by a long touch, by ten.
@@ -76,7 +69,7 @@ pub(super) fn frame_button(ui: &mut Ui, session: &Session, direction: Direction,
         Direction::Forward => (Icon::StepForward, &actions::FRAME_ON, &actions::TEN_FRAMES_ON),
     };
     let label = format!("{} ({}, with Shift ten)", one.label, one.key());
-    let response = momentary(icon_button(ui, icon, &label, false));
+    let response = push_button(ui, icon, &label);
     // A long touch stands for Shift.
     let long = response.long_touched();
     if response.clicked() || long {

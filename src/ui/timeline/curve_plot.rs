@@ -1,6 +1,8 @@
 //! The motion of the selected joint as lines over time: controls, lines, keys as dots, names with values.
 
-use egui::{Align2, Color32, FontId, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2};
+use egui::{
+    Align, Align2, Color32, FontId, Layout, Rangef, Rect, Role, Sense, Shape, Stroke, Ui, UiBuilder, WidgetInfo, pos2,
+};
 
 use super::axis::{END_ROOM, TimeAxis};
 use super::curve_keys;
@@ -9,16 +11,18 @@ use super::marks::MERGE_POINTS;
 use super::state::TimelineState;
 use super::time_area::{self, RULER_HEIGHT, segmented_of_width, split_x};
 use super::value_axis::ValueAxis;
-use crate::anim::{CurvePoint, CurveSpace};
+use crate::anim::{CurvePoint, CurveSpace, JointActivity};
 use crate::model::JointIndex;
-use crate::session::{Command, Session};
+use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{focus_ring, is_touch};
+use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch};
 
 /// Distance of samples, in points.
 const SAMPLE_SPACING: f32 = 2.0;
 /// The most samples, more than any screen needs.
 const MOST_SAMPLES: usize = 2048;
+/// Gap between a sentence and the button that does what it says.
+const OFFER_GAP: f32 = 8.0;
 
 /// The controls of the curves.
 pub(super) fn controls(ui: &mut Ui, curves: &mut Curves) {
@@ -53,7 +57,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     let plot = Rect::from_min_max(pos2(split, area.min.y), area.max);
     ui.painter().rect_filled(plot, CONTROL_RADIUS, Tokens::of(ui).field);
     let Some(joint) = session.joints().selected() else {
-        paint_hint(ui, plot);
+        offer_joint(ui, plot, open.activity(clip_index).unwrap_or_default(), commands);
         return;
     };
     let span_secs = state.window.span_secs([clip.start_secs, clip.end_secs]);
@@ -117,13 +121,30 @@ fn channel_color(ui: &Ui, channel: usize) -> Color32 {
 }
 
 /// Words while no joint is selected.
-fn paint_hint(ui: &Ui, plot: Rect) {
+/// Says what to do without a selected joint, and offers the one that moves most.
+fn offer_joint(ui: &mut Ui, plot: Rect, activity: &[JointActivity], commands: &mut Vec<Command>) {
     let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
-    let words = "Choose a bone in the dope sheet to see how it moves.";
+    let words = "Curves are those of one bone. Choose it in the dope sheet or in the skeleton.";
     let galley = ui.painter().layout(words.to_owned(), font, color, plot.width() - 24.0);
-    ui.painter().galley(plot.center() - 0.5 * galley.size(), galley, color);
-    let response = ui.interact(plot, ui.scope_id().with("hint"), Sense::hover());
+    let most = (0u32..)
+        .map(JointIndex)
+        .zip(activity)
+        .filter(|(_, activity)| activity.fraction > 0.0);
+    let most = most.max_by(|(_, a), (_, b)| a.fraction.total_cmp(&b.fraction));
+    let below = most.map_or(0.0, |_| OFFER_GAP + control_size(ui));
+    let top = plot.center().y - 0.5 * (galley.size().y + below);
+    let text = Align2::CENTER_TOP.anchor_size(pos2(plot.center().x, top), galley.size());
+    ui.painter().galley(text.min, galley, color);
+    let response = ui.interact(text, ui.scope_id().with("hint"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+    if let Some((joint, _)) = most {
+        let place = Rect::from_min_max(pos2(plot.min.x, text.max.y + OFFER_GAP), plot.max);
+        let mut below = ui.new_child(UiBuilder::new().max_rect(place).layout(Layout::top_down(Align::Center)));
+        let offer = "Choose the bone that moves most";
+        if TextButton::new(offer, offer).show(&mut below).clicked() {
+            commands.push(JointCommand::Select(Some(joint)).into());
+        }
+    }
 }
 
 /// The lines, over lines at round values. Returns the value axis.

@@ -5,6 +5,7 @@ use egui::{Align2, FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, 
 use super::controls;
 use super::loop_gap::{LoopGapReading, angle, scale};
 use super::state::TimelineState;
+use super::time_area::seconds;
 use super::typed::{self, Unit};
 use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
@@ -131,6 +132,8 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             match begins {
                 true if secs >= clip.end_secs => Err("A range needs some length after its start".to_owned()),
                 false if secs <= clip.start_secs => Err("A range needs some length before its end".to_owned()),
+                true if secs >= end_secs => Err(format!("Beyond the range's end, {} s", seconds(end_secs))),
+                false if secs <= start_secs => Err(format!("Before the range's start, {} s", seconds(start_secs))),
                 _ => Ok(secs),
             }
         };

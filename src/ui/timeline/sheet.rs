@@ -9,7 +9,7 @@ use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button};
+use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button};
 use crate::ui::wording::counted;
 
 /// Gap between the controls and the sheet.
@@ -53,7 +53,7 @@ fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands:
             SheetTab::Curves => curve_plot::controls(ui, &mut state.curves),
         }
         chosen_keys(ui, session, state, commands);
-        if state.window.is_part() && icon_button(ui, Icon::Frame, "All of the time", false).clicked() {
+        if state.window.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
             state.window.show_all();
         }
     });

@@ -99,7 +99,7 @@ pub(super) fn time_slider(
         commands.push(PlayCommand::Pause.into());
         commands.push(PlayCommand::Seek { time_secs: secs as f32 }.into());
     }
-    for (key, shift) in focused_keys(ui, response, &SLIDER_KEYS) {
+    for (key, shift) in focused_keys(ui, response, SLIDER_KEYS) {
         let frames = if shift { 10 } else { 1 };
         let joint = session.joints().selected();
         let step_key = |direction| PlayCommand::StepKey { direction, joint };
@@ -123,18 +123,6 @@ fn spoken(clip: &Clip, time_secs: f32) -> String {
         clip.last_frame(),
     )
 }
-
-/// The keys of a slider of time.
-pub(super) const SLIDER_KEYS: [Key; 8] = [
-    Key::ArrowLeft,
-    Key::ArrowRight,
-    Key::ArrowUp,
-    Key::ArrowDown,
-    Key::PageUp,
-    Key::PageDown,
-    Key::Home,
-    Key::End,
-];
 
 /// Zooms (Ctrl wheel, pinch) and pans (Shift wheel, middle drag, two fingers). With `finger_pans` a drag of one finger pans too.
 pub(super) fn navigate(
@@ -181,6 +169,8 @@ pub(super) const GRID_KEYS: [Key; 10] = [
     Key::Enter,
     Key::Space,
 ];
+/// The keys of a slider of time: those that move.
+pub(super) const SLIDER_KEYS: &[Key] = GRID_KEYS.split_at(8).0;
 
 /// Pans so that a time is seen.
 pub(super) fn bring_into_view(clip: &Clip, secs: f32, state: &mut TimelineState) {

@@ -13,7 +13,7 @@ use crate::ui::icons::Icon;
 use crate::ui::panel::{mark_transport, popover_above};
 use crate::ui::state::{SheetPage, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{control_size, focus_ring, icon_button};
+use crate::ui::widgets::{control_size, focus_ring, icon_button, push_button};
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
@@ -250,7 +250,7 @@ fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         LoopMode::PingPong => (Icon::PingPong, "Plays there and back"),
     };
     let action = &actions::NEXT_LOOP_MODE;
-    let response = controls::momentary(icon_button(ui, icon, &action.hint_of(label), false));
+    let response = push_button(ui, icon, &action.hint_of(label));
     let spoken = format!("At the end: {}", label.to_lowercase());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
     if response.clicked() {

@@ -15,7 +15,7 @@ use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
 /// Side of an icon.
-const ICON_SIZE: f32 = 16.0;
+pub(crate) const ICON_SIZE: f32 = 16.0;
 /// Gap between the parts of a button.
 const GAP: f32 = 5.0;
 /// Width of the chevron of a drop-down.
@@ -27,12 +27,17 @@ const MENU_LINE: f32 = 26.0;
 
 /// A square button with an icon. `on` marks a switch that is on.
 pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+    untold_icon_button(ui, icon, label, on).on_hover_text(label)
+}
+
+/// The same without a tooltip.
+pub(crate) fn untold_icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let side = control_size(ui);
     let place = vec2(side - 2.0 * ui.spacing().button_padding.x, ICON_SIZE);
     let response = ui.add(Button::selectable(on, icon_atom(icon, place)).min_size(Vec2::splat(side)));
     focus_ring(ui, response.rect, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, label));
-    response.on_hover_text(label)
+    response
 }
 
 /// The same without a state: it does something, or opens something.
@@ -133,38 +138,55 @@ impl<'a> TextButton<'a> {
     }
 }
 
-/// A line of a menu. `on` marks the current choice.
-pub(crate) fn menu_item(ui: &mut Ui, text: &str, on: bool) -> Response {
-    menu_line(ui, text, "", theme::mono(11.0), on)
+/// What a line of a menu is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MenuLine {
+    /// It does something.
+    Action,
+    /// One of a group to choose from, and whether it is the current choice.
+    Choice(bool),
+    /// It is on or off by itself.
+    Switch(bool),
+}
+
+/// A line of a menu, or of a page of the sheet.
+pub(crate) fn menu_item(ui: &mut Ui, text: &str, line: MenuLine) -> Response {
+    menu_line(ui, text, "", theme::mono(11.0), line)
 }
 
 /// A line of a menu with the key that does the same.
-pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, on: bool) -> Response {
+pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, line: MenuLine) -> Response {
     let key = key_hint(ui, key);
-    menu_line(ui, text, key, theme::mono(11.0), on)
+    menu_line(ui, text, key, theme::mono(11.0), line)
 }
 
 /// A line of a menu that opens a page, with the current choice of that page.
 pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
-    menu_line(ui, text, value, FontId::proportional(12.0), on)
+    menu_line(ui, text, value, FontId::proportional(12.0), MenuLine::Choice(on))
 }
 
-fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, on: bool) -> Response {
+fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, line: MenuLine) -> Response {
     let tokens = Tokens::of(ui);
+    let on = matches!(line, MenuLine::Choice(true) | MenuLine::Switch(true));
     let words = RichText::new(text).color(if on { tokens.accent } else { tokens.text });
     let behind = RichText::new(behind).font(font_behind).color(tokens.faint);
     let height = if is_touch(ui) { TOUCH_CONTROL } else { MENU_LINE };
-    let line = Button::selectable(on, words).small().right_text(behind);
+    let button = Button::selectable(on, words).small().right_text(behind);
     // egui's menus have next to no padding.
     let padding = std::mem::replace(&mut ui.spacing_mut().button_padding.x, MENU_PADDING);
-    let response = ui.add(line.min_size(vec2(ui.available_width(), height)));
+    let response = ui.add(button.min_size(vec2(ui.available_width(), height)));
     ui.spacing_mut().button_padding.x = padding;
     focus_ring(ui, response.rect, &response);
     let in_menu = ui.stack().contained_in(UiKind::Menu);
-    response.widget_info(|| match (in_menu, on) {
-        (true, true) => WidgetInfo::selected(Role::MenuItemRadio, true, on, text),
-        (true, false) => WidgetInfo::labeled(Role::MenuItem, true, text),
-        (false, _) => WidgetInfo::selected(Role::RadioButton, true, on, text),
+    let (role, other_role) = match line {
+        MenuLine::Action => (Role::MenuItem, Role::Button),
+        MenuLine::Choice(_) => (Role::MenuItemRadio, Role::RadioButton),
+        MenuLine::Switch(_) => (Role::MenuItemCheckBox, Role::CheckBox),
+    };
+    let role = if in_menu { role } else { other_role };
+    response.widget_info(|| match line {
+        MenuLine::Action => WidgetInfo::labeled(role, true, text),
+        _ => WidgetInfo::selected(role, true, on, text),
     });
     response
 }
@@ -245,6 +267,17 @@ const TRACK_HEIGHT: f32 = 15.0;
 /// A row with a switch at its end, and the key that does the same (or none). Painted here: egui has a check box, but no row that can
 /// be pressed as a whole with a switch at its end.
 pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Response {
+    let (key, color) = (key_hint(ui, key), Tokens::of(ui).faint);
+    noted_switch_row(ui, label, (key, theme::mono(11.0), color), on)
+}
+
+/// The same with a note in place of the key.
+pub(crate) fn noted_switch_row(
+    ui: &mut Ui,
+    label: &str,
+    (note, note_font, note_color): (&str, FontId, Color32),
+    on: bool,
+) -> Response {
     let tokens = Tokens::of(ui);
     let height = control_size(ui).max(MOUSE_CONTROL);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
@@ -257,10 +290,9 @@ pub(crate) fn switch_row(ui: &mut Ui, label: &str, key: &str, on: bool) -> Respo
         vec2(TRACK_WIDTH, TRACK_HEIGHT),
     );
     paint_track(ui, track, &response, on);
-    let key_at = pos2(track.min.x - 10.0, rect.center().y);
-    let key = key_hint(ui, key);
+    let note_at = pos2(track.min.x - 10.0, rect.center().y);
     ui.painter()
-        .text(key_at, Align2::RIGHT_CENTER, key, theme::mono(11.0), tokens.faint);
+        .text(note_at, Align2::RIGHT_CENTER, note, note_font, note_color);
     response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
     response
 }

@@ -104,18 +104,12 @@ fn square(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hsv
     if brighter != 0.0 {
         return Some([hue, saturation, (value + brighter * KEY_STEP as f32).clamp(0.0, 1.0)]);
     }
-    let slider = SliderNode {
-        name: &format!("{label}: saturation and brightness"),
-        value: f64::from(saturation),
-        range: 0.0..=1.0,
-        step: KEY_STEP,
-        text: &text,
-    };
-    if let Some(saturation) = slider_keys(ui, &response, &slider) {
-        return Some([hue, saturation as f32, value]);
+    let name = format!("{label}: saturation and brightness");
+    if let Some(saturation) = keyed(ui, &response, &name, saturation, &text) {
+        return Some([hue, saturation, value]);
     }
-    let at = (held(&response)? - rect.min) / rect.size();
-    Some([hue, at.x.clamp(0.0, 1.0), 1.0 - at.y.clamp(0.0, 1.0)])
+    let at = held(&response)?;
+    Some([hue, at.x, 1.0 - at.y])
 }
 
 /// A gradient of colours from left to right.
@@ -149,18 +143,8 @@ fn hue_bar(ui: &mut Ui, label: &str, [hue, saturation, value]: Hsv) -> Option<Hs
     mark(ui, at, color32(srgb_from_hsv([hue, 1.0, 1.0])));
     focus_ring(ui, rect, &response);
     let text = format!("{:.0}°", hue * 360.0);
-    let slider = SliderNode {
-        name: &format!("{label}: hue"),
-        value: f64::from(hue),
-        range: 0.0..=1.0,
-        step: KEY_STEP,
-        text: &text,
-    };
-    if let Some(hue) = slider_keys(ui, &response, &slider) {
-        return Some([hue as f32, saturation, value]);
-    }
-    let fraction = (held(&response)?.x - rect.min.x) / rect.width().max(1.0);
-    Some([fraction.clamp(0.0, 1.0), saturation, value])
+    let hue = keyed(ui, &response, &format!("{label}: hue"), hue, &text).or_else(|| Some(held(&response)?.x))?;
+    Some([hue, saturation, value])
 }
 
 /// Steps of the keys up and down in a focused control. They are consumed.
@@ -172,10 +156,24 @@ fn vertical_steps(ui: &Ui, response: &Response) -> f32 {
     count(Key::ArrowUp) - count(Key::ArrowDown)
 }
 
-/// Where the pointer presses a control.
-fn held(response: &Response) -> Option<Pos2> {
+/// The fraction, 0…1, that keys or a screen reader ask for.
+fn keyed(ui: &Ui, response: &Response, name: &str, fraction: f32, text: &str) -> Option<f32> {
+    let slider = SliderNode {
+        name,
+        value: f64::from(fraction),
+        range: 0.0..=1.0,
+        step: KEY_STEP,
+        text,
+    };
+    slider_keys(ui, response, &slider).map(|fraction| fraction as f32)
+}
+
+/// Where the pointer presses a control, as fractions of its width and height, 0…1.
+fn held(response: &Response) -> Option<Vec2> {
     let holds = response.is_pointer_button_down_on() || response.clicked();
-    response.interact_pointer_pos().filter(|_| holds)
+    let at = response.interact_pointer_pos().filter(|_| holds)?;
+    let fraction = (at - response.rect.min) / response.rect.size().max(Vec2::splat(1.0));
+    Some(fraction.clamp(Vec2::ZERO, Vec2::splat(1.0)))
 }
 
 /// A ring that is visible on every colour.

@@ -5,8 +5,9 @@ use std::ops::RangeInclusive;
 use egui::accesskit::{Action, ActionData, HasPopup};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, CornerRadius, Event, EventFilter, FontId, Id, Key, Modifiers, Painter, Popup, Pos2, Rect,
-    RectAlign, Response, Role, Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo, WidgetRect, vec2,
+    Align2, Color32, CornerRadius, Event, EventFilter, FocusDirection, FontId, Id, Key, Modifiers, Painter, Popup,
+    Pos2, Rect, RectAlign, Response, Role, Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo, WidgetRect,
+    vec2,
 };
 
 use crate::ui::theme::{CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
@@ -181,6 +182,18 @@ pub(crate) fn focused_keys(ui: &Ui, response: &Response, wanted: &[Key]) -> Vec<
     };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let mut pressed = Vec::new();
+    retain_plain_keys(ui, |key, shift| {
+        let is_wanted = wanted.contains(&key);
+        if is_wanted {
+            pressed.push((key, shift));
+        }
+        !is_wanted
+    });
+    pressed
+}
+
+/// Consumes the pressed keys that `keep` refuses; it is told whether Shift was held. Keys with Ctrl, Alt or Command are left alone.
+pub(crate) fn retain_plain_keys(ui: &Ui, mut keep: impl FnMut(Key, bool) -> bool) {
     ui.input_mut(|input| {
         input.events.retain(|event| match event {
             Event::Key {
@@ -188,14 +201,42 @@ pub(crate) fn focused_keys(ui: &Ui, response: &Response, wanted: &[Key]) -> Vec<
                 pressed: true,
                 modifiers,
                 ..
-            } if wanted.contains(key) && !modifiers.command && !modifiers.ctrl && !modifiers.alt => {
-                pressed.push((*key, modifiers.shift));
-                false
-            }
+            } if !modifiers.command && !modifiers.ctrl && !modifiers.alt => keep(*key, modifiers.shift),
             _ => true,
         });
     });
-    pressed
+}
+
+/// Reads the keys that move the focus through a list: ↑ ↓ to a neighbour, the page keys by a page, Home and End to an end. They are
+/// consumed, so that they are not shortcuts too. Returns the place of the row that gets the focus, if it is another one.
+pub(crate) fn walked(ui: &Ui, row: Id, place: usize, count: usize, page: usize) -> Option<usize> {
+    if !ui.memory(|memory| memory.has_focus(row)) {
+        return None;
+    }
+    let filter = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(row, filter));
+    let last = count.saturating_sub(1);
+    let mut to = place;
+    retain_plain_keys(ui, |key, _| {
+        to = match key {
+            Key::ArrowUp => to.saturating_sub(1),
+            Key::ArrowDown => to + 1,
+            Key::PageUp => to.saturating_sub(page),
+            Key::PageDown => to + page,
+            Key::Home => 0,
+            Key::End => last,
+            _ => return true,
+        }
+        .min(last);
+        false
+    });
+    // egui sees the arrows of a row that got the focus in the pass before.
+    ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+    (to != place).then_some(to)
 }
 
 /// A slider as screen readers have it.

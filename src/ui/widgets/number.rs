@@ -205,8 +205,8 @@ impl<'a> TypedValue<'a> {
         }
     }
 
-    /// Shows it. `read` reads what is typed once Enter ends it. Where it refuses, the field stays and says why, until Esc. Returns
-    /// what was read.
+    /// Shows it. `read` reads what is typed once Enter ends it. Where it refuses, the field stays and says why, until Esc. A click
+    /// elsewhere ends it too, and leaves the value where that makes no sense. Returns what was read.
     pub(crate) fn show<T>(self, ui: &mut Ui, read: impl FnOnce(&str) -> Result<T, String>) -> (Option<T>, Response) {
         let (rect, response) = ui.allocate_exact_size(vec2(self.width, control_size(ui)), Sense::click());
         let id = Id::unique(("typed", self.name));
@@ -215,11 +215,13 @@ impl<'a> TypedValue<'a> {
         }
         let begins = response.clicked();
         if begins {
-            ui.data_mut(|data| data.insert_temp(id, Typing::of(self.typed)));
+            let typing = Typing::of(ui, self.typed);
+            ui.data_mut(|data| data.insert_temp(id, typing));
         }
         let field = Rect::from_center_size(rect.center(), vec2(rect.width(), MOUSE_CONTROL));
         let typing: Option<Typing> = ui.data(|data| data.get_temp(id));
-        if let Some(typing) = typing {
+        // A field that went away with its panel does not come back with what was typed.
+        if let Some(typing) = typing.filter(|typing| typing.shown_in + 1 >= ui.ctx().cumulative_frame_nr()) {
             return (self.edit(ui, field, id, typing, begins, read), response);
         }
         self.paint(ui, field, &response);
@@ -239,7 +241,12 @@ impl<'a> TypedValue<'a> {
             Ok(value) => Some(value),
             Err(why) => {
                 let refused = Some(why);
-                ui.data_mut(|data| data.insert_temp(id, Typing { text, refused }));
+                let typing = Typing {
+                    text,
+                    refused,
+                    ..Typing::of(ui, self.typed)
+                };
+                ui.data_mut(|data| data.insert_temp(id, typing));
                 ui.memory_mut(|memory| memory.request_focus(id.with("field")));
                 ui.ctx().request_repaint();
                 None
@@ -265,7 +272,7 @@ impl<'a> TypedValue<'a> {
         field.shrink2(vec2(margin, 0.0))
     }
 
-    /// The field. Returns what was read when Enter ended it.
+    /// The field. Returns what was read when it ended.
     fn edit<T>(
         &self,
         ui: &mut Ui,
@@ -319,14 +326,18 @@ impl<'a> TypedValue<'a> {
         } else if response.lost_focus() || !response.has_focus() {
             let entered = ui.input(|input| input.key_pressed(Key::Enter));
             // Esc ends typing and does nothing else.
-            ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-            let read = entered.then(|| read(&typing.text));
-            let Some(Err(why)) = read else {
-                ui.data_mut(|data| data.remove::<Typing>(id));
-                return read?.ok();
-            };
-            typing.refused = Some(why);
-            response.request_focus();
+            let escaped = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+            let taken = entered || (!escaped && typing.text != typing.begun);
+            match taken.then(|| read(&typing.text)) {
+                Some(Err(why)) if entered => {
+                    typing.refused = Some(why);
+                    response.request_focus();
+                }
+                read => {
+                    ui.data_mut(|data| data.remove::<Typing>(id));
+                    return read?.ok();
+                }
+            }
         }
         if let Some(why) = &typing.refused {
             ui.ctx().accesskit_node_builder(response.id, |node| {
@@ -335,6 +346,7 @@ impl<'a> TypedValue<'a> {
             });
             say_refused(ui, field, id, why);
         }
+        typing.shown_in = ui.ctx().cumulative_frame_nr();
         ui.data_mut(|data| data.insert_temp(id, typing));
         None
     }
@@ -344,14 +356,20 @@ impl<'a> TypedValue<'a> {
 #[derive(Clone, Debug)]
 struct Typing {
     text: String,
+    /// The text that was there at first.
+    begun: String,
     refused: Option<String>,
+    /// The frame in which the field was shown last.
+    shown_in: u64,
 }
 
 impl Typing {
-    fn of(text: &str) -> Self {
+    fn of(ui: &Ui, text: &str) -> Self {
         Self {
             text: text.to_owned(),
+            begun: text.to_owned(),
             refused: None,
+            shown_in: ui.ctx().cumulative_frame_nr(),
         }
     }
 }

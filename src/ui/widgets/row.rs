@@ -1,15 +1,12 @@
 //! Rows of panels: headings, facts, choices, hairlines.
 
-use egui::{
-    Align2, Color32, EventFilter, FontId, Id, Key, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2,
-    vec2,
-};
+use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::button::push_button;
 use super::color::paint_swatch;
 use super::control::{
     MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_elided, paint_row_ground,
-    pressed_row_height,
+    pressed_row_height, walked,
 };
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -43,6 +40,9 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     hint_beside(response, Some(row.rect), label).clicked()
 }
+
+/// Rows that a page key goes by.
+const PAGE: usize = 10;
 
 /// A list of rows, for screen readers and for the arrow keys: they move the focus from row to row.
 #[derive(Debug, Default)]
@@ -82,21 +82,9 @@ impl RowList {
         let Some((focused, &id)) = self.focused.and_then(|at| Some((at, self.rows.get(at)?))) else {
             return;
         };
-        let filter = EventFilter {
-            vertical_arrows: true,
-            ..EventFilter::default()
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
-        let last = self.rows.len() - 1;
-        let pressed = |key| ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key));
-        let to = match (pressed(Key::ArrowUp), pressed(Key::ArrowDown)) {
-            (true, false) => focused.saturating_sub(1),
-            (false, true) => (focused + 1).min(last),
-            _ if pressed(Key::Home) => 0,
-            _ if pressed(Key::End) => last,
-            _ => return,
-        };
-        ui.memory_mut(|memory| memory.request_focus(self.rows[to]));
+        if let Some(to) = walked(ui, id, focused, self.rows.len(), PAGE) {
+            ui.memory_mut(|memory| memory.request_focus(self.rows[to]));
+        }
     }
 }
 

@@ -395,6 +395,29 @@ fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
 }
 
 #[test]
+fn hidden_bones_leave_the_selected_and_the_hovered_one_unless_the_skin_has_colours() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(SetBoneStyle(BoneStyle::Lines));
+    let count = |session: &mut Session| over_model(session).lines.len() / 2;
+    assert_eq!(count(&mut session), 0);
+    let revision = session.picture_revision();
+    session.apply(Select(Some(JointIndex(1))));
+    assert!(count(&mut session) == 1 && session.picture_revision() > revision);
+    session.apply(Hover(Some(JointIndex(0))));
+    let both = over_model(&mut session);
+    assert_eq!(both.lines.len() / 2, 2);
+    session.apply(SetBonesVisible(true));
+    assert_eq!(over_model(&mut session), both, "there are no others");
+    session.apply(SetBonesVisible(false));
+    session.apply(SetSkinView(Some(SkinView::Weight)));
+    assert_eq!(count(&mut session), 0, "the colours are those of the bone");
+    session.apply(SetSkinView(None));
+    session.apply(Hover(None));
+    session.apply(Select(None));
+    assert_eq!(count(&mut session), 0);
+}
+
+#[test]
 fn labels_are_those_in_view_and_the_selected_comes_first() {
     let mut session = chains(41);
     let mut places = Vec::new();

@@ -1,0 +1,117 @@
+//! How many instances of the model there are, which one is selected, and what a frame of them costs.
+
+use egui::{Align2, FontId, Sense, Ui, vec2};
+
+use super::cost::SteadyCost;
+use super::icons::Icon;
+use super::theme::Tokens;
+use super::widgets::{TypedValue, control_size, hint_beside, push_button, section_name, segmented, value_row};
+use super::wording::{bytes, grouped, milliseconds};
+use crate::session::{Command, CrowdCommand, CrowdState, MAX_CROWD, Session};
+
+/// Sizes of a crowd to choose from.
+const COUNTS: [usize; 4] = [1, 10, 100, MAX_CROWD];
+/// Width of a field: the selected one of the largest crowd fits.
+const FIELD_WIDTH: f32 = 116.0;
+/// The least width of the seed beside its button.
+const SEED_WIDTH: f32 = 86.0;
+
+/// The section. One model alone has neither seed nor selection nor costs.
+pub(super) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
+    let crowd = session.crowd();
+    section_name(ui, "Crowd");
+    let labels = COUNTS.map(grouped);
+    let choices: Vec<_> = COUNTS.into_iter().zip(labels.iter().map(String::as_str)).collect();
+    if let Some(count) = segmented(ui, "Crowd", &choices, Some(crowd.count)) {
+        let seed = crowd.seed;
+        commands.push(CrowdCommand::Set { count, seed }.into());
+    }
+    if crowd.count > 1 {
+        ui.add_space(4.0);
+        seed_row(ui, crowd, commands);
+        ui.add_space(4.0);
+        selected_row(ui, crowd, commands);
+        cost_rows(ui, session, cost);
+    }
+}
+
+fn seed_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
+    let button = button_width(ui);
+    let seed = crowd.seed.to_string();
+    let read = |typed: &str| {
+        let typed = typed.trim().parse::<u32>();
+        typed.map_err(|_| format!("A whole number up to {}", u32::MAX))
+    };
+    let asked = ui.horizontal(|ui| {
+        let typed = field(ui, "Seed", button, &seed, &seed, read);
+        let another = push_button(ui, Icon::Dice, "Another seed").clicked();
+        typed.or(another.then_some(crowd.seed.wrapping_add(1)))
+    });
+    if let Some(seed) = asked.inner {
+        let count = crowd.count;
+        commands.push(CrowdCommand::Set { count, seed }.into());
+    }
+}
+
+/// Which instance timeline, skeleton and read-outs are of. The first is 1.
+fn selected_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
+    let count = crowd.count;
+    let number = (crowd.selected + 1).to_string();
+    let text = format!("{} of {}", grouped(crowd.selected + 1), grouped(count));
+    let read = |typed: &str| {
+        let number = typed.split_whitespace().next().and_then(|word| word.parse().ok());
+        let number = number.filter(|number| (1..=count).contains(number));
+        number.ok_or_else(|| format!("A number from 1 to {count}"))
+    };
+    let asked = ui.horizontal(|ui| field(ui, "Selected", 0.0, &text, &number, read));
+    if let Some(number) = asked.inner {
+        commands.push(CrowdCommand::Select(number - 1).into());
+    }
+}
+
+fn button_width(ui: &Ui) -> f32 {
+    control_size(ui) + ui.spacing().item_spacing.x
+}
+
+/// A label and a number that can be typed, with room for something behind it.
+fn field<T>(
+    ui: &mut Ui,
+    name: &'static str,
+    behind: f32,
+    text: &str,
+    typed: &str,
+    read: impl FnOnce(&str) -> Result<T, String>,
+) -> Option<T> {
+    let tokens = Tokens::of(ui);
+    let width = FIELD_WIDTH.max(SEED_WIDTH + button_width(ui));
+    let label_width = ui.available_width() - width - ui.spacing().item_spacing.x;
+    let (rect, _) = ui.allocate_exact_size(vec2(label_width, control_size(ui)), Sense::hover());
+    let font = FontId::proportional(13.0);
+    ui.painter()
+        .text(rect.left_center(), Align2::LEFT_CENTER, name, font, tokens.muted);
+    let value = TypedValue::new(ui, name, text, typed).width(width - behind);
+    let (read, response) = value.show(ui, read);
+    response.on_hover_text("Click to type");
+    read
+}
+
+fn cost_rows(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {
+    let cost = cost.read(ui, session);
+    let gpu_secs = cost.gpu_secs.map(|passes| passes.iter().sum());
+    let rows = [
+        ("CPU", cost.cpu_secs.map(milliseconds), "Time to pose and draw"),
+        ("GPU", gpu_secs.map(milliseconds), "Time of all passes"),
+        (
+            "Vertices",
+            Some(grouped(cost.vertices as usize)),
+            "Vertices transformed in all passes",
+        ),
+        ("Uploaded", Some(bytes(cost.uploaded_bytes)), "Bytes sent to the GPU"),
+    ];
+    for (label, value, words) in rows {
+        if let Some(value) = value {
+            let row = value_row(ui, &format!("{label} a frame"), &value);
+            hint_beside(row, None, &format!("{words}, in the frame drawn last"));
+        }
+    }
+}
