@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::buffers::{bind_group, uniform_buffer};
+use super::buffers::{Queue, bind_group, uniform_buffer};
 use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
 use super::model::{GpuModel, Posed};
@@ -15,7 +15,7 @@ use crate::shaders;
 /// What both lights use.
 pub(super) struct Common {
     pub(super) device: wgpu::Device,
-    pub(super) queue: wgpu::Queue,
+    pub(super) queue: Queue,
     pub(super) pipelines: Pipelines,
     pub(super) samplers: Samplers,
     pub(super) environments: Environments,
@@ -109,7 +109,7 @@ impl LightPasses {
     }
 
     /// Writes the uniforms for a picture of this size, pixels.
-    pub(super) fn write(&mut self, queue: &wgpu::Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
+    pub(super) fn write(&mut self, queue: &Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
         let camera = camera_uniform(frame, size);
         let light = light_uniform(frame, self.light);
         let ground = ground_uniform(frame, self.light);

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
 use crate::scene::{
-    Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
+    Aabb, Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
 };
 use crate::shaders;
 
@@ -195,10 +195,19 @@ fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
     }
 }
 
+/// Size of the box that one instance reaches, world space: the scene's, less how far apart the instances stand. Lengths that go with the
+/// figure are then the same in a crowd. Where instances are turned, or the scene's box is not as wide as they stand, it is about that.
+pub(super) fn instance_size(frame: &RenderFrame<'_>) -> Vec3 {
+    let crowd = frame.crowd.instances.iter().map(|instance| &instance.world_from_model);
+    let places = std::iter::once(&frame.world_from_model).chain(crowd);
+    let apart = Aabb::from_points(places.map(|world_from_model| world_from_model.translation.into())).size();
+    (frame.world_bounds.size() - apart).max(Vec3::ZERO)
+}
+
 /// One unit of the books' demo in world units.
 fn book_unit(frame: &RenderFrame<'_>) -> f32 {
-    let bounds = &frame.world_bounds;
-    let height = bounds.size().y.max(2.0 * bounds.radius() * LEAST_HEIGHT_OF_DIAGONAL);
+    let size = instance_size(frame);
+    let height = size.y.max(size.length() * LEAST_HEIGHT_OF_DIAGONAL);
     (height / BOOK_HEIGHT).max(f32::MIN_POSITIVE)
 }
 

@@ -88,9 +88,10 @@ pub struct RenderFrame<'a> {
 }
 
 impl RenderFrame<'_> {
-    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the model's colours show its result.
+    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the colours of an instance show its result.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
-        let is_read = pass != Pass::AmbientOcclusion || self.vertex_colors.is_none();
+        let colored_alone = self.vertex_colors.is_some() && self.crowd.in_sight.min(self.crowd.instances.len()) == 0;
+        let is_read = pass != Pass::AmbientOcclusion || !colored_alone;
         is_read && self.options.draws_under(pass, light)
     }
 }
