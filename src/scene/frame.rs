@@ -103,7 +103,9 @@ pub struct Crowd<'a> {
     pub instances: &'a [CrowdInstance],
     /// How many of them, from the first on, may be in sight. The others may cast shadows into it.
     pub in_sight: usize,
-    /// Joint matrices of the poses, one palette after another, each as long as the frame's. Instances in equal poses share one.
+    /// Joint matrices of the poses, one palette after another, each as long as the frame's. Instances in equal poses share one. A device
+    /// holds as many as its bone texture has room for: 524 288 joints where textures have 2048 rows. An instance whose palette is not
+    /// there is posed by the last that is.
     pub palettes: &'a [Affine3A],
 }
 
