@@ -8,7 +8,7 @@ use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
-use super::uniforms::{camera_uniform, ground_uniform, light_uniform};
+use super::uniforms::{camera_uniform, contact_fit, ground_uniform, light_uniform};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
@@ -165,7 +165,10 @@ impl LightPasses {
                 occlusion = map.view();
             }
             if draws(Pass::ContactShadow) {
-                let map = self.contact.get_or_insert_with(|| ContactMap::new(device, pipelines));
+                let size = contact_fit(frame).map_size;
+                let kept = self.contact.take().filter(|map| map.size() == size);
+                let fresh = || ContactMap::new(device, pipelines, size);
+                let map = self.contact.insert(kept.unwrap_or_else(fresh));
                 map.draw(encoder, (group, light, ground), (shape_revision, model));
                 contact = map.view();
             }

@@ -149,7 +149,7 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::
     let colors = theme_colors(options.theme);
     let bounds = &frame.world_bounds;
     let ground = Ground::under(bounds);
-    let contact = ContactFit::new(bounds);
+    let contact = contact_fit(frame);
     let (_, shadow) = key_light(frame, light);
     let center = bounds.center();
     let (background, background_srgb) = match options.background {
@@ -180,13 +180,18 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::
     }
 }
 
+/// What the contact map covers.
+pub(super) fn contact_fit(frame: &RenderFrame<'_>) -> ContactFit {
+    ContactFit::new(&frame.world_bounds, instance_size(frame))
+}
+
 /// The unit vector towards the light that casts shadows, and what its shadow map covers.
 fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
     let (options, bounds) = (&frame.options, &frame.world_bounds);
     match light {
         Light::Studio => {
             let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
-            (to_key, ShadowFit::studio(bounds, to_key))
+            (to_key, ShadowFit::studio(bounds, instance_size(frame), to_key))
         }
         Light::Book => {
             let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);
