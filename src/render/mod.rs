@@ -1,6 +1,6 @@
 //! Draws a [`RenderFrame`] with wgpu, on Vulkan, Metal, DirectX 12, GL, WebGPU and WebGL2 alike.
 //!
-//! A model is uploaded once. A frame writes small uniforms, the instances and their bones. For each light that the picture shows it
+//! A model is uploaded once. A frame writes small uniforms, and of the instances and their bones what differs. For each light that the picture shows it
 //! then draws the light's maps: shadow map, ambient occlusion and contact map. At last it draws the picture itself into a
 //! multisampled [`Target`]: what is behind, the model, lines. A [`Compositor`] brings the resolved target onto a surface, and
 //! [`read_back`] turns it into bytes, so a browser, a snapshot, the command line and the tests all see the same pixels.

@@ -16,8 +16,8 @@ const ENTRY_BYTES: u64 = 2 * 72;
 /// Bends of the tubes.
 const BENDS: [f32; 3] = [0.3, -0.4, 0.5];
 
-/// Where three tubes stand so that none is in the shadow of another: aslant, across the first light. The box that holds them is flat
-/// enough to count as tall as one tube, so lengths of the light are the same with one tube in it.
+/// Where three tubes stand so that none is in the shadow of another: aslant, across the first light. The box that holds them is so
+/// narrow that it counts as tall as one tube: ambient occlusion reaches as far with one tube in it.
 fn places(light: Light) -> [Affine3A; 3] {
     let aslant = match light {
         Light::Studio => 2.0,
@@ -102,19 +102,39 @@ fn assert_composed(what: &str, together: &Picture, alone: &[Picture], without: &
     assert!(shared < 600, "{what}: {shared} pixels show several instances");
 }
 
-/// The three are as each is alone, when the own one is dressed so. It is then beside two that are shrunk to nothing: the length of
-/// lines goes with the size of one instance, which is known by where they stand.
-fn compare(gpu: &Gpu, what: &str, stage: &Scene, own: usize, dress: impl Fn(&mut Scene)) {
-    let mut easel = gpu.easel(stage, &[], SIZE);
+/// All three, but those beside the own one are shrunk to nothing. How soft shadows are and how long lines are goes with the size of one
+/// instance, which is known by where the others stand.
+fn beside_nothing(stage: &Scene, own: usize) -> Scene {
     let mut scene = tubes(stage, own);
-    dress(&mut scene);
-    let together = easel.draw(&scene);
     for other in &mut scene.crowd {
         other.world_from_model *= Affine3A::from_scale(Vec3::ZERO);
     }
-    let mut alone = [0, 1, 2].map(|instance| easel.draw(&tube(stage, instance)));
-    alone[own] = easel.draw(&scene);
-    assert_composed(what, &together, &alone, &easel.draw(&without_model(stage)));
+    scene
+}
+
+/// The three are as each is alone, when the own one is dressed so.
+fn compare(gpu: &Gpu, what: &str, stage: &Scene, own: usize, dress: impl Fn(&mut Scene)) {
+    let passes = stage.options.passes;
+    let needs_size = passes.has(Pass::Shadow) || passes.has(Pass::ContactShadow);
+    let mut easel = gpu.easel(stage, &[], SIZE);
+    let alone = [0, 1, 2].map(|instance| {
+        let is_own = instance == own;
+        let mut scene = if needs_size || is_own {
+            beside_nothing(stage, instance)
+        } else {
+            tube(stage, instance)
+        };
+        if is_own {
+            dress(&mut scene);
+        }
+        easel.draw(&scene)
+    });
+    let mut without = beside_nothing(stage, own);
+    without.hidden = vec![true; 2];
+    let without = easel.draw(&without);
+    let mut scene = tubes(stage, own);
+    dress(&mut scene);
+    assert_composed(what, &easel.draw(&scene), &alone, &without);
 }
 
 /// The cost of drawing a scene with a renderer that drew another one before.
