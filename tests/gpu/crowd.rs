@@ -102,6 +102,9 @@ fn assert_composed(what: &str, together: &Picture, alone: &[Picture], without: &
     assert!(shared < 600, "{what}: {shared} pixels show several instances");
 }
 
+/// What is shown of an instance, with its name.
+type Dress = (&'static str, fn(&mut Scene));
+
 /// All three, but those beside the own one are shrunk to nothing. How soft shadows are and how long lines are goes with the size of one
 /// instance, which is known by where the others stand.
 fn beside_nothing(stage: &Scene, own: usize) -> Scene {
@@ -198,7 +201,7 @@ on_both_backends! {
     /// Colours of vertices, the highlight, ghosts, edges and lines of vertices. The others stay lit, ambient occlusion too.
     fn what_is_shown_of_the_own_instance_is_shown_of_it_alone(gpu) {
         let stage = stage(Light::Studio);
-        let dresses: [(&str, fn(&mut Scene)); 6] = [
+        let dresses: [Dress; 6] = [
             ("colours", |scene| scene.colors_srgb = vec![[200, 30, 120, 255]; scene.model.mesh.vertex_count()]),
             ("highlight", |scene| scene.highlighted = Some(1)),
             ("ghosts", |scene| scene.ghosts = vec![bent(0.7), bent(-0.2)]),
