@@ -109,7 +109,8 @@ impl BoneTexture {
     /// Whether the last [`BoneTexture::write`] changed any of the first palettes, this many.
     pub(super) fn first_changed(&self, palettes: usize) -> bool {
         let count = palettes.min(self.palette_count) * self.joint_count * TEXELS_PER_JOINT as usize;
-        let [after, before] = [&self.texels, &self.texels_before].map(|texels| texels.get(..count));
+        let [after, before] =
+            [&self.texels, &self.texels_before].map(|texels| texels.get(..count).map(bytemuck::cast_slice::<_, u8>));
         after != before
     }
 
@@ -133,9 +134,10 @@ impl BoneTexture {
     }
 }
 
-/// A row of the bone texture; none beyond the last.
-fn row_of(texels: &[[f32; 4]], row: u32) -> Option<&[[f32; 4]]> {
-    texels.get((row * TEXELS_PER_ROW) as usize..((row + 1) * TEXELS_PER_ROW) as usize)
+/// The bytes of a row of the bone texture, which are compared sooner than its numbers; none beyond the last.
+fn row_of(texels: &[[f32; 4]], row: u32) -> Option<&[u8]> {
+    let row = texels.get((row * TEXELS_PER_ROW) as usize..((row + 1) * TEXELS_PER_ROW) as usize);
+    row.map(bytemuck::cast_slice)
 }
 
 fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -> (wgpu::Texture, wgpu::BindGroup) {
