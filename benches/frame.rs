@@ -1,6 +1,6 @@
 //! Frame time of the renderer on software GPUs, Vulkan's and GL's: with everything, with one pass left out at a time, under each
-//! light, split, as a property, and still; in the others the pose moves, as while a clip plays. A software GPU draws with the CPU,
-//! so only the ratios of one run tell something.
+//! light, split, as a property, still, and in a crowd; but for the still ones the pose moves, as while a clip plays. A software GPU draws
+//! with the CPU, so only the ratios of one run tell something.
 //!
 //! criterion repeats too often for frames of a tenth of a second; this takes the ways in turn, so that what else the machine does
 //! falls on all of them, and shows the least time of each, which it disturbed least, beside the median.
@@ -10,8 +10,11 @@ use std::time::Instant;
 
 use bindpose::render::device::{self, Backend};
 use bindpose::render::{MaterialImages, Renderer, Target};
-use bindpose::scene::{FrameOptions, Light, Pass, Passes, ViewMode};
+use bindpose::scene::{
+    Aabb, Crowd, CrowdInstance, FrameCost, FrameOptions, Light, Pass, Passes, RenderFrame, ViewMode,
+};
 use bindpose::session::{File, FileCommand, PlayCommand, Session};
+use glam::{Affine3A, Vec3};
 
 const SIZE: [u32; 2] = [1280, 720];
 const ROUNDS: usize = 9;
@@ -21,8 +24,63 @@ struct Way {
     name: String,
     /// The pose is that of the frame before.
     is_still: bool,
+    /// Instances of the model.
+    count: usize,
     options: FrameOptions,
     millis: Vec<f64>,
+    cost: FrameCost,
+}
+
+/// Instances in the crowd.
+const CROWD: usize = 10;
+
+/// Instances beside the model, in rows behind it, and twice as many poses, so that each frame has others.
+struct Others {
+    instances: Vec<CrowdInstance>,
+    palettes: Vec<Affine3A>,
+    world_bounds: Aabb,
+}
+
+impl Others {
+    fn of(session: &mut Session) -> Self {
+        let mut palettes = Vec::new();
+        for pose in 0..2 * CROWD - 2 {
+            session.apply(PlayCommand::Seek {
+                time_secs: 0.05 * pose as f32,
+            });
+            palettes.extend_from_slice(&session.frame().palette.0);
+        }
+        let frame = session.frame();
+        let apart = frame.world_bounds.size() * 1.1;
+        let mut world_bounds = frame.world_bounds;
+        let place = |index: usize| {
+            let (row, column) = (index / 4, index % 4);
+            let place = Vec3::new(column as f32 - 1.5, 0.0, row as f32) * apart;
+            let moved = Affine3A::from_translation(place);
+            world_bounds = world_bounds.union(frame.world_bounds.transformed(moved));
+            CrowdInstance {
+                world_from_model: moved * frame.world_from_model,
+                palette: index as u32 - 4,
+            }
+        };
+        Self {
+            instances: (4..CROWD + 3).map(place).collect(),
+            palettes,
+            world_bounds,
+        }
+    }
+
+    /// In poses that the frame before this step had not.
+    fn join<'a>(&'a self, frame: &mut RenderFrame<'a>, step: usize) {
+        let joints = frame.palette.0.len();
+        let first = step % (CROWD - 1) * joints;
+        frame.crowd = Crowd {
+            instances: &self.instances,
+            in_sight: self.instances.len(),
+            palettes: &self.palettes[first..first + (CROWD - 1) * joints],
+        };
+        frame.world_bounds = self.world_bounds;
+    }
 }
 
 fn ways(options: FrameOptions) -> Vec<Way> {
@@ -32,8 +90,10 @@ fn ways(options: FrameOptions) -> Vec<Way> {
         Way {
             name: name.to_owned(),
             is_still: false,
+            count: 1,
             options,
             millis: Vec::new(),
+            cost: FrameCost::default(),
         }
     };
     let mut ways = Vec::new();
@@ -68,6 +128,10 @@ fn ways(options: FrameOptions) -> Vec<Way> {
                 ..way
             });
         }
+        ways.push(Way {
+            count: CROWD,
+            ..way(&format!("{}, a crowd of {CROWD}", light.name()), &all)
+        });
     }
     for mode in [ViewMode::BaseColor, ViewMode::AmbientOcclusion] {
         ways.push(way(&format!("property {}", mode.name()), &|options| {
@@ -130,6 +194,7 @@ fn measure(backend: Backend) {
     let [width, height] = SIZE;
     let mut target = Target::with_samples(&gpu.device, width, height, gpu.samples);
 
+    let others = Others::of(&mut session);
     let mut ways = ways(session.frame().options);
     let mut time_secs = 1.0;
     // The first round makes pipelines and textures.
@@ -141,8 +206,11 @@ fn measure(backend: Backend) {
             }
             let mut frame = session.frame();
             frame.options = way.options;
+            if way.count > 1 {
+                others.join(&mut frame, round);
+            }
             let start = Instant::now();
-            renderer.render(&frame, &mut target);
+            way.cost = renderer.render(&frame, &mut target);
             let done = gpu.device.poll(wgpu::PollType::wait_indefinitely());
             done.expect("the device is there");
             if round > 0 {
@@ -153,15 +221,19 @@ fn measure(backend: Backend) {
 
     println!(
         "frame/{name} with {map_count} maps, {width} x {height}, {backend:?}, {}: least and median of {ROUNDS}, least in \
-         relation to the first",
+         relation to the first, indices drawn, KB uploaded",
         gpu.info.name
     );
     for way in &mut ways {
         way.millis.sort_by(f64::total_cmp);
     }
     let all_off = ways[0].millis[0];
-    for Way { name, millis, .. } in &ways {
+    for Way { name, millis, cost, .. } in &ways {
         let (least, median) = (millis[0], millis[ROUNDS / 2]);
-        println!("{name:28} {least:8.1} ms {median:8.1} ms  {:5.2}", least / all_off);
+        let (relation, uploaded) = (least / all_off, cost.uploaded_bytes as f64 / 1e3);
+        println!(
+            "{name:28} {least:8.1} ms {median:8.1} ms  {relation:5.2} {:9} {uploaded:7.1}",
+            cost.vertices
+        );
     }
 }

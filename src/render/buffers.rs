@@ -1,4 +1,49 @@
-//! Buffers of uniforms and of a model, within what a device can hold, and the groups that bind them.
+//! The queue that uploads; buffers of uniforms and of a model, within what a device can hold, and the groups that bind them.
+
+use std::cell::Cell;
+
+/// A device's queue. It counts the bytes that are uploaded through it.
+pub struct Queue {
+    pub(super) inner: wgpu::Queue,
+    bytes: Cell<u64>,
+}
+
+impl Queue {
+    /// Nothing is counted yet.
+    pub fn new(queue: &wgpu::Queue) -> Self {
+        Self {
+            inner: queue.clone(),
+            bytes: Cell::new(0),
+        }
+    }
+
+    /// As [`wgpu::Queue::write_buffer`].
+    pub(super) fn write_buffer(&self, buffer: &wgpu::Buffer, offset: u64, bytes: &[u8]) {
+        self.count(bytes);
+        self.inner.write_buffer(buffer, offset, bytes);
+    }
+
+    /// As [`wgpu::Queue::write_texture`].
+    pub(super) fn write_texture(
+        &self,
+        texture: wgpu::TexelCopyTextureInfo<'_>,
+        bytes: &[u8],
+        layout: wgpu::TexelCopyBufferLayout,
+        size: wgpu::Extent3d,
+    ) {
+        self.count(bytes);
+        self.inner.write_texture(texture, bytes, layout, size);
+    }
+
+    /// The bytes that were uploaded since this was last asked.
+    pub(super) fn take_bytes(&self) -> u64 {
+        self.bytes.take()
+    }
+
+    fn count(&self, bytes: &[u8]) {
+        self.bytes.set(self.bytes.get() + bytes.len() as u64);
+    }
+}
 
 /// A bind group whose resources have the bindings 0, 1, 2…
 pub(super) fn bind_group<'a>(
@@ -57,7 +102,7 @@ pub enum UploadError {
 /// Uploads the data of one model.
 pub(super) struct Uploader<'a> {
     pub(super) device: &'a wgpu::Device,
-    pub(super) queue: &'a wgpu::Queue,
+    pub(super) queue: &'a Queue,
     pub(super) limits: wgpu::Limits,
 }
 

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use super::buffers::uniform_buffer;
+use super::buffers::{Queue, uniform_buffer};
 use crate::image::{Image, ImageKind, MapKind};
 use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
 use crate::scene::{Light, Pass, RenderFrame};
@@ -36,7 +36,7 @@ pub(super) struct Environments {
 }
 
 impl Environments {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+    pub(super) fn new(device: &wgpu::Device, queue: &Queue) -> Self {
         Self {
             uniforms: Light::ALL.map(|_| uniform_buffer::<shaders::Environment>(device, "environment")),
             table: table(device, queue),
@@ -53,7 +53,7 @@ impl Environments {
 
     /// Sets a cube map as the sky; without one, the studio and its daylight come back. False, and nothing changes, when the image
     /// is no cube map.
-    pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, image: Option<&Image>) -> bool {
+    pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &Queue, image: Option<&Image>) -> bool {
         let Some(image) = image else {
             self.dropped = None;
             return true;
@@ -68,7 +68,7 @@ impl Environments {
 
     /// Writes how the environment of a frame is turned. The studio keeps its place beside the viewer, as if the model stood on a
     /// turntable. A sky stands in the world, and so does the daylight of the book light.
-    pub(super) fn write(&self, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
+    pub(super) fn write(&self, queue: &Queue, frame: &RenderFrame<'_>) {
         let maps = self.maps();
         for light in Light::ALL {
             let studio_yaw = match (&self.dropped, light) {
@@ -120,7 +120,7 @@ impl Environments {
 }
 
 impl EnvironmentMaps {
-    fn upload(device: &wgpu::Device, queue: &wgpu::Queue, prefiltered: &Prefiltered) -> Self {
+    fn upload(device: &wgpu::Device, queue: &Queue, prefiltered: &Prefiltered) -> Self {
         let levels = (0..prefiltered.level_count()).filter_map(|level| prefiltered.level_rgba16f(level));
         let cube = Cube {
             side: prefiltered.side(),
@@ -183,7 +183,7 @@ impl Cube {
         })
     }
 
-    fn upload(&self, device: &wgpu::Device, queue: &wgpu::Queue, label: &str) -> wgpu::TextureView {
+    fn upload(&self, device: &wgpu::Device, queue: &Queue, label: &str) -> wgpu::TextureView {
         let size = |side| wgpu::Extent3d {
             width: side,
             height: side,
@@ -228,7 +228,7 @@ fn half_floats(texels: &[f32]) -> Vec<u8> {
     halves.flat_map(u16::to_ne_bytes).collect()
 }
 
-fn table(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
+fn table(device: &wgpu::Device, queue: &Queue) -> wgpu::TextureView {
     static TABLE: LazyLock<BrdfTable> = LazyLock::new(|| BrdfTable::new(BRDF_TABLE_SIDE));
     let side = TABLE.side() as u32;
     let texture = device.create_texture(&wgpu::TextureDescriptor {

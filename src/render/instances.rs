@@ -1,13 +1,14 @@
 //! Where the instances of the model stand and how they are posed: a vertex stream with an entry for each, and their joint matrices
 //! in a texture.
 
+use std::hash::{DefaultHasher, Hasher as _};
 use std::ops::Range;
+use std::slice::ChunksExact;
 
 use glam::Affine3A;
 
-use super::buffers::bind_group;
+use super::buffers::{Queue, bind_group};
 use super::uniforms::{encoded, theme_colors};
-use crate::anim::Palette;
 use crate::scene::RenderFrame;
 use crate::shaders::{Instance, JOINTS_PER_ROW};
 
@@ -76,40 +77,67 @@ impl BoneTexture {
         &self.group
     }
 
-    /// Uploads palettes, as many as fit the device, unless they are there already. Matrices that a palette lacks are identities;
-    /// those beyond the joint count are left out.
-    pub fn write<'a>(&mut self, queue: &wgpu::Queue, palettes: impl IntoIterator<Item = &'a Palette>) {
-        let most = Self::max_joints(&self.device.limits()) / self.joint_count.max(1);
+    /// Uploads palettes, as many as fit the device: the rows of the texture that differ from what is there. Matrices that a palette
+    /// lacks are identities; those beyond the joint count are left out.
+    pub fn write<'a>(&mut self, queue: &Queue, palettes: impl IntoIterator<Item = &'a [Affine3A]>) {
+        let limits = self.device.limits();
+        let most = Self::max_joints(&limits) / self.joint_count.max(1);
         std::mem::swap(&mut self.texels, &mut self.texels_before);
         self.texels.clear();
         self.palette_count = 0;
         for palette in palettes.into_iter().take(most) {
-            let matrices = palette.0.iter().chain(std::iter::repeat(&Affine3A::IDENTITY));
+            let matrices = palette.iter().chain(std::iter::repeat(&Affine3A::IDENTITY));
             self.texels.extend(matrices.take(self.joint_count).flat_map(rows));
             self.palette_count += 1;
         }
         let height = (self.texels.len() as u32).div_ceil(TEXELS_PER_ROW);
         self.texels.resize((height * TEXELS_PER_ROW) as usize, [0.0; 4]);
-        if self.texels == self.texels_before {
-            return;
-        }
         if height > self.texture.height() {
+            // More than is needed, since the number of poses changes from frame to frame.
+            let height = height.next_power_of_two().min(limits.max_texture_dimension_2d);
             (self.texture, self.group) = texture(&self.device, &self.layout, height);
+            self.texels_before.clear();
         }
+        let differs = |&row: &u32| row_of(&self.texels, row) != row_of(&self.texels_before, row);
+        let mut row = 0;
+        while let Some(start) = (row..height).find(differs) {
+            row = (start..height).find(|row| !differs(row)).unwrap_or(height);
+            self.upload(queue, start..row);
+        }
+    }
+
+    /// Whether the last [`BoneTexture::write`] changed any of the first palettes, this many.
+    pub(super) fn first_changed(&self, palettes: usize) -> bool {
+        let count = palettes.min(self.palette_count) * self.joint_count * TEXELS_PER_JOINT as usize;
+        let [after, before] =
+            [&self.texels, &self.texels_before].map(|texels| texels.get(..count).map(bytemuck::cast_slice::<_, u8>));
+        after != before
+    }
+
+    fn upload(&self, queue: &Queue, rows: Range<u32>) {
+        let texels = &self.texels[(rows.start * TEXELS_PER_ROW) as usize..(rows.end * TEXELS_PER_ROW) as usize];
+        let mut place = self.texture.as_image_copy();
+        place.origin.y = rows.start;
         queue.write_texture(
-            self.texture.as_image_copy(),
-            bytemuck::cast_slice(&self.texels),
+            place,
+            bytemuck::cast_slice(texels),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(TEXELS_PER_ROW * BYTES_PER_TEXEL),
                 rows_per_image: None,
             },
             wgpu::Extent3d {
-                height,
+                height: rows.len() as u32,
                 ..self.texture.size()
             },
         );
     }
+}
+
+/// The bytes of a row of the bone texture, which are compared sooner than its numbers; none beyond the last.
+fn row_of(texels: &[[f32; 4]], row: u32) -> Option<&[u8]> {
+    let row = texels.get((row * TEXELS_PER_ROW) as usize..((row + 1) * TEXELS_PER_ROW) as usize);
+    row.map(bytemuck::cast_slice)
 }
 
 fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -> (wgpu::Texture, wgpu::BindGroup) {
@@ -135,12 +163,51 @@ fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -
 /// Opacity of the highlight at a surface's edge.
 const HIGHLIGHT_OPACITY: f32 = 0.55;
 
-/// The instances of a frame, as a vertex stream with one entry an instance. There are three kinds, one after another: the model
-/// itself; the model again in the colour of the highlight; the ghosts. The model has one instance; a second one would be a second
-/// entry of the first two kinds.
+/// The poses that a frame's instances have: its own palette, then the crowd's.
+pub(super) fn poses<'a>(frame: &RenderFrame<'a>) -> impl Iterator<Item = &'a [Affine3A]> {
+    std::iter::once(&frame.palette.0[..]).chain(crowd_palettes(frame))
+}
+
+/// How many [`poses`] there are.
+pub(super) fn pose_count(frame: &RenderFrame<'_>) -> usize {
+    1 + crowd_palettes(frame).len()
+}
+
+fn crowd_palettes<'a>(frame: &RenderFrame<'a>) -> ChunksExact<'a, Affine3A> {
+    let joints = frame.palette.0.len();
+    // In bind space no palette is read.
+    let palettes = if joints == 0 { &[] } else { frame.crowd.palettes };
+    palettes.chunks_exact(joints.max(1))
+}
+
+/// The instances of a frame, as a vertex stream with an entry for each: the frame's own instance and the crowd, those in sight before
+/// the others, so that one draw has all of them; the own instance again in the colour of the highlight; the ghosts.
 pub(super) struct Instances {
     buffer: wgpu::Buffer,
+    /// As they were uploaded last.
+    entries: Vec<Entry>,
+    /// Those of the upload before, as a buffer for the next.
+    entries_before: Vec<Entry>,
+    standing: Standing,
+}
+
+/// Which instances there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Standing {
+    /// How many the camera may see, with the frame's own.
+    in_sight: u32,
+    /// How many there are, with the frame's own.
     count: u32,
+    /// Sums of what is hashed of each, so that their order is the same to them: the camera changes it.
+    hash_in_sight: u64,
+    hash: u64,
+}
+
+impl Standing {
+    /// Whether both have the same instances in any order, in sight or not.
+    pub(super) fn has_all_of(&self, other: &Self) -> bool {
+        (self.count, self.hash) == (other.count, other.hash)
+    }
 }
 
 /// A range of the stream.
@@ -156,71 +223,111 @@ pub(super) struct InstanceRange<'a> {
 type Entry = [Instance; 2];
 
 impl Instances {
-    const MODEL: Range<u32> = 0..1;
-    const HIGHLIGHT: Range<u32> = 1..2;
-
     pub(super) fn new(device: &wgpu::Device) -> Self {
         Self {
             buffer: stream(device, 2),
-            count: 0,
+            entries: Vec::new(),
+            entries_before: Vec::new(),
+            standing: Standing::default(),
         }
     }
 
-    /// Uploads the frame's instances. The ghosts' palettes follow the model's in `bones`. `winding` is +1 when the model's
-    /// triangles are clockwise from their front in a left-handed space, else −1.
+    /// Uploads the frame's instances, unless they are there already. `bones` has the frame's [`poses`], then the ghosts'. An instance
+    /// whose palette is not there is posed by the last that is. `winding` is +1 when the model's triangles are clockwise from their
+    /// front in a left-handed space, else −1.
     pub(super) fn write(
         &mut self,
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        queue: &Queue,
         frame: &RenderFrame<'_>,
         bones: Option<&BoneTexture>,
         winding: f32,
     ) {
-        let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
-        let model = Instance {
-            rows: rows(&frame.world_from_model),
-            tint_srgb: [1.0; 4],
-            first_joint: 0,
-            front_sign: if mirrors { -winding } else { winding },
+        let (palettes, joints) = bones.map_or((0, 0), |bones| (bones.palette_count, bones.joint_count));
+        let poses = pose_count(frame).min(palettes);
+        let first_joint = |palette: usize| (palette * joints) as u32;
+        let instance = |world_from_model: &Affine3A, palette: usize| {
+            let mirrors = world_from_model.matrix3.determinant() < 0.0;
+            Instance {
+                rows: rows(world_from_model),
+                tint_srgb: [1.0; 4],
+                first_joint: first_joint(palette.min(poses.saturating_sub(1))),
+                front_sign: if mirrors { -winding } else { winding },
+            }
         };
+        let own = instance(&frame.world_from_model, 0);
+        let crowd = frame.crowd.instances.iter();
+        let crowd = crowd.map(|one| instance(&one.world_from_model, one.palette as usize + 1));
         let accent = theme_colors(frame.options.theme).accent;
         let highlight = Instance {
             tint_srgb: encoded(accent, HIGHLIGHT_OPACITY),
-            ..model
+            ..own
         };
-        let (palettes, joints) = bones.map_or((0, 0), |bones| (bones.palette_count, bones.joint_count));
         let ghost = |(palette, color_srgb): (usize, &[u8; 4])| Instance {
             tint_srgb: color_srgb.map(|channel| f32::from(channel) / 255.0),
-            first_joint: (palette * joints) as u32,
-            ..model
+            first_joint: first_joint(palette),
+            ..own
         };
-        let ghosts = (1..palettes).zip(frame.ghosts.colors_srgb).map(ghost);
-        let entries: Vec<Entry> = [model, highlight]
-            .into_iter()
-            .chain(ghosts)
-            .map(|one| [one; 2])
-            .collect();
-        let bytes: &[u8] = bytemuck::cast_slice(&entries);
-        if bytes.len() as u64 > self.buffer.size() {
-            self.buffer = stream(device, entries.len());
+        let ghosts = (poses..palettes).zip(frame.ghosts.colors_srgb).map(ghost);
+        let all = std::iter::once(own).chain(crowd).chain([highlight]).chain(ghosts);
+        std::mem::swap(&mut self.entries, &mut self.entries_before);
+        self.entries.clear();
+        self.entries.extend(all.map(|one| [one; 2]));
+
+        let (in_sight, count) = (frame.crowd.in_sight, frame.crowd.instances.len());
+        let (in_sight, count) = (in_sight.min(count) as u32 + 1, count as u32 + 1);
+        let differs = self.entries != self.entries_before;
+        if differs || (self.standing.in_sight, self.standing.count) != (in_sight, count) {
+            let (seen, others) = self.entries[..count as usize].split_at(in_sight as usize);
+            let hash_in_sight = hash_of(seen);
+            self.standing = Standing {
+                in_sight,
+                count,
+                hash_in_sight,
+                hash: hash_in_sight.wrapping_add(hash_of(others)),
+            };
         }
-        queue.write_buffer(&self.buffer, 0, bytes);
-        self.count = entries.len() as u32;
+        if differs {
+            if self.entries.len() > self.buffer.size() as usize / size_of::<Entry>() {
+                self.buffer = stream(device, self.entries.len().next_power_of_two());
+            }
+            queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&self.entries));
+        }
     }
 
-    /// The model itself.
-    pub(super) fn model(&self) -> InstanceRange<'_> {
-        self.range(Self::MODEL)
+    /// Which instances there are.
+    pub(super) fn standing(&self) -> Standing {
+        self.standing
     }
 
-    /// The model in the colour of the highlight.
+    /// The frame's own instance.
+    pub(super) fn own(&self) -> InstanceRange<'_> {
+        self.range(0..1)
+    }
+
+    /// The crowd, as far as it is in sight.
+    pub(super) fn crowd_in_sight(&self) -> InstanceRange<'_> {
+        self.range(1..self.standing.in_sight)
+    }
+
+    /// The frame's own instance and the crowd, as far as it is in sight.
+    pub(super) fn in_sight(&self) -> InstanceRange<'_> {
+        self.range(0..self.standing.in_sight)
+    }
+
+    /// The frame's own instance and the whole crowd.
+    pub(super) fn all(&self) -> InstanceRange<'_> {
+        self.range(0..self.standing.count)
+    }
+
+    /// The frame's own instance in the colour of the highlight.
     pub(super) fn highlight(&self) -> InstanceRange<'_> {
-        self.range(Self::HIGHLIGHT)
+        self.range(self.standing.count..self.standing.count + 1)
     }
 
-    /// The model in other poses, each by itself.
+    /// The frame's own instance in other poses, each by itself.
     pub(super) fn ghosts(&self) -> impl Iterator<Item = InstanceRange<'_>> {
-        (Self::HIGHLIGHT.end..self.count).map(|ghost| self.range(ghost..ghost + 1))
+        (self.standing.count + 1..self.entries.len() as u32).map(|ghost| self.range(ghost..ghost + 1))
     }
 
     fn range(&self, range: Range<u32>) -> InstanceRange<'_> {
@@ -230,6 +337,16 @@ impl Instances {
             count: range.len() as u32,
         }
     }
+}
+
+/// The same for the same instances in any order.
+fn hash_of(entries: &[Entry]) -> u64 {
+    let hash = |[instance, _]: &Entry| {
+        let mut hasher = DefaultHasher::new();
+        hasher.write(bytemuck::bytes_of(instance));
+        hasher.finish()
+    };
+    entries.iter().map(hash).fold(0, u64::wrapping_add)
 }
 
 impl<'a> InstanceRange<'a> {

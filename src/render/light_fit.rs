@@ -62,6 +62,8 @@ const BOOK_RADIUS_TEXELS: f32 = 3.5;
 const STUDIO_RADIUS_TEXELS: f32 = 2.5;
 /// The same on the ground, where the shadow lies farther from what casts it.
 const STUDIO_GROUND_RADIUS_TEXELS: f32 = 6.0;
+/// A map that covers a crowd has larger texels. Shadows get no softer for it than this radius asks, which hides the steps.
+const LEAST_RADIUS_TEXELS: f32 = 1.5;
 
 /// How the shadow map covers a scene, and how it is blurred.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,21 +80,26 @@ pub(super) struct ShadowFit {
 
 impl ShadowFit {
     /// For the studio light: the smallest square that holds the box as seen from the light, so that edges are as sharp as the map
-    /// allows. `to_key` is a unit vector.
-    pub(super) fn studio(world_bounds: &Aabb, to_key: Vec3) -> Self {
+    /// allows. They are as soft as with one instance in the map, whose size is `instance_size`, or as little softer as the map allows.
+    /// `to_key` is a unit vector.
+    pub(super) fn studio(world_bounds: &Aabb, instance_size: Vec3, to_key: Vec3) -> Self {
+        let fit = Self::with_least_texel(world_bounds, to_key, 0.0);
+        let axes = light_axes(to_key);
+        let half_width = |size: Vec3| tight_half_width(size * 0.5, axes);
+        let share = half_width(instance_size) / half_width(world_bounds.size());
         Self {
-            radius_texels: STUDIO_RADIUS_TEXELS,
-            ground_radius_texels: STUDIO_GROUND_RADIUS_TEXELS,
-            ..Self::with_least_texel(world_bounds, to_key, 0.0)
+            radius_texels: (STUDIO_RADIUS_TEXELS * share).max(LEAST_RADIUS_TEXELS),
+            ground_radius_texels: (STUDIO_GROUND_RADIUS_TEXELS * share).max(LEAST_RADIUS_TEXELS),
+            ..fit
         }
     }
 
     /// For the book light: edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. So the map may be larger than the box,
-    /// as it is in the demo. `book_unit` is one unit of the demo in world units.
+    /// as it is in the demo. Where the map is too coarse for that, they are wider. `book_unit` is one unit of the demo in world units.
     pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, book_unit: f32) -> Self {
         let radius = BOOK_EDGE / DISC_EDGE * book_unit;
         let fit = Self::with_least_texel(world_bounds, to_key, radius / BOOK_RADIUS_TEXELS);
-        let radius_texels = radius / fit.texel;
+        let radius_texels = (radius / fit.texel).max(LEAST_RADIUS_TEXELS);
         Self {
             radius_texels,
             ground_radius_texels: radius_texels,
@@ -102,19 +109,16 @@ impl ShadowFit {
 
     /// A square that holds the box as seen from the light. Its texels are at least this large. No blur.
     fn with_least_texel(world_bounds: &Aabb, to_key: Vec3, least_texel: f32) -> Self {
-        let [right, up, forward] = light_axes(to_key);
+        let axes = light_axes(to_key);
+        let [right, up, forward] = axes;
         let center = world_bounds.center();
         // The origin is the middle of the box, so that numbers stay small wherever the box lies.
         let light_from_world = Mat4::from_cols(right.extend(0.0), up.extend(0.0), forward.extend(0.0), Vec4::W)
             .transpose()
             * Mat4::from_translation(-center);
         let half_size = world_bounds.size() * 0.5;
-        let reach = |axis: Vec3| axis.abs().dot(half_size);
-        // An empty or flat box still needs a map of some size.
-        let least = f32::MIN_POSITIVE.max(half_size.max_element() * 1e-3).max(1e-20);
-        let tight = reach(right).max(reach(up)).max(least) * (1.0 + 2.0 * MARGIN_TEXELS / SHADOW_MAP_SIZE as f32);
-        let half_width = tight.max(least_texel * SHADOW_MAP_SIZE as f32 * 0.5);
-        let half_depth = reach(forward).max(least) * 1.01;
+        let half_width = tight_half_width(half_size, axes).max(least_texel * SHADOW_MAP_SIZE as f32 * 0.5);
+        let half_depth = reach(half_size, forward).max(least_reach(half_size)) * 1.01;
         let clip_from_light = glam::camera::lh::proj::directx::orthographic(
             -half_width,
             half_width,
@@ -132,6 +136,22 @@ impl ShadowFit {
     }
 }
 
+/// Half the width of the least map that holds a box of this half size.
+fn tight_half_width(half_size: Vec3, [right, up, _]: [Vec3; 3]) -> f32 {
+    let reach = reach(half_size, right).max(reach(half_size, up));
+    reach.max(least_reach(half_size)) * (1.0 + 2.0 * MARGIN_TEXELS / SHADOW_MAP_SIZE as f32)
+}
+
+/// How far a box of this half size reaches from its middle along an axis.
+fn reach(half_size: Vec3, axis: Vec3) -> f32 {
+    axis.abs().dot(half_size)
+}
+
+/// An empty or flat box still needs a map of some size.
+fn least_reach(half_size: Vec3) -> f32 {
+    f32::MIN_POSITIVE.max(half_size.max_element() * 1e-3).max(1e-20)
+}
+
 /// Right, up and forward of the light's view. They turn evenly with the light, except within 1° of the vertical.
 fn light_axes(to_key: Vec3) -> [Vec3; 3] {
     let forward = -to_key;
@@ -143,20 +163,32 @@ fn light_axes(to_key: Vec3) -> [Vec3; 3] {
 /// Half the width of the contact map in half widths of the scene: the blur needs room.
 const CONTACT_MARGIN: f32 = 1.4;
 
+/// Texels along each edge of the contact map of one instance. Few are enough, since it is blurred.
+const CONTACT_MAP_SIZE: u32 = 256;
+/// The same of a crowd's, at most. Its blur takes the time.
+const LARGEST_CONTACT_MAP_SIZE: u32 = 1024;
+
 /// The square of the ground that the contact map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ContactFit {
     /// World x and z of its middle.
     pub(super) center: Vec2,
     pub(super) half_width: f32,
+    /// Texels along each edge.
+    pub(super) map_size: u32,
 }
 
 impl ContactFit {
-    pub(super) fn new(world_bounds: &Aabb) -> Self {
-        let (center, size) = (world_bounds.center(), world_bounds.size());
+    /// With as many texels for each instance, whose size is `instance_size`, as the largest map allows.
+    pub(super) fn new(world_bounds: &Aabb, instance_size: Vec3) -> Self {
+        let center = world_bounds.center();
+        let half_width = |size: Vec3| (size.x.max(size.z).max(size.y * 0.1) * 0.5 * CONTACT_MARGIN).max(1e-20);
+        let whole = half_width(world_bounds.size());
+        let times = (whole / half_width(instance_size)).clamp(1.0, LARGEST_CONTACT_MAP_SIZE as f32);
         Self {
             center: Vec2::new(center.x, center.z),
-            half_width: (size.x.max(size.z).max(size.y * 0.1) * 0.5 * CONTACT_MARGIN).max(1e-20),
+            half_width: whole,
+            map_size: (CONTACT_MAP_SIZE * (times.ceil() as u32).next_power_of_two()).min(LARGEST_CONTACT_MAP_SIZE),
         }
     }
 }
@@ -213,7 +245,7 @@ mod tests {
         ] {
             let bounds = Aabb { min, max };
             for fit in [
-                ShadowFit::studio(&bounds, to_key),
+                ShadowFit::studio(&bounds, bounds.size(), to_key),
                 ShadowFit::book(&bounds, to_key, bounds.size().y / 3.6),
             ] {
                 for corner in 0..8 {
@@ -245,7 +277,7 @@ mod tests {
             let fit_at = |step: u32| {
                 let turned = glam::Quat::from_rotation_y(step as f32 * STEP_RADIANS) * to_key;
                 [
-                    ShadowFit::studio(&FIGURE, turned),
+                    ShadowFit::studio(&FIGURE, FIGURE.size(), turned),
                     ShadowFit::book(&FIGURE, turned, 1.0),
                 ]
             };
@@ -299,5 +331,26 @@ mod tests {
         assert!(
             (large.texel / small.texel - 20.0).abs() < 1e-3 && (large.radius_texels - small.radius_texels).abs() < 1e-3
         );
+    }
+
+    /// A row of figures under one light: as soft as one of them, as long as the map has the texels for it.
+    #[test]
+    fn shadows_and_contacts_of_a_crowd_are_as_sharp_as_the_maps_allow() {
+        let to_key = Vec3::new(0.64, 0.74, -0.34).normalize();
+        let alone = ShadowFit::studio(&FIGURE, FIGURE.size(), to_key);
+        assert_eq!((alone.radius_texels, alone.ground_radius_texels), (2.5, 6.0));
+        assert_eq!(ContactFit::new(&FIGURE, FIGURE.size()).map_size, 256);
+        for (wider, map_size) in [(2.0, 1024), (30.0, 1024), (500.0, 1024)] {
+            let row = Aabb {
+                max: FIGURE.max + Vec3::X * wider,
+                ..FIGURE
+            };
+            let fit = ShadowFit::studio(&row, FIGURE.size(), to_key);
+            let width = |fit: &ShadowFit| fit.ground_radius_texels * fit.texel;
+            assert!(width(&fit) >= 0.999 * width(&alone) && fit.ground_radius_texels >= LEAST_RADIUS_TEXELS);
+            assert!(width(&fit) <= width(&alone).max(1.001 * LEAST_RADIUS_TEXELS * fit.texel));
+            assert_eq!(ContactFit::new(&row, FIGURE.size()).map_size, map_size, "{wider} wider");
+            assert!(ShadowFit::book(&row, to_key, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
+        }
     }
 }

@@ -242,11 +242,10 @@ fn half(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.div_ceil(2))
 }
 
-/// Texels along each edge of the contact map. Few are enough, since it is blurred.
-const CONTACT_MAP_SIZE: u32 = 256;
-
 /// The soft dark on the ground under what is near it: the model seen from straight below, blurred.
 pub(super) struct ContactMap {
+    /// Texels along each edge.
+    size: u32,
     map: wgpu::TextureView,
     half_blurred: wgpu::TextureView,
     map_group: wgpu::BindGroup,
@@ -265,20 +264,26 @@ struct ContactSource {
 }
 
 impl ContactMap {
-    pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines) -> Self {
-        let texture = |label| flat_texture(device, label, [CONTACT_MAP_SIZE; 2], FRACTION_FORMAT, DRAWN_AND_READ);
+    pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, size: u32) -> Self {
+        let texture = |label| flat_texture(device, label, [size; 2], FRACTION_FORMAT, DRAWN_AND_READ);
         let group = |view| {
             let resources = [wgpu::BindingResource::TextureView(view)];
             bind_group(device, "contact", &pipelines.layouts.texels, resources)
         };
         let (map, half_blurred) = (texture("contact"), texture("contact, half blurred"));
         Self {
+            size,
             map_group: group(&map),
             half_blurred_group: group(&half_blurred),
             map,
             half_blurred,
             drawn_from: DrawnFrom(None),
         }
+    }
+
+    /// Texels along each edge.
+    pub(super) fn size(&self) -> u32 {
+        self.size
     }
 
     pub(super) fn view(&self) -> &wgpu::TextureView {

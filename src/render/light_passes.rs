@@ -3,19 +3,19 @@
 
 use std::ops::Range;
 
-use super::buffers::{bind_group, uniform_buffer};
+use super::buffers::{Queue, bind_group, uniform_buffer};
 use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
-use super::uniforms::{camera_uniform, ground_uniform, light_uniform};
+use super::uniforms::{camera_uniform, contact_fit, ground_uniform, light_uniform};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
 /// What both lights use.
 pub(super) struct Common {
     pub(super) device: wgpu::Device,
-    pub(super) queue: wgpu::Queue,
+    pub(super) queue: Queue,
     pub(super) pipelines: Pipelines,
     pub(super) samplers: Samplers,
     pub(super) environments: Environments,
@@ -109,7 +109,7 @@ impl LightPasses {
     }
 
     /// Writes the uniforms for a picture of this size, pixels.
-    pub(super) fn write(&mut self, queue: &wgpu::Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
+    pub(super) fn write(&mut self, queue: &Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
         let camera = camera_uniform(frame, size);
         let light = light_uniform(frame, self.light);
         let ground = ground_uniform(frame, self.light);
@@ -165,7 +165,10 @@ impl LightPasses {
                 occlusion = map.view();
             }
             if draws(Pass::ContactShadow) {
-                let map = self.contact.get_or_insert_with(|| ContactMap::new(device, pipelines));
+                let size = contact_fit(frame).map_size;
+                let kept = self.contact.take().filter(|map| map.size() == size);
+                let fresh = || ContactMap::new(device, pipelines, size);
+                let map = self.contact.insert(kept.unwrap_or_else(fresh));
                 map.draw(encoder, (group, light, ground), (shape_revision, model));
                 contact = map.view();
             }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::{Arc, Weak};
 
+use super::buffers::Queue;
 use crate::image::{Image, ImageFormat, MapKind};
 
 /// The images of one material's maps, as far as they are there, with their mips. The same `Arc` is the same image.
@@ -32,7 +33,7 @@ struct Held {
 }
 
 impl MapTextures {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+    pub(super) fn new(device: &wgpu::Device, queue: &Queue) -> Self {
         Self {
             white: one_texel(device, queue, "no map", [255; 4]),
             held: HashMap::new(),
@@ -40,7 +41,7 @@ impl MapTextures {
     }
 
     /// Frees the images that are in none of these maps, then uploads the missing ones. Returns how many it uploaded.
-    pub(super) fn update(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, maps: &[MaterialImages<'_>]) -> usize {
+    pub(super) fn update(&mut self, device: &wgpu::Device, queue: &Queue, maps: &[MaterialImages<'_>]) -> usize {
         let of_slots = maps
             .iter()
             .flat_map(|maps| [(maps.diffuse, MapKind::Diffuse), (maps.normal, MapKind::Normal)]);
@@ -78,7 +79,7 @@ fn key(image: &Arc<Image>, kind: MapKind) -> Key {
 }
 
 /// A texture of one texel, bound where there is nothing else to bind.
-pub(super) fn one_texel(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, texel: [u8; 4]) -> wgpu::TextureView {
+pub(super) fn one_texel(device: &wgpu::Device, queue: &Queue, label: &str, texel: [u8; 4]) -> wgpu::TextureView {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d::default(),
@@ -100,7 +101,7 @@ pub(super) fn one_texel(device: &wgpu::Device, queue: &wgpu::Queue, label: &str,
 
 /// Uploads a map with all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
 /// Levels too large for the device are left out.
-fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
+fn upload(device: &wgpu::Device, queue: &Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
     let limit = device.limits().max_texture_dimension_2d;
     let image = fitting(image, kind, limit);
     let first = first_fitting_level(&image, limit);

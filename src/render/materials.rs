@@ -1,7 +1,7 @@
 //! The materials of a model in GPU memory: for each the values that shaders read, and a bind group with its maps. A white texel
 //! stands in for a missing map.
 
-use super::buffers::{UploadError, Uploader, bind_group};
+use super::buffers::{Queue, UploadError, Uploader, bind_group};
 use super::device::is_software;
 use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
@@ -65,7 +65,7 @@ impl GpuMaterials {
     pub(super) fn set_maps(
         &mut self,
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        queue: &Queue,
         layouts: &Layouts,
         textures: &MapTextures,
         maps: &[MaterialImages<'_>],
@@ -86,14 +86,14 @@ impl GpuMaterials {
     }
 
     /// Replaces the values of the materials, in their order; their maps stay.
-    pub(super) fn set_values(&mut self, queue: &wgpu::Queue, materials: &[Material]) {
+    pub(super) fn set_values(&mut self, queue: &Queue, materials: &[Material]) {
         for (material, values) in self.materials.iter_mut().zip(materials) {
             material.clone_from(values);
         }
         self.write(queue);
     }
 
-    fn write(&mut self, queue: &wgpu::Queue) {
+    fn write(&mut self, queue: &Queue) {
         let mut bytes = vec![0; self.materials.len() * self.stride as usize];
         let slots = bytes.chunks_exact_mut(self.stride as usize);
         for (((index, material), bound), slot) in self.materials.iter().enumerate().zip(&mut self.bound).zip(slots) {

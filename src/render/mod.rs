@@ -1,6 +1,6 @@
 //! Draws a [`RenderFrame`] with wgpu, on Vulkan, Metal, DirectX 12, GL, WebGPU and WebGL2 alike.
 //!
-//! A model is uploaded once. A frame writes small uniforms, the instances and their bones. For each light that the picture shows it
+//! A model is uploaded once. A frame writes small uniforms, and of the instances and their bones what differs. For each light that the picture shows it
 //! then draws the light's maps: shadow map, ambient occlusion and contact map. At last it draws the picture itself into a
 //! multisampled [`Target`]: what is behind, the model, lines. A [`Compositor`] brings the resolved target onto a surface, and
 //! [`read_back`] turns it into bytes, so a browser, a snapshot, the command line and the tests all see the same pixels.
@@ -28,7 +28,7 @@ mod target;
 mod triangles;
 mod uniforms;
 
-pub use buffers::UploadError;
+pub use buffers::{Queue, UploadError};
 pub use composite::Compositor;
 pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
 pub use instances::BoneTexture;
@@ -37,14 +37,12 @@ pub use picture::{Picture, PictureError};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
-use glam::Affine3A;
-
 use crate::image::Image;
 use crate::model::{Material, Model};
 use crate::scene::{Background, FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
-use instances::Instances;
+use instances::{InstanceRange, Instances, Standing, pose_count, poses};
 use light_maps::GeometryMap;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
@@ -73,33 +71,38 @@ pub struct Renderer {
 /// What of the model the maps show: all but its colours. Kept to see when it changes.
 #[derive(Default)]
 struct Shape {
-    palette: Vec<Affine3A>,
     hidden: Vec<bool>,
-    world_from_model: Affine3A,
+    skinned: bool,
+    standing: Standing,
     /// Counts changes.
     revision: u64,
+    /// Counts these, and changes of which instances are in sight.
+    revision_in_sight: u64,
 }
 
 impl Shape {
     /// Another model, or other holes in it.
     fn replace(&mut self) {
         self.revision += 1;
+        self.revision_in_sight += 1;
     }
 
-    /// Follows the frame's pose.
-    fn update(&mut self, frame: &RenderFrame<'_>) {
-        let palette = &frame.palette.0;
-        if self.palette == *palette
-            && self.hidden == frame.hidden_submeshes
-            && self.world_from_model == frame.world_from_model
+    /// Follows the frame's instances. `posed_anew` when one of their palettes is another one.
+    fn update(&mut self, frame: &RenderFrame<'_>, standing: Standing, posed_anew: bool) {
+        let skinned = !frame.palette.0.is_empty();
+        if posed_anew
+            || self.skinned != skinned
+            || self.hidden != frame.hidden_submeshes
+            || !self.standing.has_all_of(&standing)
         {
-            return;
+            self.hidden.clear();
+            self.hidden.extend_from_slice(frame.hidden_submeshes);
+            self.skinned = skinned;
+            self.replace();
+        } else if self.standing != standing {
+            self.revision_in_sight += 1;
         }
-        self.palette.clone_from(palette);
-        self.hidden.clear();
-        self.hidden.extend_from_slice(frame.hidden_submeshes);
-        self.world_from_model = frame.world_from_model;
-        self.revision += 1;
+        self.standing = standing;
     }
 }
 
@@ -115,6 +118,7 @@ impl Renderer {
     /// For targets with this many samples; see [`device::sample_count`].
     pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
         let pipelines = Pipelines::new(device, samples);
+        let queue = Queue::new(queue);
         let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
         Self {
             samples,
@@ -122,16 +126,16 @@ impl Renderer {
             instances: Instances::new(device),
             overlays: Overlays::new(device, &pipelines.layouts),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
-            maps: MapTextures::new(device, queue),
+            maps: MapTextures::new(device, &queue),
             common: Common {
                 device: device.clone(),
-                queue: queue.clone(),
                 pipelines,
                 samplers: Samplers::new(device),
-                environments: Environments::new(device, queue),
+                environments: Environments::new(device, &queue),
                 nothing,
-                white: one_texel(device, queue, "white", [255; 4]),
-                black: one_texel(device, queue, "black", [0; 4]),
+                white: one_texel(device, &queue, "white", [255; 4]),
+                black: one_texel(device, &queue, "black", [0; 4]),
+                queue,
             },
             model: None,
             shape: Shape::default(),
@@ -202,9 +206,12 @@ impl Renderer {
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
         self.common.environments.write(&self.common.queue, frame);
         let Common { device, queue, .. } = &self.common;
+        let mut posed_anew = false;
         if let Some(model) = &mut self.model {
             if let Some(bones) = &mut model.bones {
-                bones.write(queue, std::iter::once(frame.palette).chain(frame.ghosts.palettes));
+                let ghosts = frame.ghosts.palettes.iter().map(|palette| &palette.0[..]);
+                bones.write(queue, poses(frame).chain(ghosts));
+                posed_anew = bones.first_changed(pose_count(frame));
             }
             if let Some(colors) = &frame.vertex_colors {
                 model.set_colors(device, queue, colors);
@@ -213,7 +220,7 @@ impl Renderer {
                 .write(device, queue, frame, model.bones.as_ref(), model.winding);
         }
         self.overlays.write(device, queue, frame);
-        self.shape.update(frame);
+        self.shape.update(frame, self.instances.standing(), posed_anew);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
@@ -231,7 +238,7 @@ impl Renderer {
             let posed = Posed {
                 pipelines,
                 bones: bones.unwrap_or(&self.no_bones),
-                instances: self.instances.model(),
+                instances: self.instances.all(),
                 skinned: bones.is_some(),
                 hidden: frame.hidden_submeshes,
             };
@@ -248,7 +255,8 @@ impl Renderer {
                 let kept = self.geometry.take().filter(|map| map.size() == target.size());
                 let fresh = || GeometryMap::new(&self.common.device, target.size());
                 let map = self.geometry.insert(kept.unwrap_or_else(fresh));
-                passes.draw_geometry(&self.common, &mut encoder, map, (self.shape.revision, model));
+                let model = with(model, self.instances.in_sight());
+                passes.draw_geometry(&self.common, &mut encoder, map, (self.shape.revision_in_sight, model));
                 geometry = Some(&*map);
             }
         }
@@ -258,9 +266,14 @@ impl Renderer {
                 passes.draw(&self.common, &mut encoder, frame, (columns, geometry), shape);
             }
         }
-        self.draw_picture(frame, target, &parts, model, &mut encoder);
-        self.common.queue.submit([encoder.finish()]);
-        FrameCost::default()
+        let own = model.map(|model| with(model, self.instances.own()));
+        self.draw_picture(frame, target, &parts, own, &mut encoder);
+        self.common.queue.inner.submit([encoder.finish()]);
+        FrameCost {
+            vertices: model.map_or(0, |(model, _)| model.take_drawn_vertices()),
+            uploaded_bytes: self.common.queue.take_bytes(),
+            ..FrameCost::default()
+        }
     }
 
     /// Draws a frame into a target of its own. The picture's pixels come with what the device answered: it may have too little
@@ -269,7 +282,7 @@ impl Renderer {
     /// # Errors
     /// When the device draws no picture of this size.
     pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
-        let (device, queue) = (self.common.device.clone(), self.common.queue.clone());
+        let (device, queue) = (self.common.device.clone(), self.common.queue.inner.clone());
         Picture::start(&device, &queue, self.samples, size, |target| {
             self.render(frame, target);
         })
@@ -312,7 +325,7 @@ impl Renderer {
             true
         };
         for part in parts {
-            if let Some((model, posed)) = model
+            if let Some((model, own)) = model
                 && begin_part(&mut pass, part)
             {
                 let shading = match options.view_mode {
@@ -321,11 +334,20 @@ impl Renderer {
                 };
                 // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
                 let cut = if has_background { Cut::Smooth } else { Cut::Hard };
-                if frame.vertex_colors.is_some() {
-                    pass.set_bind_group(2, nothing, &[]);
-                    model.draw(&mut pass, posed, Cut::Hard, ModelDraw::SkinView);
+                // Colours of vertices are the own instance's alone.
+                let colored = frame.vertex_colors.is_some();
+                let instances = if colored {
+                    self.instances.crowd_in_sight()
                 } else {
+                    self.instances.in_sight()
+                };
+                if instances.count > 0 {
+                    let (_, posed) = with((model, own), instances);
                     model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                }
+                if colored {
+                    pass.set_bind_group(2, nothing, &[]);
+                    model.draw(&mut pass, own, Cut::Hard, ModelDraw::SkinView);
                 }
             }
         }
@@ -343,10 +365,10 @@ impl Renderer {
             if !begin_part(&mut pass, part) {
                 continue;
             }
-            if let Some((model, posed)) = model {
+            if let Some(model) = model {
                 pass.set_bind_group(2, nothing, &[]);
                 self.overlays
-                    .draw_over_model(device, &mut pass, frame, (model, posed), &self.instances);
+                    .draw_over_model(device, &mut pass, frame, model, &self.instances);
             }
             self.overlays.draw_shapes(&mut pass, pipelines, nothing, target.size());
         }
@@ -354,6 +376,11 @@ impl Renderer {
         let [width, height] = target.size();
         pass.set_scissor_rect(0, 0, width, height);
     }
+}
+
+/// A model drawn with other instances.
+fn with<'a>((model, posed): (&'a GpuModel, Posed<'a>), instances: InstanceRange<'a>) -> (&'a GpuModel, Posed<'a>) {
+    (model, Posed { instances, ..posed })
 }
 
 /// Which light shows in which columns of the picture, from the left.

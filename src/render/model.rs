@@ -1,8 +1,9 @@
 //! A model in GPU memory, and how its parts are drawn.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
+use std::ops::Range;
 
-use super::buffers::{UploadError, Uploader};
+use super::buffers::{Queue, UploadError, Uploader};
 use super::instances::{BoneTexture, InstanceRange};
 use super::maps::MapTextures;
 use super::materials::GpuMaterials;
@@ -42,12 +43,13 @@ pub(super) struct GpuModel {
     pub(super) bones: Option<BoneTexture>,
     /// See [`winding`].
     pub(super) winding: f32,
+    drawn_vertices: Cell<u64>,
 }
 
 impl GpuModel {
     pub(super) fn upload(
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        queue: &Queue,
         layouts: &Layouts,
         textures: &MapTextures,
         model: &Model,
@@ -93,11 +95,12 @@ impl GpuModel {
             colors: None,
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
             winding: winding(mesh),
+            drawn_vertices: Cell::new(0),
         })
     }
 
     /// Uploads colours of the vertices, if their revision is another one.
-    pub(super) fn set_colors(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, colors: &VertexColors<'_>) {
+    pub(super) fn set_colors(&mut self, device: &wgpu::Device, queue: &Queue, colors: &VertexColors<'_>) {
         if self
             .colors
             .as_ref()
@@ -147,7 +150,7 @@ impl GpuModel {
                     self.materials.bind(pass, range.material);
                 }
                 for part in parts {
-                    pass.draw_indexed(part, 0, 0..posed.instances.count);
+                    self.draw_indices(pass, posed, part);
                 }
             }
         }
@@ -161,7 +164,7 @@ impl GpuModel {
             shape.add(&range.indices);
         }
         for range in shape.ranges() {
-            pass.draw_indexed(range, 0, 0..posed.instances.count);
+            self.draw_indices(pass, posed, range);
         }
     }
 
@@ -185,7 +188,7 @@ impl GpuModel {
         let mut ranges = self.in_view(posed.hidden);
         if let Some(range) = ranges.find(|range| range.submesh == submesh) {
             self.bind(pass, posed, draw);
-            pass.draw_indexed(range.indices.clone(), 0, 0..posed.instances.count);
+            self.draw_indices(pass, posed, range.indices.clone());
         }
     }
 
@@ -199,7 +202,7 @@ impl GpuModel {
         pass.set_index_buffer(edges.buffer.slice(..), wgpu::IndexFormat::Uint32);
         for (range, edges) in self.ranges.iter().zip(&edges.ranges) {
             if !is_hidden(posed.hidden, range.submesh) {
-                pass.draw_indexed(edges.clone(), 0, 0..posed.instances.count);
+                self.draw_indices(pass, posed, edges.clone());
             }
         }
     }
@@ -218,9 +221,25 @@ impl GpuModel {
             }
             for instance in 0..posed.instances.count {
                 pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instance));
-                pass.draw(0..2, 0..range.vertices.len() as u32);
+                let lines = range.vertices.len() as u32;
+                pass.draw(0..2, 0..lines);
+                self.count(2 * u64::from(lines));
             }
         }
+    }
+
+    /// The vertices that were drawn since this was last asked: each index once for each instance.
+    pub(super) fn take_drawn_vertices(&self) -> u64 {
+        self.drawn_vertices.take()
+    }
+
+    fn draw_indices(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, indices: Range<u32>) {
+        self.count(indices.len() as u64 * u64::from(posed.instances.count));
+        pass.draw_indexed(indices, 0, 0..posed.instances.count);
+    }
+
+    fn count(&self, vertices: u64) {
+        self.drawn_vertices.set(self.drawn_vertices.get() + vertices);
     }
 
     fn in_view<'a>(&'a self, hidden: &'a [bool]) -> impl Iterator<Item = &'a DrawRange> {

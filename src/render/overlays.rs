@@ -2,12 +2,12 @@
 
 use glam::Vec3;
 
-use super::buffers::{bind_group, uniform_buffer};
+use super::buffers::{Queue, bind_group, uniform_buffer};
 use super::instances::Instances;
 use super::model::{GpuModel, Posed};
 use super::pipelines::{Layouts, Pipelines};
 use super::recipe::{Draw, ModelDraw, WorldShape};
-use super::uniforms::{encoded, theme_colors};
+use super::uniforms::{encoded, instance_size, theme_colors};
 use crate::scene::{Overlay, OverlayGeometry, OverlayVertex, RenderFrame};
 use crate::shaders::Line;
 
@@ -42,10 +42,10 @@ impl Overlays {
     }
 
     /// Uploads what the frame shows.
-    pub(super) fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
+    pub(super) fn write(&mut self, device: &wgpu::Device, queue: &Queue, frame: &RenderFrame<'_>) {
         self.shapes.write(device, queue, frame);
         let colors = theme_colors(frame.options.theme);
-        let length = frame.options.overlays.line_length * frame.world_bounds.radius();
+        let length = frame.options.overlays.line_length * instance_size(frame).length() * 0.5;
         for (style, color_srgb) in [
             (&self.wire, encoded(colors.wire, colors.wire_opacity)),
             (&self.normals, NORMAL_SRGB),
@@ -122,7 +122,7 @@ impl LineStyle {
         }
     }
 
-    fn write(&self, queue: &wgpu::Queue, line: &Line) {
+    fn write(&self, queue: &Queue, line: &Line) {
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(line));
     }
 }
@@ -156,13 +156,7 @@ impl Shapes {
         })
     }
 
-    fn write(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        hidden: &[OverlayVertex],
-        through: &[&[OverlayVertex]],
-    ) {
+    fn write(&mut self, device: &wgpu::Device, queue: &Queue, hidden: &[OverlayVertex], through: &[&[OverlayVertex]]) {
         let count = hidden.len() + through.iter().map(|part| part.len()).sum::<usize>();
         if count > self.capacity {
             self.capacity = count.next_power_of_two();
@@ -192,7 +186,7 @@ impl WorldShapes {
         }
     }
 
-    fn write(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &RenderFrame<'_>) {
+    fn write(&mut self, device: &wgpu::Device, queue: &Queue, frame: &RenderFrame<'_>) {
         let nothing = OverlayGeometry::default();
         let over_model = frame.over_model.unwrap_or(&nothing);
         let axes = axes(frame);

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
 use crate::scene::{
-    Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
+    Aabb, Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
 };
 use crate::shaders;
 
@@ -149,7 +149,7 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::
     let colors = theme_colors(options.theme);
     let bounds = &frame.world_bounds;
     let ground = Ground::under(bounds);
-    let contact = ContactFit::new(bounds);
+    let contact = contact_fit(frame);
     let (_, shadow) = key_light(frame, light);
     let center = bounds.center();
     let (background, background_srgb) = match options.background {
@@ -180,13 +180,18 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::
     }
 }
 
+/// What the contact map covers.
+pub(super) fn contact_fit(frame: &RenderFrame<'_>) -> ContactFit {
+    ContactFit::new(&frame.world_bounds, instance_size(frame))
+}
+
 /// The unit vector towards the light that casts shadows, and what its shadow map covers.
 fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
     let (options, bounds) = (&frame.options, &frame.world_bounds);
     match light {
         Light::Studio => {
             let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
-            (to_key, ShadowFit::studio(bounds, to_key))
+            (to_key, ShadowFit::studio(bounds, instance_size(frame), to_key))
         }
         Light::Book => {
             let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);
@@ -195,10 +200,19 @@ fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
     }
 }
 
+/// Size of the box that one instance reaches, world space: the scene's, less how far apart the instances stand. Lengths that go with the
+/// figure are then the same in a crowd. Where instances are turned, or the scene's box is not as wide as they stand, it is about that.
+pub(super) fn instance_size(frame: &RenderFrame<'_>) -> Vec3 {
+    let crowd = frame.crowd.instances.iter().map(|instance| &instance.world_from_model);
+    let places = std::iter::once(&frame.world_from_model).chain(crowd);
+    let apart = Aabb::from_points(places.map(|world_from_model| world_from_model.translation.into())).size();
+    (frame.world_bounds.size() - apart).max(Vec3::ZERO)
+}
+
 /// One unit of the books' demo in world units.
 fn book_unit(frame: &RenderFrame<'_>) -> f32 {
-    let bounds = &frame.world_bounds;
-    let height = bounds.size().y.max(2.0 * bounds.radius() * LEAST_HEIGHT_OF_DIAGONAL);
+    let size = instance_size(frame);
+    let height = size.y.max(size.length() * LEAST_HEIGHT_OF_DIAGONAL);
     (height / BOOK_HEIGHT).max(f32::MIN_POSITIVE)
 }
 
@@ -226,4 +240,57 @@ pub(super) fn encoded(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
 fn linear(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
     let [red, green, blue] = srgb.map(linear_from_srgb8);
     [red, green, blue, opacity]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Affine3A;
+
+    use super::*;
+    use crate::anim::Palette;
+    use crate::scene::{Camera, Crowd, CrowdInstance, FrameOptions, Ghosts};
+
+    /// One, two and eight figures 2 × 4 × 1 in a row, 3 apart, in boxes that hold them.
+    #[test]
+    fn lengths_of_the_light_are_the_same_in_a_crowd() {
+        let instances: Vec<_> = (1..8)
+            .map(|step| CrowdInstance {
+                world_from_model: Affine3A::from_translation(Vec3::X * 3.0 * step as f32),
+                palette: 0,
+            })
+            .collect();
+        let palette = Palette::default();
+        let frame = |count: usize| RenderFrame {
+            camera: Camera {
+                target: Vec3::ZERO,
+                distance: 10.0,
+                yaw_radians: 0.0,
+                pitch_radians: 0.0,
+                projection: Projection::Orthographic,
+            },
+            world_from_model: Affine3A::IDENTITY,
+            world_bounds: Aabb {
+                min: Vec3::new(-1.0, 0.0, -0.5),
+                max: Vec3::new(1.0 + 3.0 * count as f32, 4.0, 0.5),
+            },
+            palette: &palette,
+            crowd: Crowd {
+                instances: &instances[..count],
+                in_sight: 0,
+                palettes: &[],
+            },
+            hidden_submeshes: &[],
+            highlighted_submesh: None,
+            vertex_colors: None,
+            ghosts: Ghosts::default(),
+            over_model: None,
+            options: FrameOptions::default(),
+        };
+        for count in [0, 1, 7] {
+            let frame = frame(count);
+            assert_eq!(instance_size(&frame), Vec3::new(2.0, 4.0, 1.0), "{count} beside it");
+            let light = light_uniform(&frame, Light::Studio);
+            assert_eq!(light.book_unit, 4.0 / BOOK_HEIGHT);
+        }
+    }
 }

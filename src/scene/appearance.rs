@@ -155,7 +155,7 @@ modes! {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlays {
     on: [bool; Overlay::ALL.len()],
-    /// Length of the lines along normals and tangents, as a fraction of the scene's radius.
+    /// Length of the lines along normals and tangents, as a fraction of the figure's radius.
     pub line_length: f32,
 }
 

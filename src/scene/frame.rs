@@ -88,9 +88,10 @@ pub struct RenderFrame<'a> {
 }
 
 impl RenderFrame<'_> {
-    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the model's colours show its result.
+    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the colours of an instance show its result.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
-        let is_read = pass != Pass::AmbientOcclusion || self.vertex_colors.is_none();
+        let colored_alone = self.vertex_colors.is_some() && self.crowd.in_sight.min(self.crowd.instances.len()) == 0;
+        let is_read = pass != Pass::AmbientOcclusion || !colored_alone;
         is_read && self.options.draws_under(pass, light)
     }
 }
@@ -102,7 +103,9 @@ pub struct Crowd<'a> {
     pub instances: &'a [CrowdInstance],
     /// How many of them, from the first on, may be in sight. The others may cast shadows into it.
     pub in_sight: usize,
-    /// Joint matrices of the poses, one palette after another, each as long as the frame's. Instances in equal poses share one.
+    /// Joint matrices of the poses, one palette after another, each as long as the frame's. Instances in equal poses share one. A device
+    /// holds as many as its bone texture has room for: 524 288 joints where textures have 2048 rows. An instance whose palette is not
+    /// there is posed by the last that is.
     pub palettes: &'a [Affine3A],
 }
 

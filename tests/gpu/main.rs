@@ -27,6 +27,7 @@ macro_rules! on_both_backends {
 mod alpha_clip;
 mod big_picture;
 mod book_light;
+mod crowd;
 mod golden;
 mod gpu;
 mod kept_maps;

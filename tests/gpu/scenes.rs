@@ -3,8 +3,8 @@
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
 use bindpose::scene::{
-    Aabb, Camera, Crowd, FrameOptions, Ghosts, Overlay, OverlayGeometry, Overlays, Projection, RenderFrame, Theme,
-    VertexColors,
+    Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Overlay, OverlayGeometry, Overlays, Projection,
+    RenderFrame, Theme, VertexColors,
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
 
@@ -24,6 +24,11 @@ pub(crate) struct Scene {
     /// Colours of vertices, none for the view mode's.
     pub(crate) colors_srgb: Vec<[u8; 4]>,
     pub(crate) ghosts: Vec<Palette>,
+    pub(crate) crowd: Vec<CrowdInstance>,
+    /// How many of the crowd may be seen; the others come after them.
+    pub(crate) in_sight: usize,
+    /// One palette after another.
+    pub(crate) crowd_palettes: Vec<Affine3A>,
     pub(crate) over_model: OverlayGeometry,
 }
 
@@ -52,6 +57,9 @@ impl Scene {
             highlighted: None,
             colors_srgb: Vec::new(),
             ghosts: Vec::new(),
+            crowd: Vec::new(),
+            in_sight: 0,
+            crowd_palettes: Vec::new(),
             over_model: OverlayGeometry::default(),
         }
     }
@@ -81,13 +89,28 @@ impl Scene {
         scene
     }
 
+    /// Adds an instance in sight, in a pose of its own.
+    pub(crate) fn add_to_crowd(&mut self, world_from_model: Affine3A, palette: &Palette) {
+        let joints = self.palette.0.len().max(1);
+        self.crowd.push(CrowdInstance {
+            world_from_model,
+            palette: (self.crowd_palettes.len() / joints) as u32,
+        });
+        self.crowd_palettes.extend(&palette.0);
+        self.in_sight = self.crowd.len();
+    }
+
     pub(crate) fn frame(&self) -> RenderFrame<'_> {
         RenderFrame {
             camera: self.camera,
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
             palette: &self.palette,
-            crowd: Crowd::default(),
+            crowd: Crowd {
+                instances: &self.crowd,
+                in_sight: self.in_sight,
+                palettes: &self.crowd_palettes,
+            },
             hidden_submeshes: &self.hidden,
             highlighted_submesh: self.highlighted,
             vertex_colors: (!self.colors_srgb.is_empty()).then_some(VertexColors {

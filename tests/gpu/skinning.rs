@@ -2,7 +2,7 @@
 
 use bindpose::anim::{Palette, SkinnedVertices, skin};
 use bindpose::model::{Influences, Mesh};
-use bindpose::render::BoneTexture;
+use bindpose::render::{BoneTexture, Queue};
 use bindpose::shaders::{GeometryVertex, InfluenceVertex, SKINNING_WGSL};
 use glam::{Affine3A, DMat3, DMat4, DVec3, EulerRot, Mat3, Quat, Vec3};
 use wgpu::util::DeviceExt as _;
@@ -146,7 +146,7 @@ fn skin_on_gpu(
     let (device, queue) = (&gpu.open.device, &gpu.open.queue);
     let bones_layout = BoneTexture::layout(device);
     let mut bones = BoneTexture::new(device, &bones_layout, palette.0.len());
-    bones.write(queue, [palette]);
+    bones.write(&Queue::new(queue), [&palette.0[..]]);
 
     let source = format!(
         "const WIDTH: f32 = {VERTICES}.0;\n{}{}",
