@@ -253,22 +253,22 @@ fn each_limit_is_found_and_nothing_else() {
     let edits: [(&str, Edit); 13] = [
         ("many-bones", many_bones),
         ("many-vertices", |document| {
-            document.vertices.resize(65_537, document.vertices[0])
+            document.vertices.resize(65_537, document.vertices[0]);
         }),
         ("book-roots", |document| document.bone_parents[2] = -1),
         ("bones-reordered", |document| document.bone_parents[1] = 2),
         ("book-fourth-weight", |document| {
-            document.vertices[3].blend_weights = [0.5, 0.25, 0.0, 0.0]
+            document.vertices[3].blend_weights = [0.5, 0.25, 0.0, 0.0];
         }),
         ("book-clip-name", |document| document.clips[0].name = "Walk".into()),
         ("duplicate-clip-name", |document| {
-            document.clips.push(document.clips[0].clone())
+            document.clips.push(document.clips[0].clone());
         }),
         ("keys-not-sorted", |document| {
-            document.clips[0].bones[1].keyframes.reverse()
+            document.clips[0].bones[1].keyframes.reverse();
         }),
         ("rotation-not-unit", |document| {
-            document.clips[0].bones[1].keyframes[0].rotation = [0.0, 0.0, 0.0, 2.0]
+            document.clips[0].bones[1].keyframes[0].rotation = [0.0, 0.0, 0.0, 2.0];
         }),
         ("book-alpha-clip", |document| document.materials[0].alpha_clip = true),
         ("book-size", |document| {
@@ -278,7 +278,7 @@ fn each_limit_is_found_and_nothing_else() {
         }),
         ("book-tangent-sign", |document| document.vertices[0].tangent[3] = 1.0),
         ("book-map-format", |document| {
-            document.materials[0].diffuse_map = Some("skin.png".into())
+            document.materials[0].diffuse_map = Some("skin.png".into());
         }),
     ];
     for (code, edit) in edits {

@@ -14,7 +14,7 @@ pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
 pub use stream::{Row, Trouble};
 
-use crate::diagnostic::Position;
+use crate::diagnostic::{Diagnostic, Position, codes};
 
 /// What a book's program makes of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +25,8 @@ pub struct Verdict {
     pub trouble: Option<Trouble>,
     /// What one sees then, or sees anyway.
     pub shows: String,
+    /// Whether the demo ends before it shows anything.
+    pub ends: bool,
     /// What the demo cannot show as it is meant.
     pub limits: Vec<Limit>,
 }
@@ -33,6 +35,22 @@ impl Verdict {
     /// Whether the loader reads the file as it is meant.
     pub fn reads(&self) -> bool {
         self.trouble.is_none()
+    }
+
+    /// Where it goes wrong, and the limits, as diagnostics.
+    pub fn diagnostics(&self) -> impl Iterator<Item = Diagnostic> {
+        let label = self.book.label();
+        let stops = self.trouble.iter().map(move |trouble| Diagnostic {
+            position: Some(trouble.position),
+            length: trouble.length,
+            places: vec![trouble.position],
+            ..codes::BOOK_STOPS.says(format!("{label}: {} One sees: {}", trouble.why, self.shows))
+        });
+        let limits = self
+            .limits
+            .iter()
+            .filter_map(move |limit| Some(codes::named(limit.code)?.says(format!("{label}: {}", limit.message))));
+        stops.chain(limits)
     }
 
     /// Where it goes wrong.
@@ -45,10 +63,12 @@ impl Verdict {
 pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
     let reading = read(book, bytes);
     let trouble = trouble(&reading);
+    let end = shows::ends(book, &reading);
     let document = known.document.or(trouble.is_none().then_some(&reading.document));
     Verdict {
         book,
-        shows: shows::shows(book, &reading),
+        ends: end.is_some(),
+        shows: end.unwrap_or_else(|| shows::shows(&reading)),
         limits: document.map_or_else(Vec::new, |document| limits::limits(book, document, known)),
         trouble,
     }

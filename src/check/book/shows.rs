@@ -4,21 +4,18 @@ use super::demo::{Book, DEMO_CLIP, MOST_BONES};
 use super::loader::{Counts, Reading};
 use super::stream::Row;
 
-/// What one sees, in one or two sentences.
-pub(super) fn shows(book: Book, reading: &Reading) -> String {
+/// What one sees of a file with which the demo does not end, in a sentence.
+pub(super) fn shows(reading: &Reading) -> String {
     let Reading {
         document,
         counts,
         stop,
         mistake,
     } = reading;
-    if let Some(end) = ends(book, reading) {
-        return end;
-    }
     let stopped_at = stop.as_ref().filter(|_| !is_complete(reading)).map(|stop| stop.row);
     match stopped_at {
-        Some(Row::Header | Row::Material(_)) => "It ends with an error: it looks for a map without a name.".to_owned(),
-        Some(Row::Subset(_) | Row::Vertex(_)) => {
+        // With the first two the demo has ended.
+        Some(Row::Header | Row::Material(_) | Row::Subset(_) | Row::Vertex(_)) => {
             "Nothing: all corners of all triangles are the first vertex.".to_owned()
         }
         Some(Row::Triangle(read)) => {
@@ -66,8 +63,8 @@ pub(super) fn is_complete(reading: &Reading) -> bool {
         && document.clips.iter().all(|clip| has(clip.bones.len(), bones))
 }
 
-/// How the demo ends before it shows anything.
-fn ends(book: Book, reading: &Reading) -> Option<String> {
+/// How the demo ends before it shows anything, if it does.
+pub(super) fn ends(book: Book, reading: &Reading) -> Option<String> {
     let Reading {
         document, counts, stop, ..
     } = reading;
@@ -81,11 +78,11 @@ fn ends(book: Book, reading: &Reading) -> Option<String> {
             bytes >> 30
         ));
     }
-    if counts.bones == 0 {
-        return None;
-    }
     if let Some(Row::Header | Row::Material(_)) = stop.as_ref().map(|stop| stop.row) {
         return Some("It ends with an error: it looks for a map without a name.".to_owned());
+    }
+    if counts.bones == 0 {
+        return None;
     }
     // Of clips of one name the last one stays.
     let Some(clip) = document.clips.iter().rposition(|clip| clip.name == DEMO_CLIP) else {
