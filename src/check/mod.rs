@@ -1,7 +1,10 @@
-//! Finds what is wrong with a model when it is posed. Its diagnostics are warnings: loading does not depend on them.
+//! What is wrong with a file that was read, and what others make of it. Its diagnostics are warnings and notes: loading does not depend on
+//! them.
 
+pub mod book;
 mod exploded;
 mod overflow;
+pub mod sarif;
 
 use crate::anim::CompiledClip;
 use crate::diagnostic::Diagnostic;

@@ -1,42 +1,96 @@
-//! `bindpose check`: all that is wrong with files, or was mended.
+//! `bindpose check`: all that is wrong with files, or was mended, and what the books' programs make of them.
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 
+use anstyle::Style;
+use clap::ValueEnum;
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::diagnostic::write_diagnostic;
+use super::diagnostic::{Colors, write_in_colors};
 use super::failure::{Failure, Outcome};
-use super::input;
+use super::in_order::in_order;
+use super::paths;
+use super::text::{OneLine, counted};
+use super::textures::{MapState, Textures, Wanted, missing, without_name};
 use crate::anim::CompiledClip;
-use crate::check;
-use crate::diagnostic::{Diagnostic, Severity, codes};
-use crate::format::LineIndex;
-use crate::import;
+use crate::check::book::{self, Book, Known, Verdict};
+use crate::check::{self, sarif};
+use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
+use crate::format::{self, LineIndex};
+use crate::import::{self, Imported};
 use crate::session::summary::Finding;
+use crate::session::{File, Maps};
 
 /// List what is wrong with files, or was mended while reading them.
 ///
 /// One line for each finding, with the lines of the file that it is about. A file without findings prints nothing.
 #[derive(Debug, clap::Args)]
-#[command(after_long_help = JSON)]
+#[command(after_long_help = OUTPUT)]
 pub(super) struct Arguments {
-    /// Files to read.
-    #[arg(required_unless_present = "explain", value_name = "FILE")]
-    files: Vec<PathBuf>,
-    /// Print JSON; see below for its keys.
-    #[arg(long)]
+    /// Files to read, folders with models in them, or - for standard input.
+    #[arg(required_unless_present = "explain", value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// How findings are printed; see below.
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    format: Format,
+    /// The same as --format json.
+    #[arg(long, conflicts_with = "format")]
     json: bool,
+    /// What else than errors makes the exit code 1.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    deny: Vec<Deny>,
+    /// Whether the programs of Frank Luna's books read the files, and what they show.
+    #[arg(long, value_name = "BOOK")]
+    book: Option<Books>,
+    /// Look for maps in this folder and in those in it; may be given more than once.
+    #[arg(long, value_name = "DIR")]
+    textures: Vec<PathBuf>,
     /// Say what a code means, instead of reading files.
-    #[arg(long, value_name = "CODE", conflicts_with_all = ["files", "json"])]
+    #[arg(long, value_name = "CODE", conflicts_with_all = ["paths", "json", "format", "deny", "book", "textures"])]
     explain: Option<String>,
+    /// Colours: auto is on a terminal.
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    color: When,
 }
 
-const JSON: &str = "\
-Output:
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    Sarif,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Deny {
+    /// Warnings too.
+    Warnings,
+    /// A book that does not read a file, or whose demo ends before it shows anything.
+    Book,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Books {
+    D3d11,
+    D3d12,
+    All,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum When {
+    Auto,
+    Always,
+    Never,
+}
+
+const OUTPUT: &str = "\
+Text:
   FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
+  Of a folder every .m3d file below it is read, by path. After several files comes a line with counts.
   --explain CODE tells what a finding of this code means for the model, or what can be done.
 
 JSON: an array with one object for each file that could be read
@@ -48,27 +102,238 @@ JSON: an array with one object for each file that could be read
     line, column      place, both from 1, the column in bytes; null when it is about the whole file
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
-                      \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0
+                      \"triangle\", \"bone\", \"clip\" or \"map\") and index, its number in the file from 0; maps
+                      are counted as `info --json` lists them
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
     help              what --explain tells of the code
+  book                what the books' programs make of it, or null without --book
+    d3d11, d3d12      null when not asked for
+      reads           whether its loader reads the file as it is meant
+      line, column    where it goes wrong, or null
+      why             what happens there, or null
+      shows           what one then sees
+      ends            whether its demo ends before it shows anything
+      limits          what the demo cannot show as it is meant: code and message of each
+
+SARIF: version 2.1.0, with columns in UTF-16 code units; what books make of a file are results too.
+
+--textures DIR adds a finding for each map that is missing or cannot be read, and, when one file is read, for
+pictures that no material names.
 
 A file that cannot be read is named on standard error; the others are still checked.
 
 Exit codes:
   0  no errors; notes and warnings are fine
-  1  a file has errors
+  1  a file has errors, or what --deny names: warnings; a book that does not read a file, or whose demo ends
   2  wrong use, an unknown code, or a file cannot be read";
 
 /// What is known of one file.
-#[derive(Debug, Serialize)]
-struct Checked<'a> {
+struct Checked {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    diagnostics: Vec<Diagnostic>,
+    verdicts: Vec<Verdict>,
+}
+
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
+    if let Some(name) = &arguments.explain {
+        explain(name, out)?;
+        return Ok(Outcome::Fine);
+    }
+    let format = if arguments.json { Format::Json } else { arguments.format };
+    let colors = Colors(match arguments.color {
+        When::Auto => io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        When::Always => true,
+        When::Never => false,
+    });
+    let models = paths::models(&arguments.paths);
+    let is_only = models.len() == 1;
+    let progress = progress(models.len());
+    let mut outcome = Outcome::Fine;
+    let mut counts = Counts::default();
+    let mut json = Vec::new();
+    let mut results = Vec::new();
+    in_order(
+        &models,
+        |path| check_file(path.as_ref().ok()?, arguments, is_only).into(),
+        |checked: Option<Result<Checked, Failure>>| -> Result<(), Failure> {
+            let index = progress.position() as usize;
+            progress.inc(1);
+            let checked = match (checked, &models[index]) {
+                (Some(Ok(checked)), _) => checked,
+                (Some(Err(failure)), _) => {
+                    // Keeps the order of the files where both streams go to one terminal.
+                    out.flush()?;
+                    outcome = outcome.max(progress.suspend(|| failure.report(err)));
+                    return Ok(());
+                }
+                (None, Err(failure)) => {
+                    out.flush()?;
+                    outcome = outcome.max(progress.suspend(|| failure.report(err)));
+                    return Ok(());
+                }
+                (None, Ok(_)) => return Ok(()),
+            };
+            counts.add(&checked);
+            outcome = outcome.max(checked.outcome(&arguments.deny));
+            match format {
+                Format::Text => progress.suspend(|| checked.write(out, colors))?,
+                Format::Json => json.push(serde_json::to_value(checked.report(arguments.book))?),
+                Format::Sarif => results.push(checked.sarif_results()),
+            }
+            Ok(())
+        },
+    )?;
+    progress.finish_and_clear();
+    match format {
+        Format::Text if models.len() > 1 => writeln!(out, "{counts}")?,
+        Format::Text => {}
+        Format::Json => {
+            serde_json::to_writer_pretty(&mut *out, &json)?;
+            writeln!(out)?;
+        }
+        Format::Sarif => {
+            serde_json::to_writer_pretty(&mut *out, &sarif::log(results))?;
+            writeln!(out)?;
+        }
+    }
+    Ok(outcome)
+}
+
+/// A line on standard error that tells how far it is, where that is a terminal and there is more than one file.
+fn progress(files: usize) -> ProgressBar {
+    if files < 2 {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(files as u64);
+    if let Ok(style) = ProgressStyle::with_template("checking {pos} of {len} files, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn check_file(path: &Path, arguments: &Arguments, is_only: bool) -> Result<Checked, Failure> {
+    let bytes = paths::read(path)?;
+    let imported = import::import(&bytes);
+    let mut diagnostics = Vec::new();
+    let mut missing_maps = None;
+    if let Ok(imported) = &imported
+        && !arguments.textures.is_empty()
+    {
+        let found = findings_of_maps(imported, &arguments.textures, is_only)?;
+        missing_maps = Some(found.missing);
+        diagnostics = found.diagnostics;
+    }
+    let verdicts = verdicts(arguments.book, &bytes, imported.as_ref().ok(), missing_maps.as_deref());
+    diagnostics.extend(diagnostics_of(imported));
+    diagnostics.sort_by_key(|diagnostic| diagnostic.position);
+    Ok(Checked {
+        path: path.to_owned(),
+        bytes,
+        diagnostics,
+        verdicts,
+    })
+}
+
+/// All diagnostics of a file and of its model.
+fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>) -> Vec<Diagnostic> {
+    match imported {
+        Ok(imported) => {
+            let compiled = CompiledClip::all(&imported.model.clips);
+            let of_motion = check::motion(&imported.model, &compiled, &imported.clip_lines);
+            imported.diagnostics.into_iter().chain(of_motion).collect()
+        }
+        Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
+    }
+}
+
+fn verdicts(
+    books: Option<Books>,
+    bytes: &[u8],
+    imported: Option<&Imported>,
+    missing_maps: Option<&[String]>,
+) -> Vec<Verdict> {
+    let books: &[Book] = match books {
+        None => return Vec::new(),
+        Some(Books::D3d11) => &[Book::D3d11],
+        Some(Books::D3d12) => &[Book::D3d12],
+        Some(Books::All) => &Book::ALL,
+    };
+    let parsed = imported.and_then(|_| format::parse(bytes).ok());
+    let known = Known {
+        document: parsed.as_ref().map(|parsed| &parsed.document),
+        handedness: imported.map(|imported| imported.model.handedness),
+        missing_maps,
+    };
+    books.iter().map(|&book| book::verdict(book, bytes, &known)).collect()
+}
+
+/// What looking for maps gives.
+struct FoundMaps {
+    diagnostics: Vec<Diagnostic>,
+    /// Names without a file.
+    missing: Vec<String>,
+}
+
+fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> Result<FoundMaps, Failure> {
+    let materials = &imported.model.materials;
+    let mut textures = Textures::read(folders, materials, Wanted::Maps)?;
+    let mut maps = Maps::without_mips();
+    maps.add(materials, std::mem::take(&mut textures.pictures));
+    let states = textures.states(materials, &maps);
+    let mut diagnostics = Vec::new();
+    // A name that several materials have is told once, with the first.
+    let mut told = BTreeMap::new();
+    for (index, map) in (0..).zip(&states) {
+        let count = told.entry(map.name).or_insert(0);
+        *count += 1;
+        if *count > 1 {
+            continue;
+        }
+        let users = states.iter().filter(|other| other.name == map.name).count();
+        let diagnostic = match &map.state {
+            Some(MapState::Missing) => missing(map, users),
+            Some(MapState::Unreadable(path, diagnostic)) => Diagnostic {
+                message: format!("{}: {}", path.display(), without_name(diagnostic, path).message),
+                ..diagnostic.clone()
+            },
+            Some(MapState::Found(_)) | None => continue,
+        };
+        diagnostics.push(Diagnostic {
+            subject: Some(Subject::Map(index)),
+            ..diagnostic
+        });
+    }
+    if is_only && let Some(first) = textures.unnamed.first() {
+        let first = File::new(&first.to_string_lossy(), []);
+        let others = match textures.unnamed.len() - 1 {
+            0 => String::new(),
+            others => format!(" and {}", counted(others, "other picture")),
+        };
+        diagnostics.push(Diagnostic {
+            count: u32::try_from(textures.unnamed.len()).unwrap_or(u32::MAX),
+            ..codes::MAP_UNUSED.says(format!("No material names {}{others}.", first.base_name()))
+        });
+    }
+    let is_missing = |state: &Option<MapState<'_>>| matches!(state, Some(MapState::Missing));
+    let missing = states.iter().filter(|map| is_missing(&map.state));
+    Ok(FoundMaps {
+        diagnostics,
+        missing: missing.map(|map| map.name.to_owned()).collect(),
+    })
+}
+
+/// What --json prints of a file.
+#[derive(Serialize)]
+struct Report<'a> {
     file: String,
     findings: Vec<Explained<'a>>,
+    book: Option<BooksReport<'a>>,
 }
 
 /// A finding and what its code means.
-#[derive(Debug, Serialize)]
+#[derive(Serialize)]
 struct Explained<'a> {
     #[serde(flatten)]
     finding: Finding<'a>,
@@ -84,53 +349,166 @@ impl<'a> From<&'a Diagnostic> for Explained<'a> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
-    if let Some(name) = &arguments.explain {
-        explain(name, out)?;
-        return Ok(Outcome::Fine);
+#[derive(Serialize)]
+struct BooksReport<'a> {
+    d3d11: Option<VerdictReport<'a>>,
+    d3d12: Option<VerdictReport<'a>>,
+}
+
+#[derive(Serialize)]
+struct VerdictReport<'a> {
+    reads: bool,
+    line: Option<u32>,
+    column: Option<u32>,
+    why: Option<&'a str>,
+    shows: &'a str,
+    ends: bool,
+    limits: Vec<LimitReport<'a>>,
+}
+
+#[derive(Serialize)]
+struct LimitReport<'a> {
+    code: &'static str,
+    message: &'a str,
+}
+
+impl<'a> From<&'a Verdict> for VerdictReport<'a> {
+    fn from(verdict: &'a Verdict) -> Self {
+        Self {
+            reads: verdict.reads(),
+            line: verdict.position().map(|at| at.line),
+            column: verdict.position().map(|at| at.column),
+            why: verdict.trouble.as_ref().map(|trouble| trouble.why.as_str()),
+            shows: &verdict.shows,
+            ends: verdict.ends,
+            limits: verdict
+                .limits
+                .iter()
+                .map(|limit| LimitReport {
+                    code: limit.code,
+                    message: &limit.message,
+                })
+                .collect(),
+        }
     }
-    let mut outcome = Outcome::Fine;
-    let mut all = Vec::new();
-    for path in &arguments.files {
-        let file = match input::read(path) {
-            Ok(file) => file,
-            Err(failure) => {
-                // Keeps the order of the files where both streams go to one terminal.
-                out.flush()?;
-                outcome = outcome.max(failure.report(err));
-                continue;
+}
+
+impl Checked {
+    fn outcome(&self, deny: &[Deny]) -> Outcome {
+        let worst = self.diagnostics.iter().map(|diagnostic| diagnostic.severity).max();
+        let is_denied =
+            |severity| severity == Severity::Error || (severity == Severity::Warning && deny.contains(&Deny::Warnings));
+        let book_fails =
+            deny.contains(&Deny::Book) && self.verdicts.iter().any(|verdict| !verdict.reads() || verdict.ends);
+        if book_fails || worst.is_some_and(is_denied) {
+            Outcome::FileHasErrors
+        } else {
+            Outcome::Fine
+        }
+    }
+
+    fn write(&self, out: &mut dyn Write, colors: Colors) -> io::Result<()> {
+        if self.diagnostics.is_empty() && self.verdicts.is_empty() {
+            return Ok(());
+        }
+        let lines = LineIndex::new(&self.bytes);
+        for diagnostic in &self.diagnostics {
+            let excerpt = diagnostic
+                .position
+                .map(|position| lines.excerpt(position, diagnostic.length));
+            write_in_colors(out, colors, &self.path, diagnostic, excerpt.as_ref())?;
+        }
+        let path = OneLine(&self.path.display().to_string()).to_string();
+        for verdict in &self.verdicts {
+            let book = verdict.book.label();
+            if let Some(trouble) = &verdict.trouble {
+                let at = trouble.position;
+                let place = colors.paint(Style::new().bold(), &format!("{path}:{}:{}", at.line, at.column));
+                let word = colors.paint(Colors::of(Severity::Warning), book);
+                writeln!(out, "{place}: {word}: {}", OneLine(&trouble.why))?;
+                write!(out, "{}", lines.excerpt(at, trouble.length))?;
+                writeln!(out, "   = one sees: {}", verdict.shows)?;
+            } else {
+                let place = colors.paint(Style::new().bold(), &path);
+                let word = colors.paint(Colors::of(Severity::Note), book);
+                writeln!(
+                    out,
+                    "{place}: {word}: It reads the file. One sees: {}",
+                    OneLine(&verdict.shows)
+                )?;
             }
+            for limit in &verdict.limits {
+                writeln!(out, "   = {}: {}", limit.code, OneLine(&limit.message))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn report(&self, books: Option<Books>) -> Report<'_> {
+        let of = |book: Book| {
+            let verdict = self.verdicts.iter().find(|verdict| verdict.book == book);
+            verdict.map(VerdictReport::from)
         };
-        let diagnostics = diagnostics_of(&file.bytes);
-        if diagnostics
-            .iter()
-            .any(|diagnostic| diagnostic.severity == Severity::Error)
-        {
-            outcome = outcome.max(Outcome::FileHasErrors);
+        Report {
+            file: self.path.display().to_string(),
+            findings: self.diagnostics.iter().map(Explained::from).collect(),
+            book: books.map(|_| BooksReport {
+                d3d11: of(Book::D3d11),
+                d3d12: of(Book::D3d12),
+            }),
         }
-        if !arguments.json && !diagnostics.is_empty() {
-            let lines = LineIndex::new(&file.bytes);
-            for diagnostic in &diagnostics {
-                let excerpt = diagnostic
-                    .position
-                    .map(|position| lines.excerpt(position, diagnostic.length));
-                write_diagnostic(out, path, diagnostic, excerpt.as_ref())?;
-            }
+    }
+
+    fn sarif_results(&self) -> sarif::Results {
+        let of_books = self.verdicts.iter().flat_map(Verdict::diagnostics);
+        let diagnostics: Vec<_> = self.diagnostics.iter().cloned().chain(of_books).collect();
+        sarif::Results::of(&sarif::CheckedFile {
+            path: &self.path.to_string_lossy(),
+            bytes: &self.bytes,
+            diagnostics: &diagnostics,
+        })
+    }
+}
+
+/// How much was found in all files.
+#[derive(Default)]
+struct Counts {
+    files: usize,
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+}
+
+impl Counts {
+    fn add(&mut self, checked: &Checked) {
+        self.files += 1;
+        for diagnostic in &checked.diagnostics {
+            *match diagnostic.severity {
+                Severity::Error => &mut self.errors,
+                Severity::Warning => &mut self.warnings,
+                Severity::Note => &mut self.notes,
+            } += 1;
         }
-        all.push((path, diagnostics));
     }
-    if arguments.json {
-        let checked: Vec<Checked<'_>> = all
-            .iter()
-            .map(|(path, diagnostics)| Checked {
-                file: path.display().to_string(),
-                findings: diagnostics.iter().map(Explained::from).collect(),
-            })
-            .collect();
-        serde_json::to_writer_pretty(&mut *out, &checked)?;
-        writeln!(out)?;
+}
+
+impl std::fmt::Display for Counts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            files,
+            errors,
+            warnings,
+            notes,
+        } = *self;
+        write!(
+            f,
+            "{}: {}, {}, {}",
+            counted(files, "file"),
+            counted(errors, "error"),
+            counted(warnings, "warning"),
+            counted(notes, "note")
+        )
     }
-    Ok(outcome)
 }
 
 /// Prints the row of the table of codes.
@@ -161,20 +539,6 @@ fn edits(from: &str, to: &str) -> usize {
         }
     }
     row[to.len()]
-}
-
-/// All diagnostics of a file, in its order; those without a place come first.
-fn diagnostics_of(bytes: &[u8]) -> Vec<Diagnostic> {
-    let mut diagnostics = match import::import(bytes) {
-        Ok(imported) => {
-            let compiled = CompiledClip::all(&imported.model.clips);
-            let of_motion = check::motion(&imported.model, &compiled, &imported.clip_lines);
-            imported.diagnostics.into_iter().chain(of_motion).collect::<Vec<_>>()
-        }
-        Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
-    };
-    diagnostics.sort_by_key(|diagnostic| diagnostic.position);
-    diagnostics
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::failure::Failure;
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
 use crate::model::Material;
-use crate::session::{File, MapNames, MapSlot, MapSource, Maps, find_maps};
+use crate::session::{self, File, MapNames, MapSlot, MapSource, Maps, find_maps};
 
 /// The most entries of folders that are looked at, so that a whole disk given by mistake does not take for ever.
 const MOST_ENTRIES: usize = 500_000;
@@ -22,6 +22,8 @@ pub(super) struct Textures {
     pub(super) pictures: Vec<File>,
     /// Cube maps, the largest first. They are not read yet.
     pub(super) cubes: Vec<PathBuf>,
+    /// Pictures that no map's name fits. Their contents are not known.
+    pub(super) unnamed: Vec<PathBuf>,
     /// Pictures whose names fit a map and that the system does not let us read. They hold no bytes.
     unopened: Vec<File>,
     /// Why, in the same order.
@@ -70,16 +72,11 @@ impl MapState<'_> {
 
 /// The maps that materials name, in the order of the materials. Nobody looked for them.
 pub(super) fn named_maps(materials: &[Material]) -> impl Iterator<Item = NamedMap<'_>> {
-    materials.iter().flat_map(|material| {
-        let slots = MapSlot::ALL.into_iter();
-        slots.filter_map(|slot| {
-            Some(NamedMap {
-                material: &material.name,
-                slot,
-                name: slot.name_in(material)?,
-                state: None,
-            })
-        })
+    session::named_maps(materials).map(|(material, slot, name)| NamedMap {
+        material: &materials[material].name,
+        slot,
+        name,
+        state: None,
     })
 }
 
@@ -103,6 +100,7 @@ impl Textures {
             let name = path.to_string_lossy();
             let is_named = names.fit(&name);
             if !is_named && wanted == Wanted::Maps {
+                textures.unnamed.push(path);
                 continue;
             }
             match read_picture(&path, is_named) {
@@ -143,15 +141,8 @@ impl Textures {
                 self.reasons.get(found.file)?.clone(),
             ))
         };
-        let indices = materials.iter().enumerate().flat_map(|(index, material)| {
-            let slots = MapSlot::ALL.into_iter();
-            slots
-                .filter(|slot| slot.name_in(material).is_some())
-                .map(move |_| index)
-        });
         let mut all: Vec<NamedMap<'a>> = named_maps(materials).collect();
-        for (map, material) in all.iter_mut().zip(indices) {
-            let slot = map.slot;
+        for (map, (material, slot, _)) in all.iter_mut().zip(session::named_maps(materials)) {
             map.state = Some(match (maps.file(material, slot), maps.diagnostic(material, slot)) {
                 (Some(file), Some(diagnostic)) => MapState::Unreadable(self.path(file), diagnostic.clone()),
                 (Some(file), None) => MapState::Found(self.path(file)),
@@ -203,7 +194,8 @@ pub(super) fn by_name<'m, 'a>(maps: &'m [NamedMap<'a>]) -> Vec<(&'m NamedMap<'a>
     firsts
 }
 
-fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
+/// That no file fits a map, which `count` materials and slots have.
+pub(super) fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
     let NamedMap { material, name, .. } = map;
     let others = match count - 1 {
         0 => String::new(),
@@ -218,7 +210,7 @@ fn missing(map: &NamedMap<'_>, count: usize) -> Diagnostic {
 }
 
 /// A diagnostic about a picture without the name that its message begins with, since the path stands before it.
-fn without_name(diagnostic: &Diagnostic, path: &Path) -> Diagnostic {
+pub(super) fn without_name(diagnostic: &Diagnostic, path: &Path) -> Diagnostic {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let message = diagnostic.message.strip_prefix(&*name);
     let message = message.and_then(|message| message.strip_prefix(": "));

@@ -290,6 +290,37 @@ table! {
             "Scales multiply along a chain of bones, so a few great ones are enough.";
     }
 
+    /// What the books' programs cannot show as it is meant ([`check::book`](crate::check::book)), beside limits that have a code above.
+    OF_BOOKS {
+        BOOK_STOPS = "book-stops", Warning,
+            "A book's loader does not read the file as it is meant.",
+            "The loaders read words in order and look at no label. Write the file as the book's own exporter does.";
+        BOOK_CLIP_NAME = "book-clip-name", Note,
+            "There is no clip of the name that the books' demos ask for.",
+            "Name a clip `Take1`, or change `ClipName` in the demo.";
+        BOOK_ROOTS = "book-roots", Note,
+            "Bone 0 is not the only root.",
+            "The books' demos take bone 0 as the root of all others.";
+        BOOK_FOURTH_WEIGHT = "book-fourth-weight", Note,
+            "A fourth blend weight is not what is left to 1.",
+            "The books' shaders do not read it: they take what the first three leave.";
+        BOOK_ALPHA_CLIP = "book-alpha-clip", Note,
+            "A material asks for holes, which the books' demos do not cut into characters.",
+            "Hair and leaves look like cards there.";
+        BOOK_HANDEDNESS = "book-handedness", Note,
+            "The model is left-handed; the books' demos mirror their character.",
+            "Take the minus from the demo's scale, or turn the model.";
+        BOOK_SIZE = "book-size", Note,
+            "The books' demos show the model too small or too large.",
+            "Change the demo's scale of 0.05, or scale the model to about 72 units.";
+        BOOK_TANGENT_SIGN = "book-tangent-sign", Note,
+            "The D3D12 book's loader leaves the sign of tangents unread.",
+            "Where textures are mirrored, bumps look like dents.";
+        BOOK_MAP_FORMAT = "book-map-format", Note,
+            "A map is of a format that the book's demo does not read.",
+            "The D3D12 book reads DDS alone.";
+    }
+
     /// What [`Skeleton::new`](crate::model::Skeleton::new), [`Track::new`](crate::model::Track::new) and
     /// [`Model::checked`](crate::model::Model::checked) refuse. No file leads to these.
     OF_CONSTRUCTORS {

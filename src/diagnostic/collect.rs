@@ -102,7 +102,8 @@ impl Place {
         | Subject::Vertex(index)
         | Subject::Triangle(index)
         | Subject::Bone(index)
-        | Subject::Clip(index)) = subject;
+        | Subject::Clip(index)
+        | Subject::Map(index)) = subject;
         Self::on(subject, lines.get(index as usize).copied())
     }
 

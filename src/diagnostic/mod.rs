@@ -66,6 +66,23 @@ pub enum Subject {
     Bone(u32),
     /// A clip, by its index in the file.
     Clip(u32),
+    /// A map that a material names, by its index among all that materials name, in their order, the diffuse map first.
+    Map(u32),
+}
+
+impl Subject {
+    /// The word that outputs use, and the index.
+    pub fn kind_and_index(self) -> (&'static str, u32) {
+        match self {
+            Self::Material(index) => ("material", index),
+            Self::Subset(index) => ("subset", index),
+            Self::Vertex(index) => ("vertex", index),
+            Self::Triangle(index) => ("triangle", index),
+            Self::Bone(index) => ("bone", index),
+            Self::Clip(index) => ("clip", index),
+            Self::Map(index) => ("map", index),
+        }
+    }
 }
 
 /// One thing that is worth telling about a file.

@@ -107,6 +107,20 @@ impl<'a> LineIndex<'a> {
         }
     }
 
+    /// The bytes of a line, by its number from 1, without its end. Empty behind the last line.
+    pub fn line(&self, number: u32) -> &'a [u8] {
+        let index = number.saturating_sub(1) as usize;
+        let Some(&start) = self.starts.get(index / Self::STEP) else {
+            return &[];
+        };
+        let mut line = next_line(&self.bytes[start..]);
+        for _ in 0..index % Self::STEP {
+            let Some(rest) = line.rest else { return &[] };
+            line = next_line(rest);
+        }
+        line.text
+    }
+
     /// Shows the line of `position` and the one before it. A position outside of the file gives the nearest line. Of a file
     /// that is no text it shows the row of 16 bytes that the position is in, and the one before it.
     pub fn excerpt(&self, position: Position, length: u32) -> Excerpt {

@@ -66,7 +66,7 @@ pub use selecting::{JointCommand, SubmeshCommand};
 pub use skeleton_cache::SkinColorsKey;
 pub use submeshes::Submeshes;
 pub use textures::{
-    Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics,
+    Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics, named_maps,
 };
 pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 

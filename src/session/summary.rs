@@ -160,14 +160,7 @@ impl<'a> From<&'a Diagnostic> for Finding<'a> {
 
 impl From<Subject> for Part {
     fn from(subject: Subject) -> Self {
-        let (kind, index) = match subject {
-            Subject::Material(index) => ("material", index),
-            Subject::Subset(index) => ("subset", index),
-            Subject::Vertex(index) => ("vertex", index),
-            Subject::Triangle(index) => ("triangle", index),
-            Subject::Bone(index) => ("bone", index),
-            Subject::Clip(index) => ("clip", index),
-        };
+        let (kind, index) = subject.kind_and_index();
         Self { kind, index }
     }
 }

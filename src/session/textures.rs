@@ -210,6 +210,15 @@ impl MapNames {
     }
 }
 
+/// The maps that materials name, in the order of the materials, the diffuse map first: index of the material, slot, and name as the file
+/// has it. [`Subject::Map`] counts them.
+pub fn named_maps(materials: &[Material]) -> impl Iterator<Item = (usize, MapSlot, &str)> {
+    materials.iter().enumerate().flat_map(|(index, material)| {
+        let slots = MapSlot::ALL.into_iter();
+        slots.filter_map(move |slot| Some((index, slot, slot.name_in(material)?)))
+    })
+}
+
 /// How much of what the materials name is there. A name that several materials share counts once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checklist {

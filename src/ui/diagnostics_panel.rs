@@ -12,7 +12,7 @@ use super::widgets::{RowList, closable_heading, paint_elided, paint_row_ground, 
 use super::wording::grouped;
 use crate::diagnostic::{Diagnostic, Severity, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubmeshCommand};
+use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubmeshCommand, named_maps};
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -202,6 +202,10 @@ impl Goal {
                 let submesh = mesh.submeshes.iter().position(has_it)?;
                 let name = &open.model.materials.get(material as usize)?.name;
                 Some(Self::submesh(session, submesh, format!("Material {name}")))
+            }
+            Subject::Map(map) => {
+                let (material, ..) = named_maps(&open.model.materials).nth(map as usize)?;
+                Self::of(session, open, Subject::Material(material as u32))
             }
             Subject::Clip(clip) => {
                 let name = &open.model.clips.get(clip as usize)?.name;

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{fixture, fixtures, run, scratch, shared};
+use crate::program::{bindpose, fixture, fixtures, run, scratch, shared};
 
 #[test]
 fn a_finding_is_a_line_and_its_excerpt() {
@@ -52,7 +52,7 @@ fn json_has_an_object_for_each_file() {
     let run = run(["check", "--json", &good, &bad]);
     assert_eq!(run.code, Some(1));
     let expected = json!([
-        {"file": good, "findings": []},
+        {"file": good, "findings": [], "book": null},
         {"file": bad, "findings": [{
             "severity": "error",
             "code": "not-in-range",
@@ -65,7 +65,7 @@ fn json_has_an_object_for_each_file() {
             "count": 1,
             "places": [{"line": 34, "column": 17}],
             "help": "An index must name a row that is there; a count must not be negative.",
-        }]},
+        }], "book": null},
     ]);
     assert_eq!(run.json(), expected);
 }
@@ -327,4 +327,272 @@ fn many_findings_alike_are_one_with_the_first_places() {
         let places = finding["places"].as_array().expect("a list");
         assert_eq!((places.len(), &places[0]["line"]), (4, &finding["line"]));
     }
+}
+
+/// The whole answer about a small file, so that no key can come or go unseen.
+#[test]
+fn json_tells_what_each_book_makes_of_a_file() {
+    let file = fixture("good/d3d12_skinned.m3d");
+    let run = run(["check", "--json", "--book", "all", &file]);
+    assert_eq!(run.code, Some(0), "--book alone denies nothing");
+    let limits = json!([
+        {"code": "book-clip-name", "message": "The demo plays the clip \"Take1\"; the file has \"Wave\"."},
+        {"code": "book-handedness",
+         "message": "The demo mirrors z, for right-handed models; this one is left-handed and is shown inside out."},
+        {"code": "book-size",
+         "message": "The demo scales by 0.05: the model is 2.00 high in its file and 0.100 there, beside a soldier of 3.6."},
+    ]);
+    let mut of_d3d12 = limits.clone();
+    of_d3d12.as_array_mut().expect("a list").push(json!({
+        "code": "book-tangent-sign",
+        "message": "The sign of tangents is not read: where it is 1, on 1 vertex, bumps of normal maps look like dents.",
+    }));
+    let expected = json!([{"file": file, "findings": [], "book": {
+        "d3d11": {
+            "reads": false,
+            "line": 9,
+            "column": 1,
+            "why": "It takes `Name:` for the label Ambient of material 0. In line 9 it reads Ambient of material 0 and finds \
+                    `skin`, which is no number.",
+            "shows": "It ends with an error: it looks for a map without a name.",
+            "ends": true,
+            "limits": limits,
+        },
+        "d3d12": {
+            "reads": true,
+            "line": null,
+            "column": null,
+            "why": null,
+            "shows": "It crashes at its first frame: there is no clip \"Take1\".",
+            "ends": true,
+            "limits": of_d3d12,
+        },
+    }}]);
+    assert_eq!(run.json(), expected);
+    let one = crate::program::run(["check", "--json", "--book", "d3d11", &file]).json();
+    assert!(one[0]["book"]["d3d12"].is_null() && one[0]["book"]["d3d11"].is_object());
+}
+
+#[test]
+fn a_book_is_told_with_the_line_at_which_it_goes_wrong() {
+    let file = fixture("good/clip_names.m3d");
+    let text = run(["check", "--book", "d3d12", &file]).fine();
+    let line = text
+        .lines()
+        .find(|line| line.contains(": D3D12 book: "))
+        .expect("there is a verdict");
+    assert!(
+        line.starts_with(&format!("{file}:56:8: D3D12 book: It reads the number of keys")),
+        "{text}"
+    );
+    assert!(
+        text.contains("   = one sees: It crashes at its first frame: there is no clip \"Take1\".\n"),
+        "{text}"
+    );
+    assert!(text.contains("   = book-clip-name: "), "{text}");
+}
+
+#[test]
+fn what_is_denied_decides_the_exit_code() {
+    let noted = fixture("good/subset_typos.m3d");
+    let warning = fixture("good/pose_overflows.m3d");
+    for (arguments, code) in [
+        (vec!["--deny", "warnings", &noted], 0),
+        (vec!["--deny", "warnings", &warning], 1),
+        (vec![&*warning], 0),
+        // Without --book there is nothing of a book to deny.
+        (vec!["--deny", "book", &noted], 0),
+        (vec!["--deny", "book", "--book", "d3d12", &noted], 1),
+        (vec!["--deny", "book", "--book", "d3d11", &noted], 1),
+        (
+            vec!["--deny", "book", "--book", "d3d11", &fixture("good/d3d11_static.m3d")],
+            0,
+        ),
+        (
+            vec!["--deny", "warnings,book", "--book", "d3d12", &warning, "no/such.m3d"],
+            2,
+        ),
+    ] {
+        let run = run(["check"].iter().chain(&arguments));
+        assert_eq!(run.code, Some(code), "{arguments:?}\n{run:?}");
+    }
+}
+
+#[test]
+fn a_folder_is_every_model_below_it_in_order_with_counts_at_the_end() {
+    let folder = scratch("tree");
+    let inner = folder.join("b");
+    std::fs::create_dir_all(&inner).expect("can be made");
+    for (name, fixture_name) in [
+        ("c.M3D", "good/d3d12_skinned.m3d"),
+        ("a.m3d", "bad/empty.m3d"),
+        ("b/x.m3d", "good/comment_above_header.m3d"),
+        ("b/readme.txt", "bad/empty.m3d"),
+    ] {
+        std::fs::copy(fixture(fixture_name), folder.join(name)).expect("can be written");
+    }
+    let folder = folder.to_str().expect("UTF-8");
+    let found = run(["check", "--json", folder]).json();
+    let files: Vec<_> = found
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|file| &file["file"])
+        .collect();
+    assert_eq!(
+        files,
+        [
+            &format!("{folder}/a.m3d"),
+            &format!("{folder}/b/x.m3d"),
+            &format!("{folder}/c.M3D")
+        ]
+    );
+    let text = run(["check", folder]);
+    assert_eq!((text.code, text.err.as_str()), (Some(1), ""));
+    assert_eq!(text.out.lines().last(), Some("3 files: 1 error, 0 warnings, 1 note"));
+}
+
+#[test]
+fn standard_input_is_a_file_called_by_a_dash() {
+    let bytes = std::fs::read(fixture("bad/blend_index_out_of_range.m3d")).expect("can be read");
+    let mut child = bindpose()
+        .args(["check", "-"])
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .expect("the binary was built for this test");
+    std::io::Write::write_all(&mut child.stdin.take().expect("piped"), &bytes).expect("is read");
+    let output = child.wait_with_output().expect("it ends");
+    let out = String::from_utf8(output.stdout).expect("prints UTF-8");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(out.starts_with("-:34:17: error[not-in-range]: "), "{out}");
+}
+
+#[test]
+fn maps_are_looked_for_where_a_folder_is_given() {
+    let folder = scratch("maps");
+    std::fs::create_dir_all(&folder).expect("can be made");
+    std::fs::write(folder.join("skin_norm.dds"), b"DDS no more").expect("can be written");
+    std::fs::write(folder.join("holiday.png"), b"").expect("can be written");
+    let (file, folder) = (fixture("good/d3d12_skinned.m3d"), folder.to_str().expect("UTF-8"));
+    let found = run(["check", "--json", "--book", "d3d12", "--textures", folder, &file]).json();
+    let findings = found[0]["findings"].as_array().expect("a list");
+    let told: Vec<_> = findings
+        .iter()
+        .map(|finding| (&finding["code"], &finding["subject"]))
+        .collect();
+    let [map, other] = [0, 1].map(|index| json!({"kind": "map", "index": index}));
+    let [missing, cut, unused] = ["map-missing", "dds-header-cut", "map-unused"].map(|code| json!(code));
+    assert_eq!(told, [(&missing, &map), (&cut, &other), (&unused, &Value::Null)]);
+    assert!(
+        findings[2]["message"]
+            .as_str()
+            .is_some_and(|message| message.contains("holiday.png"))
+    );
+    let limits = found[0]["book"]["d3d12"]["limits"].as_array().expect("a list");
+    assert!(limits.iter().any(|limit| limit["code"] == "map-missing"), "{limits:?}");
+    let absent = run(["check", "--textures", "no/such/folder", &file]);
+    assert_eq!(absent.code, Some(2), "{absent:?}");
+}
+
+#[test]
+fn colours_are_for_terminals_and_for_those_who_ask() {
+    let file = fixture("bad/empty.m3d");
+    let plain = run(["check", &file]).out;
+    assert!(!plain.contains('\u{1b}'), "{plain:?}");
+    let colored = run(["check", "--color", "always", &file]).out;
+    assert!(colored.contains("\u{1b}[31merror[empty-file]"), "{colored:?}");
+    let without: String = colored
+        .split("\u{1b}[")
+        .map(|part| part.split_once('m').map_or(part, |(_, rest)| rest))
+        .collect();
+    assert!(without.contains("error[empty-file]: The file is empty."), "{without}");
+}
+
+/// By the standard's own schema, which a crate of its types brings along.
+#[test]
+fn sarif_is_valid_and_has_rules_and_utf16_columns() {
+    let files = [
+        "bad/blend_index_out_of_range.m3d",
+        "good/names_repeated.m3d",
+        "good/clip_names.m3d",
+    ]
+    .map(fixture);
+    let run = run(["check", "--format", "sarif", "--book", "all"]
+        .iter()
+        .copied()
+        .chain(files.iter().map(String::as_str)));
+    assert_eq!(run.code, Some(1));
+    let log: Value = serde_json::from_str(&run.out).expect("is JSON");
+    let mut schema: Value = serde_json::from_str(&sarif_schema()).expect("is JSON");
+    // The standard's pattern for languages has a bracket too many, which is no regular expression.
+    for part in ["run", "toolComponent"] {
+        let language = schema["definitions"][part]["properties"]["language"].as_object_mut();
+        language.expect("is there").remove("pattern");
+    }
+    let validator = jsonschema::validator_for(&schema).expect("is a schema");
+    let errors: Vec<String> = validator
+        .iter_errors(&log)
+        .map(|error| format!("{}: {error}", error.instance_path()))
+        .collect();
+    assert!(errors.is_empty(), "{errors:?}");
+    // The validator can fail.
+    let mut broken = log.clone();
+    broken["runs"][0]["results"][0]["level"] = json!("bad");
+    assert!(!validator.is_valid(&broken));
+
+    let results = log["runs"][0]["results"].as_array().expect("a list");
+    let rules = log["runs"][0]["tool"]["driver"]["rules"].as_array().expect("a list");
+    for result in results {
+        let rule = &rules[result["ruleIndex"].as_u64().expect("an index") as usize];
+        assert_eq!(rule["id"], result["ruleId"]);
+        assert!(
+            rule["help"]["text"].as_str().is_some_and(|text| text.len() > 10),
+            "{rule}"
+        );
+    }
+    let first = &results[0];
+    assert_eq!(
+        (&first["ruleId"], &first["level"]),
+        (&json!("not-in-range"), &json!("error"))
+    );
+    let region = &first["locations"][0]["physicalLocation"]["region"];
+    assert_eq!(region, &json!({"startLine": 34, "startColumn": 17, "endColumn": 18}));
+    assert!(results.iter().any(|result| result["ruleId"] == "book-stops"));
+}
+
+/// The schema of SARIF 2.1.0 in the sources of the crate `serde-sarif`, which this crate's tests depend on.
+fn sarif_schema() -> String {
+    let target = std::process::Command::new("rustc")
+        .arg("-vV")
+        .output()
+        .expect("rustc runs")
+        .stdout;
+    let target = String::from_utf8(target).expect("prints UTF-8");
+    let target = target
+        .lines()
+        .find_map(|line| line.strip_prefix("host: "))
+        .expect("it says for whom it builds");
+    // What this machine builds is there; packages of other platforms need not be.
+    let metadata = std::process::Command::new(env!("CARGO"))
+        .args([
+            "metadata",
+            "--format-version",
+            "1",
+            "--offline",
+            "--filter-platform",
+            target,
+        ])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("cargo runs");
+    let metadata: Value = serde_json::from_slice(&metadata.stdout).expect("is JSON");
+    let packages = metadata["packages"].as_array().expect("a list");
+    let package = packages
+        .iter()
+        .find(|package| package["name"] == "serde-sarif")
+        .expect("is there");
+    let manifest = package["manifest_path"].as_str().expect("a path");
+    let path = std::path::Path::new(manifest).with_file_name("src").join("schema.json");
+    std::fs::read_to_string(path).expect("can be read")
 }

@@ -11,7 +11,7 @@ fn wrong_use_is_told_apart_from_bad_files() {
         (vec![], "Usage: bindpose <COMMAND>"),
         (vec!["animate", &file], "unrecognized subcommand 'animate'"),
         (vec!["info"], "<FILE>"),
-        (vec!["check"], "<FILE>..."),
+        (vec!["check"], "<PATH>..."),
         (vec!["render", &file], "--output <PNG>"),
         (vec!["info", &file, "--yaml"], "unexpected argument '--yaml'"),
         (vec!["pose", &file, "--time", "soon"], "a time is a number of seconds"),
@@ -48,13 +48,14 @@ fn what_cannot_be_read_is_named() {
     for file in ["no/such/model.m3d", folder] {
         for arguments in [
             vec!["info", file],
-            vec!["check", file],
+            vec!["check", "no/such/model.m3d"],
             vec!["pose", file, "--time", "0", "--json"],
             vec!["render", file, "-o", out_argument],
         ] {
             let run = run(&arguments);
             assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{arguments:?}");
-            let told = format!("error: {file} cannot be read: ");
+            // Of a folder `check` reads the models in it.
+            let told = format!("error: {} cannot be read: ", arguments[1]);
             assert!(run.err.starts_with(&told), "{arguments:?}: {}", run.err);
         }
     }

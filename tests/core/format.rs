@@ -9,19 +9,21 @@ mod real_files;
 mod values;
 mod write;
 
+pub(crate) use write::document as written_documents;
+
 use std::path::{Path, PathBuf};
 
 use bindpose::diagnostic::Diagnostic;
 
 /// A fixture, by its folder (`good` or `bad`) and its name without the extension.
-struct Fixture {
-    name: String,
+pub(crate) struct Fixture {
+    pub(crate) name: String,
     path: PathBuf,
-    bytes: Vec<u8>,
+    pub(crate) bytes: Vec<u8>,
 }
 
 /// All fixtures of a folder, in the order of their names.
-fn fixtures(folder: &str) -> Vec<Fixture> {
+pub(crate) fn fixtures(folder: &str) -> Vec<Fixture> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/fixtures")
         .join(folder);

@@ -1,6 +1,7 @@
 //! Tests of the core: they need neither GPU nor UI.
 
 mod anim;
+mod book;
 mod chains;
 mod codes;
 mod documents;

@@ -75,7 +75,7 @@ fn lower_case_ruler(line: &str) -> String {
     }
 }
 
-fn document() -> impl Strategy<Value = Document> {
+pub(crate) fn document() -> impl Strategy<Value = Document> {
     let dialect = prop::sample::select(vec![Dialect::D3d12, Dialect::D3d11, Dialect::Imm]);
     (dialect, 1..4_usize, 1..6_u32, 0..4_u32, 0..3_usize).prop_flat_map(
         |(dialect, materials, vertices, bones, clips)| {

@@ -1,0 +1,306 @@
+//! What the books' demos cannot show, or show otherwise than it is meant, though their loaders read it.
+
+use super::demo::{Book, DEMO_CLIP, MOST_BONES};
+use crate::diagnostic::collect::counted;
+use crate::diagnostic::{Code, codes};
+use crate::format::{Document, Vertex};
+use crate::model::Handedness;
+
+/// What is known of a file beside its bytes. What is not known is not judged.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Known<'a> {
+    /// What the file means. Without it limits are found only in a file that the loader reads as it is meant.
+    pub document: Option<&'a Document>,
+    /// Handedness of the model.
+    pub handedness: Option<Handedness>,
+    /// Names of maps for which there is no file.
+    pub missing_maps: Option<&'a [String]>,
+}
+
+/// Something that a demo cannot show as it is meant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// Name of its [`Code`](crate::diagnostic::Code).
+    pub code: &'static str,
+    /// One sentence.
+    pub message: String,
+}
+
+/// Vertices that 16-bit indices name.
+const MOST_VERTICES: usize = 1 << 16;
+
+/// The demos scale their character by this, since their soldier is 72 units high.
+const SCALE: f32 = 0.05;
+
+/// Heights in the demos' units between which a character is seen as a whole and not as a dot: a quarter of the soldier's 3.6 to four times
+/// as much. The camera begins 15 units away.
+const SEEN_HEIGHTS: [f32; 2] = [0.9, 14.4];
+
+/// A fourth weight may differ by this from what the shader makes of it: files have six digits.
+const WEIGHT_TOLERANCE: f32 = 1e-3;
+
+/// A rotation's length may differ by this from 1 before one sees it: a thousandth of a bone's length.
+const ROTATION_TOLERANCE: f32 = 1e-3;
+
+/// All limits that a file meets, the gravest first.
+pub(super) fn limits(book: Book, document: &Document, known: &Known<'_>) -> Vec<Limit> {
+    let skinned = !document.bone_parents.is_empty();
+    let mut limits = Limits(Vec::new());
+    limits.vertices(document);
+    if skinned {
+        limits.bones(document);
+        limits.influences(document);
+        limits.clips(document);
+        limits.alpha(document);
+        limits.space(document, known.handedness);
+        if book == Book::D3d12 {
+            limits.tangent_signs(document);
+        }
+    }
+    limits.maps(book, document, known.missing_maps);
+    limits.0
+}
+
+struct Limits(Vec<Limit>);
+
+impl Limits {
+    fn add(&mut self, code: &'static Code, message: String) {
+        self.0.push(Limit {
+            code: code.name,
+            message,
+        });
+    }
+
+    fn vertices(&mut self, document: &Document) {
+        let count = document.vertices.len();
+        if count > MOST_VERTICES {
+            let message = format!("It has {count} vertices; 16-bit indices name {MOST_VERTICES}.");
+            self.add(&codes::MANY_VERTICES, message);
+        }
+    }
+
+    fn bones(&mut self, document: &Document) {
+        let parents = &document.bone_parents;
+        let count = parents.len();
+        if count > MOST_BONES {
+            let message = format!("It has {count} bones; the shaders have room for {MOST_BONES}.");
+            self.add(&codes::MANY_BONES, message);
+        }
+        let bones = || (0i32..).zip(parents).skip(1);
+        if let Some((bone, _)) =
+            bones().find(|&(_, &parent)| usize::try_from(parent).is_err() || parent as usize >= count)
+        {
+            let message = format!(
+                "Bone {bone} has no parent; only bone 0 may be a root, and memory before the matrices is read."
+            );
+            self.add(&codes::BOOK_ROOTS, message);
+        }
+        if let Some(parent) = parents.first().filter(|parent| **parent >= 0) {
+            let message = format!("Bone 0 has bone {parent} as its parent; it is taken as the root all the same.");
+            self.add(&codes::BOOK_ROOTS, message);
+        }
+        let before = bones().filter(|&(bone, &parent)| parent >= bone).count();
+        if before > 0 {
+            let verb = if before == 1 { "stands" } else { "stand" };
+            let message = format!(
+                "{} {verb} before their parents, whose matrices are still zero: what hangs on them shrinks to a point.",
+                counted(before, "bone", "bones")
+            );
+            self.add(&codes::BONES_REORDERED, message);
+        }
+    }
+
+    fn influences(&mut self, document: &Document) {
+        let with_weight = |vertex: &Vertex| {
+            let slots = vertex.blend_weights.into_iter().zip(vertex.blend_indices);
+            let used = slots.filter(|(weight, _)| *weight != 0.0);
+            used.map(|(_, bone)| bone).max().unwrap_or_default()
+        };
+        let above = document
+            .vertices
+            .iter()
+            .filter(|vertex| with_weight(vertex) > 255)
+            .count();
+        if above > 0 {
+            let message = format!(
+                "{} a bone above 255, of which a byte keeps the remainder: another bone moves them.",
+                if above == 1 {
+                    "1 vertex names".to_owned()
+                } else {
+                    format!("{above} vertices name")
+                }
+            );
+            self.add(&codes::BONE_INDEX_ABOVE_BYTE, message);
+        }
+        let differs = |vertex: &&Vertex| {
+            let [first, second, third, fourth] = vertex.blend_weights;
+            (1.0 - first - second - third - fourth).abs() > WEIGHT_TOLERANCE
+        };
+        let differing = document.vertices.iter().filter(differs).count();
+        if differing > 0 {
+            let message = format!(
+                "The fourth weight of {} is not what is left to 1, but that is what the shader takes.",
+                counted(differing, "vertex", "vertices")
+            );
+            self.add(&codes::BOOK_FOURTH_WEIGHT, message);
+        }
+    }
+
+    fn clips(&mut self, document: &Document) {
+        let clips = &document.clips;
+        let first_word = |name: &'_ str| name.split_whitespace().next().unwrap_or_default().to_owned();
+        if clips.iter().all(|clip| clip.name != DEMO_CLIP) {
+            let names: Vec<_> = clips.iter().take(3).map(|clip| format!("\"{}\"", clip.name)).collect();
+            let has = if names.is_empty() {
+                "none".to_owned()
+            } else {
+                names.join(", ")
+            };
+            let message = format!("The demo plays the clip \"{DEMO_CLIP}\"; the file has {has}.");
+            self.add(&codes::BOOK_CLIP_NAME, message);
+        }
+        let mut names: Vec<_> = clips.iter().map(|clip| first_word(&clip.name)).collect();
+        names.sort_unstable();
+        let all = names.len();
+        names.dedup();
+        if names.len() < all {
+            let message = format!(
+                "{} of {all} clips can be found: they are kept by the first word of their name, and the last of a name stays.",
+                names.len()
+            );
+            self.add(&codes::DUPLICATE_CLIP_NAME, message);
+        }
+        let tracks = || clips.iter().flat_map(|clip| &clip.bones);
+        let steps_back = |bone: &&crate::format::BoneAnimation| {
+            bone.keyframes
+                .windows(2)
+                .any(|keys| keys[0].time_secs > keys[1].time_secs)
+        };
+        let unsorted = tracks().filter(steps_back).count();
+        if unsorted > 0 {
+            let message = format!(
+                "The keys of {} are not in the order of time: the motion jumps.",
+                counted(unsorted, "track", "tracks")
+            );
+            self.add(&codes::KEYS_NOT_SORTED, message);
+        }
+        let keys = || tracks().flat_map(|bone| &bone.keyframes);
+        let stretched = keys().filter(|key| {
+            let length = key.rotation.map(|part| part * part).iter().sum::<f32>().sqrt();
+            (length - 1.0).abs() > ROTATION_TOLERANCE
+        });
+        let stretched = stretched.count();
+        if stretched > 0 {
+            let message = format!(
+                "{} of another length than 1: what hangs on the bone is stretched.",
+                if stretched == 1 {
+                    "1 key has a rotation".to_owned()
+                } else {
+                    format!("{stretched} keys have rotations")
+                }
+            );
+            self.add(&codes::ROTATION_NOT_UNIT, message);
+        }
+    }
+
+    fn alpha(&mut self, document: &Document) {
+        let cut = document.materials.iter().filter(|material| material.alpha_clip).count();
+        if cut > 0 {
+            let message = format!(
+                "The demo does not look at AlphaClip: {} drawn without holes.",
+                if cut == 1 {
+                    "1 material is".to_owned()
+                } else {
+                    format!("{cut} materials are")
+                }
+            );
+            self.add(&codes::BOOK_ALPHA_CLIP, message);
+        }
+    }
+
+    /// The demos mirror z, since their soldier is right-handed, and scale by [`SCALE`].
+    fn space(&mut self, document: &Document, handedness: Option<Handedness>) {
+        if handedness == Some(Handedness::Left) {
+            self.add(
+                &codes::BOOK_HANDEDNESS,
+                "The demo mirrors z, for right-handed models; this one is left-handed and is shown inside out."
+                    .to_owned(),
+            );
+        }
+        let heights = document.vertices.iter().map(|vertex| vertex.position[1]);
+        let [least, most] = heights.fold([f32::INFINITY, f32::NEG_INFINITY], |[least, most], height| {
+            [least.min(height), most.max(height)]
+        });
+        let height = (most - least) * SCALE;
+        let [small, large] = SEEN_HEIGHTS;
+        if height.is_finite() && !(small..=large).contains(&height) {
+            let message = format!(
+                "The demo scales by {SCALE}: the model is {} high in its file and {} there, beside a soldier of 3.6.",
+                rounded(most - least),
+                rounded(height)
+            );
+            self.add(&codes::BOOK_SIZE, message);
+        }
+    }
+
+    /// The D3D12 book's loader throws the fourth number of a tangent away, and its shader takes cross(normal, tangent) in the world. The
+    /// demo's mirror turns that round, so that it is right where the number is negative.
+    fn tangent_signs(&mut self, document: &Document) {
+        let mapped = document.materials.iter().any(|material| material.normal_map.is_some());
+        let positive = document
+            .vertices
+            .iter()
+            .filter(|vertex| vertex.tangent[3] > 0.0)
+            .count();
+        if mapped && positive > 0 {
+            let message = format!(
+                "The sign of tangents is not read: where it is 1, on {}, bumps of normal maps look like dents.",
+                counted(positive, "vertex", "vertices")
+            );
+            self.add(&codes::BOOK_TANGENT_SIGN, message);
+        }
+    }
+
+    fn maps(&mut self, book: Book, document: &Document, missing: Option<&[String]>) {
+        let maps = || {
+            let of_materials = document.materials.iter();
+            of_materials
+                .flat_map(|material| [&material.diffuse_map, &material.normal_map])
+                .flatten()
+        };
+        let is_read = |name: &str| {
+            let extension = name
+                .rsplit_once('.')
+                .map(|(_, extension)| extension.to_ascii_lowercase());
+            let kinds: &[&str] = match book {
+                // D3DX of that time.
+                Book::D3d11 => &["dds", "bmp", "jpg", "jpeg", "png", "tif", "tiff", "gif"],
+                Book::D3d12 => &["dds"],
+            };
+            extension.is_some_and(|extension| kinds.contains(&extension.as_str()))
+        };
+        if let Some(name) = maps().find(|name| !is_read(name)) {
+            let message = format!("`{name}` is no picture that the demo reads: it ends with an error.");
+            self.add(&codes::BOOK_MAP_FORMAT, message);
+        }
+        if let Some(missing) = missing
+            && let Some(first) = missing.first()
+        {
+            let message = format!(
+                "{} not there, `{first}` among them: the demo ends with an error.",
+                if missing.len() == 1 {
+                    "1 map is".to_owned()
+                } else {
+                    format!("{} maps are", missing.len())
+                }
+            );
+            self.add(&codes::MAP_MISSING, message);
+        }
+    }
+}
+
+/// A length with three digits.
+fn rounded(length: f32) -> String {
+    let digits = (2 - length.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{length:.digits$}")
+}

@@ -1,0 +1,334 @@
+//! The books' `LoadM3d`, read by read: D3D11 of 2012 and D3D12 of 2015, chapter 23 "Character Animation". They differ in their materials.
+//! Without bones the loader for static models is meant, which ends with the triangles.
+
+use super::demo::Book;
+use super::stream::{Row, Stream, Trouble};
+use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
+
+/// What a loader made of a file.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// What was read before it went wrong. Names of maps are kept as they stand, `None` too.
+    pub document: Document,
+    /// The counts of the header, as the loader believes them.
+    pub counts: Counts,
+    /// The read that failed: nothing after it was read.
+    pub stop: Option<Trouble>,
+    /// The first word that was taken for something else, without a failure.
+    pub mistake: Option<Trouble>,
+}
+
+/// Counts of the header.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Of the materials, and of the subsets too.
+    pub materials: u32,
+    /// Of the vertices.
+    pub vertices: u32,
+    /// Of the triangles.
+    pub triangles: u32,
+    /// Of the bones.
+    pub bones: u32,
+    /// Of the clips.
+    pub clips: u32,
+}
+
+const HEADER: [&str; 6] = [
+    "Materials",
+    "Subsets",
+    "Vertices",
+    "Triangles",
+    "Bones",
+    "AnimationClips",
+];
+const SUBSET: [&str; 5] = ["SubsetID", "VertexStart", "VertexCount", "FaceStart", "FaceCount"];
+const VERTEX: [&str; 6] = [
+    "Position",
+    "Tangent",
+    "Normal",
+    "Tex-Coords",
+    "BlendWeights",
+    "BlendIndices",
+];
+const MATERIAL: [&str; 13] = [
+    "Name",
+    "Ambient",
+    "Diffuse",
+    "Specular",
+    "SpecPower",
+    "Reflectivity",
+    "Fresnel0",
+    "Roughness",
+    "AlphaClip",
+    "MaterialTypeName",
+    "Effect",
+    "DiffuseMap",
+    "NormalMap",
+];
+const KEY: [&str; 4] = ["Time", "Pos", "Scale", "Quat"];
+
+/// Reads a file as a book's loader does. Makes room only for what is there.
+pub fn read(book: Book, bytes: &[u8]) -> Reading {
+    let mut loader = Loader {
+        stream: Stream::new(bytes),
+        document: Document {
+            dialect: match book {
+                Book::D3d11 => Dialect::D3d11,
+                Book::D3d12 => Dialect::D3d12,
+            },
+            ..Document::default()
+        },
+    };
+    let counts = loader.header();
+    loader.materials(counts.materials);
+    loader.subsets(counts.materials);
+    loader.vertices(counts.vertices, counts.bones > 0);
+    loader.triangles(counts.triangles);
+    if counts.bones > 0 {
+        loader.offsets(counts.bones);
+        loader.hierarchy(counts.bones);
+        loader.clips(counts.clips, counts.bones);
+    }
+    let Loader { stream, document } = loader;
+    let (stop, mistake) = stream.into_troubles();
+    Reading {
+        document,
+        counts,
+        stop,
+        mistake,
+    }
+}
+
+struct Loader<'a> {
+    stream: Stream<'a>,
+    document: Document,
+}
+
+impl Loader<'_> {
+    fn header(&mut self) -> Counts {
+        let stream = &mut self.stream;
+        stream.ruler("the header");
+        let mut count = |label, what| {
+            stream.label(label, &HEADER);
+            stream.uint(what)
+        };
+        Counts {
+            materials: count("Materials", "the number of materials"),
+            vertices: count("Vertices", "the number of vertices"),
+            triangles: count("Triangles", "the number of triangles"),
+            bones: count("Bones", "the number of bones"),
+            clips: count("AnimationClips", "the number of clips"),
+        }
+    }
+
+    /// Reads rows until one fails, and keeps those that were read whole.
+    fn rows<T>(
+        &mut self,
+        count: u32,
+        row: impl Fn(u32) -> Row,
+        read: impl Fn(&mut Stream<'_>, Dialect) -> T,
+        list: impl Fn(&mut Document) -> &mut Vec<T>,
+    ) {
+        for index in 0..count {
+            self.stream.row = row(index);
+            let value = read(&mut self.stream, self.document.dialect);
+            if self.stream.has_failed() {
+                return;
+            }
+            list(&mut self.document).push(value);
+        }
+    }
+
+    fn materials(&mut self, count: u32) {
+        self.stream.ruler("the materials");
+        self.rows(count, Row::Material, read_material, |document| &mut document.materials);
+    }
+
+    fn subsets(&mut self, count: u32) {
+        self.stream.ruler("the subsets");
+        self.rows(
+            count,
+            Row::Subset,
+            |stream, _| read_subset(stream),
+            |document| &mut document.subsets,
+        );
+    }
+
+    fn vertices(&mut self, count: u32, skinned: bool) {
+        self.stream.ruler("the vertices");
+        let read = |stream: &mut Stream<'_>, _| read_vertex(stream, skinned);
+        self.rows(count, Row::Vertex, read, |document| &mut document.vertices);
+    }
+
+    fn triangles(&mut self, count: u32) {
+        self.stream.ruler("the triangles");
+        let read = |stream: &mut Stream<'_>, _| [(); 3].map(|()| u32::from(stream.ushort("a vertex index")));
+        self.rows(count, Row::Triangle, read, |document| &mut document.triangles);
+    }
+
+    fn offsets(&mut self, count: u32) {
+        self.stream.ruler("the bone offsets");
+        let read = |stream: &mut Stream<'_>, _| {
+            stream.label("BoneOffset", &[]);
+            stream.floats("a number")
+        };
+        self.rows(count, Row::Offset, read, |document| &mut document.bone_offsets);
+    }
+
+    fn hierarchy(&mut self, count: u32) {
+        self.stream.ruler("the bone hierarchy");
+        let read = |stream: &mut Stream<'_>, _| {
+            stream.label("ParentIndexOfBone", &[]);
+            stream.int("the number")
+        };
+        self.rows(count, Row::Parent, read, |document| &mut document.bone_parents);
+    }
+
+    fn clips(&mut self, count: u32, bones: u32) {
+        self.stream.ruler("the clips");
+        for clip in 0..count {
+            let stream = &mut self.stream;
+            stream.row = Row::Clip(clip);
+            stream.label("AnimationClip", &[]);
+            let Some(name) = stream.name("the name") else { return };
+            // A clip whose name was read is there, with as many of its bones as were read.
+            self.document.clips.push(AnimationClip {
+                name,
+                bones: Vec::new(),
+            });
+            stream.skip();
+            for bone in 0..bones {
+                stream.row = Row::Bone { clip, bone };
+                stream.label("Bone", &[]);
+                stream.skip();
+                let keys = stream.uint("the number of keys");
+                stream.skip();
+                if stream.has_failed() {
+                    return;
+                }
+                let mut keyframes = Vec::new();
+                for key in 0..keys {
+                    stream.row = Row::Key { clip, bone, key };
+                    let keyframe = read_key(stream);
+                    if stream.has_failed() {
+                        return;
+                    }
+                    keyframes.push(keyframe);
+                }
+                if let Some(clip) = self.document.clips.last_mut() {
+                    clip.bones.push(BoneAnimation { keyframes });
+                }
+                stream.skip();
+            }
+            stream.skip();
+        }
+    }
+}
+
+fn read_material(stream: &mut Stream<'_>, dialect: Dialect) -> Material {
+    let mut color = |label| {
+        stream.label(label, &MATERIAL);
+        stream.floats(label)
+    };
+    let (name, diffuse, reflectance);
+    if dialect == Dialect::D3d11 {
+        let ambient = color("Ambient");
+        (name, diffuse) = (String::new(), color("Diffuse"));
+        let specular = color("Specular");
+        stream.label("SpecPower", &MATERIAL);
+        let spec_power = stream.float("SpecPower");
+        stream.label("Reflectivity", &MATERIAL);
+        reflectance = Reflectance::Phong {
+            ambient,
+            specular,
+            spec_power,
+            reflectivity: stream.floats("Reflectivity"),
+        };
+    } else {
+        stream.label("Name", &MATERIAL);
+        name = stream.name("the name").unwrap_or_default();
+        stream.label("Diffuse", &MATERIAL);
+        diffuse = stream.floats("Diffuse");
+        stream.label("Fresnel0", &MATERIAL);
+        let fresnel0 = stream.floats("Fresnel0");
+        stream.label("Roughness", &MATERIAL);
+        reflectance = Reflectance::Fresnel {
+            fresnel0,
+            roughness: stream.float("Roughness"),
+        };
+    }
+    stream.label("AlphaClip", &MATERIAL);
+    let alpha_clip = stream.boolean("AlphaClip");
+    let mut word = |label, what| {
+        stream.label(label, &MATERIAL);
+        stream.name(what)
+    };
+    let type_label = if dialect == Dialect::D3d11 {
+        "Effect"
+    } else {
+        "MaterialTypeName"
+    };
+    Material {
+        name,
+        diffuse,
+        reflectance,
+        alpha_clip,
+        type_name: word(type_label, "the type").unwrap_or_default(),
+        diffuse_map: word("DiffuseMap", "the diffuse map"),
+        normal_map: word("NormalMap", "the normal map"),
+    }
+}
+
+fn read_subset(stream: &mut Stream<'_>) -> Subset {
+    let [id, vertex_start, vertex_count, face_start, face_count] = SUBSET.map(|label| {
+        stream.label(label, &SUBSET);
+        stream.uint(label)
+    });
+    Subset {
+        id,
+        vertex_start,
+        vertex_count,
+        face_start,
+        face_count,
+    }
+}
+
+fn read_vertex(stream: &mut Stream<'_>, skinned: bool) -> Vertex {
+    let [position, tangent, normal, tex_coords, weights, indices] = VERTEX;
+    stream.label(position, &VERTEX);
+    let mut vertex = Vertex {
+        position: stream.floats(position),
+        ..Vertex::default()
+    };
+    stream.label(tangent, &VERTEX);
+    vertex.tangent = stream.floats(tangent);
+    stream.label(normal, &VERTEX);
+    vertex.normal = stream.floats(normal);
+    stream.label(tex_coords, &VERTEX);
+    vertex.tex_coords = stream.floats(tex_coords);
+    if skinned {
+        stream.label(weights, &VERTEX);
+        vertex.blend_weights = stream.floats(weights);
+        stream.label(indices, &VERTEX);
+        // They are read as `int`, and kept as bytes.
+        vertex.blend_indices = [(); 4].map(|()| stream.int(indices).cast_unsigned());
+    }
+    vertex
+}
+
+fn read_key(stream: &mut Stream<'_>) -> Keyframe {
+    let [time, pos, scale, quat] = KEY;
+    stream.label(time, &KEY);
+    let time_secs = stream.float(time);
+    stream.label(pos, &KEY);
+    let translation = stream.floats(pos);
+    stream.label(scale, &KEY);
+    let scale_factors = stream.floats(scale);
+    stream.label(quat, &KEY);
+    Keyframe {
+        time_secs,
+        translation,
+        scale: scale_factors,
+        rotation: stream.floats(quat),
+    }
+}

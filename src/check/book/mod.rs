@@ -1,0 +1,100 @@
+//! Whether the books' own programs read a file, and what they show of it.
+//!
+//! Frank Luna's books each have a loader for the format and a demo that shows its soldier. Their loaders read words in order and look at no
+//! label: a file that a person reads with ease can lead them astray. [`verdict`] reads a file as they do, step by step.
+
+mod demo;
+mod limits;
+mod loader;
+mod shows;
+mod stream;
+
+pub use demo::{Book, DEMO_CLIP, MOST_BONES};
+pub use limits::{Known, Limit};
+pub use loader::{Counts, Reading, read};
+pub use stream::{Row, Trouble};
+
+use crate::diagnostic::{Diagnostic, Position, codes};
+
+/// What a book's program makes of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Verdict {
+    /// Which book's.
+    pub book: Book,
+    /// Where its loader goes wrong, and how. `None` when it reads the file as it is meant.
+    pub trouble: Option<Trouble>,
+    /// What one sees then, or sees anyway.
+    pub shows: String,
+    /// Whether the demo ends before it shows anything.
+    pub ends: bool,
+    /// What the demo cannot show as it is meant.
+    pub limits: Vec<Limit>,
+}
+
+impl Verdict {
+    /// Whether the loader reads the file as it is meant.
+    pub fn reads(&self) -> bool {
+        self.trouble.is_none()
+    }
+
+    /// Where it goes wrong, and the limits, as diagnostics.
+    pub fn diagnostics(&self) -> impl Iterator<Item = Diagnostic> {
+        let label = self.book.label();
+        let stops = self.trouble.iter().map(move |trouble| Diagnostic {
+            position: Some(trouble.position),
+            length: trouble.length,
+            places: vec![trouble.position],
+            ..codes::BOOK_STOPS.says(format!("{label}: {} One sees: {}", trouble.why, self.shows))
+        });
+        let limits = self
+            .limits
+            .iter()
+            .filter_map(move |limit| Some(codes::named(limit.code)?.says(format!("{label}: {}", limit.message))));
+        stops.chain(limits)
+    }
+
+    /// Where it goes wrong.
+    pub fn position(&self) -> Option<Position> {
+        self.trouble.as_ref().map(|trouble| trouble.position)
+    }
+}
+
+/// Reads a file as a book's program does.
+pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
+    let reading = read(book, bytes);
+    let trouble = trouble(&reading);
+    let end = shows::ends(book, &reading);
+    let document = known.document.or(trouble.is_none().then_some(&reading.document));
+    Verdict {
+        book,
+        ends: end.is_some(),
+        shows: end.unwrap_or_else(|| shows::shows(&reading)),
+        limits: document.map_or_else(Vec::new, |document| limits::limits(book, document, known)),
+        trouble,
+    }
+}
+
+/// The first place at which a loader goes wrong, with what comes of it. None when it reads all as it is meant: a brace that is missing
+/// at the end does no harm.
+fn trouble(reading: &Reading) -> Option<Trouble> {
+    let stop = reading.stop.as_ref().filter(|_| !shows::is_complete(reading));
+    match (&reading.mistake, stop) {
+        (Some(mistake), Some(stop)) if mistake.position < stop.position => Some(Trouble {
+            why: format!(
+                "{} In line {} {}",
+                mistake.why,
+                stop.position.line,
+                without_capital(&stop.why)
+            ),
+            ..mistake.clone()
+        }),
+        (mistake, stop) => stop.or(mistake.as_ref()).cloned(),
+    }
+}
+
+/// A sentence as it goes on after other words.
+fn without_capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let first = letters.next().map(|first| first.to_ascii_lowercase());
+    first.into_iter().chain(letters).collect()
+}

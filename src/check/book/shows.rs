@@ -1,0 +1,121 @@
+//! What one sees when a book's demo shows what its loader made of a file.
+
+use super::demo::{Book, DEMO_CLIP, MOST_BONES};
+use super::loader::{Counts, Reading};
+use super::stream::Row;
+
+/// What one sees of a file with which the demo does not end, in a sentence.
+pub(super) fn shows(reading: &Reading) -> String {
+    let Reading {
+        document,
+        counts,
+        stop,
+        mistake,
+    } = reading;
+    let stopped_at = stop.as_ref().filter(|_| !is_complete(reading)).map(|stop| stop.row);
+    match stopped_at {
+        // With the first two the demo has ended.
+        Some(Row::Header | Row::Material(_) | Row::Subset(_) | Row::Vertex(_)) => {
+            "Nothing: all corners of all triangles are the first vertex.".to_owned()
+        }
+        Some(Row::Triangle(read)) => {
+            format!("Only the first {read} of {} triangles.", counts.triangles)
+        }
+        Some(Row::Key { bone, .. } | Row::Bone { bone, .. }) => {
+            format!("The model, but bone {bone} moves wrongly: its keys end in zeros.")
+        }
+        Some(Row::Offset(_) | Row::Parent(_) | Row::Clip(_)) => {
+            format!("The model in \"{DEMO_CLIP}\"; other clips are missing.")
+        }
+        None => match mistake.as_ref().map(|mistake| mistake.row) {
+            Some(Row::Material(material)) => {
+                format!("The model, but material {material} has values that belong elsewhere.")
+            }
+            Some(_) => "A torn model: values are taken for others.".to_owned(),
+            None if counts.materials == 0 => "Nothing: without a material nothing is drawn.".to_owned(),
+            None if document.clips.is_empty() => "The model.".to_owned(),
+            None => format!("The model in \"{DEMO_CLIP}\"."),
+        },
+    }
+}
+
+/// Whether all that the header counts was read. Only braces can be missing then.
+pub(super) fn is_complete(reading: &Reading) -> bool {
+    let Reading { document, counts, .. } = reading;
+    let Counts {
+        materials,
+        vertices,
+        triangles,
+        bones,
+        clips,
+    } = *counts;
+    let has = |list: usize, count: u32| list == count as usize;
+    let header_was_read = !matches!(&reading.stop, Some(stop) if stop.row == Row::Header);
+    let is_skinned = bones > 0;
+    header_was_read
+        && has(document.materials.len(), materials)
+        && has(document.subsets.len(), materials)
+        && has(document.vertices.len(), vertices)
+        && has(document.triangles.len(), triangles)
+        && has(document.bone_offsets.len(), bones)
+        && has(document.bone_parents.len(), bones)
+        && (!is_skinned || has(document.clips.len(), clips))
+        && document.clips.iter().all(|clip| has(clip.bones.len(), bones))
+}
+
+/// How the demo ends before it shows anything, if it does.
+pub(super) fn ends(book: Book, reading: &Reading) -> Option<String> {
+    let Reading {
+        document, counts, stop, ..
+    } = reading;
+    if counts.vertices == 0 || counts.triangles == 0 {
+        return Some("It ends with an error: a buffer without bytes cannot be made.".to_owned());
+    }
+    let bytes = u64::from(counts.vertices) * bytes_per_vertex(book);
+    if bytes > MOST_BYTES {
+        return Some(format!(
+            "It ends with an error: it asks for {} GB for the vertices that the header counts.",
+            bytes >> 30
+        ));
+    }
+    if let Some(Row::Header | Row::Material(_)) = stop.as_ref().map(|stop| stop.row) {
+        return Some("It ends with an error: it looks for a map without a name.".to_owned());
+    }
+    if counts.bones == 0 {
+        return None;
+    }
+    // Of clips of one name the last one stays.
+    let Some(clip) = document.clips.iter().rposition(|clip| clip.name == DEMO_CLIP) else {
+        return Some(format!(
+            "It crashes at its first frame: there is no clip \"{DEMO_CLIP}\"."
+        ));
+    };
+    let read = &document.clips[clip].bones;
+    // The keys of the bone in which reading stopped are there, as zeros.
+    let in_keys =
+        matches!(stop.as_ref().map(|stop| stop.row), Some(Row::Key { .. })) && clip + 1 == document.clips.len();
+    let there = read.len() + usize::from(in_keys);
+    let empty = read.iter().position(|bone| bone.keyframes.is_empty());
+    if let Some(bone) = empty.or((there < counts.bones as usize).then_some(there)) {
+        return Some(format!(
+            "It crashes at its first frame: bone {bone} has no keys in \"{DEMO_CLIP}\"."
+        ));
+    }
+    if counts.bones as usize > MOST_BONES {
+        return Some(format!(
+            "It writes {} matrices behind the {MOST_BONES} that it has room for, and crashes or shows anything.",
+            counts.bones as usize - MOST_BONES
+        ));
+    }
+    None
+}
+
+/// More than this a program does not get.
+const MOST_BYTES: u64 = 16 << 30;
+
+fn bytes_per_vertex(book: Book) -> u64 {
+    match book {
+        Book::D3d11 => 64,
+        Book::D3d12 => 60,
+    }
+}

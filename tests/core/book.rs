@@ -1,0 +1,371 @@
+//! What the books' loaders make of files.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use bindpose::check::book::{Book, Known, Row, Verdict, read, verdict};
+use bindpose::format::{Dialect, Document, Reflectance, parse, write};
+use bindpose::model::Handedness;
+use proptest::prelude::*;
+
+use crate::documents::{REAL_FILES, arm, is_sentence, key, quad, shared_bytes, track};
+use crate::format::{fixtures, written_documents};
+
+/// A document as the D3D12 book writes it, for its demo: with the demo's clip and size.
+fn for_demo() -> Document {
+    let mut document = arm();
+    document.clips[0].name = "Take1".into();
+    for vertex in &mut document.vertices {
+        vertex.position = vertex.position.map(|place| place * 24.0);
+        vertex.tangent[3] = -1.0;
+    }
+    for material in &mut document.materials {
+        material.name = "skin".into();
+        material.type_name = "Skinned".into();
+        material.diffuse_map = Some("skin_diff.dds".into());
+        material.normal_map = Some("skin_norm.dds".into());
+    }
+    document
+}
+
+fn verdict_of(book: Book, document: &Document) -> Verdict {
+    let known = Known {
+        document: Some(document),
+        handedness: Some(Handedness::Right),
+        missing_maps: None,
+    };
+    verdict(book, write(document).as_bytes(), &known)
+}
+
+fn one_line(verdict: &Verdict) -> String {
+    match &verdict.trouble {
+        None => format!("reads it. {}", verdict.shows),
+        Some(trouble) => {
+            let place = trouble.position;
+            format!("{}:{} {} {}", place.line, place.column, trouble.why, verdict.shows)
+        }
+    }
+}
+
+/// What both loaders make of every fixture. `BLESS=1 cargo test` writes the list anew.
+#[test]
+fn the_list_of_verdicts_holds() {
+    let mut list = String::new();
+    for folder in ["good", "bad"] {
+        for fixture in fixtures(folder) {
+            for book in Book::ALL {
+                let verdict = verdict(book, &fixture.bytes, &Known::default());
+                let line = one_line(&verdict).replace(|letter: char| letter.is_control(), "?");
+                writeln!(list, "{folder}/{} {}: {line}", fixture.name, book.name()).expect("a string takes all");
+            }
+        }
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/book_verdicts.txt");
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(&path, &list).expect("the list can be written");
+    }
+    let held = std::fs::read_to_string(&path).expect("the list is there");
+    for (line, expected) in list.lines().zip(held.lines()) {
+        assert_eq!(line, expected);
+    }
+    assert_eq!(list.lines().count(), held.lines().count());
+}
+
+/// A loader that reads a file to its end took from it what the file means.
+#[test]
+fn what_a_loader_reads_is_what_the_file_means() {
+    let mut compared = 0;
+    for fixture in fixtures("good") {
+        let meant = parse(&fixture.bytes).expect("good fixtures can be read").document;
+        for book in Book::ALL {
+            let trouble = verdict(book, &fixture.bytes, &Known::default()).trouble;
+            let said = as_said(&read(book, &fixture.bytes).document);
+            if trouble.is_none() {
+                assert_eq!(said, as_said(&meant), "{} by {}", fixture.name, book.name());
+                compared += 1;
+            } else {
+                // The other way round would be a file that is read well and called bad.
+                assert_ne!(said, as_said(&meant), "{} by {}", fixture.name, book.name());
+            }
+        }
+    }
+    assert!(compared > 20, "{compared}");
+}
+
+/// What the loaders keep of a document: no word for "no map", no vertex ranges, no name for the dialect, and no bone of a slot without
+/// weight.
+fn as_said(document: &Document) -> Document {
+    let mut document = document.clone();
+    document.dialect = Dialect::D3d12;
+    for material in &mut document.materials {
+        for map in [&mut material.diffuse_map, &mut material.normal_map] {
+            *map = map.take().filter(|name| !matches!(name.as_str(), "None" | "Null"));
+        }
+    }
+    for vertex in &mut document.vertices {
+        for (index, weight) in vertex.blend_indices.iter_mut().zip(vertex.blend_weights) {
+            *index = if weight == 0.0 { 0 } else { *index };
+        }
+    }
+    document
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn documents_as_the_books_write_them_are_read_as_they_are_meant(mut document in written_documents()) {
+        // What the books' own exporter gives: one word for each name, a map for each material, a subset for each material, bones
+        // before clips.
+        let word = |name: &str, index: usize| {
+            let letters: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
+            format!("n{letters}{index}")
+        };
+        for (index, material) in document.materials.iter_mut().enumerate() {
+            let is_phong = matches!(material.reflectance, Reflectance::Phong { .. });
+            material.name = if is_phong { String::new() } else { word(&material.name, index) };
+            material.type_name = word(&material.type_name, index);
+            material.diffuse_map = Some(word("d", index));
+            material.normal_map = Some(word("n", index));
+        }
+        document.subsets.resize(document.materials.len(), bindpose::format::Subset::default());
+        for (index, clip) in document.clips.iter_mut().enumerate() {
+            clip.name = word(&clip.name, index);
+        }
+        if document.bone_parents.is_empty() {
+            document.clips.clear();
+        }
+        let book = match document.dialect {
+            Dialect::D3d12 => Book::D3d12,
+            Dialect::D3d11 | Dialect::Imm => Book::D3d11,
+        };
+        let text = write(&document);
+        let meant = parse(text.as_bytes()).expect("what is written can be read").document;
+        let trouble = verdict(book, text.as_bytes(), &Known::default()).trouble;
+        prop_assert!(trouble.is_none(), "{trouble:?}\n{text}");
+        prop_assert_eq!(as_said(&read(book, text.as_bytes()).document), as_said(&meant));
+    }
+}
+
+#[test]
+fn real_files_are_read_by_the_loader_of_their_book() {
+    for name in REAL_FILES {
+        let Some(bytes) = shared_bytes(&format!("models/{name}.m3d")) else {
+            continue;
+        };
+        let (own, other) = if name.starts_with("d3d12") {
+            (Book::D3d12, Book::D3d11)
+        } else {
+            (Book::D3d11, Book::D3d12)
+        };
+        assert!(verdict(own, &bytes, &Known::default()).reads(), "{name}");
+        let stop = verdict(other, &bytes, &Known::default()).position();
+        assert_eq!(stop.map(|place| (place.line, place.column)), Some((9, 1)), "{name}");
+    }
+}
+
+/// Followed by hand. The D3D11 loader skips `Name:`, wants the first number of Ambient and finds `soldier_head`.
+#[test]
+fn the_other_books_materials_stop_a_loader_at_their_first_word() {
+    let mut document = for_demo();
+    document.materials[0].name = "soldier_head".into();
+    let verdict = verdict_of(Book::D3d11, &document);
+    assert_eq!(
+        one_line(&verdict),
+        "9:1 It takes `Name:` for the label Ambient of material 0. In line 9 it reads Ambient of material 0 and finds \
+         `soldier_head`, which is no number. It ends with an error: it looks for a map without a name."
+    );
+}
+
+/// Followed by hand. `AnimationClip Take 001 {` gives the name `Take`; `001` is skipped as the brace; the bone's two words are `{` and
+/// `Bone0`, and its number of keys is `#Keyframes:`.
+#[test]
+fn a_clip_name_of_two_words_stops_a_loader_in_its_first_bone() {
+    let mut document = for_demo();
+    document.clips[0].name = "Take 001".into();
+    let verdict = verdict_of(Book::D3d12, &document);
+    let trouble = verdict.trouble.expect("it stops");
+    assert_eq!(trouble.row, Row::Bone { clip: 0, bone: 0 });
+    assert!(
+        trouble.why.ends_with("finds `#Keyframes:`, which is no whole number."),
+        "{}",
+        trouble.why
+    );
+    assert_eq!(
+        verdict.shows,
+        "It crashes at its first frame: there is no clip \"Take1\"."
+    );
+}
+
+/// Followed by hand. The header counts one vertex more than there are: the ruler of the triangles is taken for `Position:`, the six
+/// indices of the two triangles for a position and the label and the first two numbers of a tangent, and the ruler of the next section,
+/// or the end of the file, is no number.
+#[test]
+fn a_count_that_is_believed_leads_into_the_next_section() {
+    let document = quad();
+    let text = write(&Document {
+        materials: for_demo().materials,
+        ..document
+    });
+    let text = text.replace("#Vertices 4", "#Vertices 5");
+    let verdict = verdict(Book::D3d12, text.as_bytes(), &Known::default());
+    let why = verdict.trouble.expect("it stops").why;
+    assert!(why.contains("for the label Position of vertex 4"), "{why}");
+    assert!(
+        why.ends_with("the file ends where it reads Tangent of vertex 4."),
+        "{why}"
+    );
+}
+
+/// Two labels change places: their values are as many, so nothing fails.
+#[test]
+fn swapped_lines_are_read_into_each_other() {
+    let text = write(&for_demo())
+        .replace("Diffuse:", "X:")
+        .replace("Fresnel0:", "Diffuse:")
+        .replace("X:", "Fresnel0:");
+    let verdict = verdict(Book::D3d12, text.as_bytes(), &Known::default());
+    assert_eq!(verdict.position().map(|place| place.line), Some(10));
+    assert_eq!(
+        verdict.shows,
+        "The model, but material 0 has values that belong elsewhere."
+    );
+}
+
+#[test]
+fn a_model_for_the_demo_has_no_limits() {
+    let verdict = verdict_of(Book::D3d12, &for_demo());
+    assert!(verdict.reads() && verdict.limits.is_empty(), "{:?}", verdict.limits);
+    assert_eq!(verdict.shows, "The model in \"Take1\".");
+}
+
+/// Each limit by itself: an edit of a document that has none, and the only code that comes of it.
+#[test]
+fn each_limit_is_found_and_nothing_else() {
+    type Edit = fn(&mut Document);
+    let many_bones: Edit = |document| {
+        for _ in 3..97 {
+            document.bone_offsets.push(document.bone_offsets[2]);
+            document.bone_parents.push(0);
+            document.clips[0].bones.push(track([key(0.0, [0.0; 3])]));
+        }
+    };
+    let edits: [(&str, Edit); 13] = [
+        ("many-bones", many_bones),
+        ("many-vertices", |document| {
+            document.vertices.resize(65_537, document.vertices[0]);
+        }),
+        ("book-roots", |document| document.bone_parents[2] = -1),
+        ("bones-reordered", |document| document.bone_parents[1] = 2),
+        ("book-fourth-weight", |document| {
+            document.vertices[3].blend_weights = [0.5, 0.25, 0.0, 0.0];
+        }),
+        ("book-clip-name", |document| document.clips[0].name = "Walk".into()),
+        ("duplicate-clip-name", |document| {
+            document.clips.push(document.clips[0].clone());
+        }),
+        ("keys-not-sorted", |document| {
+            document.clips[0].bones[1].keyframes.reverse();
+        }),
+        ("rotation-not-unit", |document| {
+            document.clips[0].bones[1].keyframes[0].rotation = [0.0, 0.0, 0.0, 2.0];
+        }),
+        ("book-alpha-clip", |document| document.materials[0].alpha_clip = true),
+        ("book-size", |document| {
+            for vertex in &mut document.vertices {
+                vertex.position = vertex.position.map(|place| place / 72.0);
+            }
+        }),
+        ("book-tangent-sign", |document| document.vertices[0].tangent[3] = 1.0),
+        ("book-map-format", |document| {
+            document.materials[0].diffuse_map = Some("skin.png".into());
+        }),
+    ];
+    for (code, edit) in edits {
+        let mut document = for_demo();
+        edit(&mut document);
+        let verdict = verdict_of(Book::D3d12, &document);
+        let codes: Vec<_> = verdict.limits.iter().map(|limit| limit.code).collect();
+        assert_eq!(codes, [code]);
+        assert!(is_sentence(&verdict.limits[0].message), "{}", verdict.limits[0].message);
+        assert!(verdict.reads(), "{code}: {:?}", verdict.trouble);
+    }
+}
+
+#[test]
+fn bones_above_a_byte_are_found_where_they_have_weight() {
+    let mut document = for_demo();
+    for _ in 3..300 {
+        document.bone_offsets.push(document.bone_offsets[2]);
+        document.bone_parents.push(0);
+        document.clips[0].bones.push(track([key(0.0, [0.0; 3])]));
+    }
+    document.vertices[0].blend_indices = [0, 1, 299, 299];
+    let codes = |document: &Document| -> Vec<_> {
+        let limits = verdict_of(Book::D3d12, document).limits;
+        limits.iter().map(|limit| limit.code).collect()
+    };
+    assert_eq!(codes(&document), ["many-bones"]);
+    document.vertices[0].blend_weights = [0.25, 0.25, 0.25, 0.25];
+    assert_eq!(codes(&document), ["many-bones", "bone-index-above-byte"]);
+}
+
+/// What is known beside the file decides these.
+#[test]
+fn handedness_and_missing_maps_are_limits_where_they_are_known() {
+    let document = for_demo();
+    let text = write(&document);
+    let missing = ["skin_norm.dds".to_owned()];
+    let known = Known {
+        document: Some(&document),
+        handedness: Some(Handedness::Left),
+        missing_maps: Some(&missing),
+    };
+    let limits = verdict(Book::D3d12, text.as_bytes(), &known).limits;
+    let codes: Vec<_> = limits.iter().map(|limit| limit.code).collect();
+    assert_eq!(codes, ["book-handedness", "map-missing"]);
+}
+
+/// The D3D11 book opens more kinds of pictures, and reads the sign of tangents.
+#[test]
+fn limits_are_those_of_the_book() {
+    let mut document = for_demo();
+    for material in &mut document.materials {
+        material.reflectance = Reflectance::Phong {
+            ambient: [0.5; 3],
+            specular: [0.5; 3],
+            spec_power: 16.0,
+            reflectivity: [0.0; 3],
+        };
+        material.name.clear();
+        material.diffuse_map = Some("skin.png".into());
+    }
+    document.dialect = Dialect::D3d11;
+    document.vertices[0].tangent[3] = 1.0;
+    let verdict = verdict_of(Book::D3d11, &document);
+    assert!(verdict.reads() && verdict.limits.is_empty(), "{verdict:?}");
+}
+
+/// How the demo ends when bones have no keys: at the first of them.
+#[test]
+fn a_bone_without_keys_crashes_the_demo() {
+    let mut document = for_demo();
+    document.clips[0].bones[1].keyframes.clear();
+    let verdict = verdict_of(Book::D3d12, &document);
+    assert!(verdict.reads());
+    assert_eq!(
+        verdict.shows,
+        "It crashes at its first frame: bone 1 has no keys in \"Take1\"."
+    );
+}
+
+/// A file that ends in its last keys, at every byte: nothing panics, and what is shown fits what was read.
+#[test]
+fn a_cut_file_is_judged_at_every_byte() {
+    let text = write(&for_demo());
+    for end in 0..text.len() {
+        let verdict = verdict(Book::D3d12, &text.as_bytes()[..end], &Known::default());
+        let is_whole = verdict.shows == "The model in \"Take1\".";
+        assert_eq!(verdict.reads(), is_whole, "{end}: {verdict:?}");
+    }
+}
