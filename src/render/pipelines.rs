@@ -8,7 +8,7 @@ use super::instances::BoneTexture;
 use super::recipe::{Cut, Draw, ModelDraw, Recipe};
 use super::target::SampleCount;
 use crate::scene::OverlayVertex;
-use crate::shaders::{self, GeometryVertex, InfluenceVertex, Instance, Program};
+use crate::shaders::{self, InfluenceVertex, Instance, PositionVertex, Program, SurfaceVertex};
 
 /// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
@@ -118,12 +118,13 @@ pub(super) struct Pipelines {
 
 /// Slots of the buffers from which the model is drawn.
 pub(super) const INSTANCE_SLOT: u32 = 0;
-pub(super) const GEOMETRY_SLOT: u32 = 1;
-pub(super) const INFLUENCE_SLOT: u32 = 2;
-pub(super) const COLOR_SLOT: u32 = 3;
+pub(super) const POSITION_SLOT: u32 = 1;
+pub(super) const SURFACE_SLOT: u32 = 2;
+pub(super) const INFLUENCE_SLOT: u32 = 3;
+pub(super) const COLOR_SLOT: u32 = 4;
 
-const GEOMETRY: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
+const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+const SURFACE: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
 const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Uint32, 12 => Float32
@@ -186,16 +187,18 @@ impl Pipelines {
             wgpu::VertexStepMode::Vertex => buffer(2 * one, wgpu::VertexStepMode::Instance, &INSTANCE[..]),
             wgpu::VertexStepMode::Instance => buffer(one, wgpu::VertexStepMode::Vertex, &INSTANCE[..]),
         };
-        let geometry = buffer(size_of::<GeometryVertex>(), step, &GEOMETRY);
+        let positions = buffer(size_of::<PositionVertex>(), step, &POSITION);
+        let surface = buffer(size_of::<SurfaceVertex>(), step, &SURFACE);
         let influences = buffer(size_of::<InfluenceVertex>(), step, &INFLUENCES);
         let colors = buffer(size_of::<[u8; 4]>(), step, &VERTEX_COLOR);
         let buffers = match draw {
-            Draw::Model {
-                draw: ModelDraw::SkinView(_),
-                skinned,
-            } => vec![instances, geometry, influences.filter(|_| skinned), colors],
-            Draw::Model { skinned: true, .. } => vec![instances, geometry, influences],
-            Draw::Model { skinned: false, .. } => vec![instances, geometry],
+            Draw::Model { draw, skinned } => vec![
+                instances,
+                positions,
+                surface.filter(|_| draw.reads_surface()),
+                influences.filter(|_| skinned),
+                colors.filter(|_| draw.reads_colors()),
+            ],
             Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
             _ => Vec::new(),
         };

@@ -38,6 +38,18 @@ pub(super) enum ModelDraw {
     Highlight,
 }
 
+impl ModelDraw {
+    /// Whether it reads normals, tangents or texture coordinates of vertices, not positions alone.
+    pub(super) fn reads_surface(self) -> bool {
+        !matches!(self, Self::Caster(Cut::Whole) | Self::Contact | Self::Edges)
+    }
+
+    /// Whether it reads colours of vertices.
+    pub(super) fn reads_colors(self) -> bool {
+        matches!(self, Self::SkinView(_))
+    }
+}
+
 /// Everything that has a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Draw {
