@@ -107,12 +107,12 @@ impl Shape {
 type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {
-    /// For targets with four samples a pixel, which WebGPU and WebGL2 promise.
+    /// For pictures with four samples a pixel, which WebGPU and WebGL2 promise.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         Self::with_samples(device, queue, SampleCount::default())
     }
 
-    /// For targets with this many samples; see [`device::sample_count`].
+    /// For pictures with this many samples a pixel; see [`device::sample_count`]. A target may have one sample all the same.
     pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
         let pipelines = Pipelines::new(device, samples);
         let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
@@ -258,6 +258,7 @@ impl Renderer {
                 passes.draw(&self.common, &mut encoder, frame, (columns, geometry), shape);
             }
         }
+        pipelines.set_samples(target.samples());
         self.draw_picture(frame, target, &parts, model, &mut encoder);
         self.common.queue.submit([encoder.finish()]);
         FrameCost::default()

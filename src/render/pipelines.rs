@@ -1,7 +1,7 @@
 //! Bind group layouts, and pipelines, each built when it is first drawn with: a page that shows the studio light never waits for
 //! the others.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::instances::BoneTexture;
@@ -110,10 +110,11 @@ fn texture(sample_type: wgpu::TextureSampleType, view_dimension: wgpu::TextureVi
 
 pub(super) struct Pipelines {
     device: wgpu::Device,
-    samples: SampleCount,
+    samples: Cell<SampleCount>,
     pub(super) layouts: Layouts,
     modules: RefCell<HashMap<&'static str, wgpu::ShaderModule>>,
-    built: RefCell<HashMap<Draw, wgpu::RenderPipeline>>,
+    /// For what, and for how many samples a pixel.
+    built: RefCell<HashMap<(Draw, SampleCount), wgpu::RenderPipeline>>,
 }
 
 /// Slots of the buffers from which the model is drawn.
@@ -136,19 +137,29 @@ impl Pipelines {
     pub(super) fn new(device: &wgpu::Device, samples: SampleCount) -> Self {
         Self {
             device: device.clone(),
-            samples,
+            samples: Cell::new(samples),
             layouts: Layouts::new(device),
             modules: RefCell::default(),
             built: RefCell::default(),
         }
     }
 
+    /// Pictures are drawn into targets with so many samples a pixel from here on.
+    pub(super) fn set_samples(&self, samples: SampleCount) {
+        self.samples.set(samples);
+    }
+
     /// The pipeline that draws this, built at the first call.
     pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
-        let known = self.built.borrow().get(&draw).cloned();
+        let samples = if draw.is_in_picture() {
+            self.samples.get()
+        } else {
+            SampleCount::One
+        };
+        let known = self.built.borrow().get(&(draw, samples)).cloned();
         known.unwrap_or_else(|| {
-            let pipeline = self.build(draw);
-            self.built.borrow_mut().insert(draw, pipeline.clone());
+            let pipeline = self.build(draw, samples);
+            self.built.borrow_mut().insert((draw, samples), pipeline.clone());
             pipeline
         })
     }
@@ -166,8 +177,8 @@ impl Pipelines {
 
     /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
     /// from `front_facing`, which here says "clockwise on the screen".
-    fn build(&self, draw: Draw) -> wgpu::RenderPipeline {
-        let recipe = Recipe::of(draw, self.samples);
+    fn build(&self, draw: Draw, samples: SampleCount) -> wgpu::RenderPipeline {
+        let recipe = Recipe::of(draw, samples);
         let module = self.module(&recipe.program);
         let groups: Vec<_> = self.groups(draw).into_iter().map(Some).collect();
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

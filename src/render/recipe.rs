@@ -70,6 +70,23 @@ pub(super) enum Draw {
     ContactBlurColumns,
 }
 
+impl Draw {
+    /// Whether it is drawn into the picture itself, not into a map that the picture reads.
+    pub(super) fn is_in_picture(self) -> bool {
+        match self {
+            Self::Model { draw, .. } => {
+                !matches!(draw, ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::Contact)
+            }
+            Self::Backdrop | Self::World { .. } => true,
+            Self::Occlusion(_)
+            | Self::OcclusionBlurRows
+            | Self::OcclusionBlurColumns
+            | Self::ContactBlurRows
+            | Self::ContactBlurColumns => false,
+        }
+    }
+}
+
 /// What stands in the world beside the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum WorldShape {
