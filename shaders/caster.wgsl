@@ -2,8 +2,7 @@
 
 @vertex
 fn vertex_static(instance: Instance, @location(0) position: vec3<f32>) -> @builtin(position) vec4<f32> {
-    let world = in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)));
-    return light.shadow_clip_from_world * vec4<f32>(world.position, 1.0);
+    return light.shadow_clip_from_world * vec4<f32>(position_in_world(instance, position), 1.0);
 }
 
 @vertex
@@ -13,6 +12,6 @@ fn vertex_skinned(
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> @builtin(position) vec4<f32> {
-    let world = posed_in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights);
-    return light.shadow_clip_from_world * vec4<f32>(world.position, 1.0);
+    let world_position = posed_position_in_world(instance, position, joints, weights);
+    return light.shadow_clip_from_world * vec4<f32>(world_position, 1.0);
 }

@@ -5,8 +5,8 @@ struct CutVertex {
     @location(0) tex_coord: vec2<f32>,
 }
 
-fn cut_vertex(world: Skinned, tex_coord: vec2<f32>) -> CutVertex {
-    return CutVertex(light.shadow_clip_from_world * vec4<f32>(world.position, 1.0), tex_coord);
+fn cut_vertex(world_position: vec3<f32>, tex_coord: vec2<f32>) -> CutVertex {
+    return CutVertex(light.shadow_clip_from_world * vec4<f32>(world_position, 1.0), tex_coord);
 }
 
 @vertex
@@ -15,7 +15,7 @@ fn vertex_static(
     @location(0) position: vec3<f32>,
     @location(3) tex_coord: vec2<f32>,
 ) -> CutVertex {
-    return cut_vertex(in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0))), tex_coord);
+    return cut_vertex(position_in_world(instance, position), tex_coord);
 }
 
 @vertex
@@ -26,8 +26,7 @@ fn vertex_skinned(
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> CutVertex {
-    let vertex = Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0));
-    return cut_vertex(posed_in_world(instance, vertex, joints, weights), tex_coord);
+    return cut_vertex(posed_position_in_world(instance, position, joints, weights), tex_coord);
 }
 
 @fragment

@@ -12,7 +12,7 @@ fn contact_vertex(world: vec3<f32>) -> ContactVertex {
 
 @vertex
 fn vertex_static(instance: Instance, @location(0) position: vec3<f32>) -> ContactVertex {
-    return contact_vertex(in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0))).position);
+    return contact_vertex(position_in_world(instance, position));
 }
 
 @vertex
@@ -22,8 +22,7 @@ fn vertex_skinned(
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> ContactVertex {
-    let vertex = Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0));
-    return contact_vertex(posed_in_world(instance, vertex, joints, weights).position);
+    return contact_vertex(posed_position_in_world(instance, position, joints, weights));
 }
 
 // The height at which half of it is gone, in units of the books' demo.

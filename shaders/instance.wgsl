@@ -13,12 +13,25 @@ struct Instance {
     @location(12) front_sign: f32,
 }
 
+fn world_from_model(instance: Instance) -> Rows {
+    return Rows(instance.row_x, instance.row_y, instance.row_z);
+}
+
 // A vertex of bind space in the world.
 fn in_world(instance: Instance, vertex: Skinned) -> Skinned {
-    return transform(instance.row_x, instance.row_y, instance.row_z, vertex);
+    return transform(world_from_model(instance), vertex);
 }
 
 // The same, moved by the instance's bones.
 fn posed_in_world(instance: Instance, vertex: Skinned, joints: vec4<u32>, weights: vec4<f32>) -> Skinned {
     return in_world(instance, skin(vertex, joints + instance.first_joint, weights));
+}
+
+// The positions of both alone, for what needs no normals.
+fn position_in_world(instance: Instance, position: vec3<f32>) -> vec3<f32> {
+    return transform_position(world_from_model(instance), position);
+}
+
+fn posed_position_in_world(instance: Instance, position: vec3<f32>, joints: vec4<u32>, weights: vec4<f32>) -> vec3<f32> {
+    return position_in_world(instance, skin_position(position, joints + instance.first_joint, weights));
 }

@@ -27,8 +27,7 @@ fn line_vertex(world_position: vec3<f32>, color_srgb: vec4<f32>) -> LineVertex {
 
 @vertex
 fn edge_static(instance: Instance, @location(0) position: vec3<f32>) -> LineVertex {
-    let world = in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)));
-    return line_vertex(world.position, line.color_srgb);
+    return line_vertex(position_in_world(instance, position), line.color_srgb);
 }
 
 @vertex
@@ -38,8 +37,7 @@ fn edge_skinned(
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
 ) -> LineVertex {
-    let world = posed_in_world(instance, Skinned(position, vec3<f32>(0.0), vec4<f32>(0.0)), joints, weights);
-    return line_vertex(world.position, line.color_srgb);
+    return line_vertex(posed_position_in_world(instance, position, joints, weights), line.color_srgb);
 }
 
 // A line at each vertex of the mesh: `end` is 0 at the vertex and 1 at the tip.

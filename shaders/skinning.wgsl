@@ -11,6 +11,13 @@ struct Skinned {
     tangent: vec4<f32>,
 }
 
+// A 3x4 matrix.
+struct Rows {
+    x: vec4<f32>,
+    y: vec4<f32>,
+    z: vec4<f32>,
+}
+
 fn bone_row(joint: u32, row: u32) -> vec4<f32> {
     let texel = vec2<u32>((joint % JOINTS_PER_ROW) * 3u + row, joint / JOINTS_PER_ROW);
     return textureLoad(bones, vec2<i32>(texel), 0);
@@ -30,24 +37,42 @@ fn normalize_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
     return otherwise;
 }
 
-// Transforms by the rows of a 3x4 matrix. When the matrix mirrors, normals stay on their side of the surface; the bitangent follows
+fn transform_position(rows: Rows, position: vec3<f32>) -> vec3<f32> {
+    let point = vec4<f32>(position, 1.0);
+    return vec3<f32>(dot(rows.x, point), dot(rows.y, point), dot(rows.z, point));
+}
+
+// When the matrix mirrors, normals stay on their side of the surface; the bitangent follows
 // the surface, so it changes to the other side of normal and tangent.
-fn transform(row_x: vec4<f32>, row_y: vec4<f32>, row_z: vec4<f32>, vertex: Skinned) -> Skinned {
-    let position = vec4<f32>(vertex.position, 1.0);
-    let determinant = dot(row_x.xyz, cross(row_y.xyz, row_z.xyz));
+fn transform(rows: Rows, vertex: Skinned) -> Skinned {
+    let determinant = dot(rows.x.xyz, cross(rows.y.xyz, rows.z.xyz));
     let side = select(1.0, -1.0, determinant < 0.0);
     // `cofactor` holds rows, so the vector stands on the left.
-    let normal = vertex.normal * cofactor(row_x.xyz, row_y.xyz, row_z.xyz) * side;
+    let normal = vertex.normal * cofactor(rows.x.xyz, rows.y.xyz, rows.z.xyz) * side;
     let tangent = vec3<f32>(
-        dot(row_x.xyz, vertex.tangent.xyz),
-        dot(row_y.xyz, vertex.tangent.xyz),
-        dot(row_z.xyz, vertex.tangent.xyz),
+        dot(rows.x.xyz, vertex.tangent.xyz),
+        dot(rows.y.xyz, vertex.tangent.xyz),
+        dot(rows.z.xyz, vertex.tangent.xyz),
     );
     return Skinned(
-        vec3<f32>(dot(row_x, position), dot(row_y, position), dot(row_z, position)),
+        transform_position(rows, vertex.position),
         normalize_or(normal, vertex.normal),
         vec4<f32>(normalize_or(tangent, vertex.tangent.xyz), vertex.tangent.w * side),
     );
+}
+
+// The matrices of up to four joints, blended by weight.
+fn blended(joints: vec4<u32>, weights: vec4<f32>) -> Rows {
+    var rows = Rows(vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0));
+    for (var i = 0u; i < 4u; i++) {
+        let weight = weights[i];
+        if weight != 0.0 {
+            rows.x += weight * bone_row(joints[i], 0u);
+            rows.y += weight * bone_row(joints[i], 1u);
+            rows.z += weight * bone_row(joints[i], 2u);
+        }
+    }
+    return rows;
 }
 
 // Moves a vertex by up to four joints. With all weights zero it stays in bind space.
@@ -55,16 +80,13 @@ fn skin(vertex: Skinned, joints: vec4<u32>, weights: vec4<f32>) -> Skinned {
     if all(weights == vec4<f32>(0.0)) {
         return vertex;
     }
-    var row_x = vec4<f32>(0.0);
-    var row_y = vec4<f32>(0.0);
-    var row_z = vec4<f32>(0.0);
-    for (var i = 0u; i < 4u; i++) {
-        let weight = weights[i];
-        if weight != 0.0 {
-            row_x += weight * bone_row(joints[i], 0u);
-            row_y += weight * bone_row(joints[i], 1u);
-            row_z += weight * bone_row(joints[i], 2u);
-        }
+    return transform(blended(joints, weights), vertex);
+}
+
+// The position of `skin` alone.
+fn skin_position(position: vec3<f32>, joints: vec4<u32>, weights: vec4<f32>) -> vec3<f32> {
+    if all(weights == vec4<f32>(0.0)) {
+        return position;
     }
-    return transform(row_x, row_y, row_z, vertex);
+    return transform_position(blended(joints, weights), position);
 }

@@ -175,6 +175,8 @@ struct SessionPainter {
     samples: SampleCount,
     renderer: Renderer,
     target: Target,
+    /// With one sample a pixel, for pictures without smooth edges.
+    plain_target: Target,
     model: Option<u64>,
     maps: Option<u64>,
     materials: Option<u64>,
@@ -205,6 +207,7 @@ impl SessionPainter {
         Self {
             renderer: Renderer::with_samples(&gpu.device, &gpu.queue, samples),
             target: Target::with_samples(&gpu.device, 1, 1, samples),
+            plain_target: Target::with_samples(&gpu.device, 1, 1, SampleCount::One),
             gpu: gpu.clone(),
             samples,
             model: None,
@@ -241,26 +244,31 @@ impl SessionPainter {
         if self.drawn == Some(wanted) {
             return None;
         }
+        let (target, largest) = if session.quality().smooths_edges_now() {
+            (&mut self.target, sizes.at_rest)
+        } else {
+            (&mut self.plain_target, sizes.now)
+        };
         let cost;
-        if self.target.size() == sizes.now {
-            cost = self.renderer.render(&session.frame(), &mut self.target);
+        if target.size() == sizes.now {
+            cost = self.renderer.render(&session.frame(), target);
         } else {
             let device = self.gpu.device.clone();
             let stayed;
             let answer;
             ((stayed, cost), answer) = watched(&device, || {
-                let stayed = self.target.resize(&device, sizes.now, sizes.at_rest);
-                (stayed, self.renderer.render(&session.frame(), &mut self.target))
+                let stayed = target.resize(&device, sizes.now, largest);
+                (stayed, self.renderer.render(&session.frame(), target))
             });
             // Maps of the light have the picture's size, but they are small.
             if !stayed {
                 self.target_answer = Some(answer);
-                self.poll_target(session);
             }
         }
         if let Some(compositor) = self.gpu.renderer.write().callback_resources.get_mut::<Compositor>() {
-            compositor.prepare(&self.gpu.device, &self.gpu.queue, &self.target);
+            compositor.prepare(&self.gpu.device, &self.gpu.queue, target);
         }
+        self.poll_target(session);
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
         Some(cost)

@@ -110,12 +110,12 @@ impl Shape {
 type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {
-    /// For targets with four samples a pixel, which WebGPU and WebGL2 promise.
+    /// For pictures with four samples a pixel, which WebGPU and WebGL2 promise.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         Self::with_samples(device, queue, SampleCount::default())
     }
 
-    /// For targets with this many samples; see [`device::sample_count`].
+    /// For pictures with this many samples a pixel; see [`device::sample_count`]. A target may have one sample all the same.
     pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
         let pipelines = Pipelines::new(device, samples);
         let queue = Queue::new(queue);
@@ -267,6 +267,7 @@ impl Renderer {
             }
         }
         let own = model.map(|model| with(model, self.instances.own()));
+        pipelines.set_samples(target.samples());
         self.draw_picture(frame, target, &parts, own, &mut encoder);
         self.common.queue.inner.submit([encoder.finish()]);
         FrameCost {

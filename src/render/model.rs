@@ -7,7 +7,7 @@ use super::buffers::{Queue, UploadError, Uploader};
 use super::instances::{BoneTexture, InstanceRange};
 use super::maps::MapTextures;
 use super::materials::GpuMaterials;
-use super::pipelines::{COLOR_SLOT, GEOMETRY_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, Pipelines};
+use super::pipelines::{COLOR_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, POSITION_SLOT, Pipelines, SURFACE_SLOT};
 use super::recipe::{Cut, Draw, ModelDraw};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, winding};
 use crate::model::{Mesh, Model};
@@ -29,7 +29,8 @@ pub(super) struct Posed<'a> {
 }
 
 pub(super) struct GpuModel {
-    geometry: wgpu::Buffer,
+    positions: wgpu::Buffer,
+    surface: wgpu::Buffer,
     influences: Option<wgpu::Buffer>,
     indices: wgpu::Buffer,
     pub(super) materials: GpuMaterials,
@@ -66,7 +67,8 @@ impl GpuModel {
         }
         let uploader = Uploader { device, queue, limits };
 
-        let geometry = (0..mesh.vertex_count()).map(|vertex| geometry_vertex(mesh, vertex));
+        let positions = mesh.positions.iter().map(glam::Vec3::to_array);
+        let surface = (0..mesh.vertex_count()).map(|vertex| surface_vertex(mesh, vertex));
         let influences = mesh.influences.iter().map(|influences| shaders::InfluenceVertex {
             joints: influences.joints,
             weights: influences.weights,
@@ -75,7 +77,8 @@ impl GpuModel {
         let vertex = wgpu::BufferUsages::VERTEX;
         let materials = GpuMaterials::upload(&uploader, layouts, textures, &model.materials)?;
         Ok(Self {
-            geometry: uploader.upload("vertices", vertex, mesh.vertex_count(), geometry)?,
+            positions: uploader.upload("positions", vertex, mesh.vertex_count(), positions)?,
+            surface: uploader.upload("vertices", vertex, mesh.vertex_count(), surface)?,
             influences: if is_skinned {
                 Some(uploader.upload("influences", vertex, mesh.influences.len(), influences)?)
             } else {
@@ -213,8 +216,10 @@ impl GpuModel {
         for range in self.in_view(posed.hidden) {
             // WebGL2 has no first instance: the buffers start there instead.
             let start = |stride: usize| u64::from(range.vertices.start) * stride as u64;
-            let geometry = self.geometry.slice(start(size_of::<shaders::GeometryVertex>())..);
-            pass.set_vertex_buffer(GEOMETRY_SLOT, geometry);
+            let positions = self.positions.slice(start(size_of::<shaders::PositionVertex>())..);
+            pass.set_vertex_buffer(POSITION_SLOT, positions);
+            let surface = self.surface.slice(start(size_of::<shaders::SurfaceVertex>())..);
+            pass.set_vertex_buffer(SURFACE_SLOT, surface);
             if let (true, Some(influences)) = (posed.skinned, &self.influences) {
                 let influences = influences.slice(start(size_of::<shaders::InfluenceVertex>())..);
                 pass.set_vertex_buffer(INFLUENCE_SLOT, influences);
@@ -253,11 +258,14 @@ impl GpuModel {
         pass.set_pipeline(&posed.pipelines.get(Draw::Model { draw, skinned }));
         pass.set_bind_group(1, posed.bones.group(), &[]);
         pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(0));
-        pass.set_vertex_buffer(GEOMETRY_SLOT, self.geometry.slice(..));
+        pass.set_vertex_buffer(POSITION_SLOT, self.positions.slice(..));
+        if draw.reads_surface() {
+            pass.set_vertex_buffer(SURFACE_SLOT, self.surface.slice(..));
+        }
         if let (true, Some(influences)) = (skinned, &self.influences) {
             pass.set_vertex_buffer(INFLUENCE_SLOT, influences.slice(..));
         }
-        if let (ModelDraw::SkinView(_), Some((_, colors))) = (draw, &self.colors) {
+        if let (true, Some((_, colors))) = (draw.reads_colors(), &self.colors) {
             pass.set_vertex_buffer(COLOR_SLOT, colors.slice(..));
         }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -268,9 +276,8 @@ fn is_hidden(hidden: &[bool], submesh: usize) -> bool {
     hidden.get(submesh).copied().unwrap_or(false)
 }
 
-fn geometry_vertex(mesh: &Mesh, vertex: usize) -> shaders::GeometryVertex {
-    shaders::GeometryVertex {
-        position: mesh.positions[vertex].to_array(),
+fn surface_vertex(mesh: &Mesh, vertex: usize) -> shaders::SurfaceVertex {
+    shaders::SurfaceVertex {
         normal: mesh.normals.get(vertex).copied().unwrap_or_default().to_array(),
         tangent: mesh.tangents.get(vertex).copied().unwrap_or_default().to_array(),
         tex_coord: mesh.tex_coords.get(vertex).copied().unwrap_or_default().to_array(),

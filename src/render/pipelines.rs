@@ -1,14 +1,14 @@
 //! Bind group layouts, and pipelines, each built when it is first drawn with: a page that shows the studio light never waits for
 //! the others.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::instances::BoneTexture;
 use super::recipe::{Cut, Draw, ModelDraw, Recipe};
 use super::target::SampleCount;
 use crate::scene::OverlayVertex;
-use crate::shaders::{self, GeometryVertex, InfluenceVertex, Instance, Program};
+use crate::shaders::{self, InfluenceVertex, Instance, PositionVertex, Program, SurfaceVertex};
 
 /// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
@@ -110,20 +110,22 @@ fn texture(sample_type: wgpu::TextureSampleType, view_dimension: wgpu::TextureVi
 
 pub(super) struct Pipelines {
     device: wgpu::Device,
-    samples: SampleCount,
+    samples: Cell<SampleCount>,
     pub(super) layouts: Layouts,
     modules: RefCell<HashMap<&'static str, wgpu::ShaderModule>>,
-    built: RefCell<HashMap<Draw, wgpu::RenderPipeline>>,
+    /// For what, and for how many samples a pixel.
+    built: RefCell<HashMap<(Draw, SampleCount), wgpu::RenderPipeline>>,
 }
 
 /// Slots of the buffers from which the model is drawn.
 pub(super) const INSTANCE_SLOT: u32 = 0;
-pub(super) const GEOMETRY_SLOT: u32 = 1;
-pub(super) const INFLUENCE_SLOT: u32 = 2;
-pub(super) const COLOR_SLOT: u32 = 3;
+pub(super) const POSITION_SLOT: u32 = 1;
+pub(super) const SURFACE_SLOT: u32 = 2;
+pub(super) const INFLUENCE_SLOT: u32 = 3;
+pub(super) const COLOR_SLOT: u32 = 4;
 
-const GEOMETRY: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
+const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
+const SURFACE: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
 const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
 const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Uint32, 12 => Float32
@@ -135,19 +137,29 @@ impl Pipelines {
     pub(super) fn new(device: &wgpu::Device, samples: SampleCount) -> Self {
         Self {
             device: device.clone(),
-            samples,
+            samples: Cell::new(samples),
             layouts: Layouts::new(device),
             modules: RefCell::default(),
             built: RefCell::default(),
         }
     }
 
+    /// Pictures are drawn into targets with so many samples a pixel from here on.
+    pub(super) fn set_samples(&self, samples: SampleCount) {
+        self.samples.set(samples);
+    }
+
     /// The pipeline that draws this, built at the first call.
     pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
-        let known = self.built.borrow().get(&draw).cloned();
+        let samples = if draw.is_in_picture() {
+            self.samples.get()
+        } else {
+            SampleCount::One
+        };
+        let known = self.built.borrow().get(&(draw, samples)).cloned();
         known.unwrap_or_else(|| {
-            let pipeline = self.build(draw);
-            self.built.borrow_mut().insert(draw, pipeline.clone());
+            let pipeline = self.build(draw, samples);
+            self.built.borrow_mut().insert((draw, samples), pipeline.clone());
             pipeline
         })
     }
@@ -165,8 +177,8 @@ impl Pipelines {
 
     /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
     /// from `front_facing`, which here says "clockwise on the screen".
-    fn build(&self, draw: Draw) -> wgpu::RenderPipeline {
-        let recipe = Recipe::of(draw, self.samples);
+    fn build(&self, draw: Draw, samples: SampleCount) -> wgpu::RenderPipeline {
+        let recipe = Recipe::of(draw, samples);
         let module = self.module(&recipe.program);
         let groups: Vec<_> = self.groups(draw).into_iter().map(Some).collect();
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -186,16 +198,18 @@ impl Pipelines {
             wgpu::VertexStepMode::Vertex => buffer(2 * one, wgpu::VertexStepMode::Instance, &INSTANCE[..]),
             wgpu::VertexStepMode::Instance => buffer(one, wgpu::VertexStepMode::Vertex, &INSTANCE[..]),
         };
-        let geometry = buffer(size_of::<GeometryVertex>(), step, &GEOMETRY);
+        let positions = buffer(size_of::<PositionVertex>(), step, &POSITION);
+        let surface = buffer(size_of::<SurfaceVertex>(), step, &SURFACE);
         let influences = buffer(size_of::<InfluenceVertex>(), step, &INFLUENCES);
         let colors = buffer(size_of::<[u8; 4]>(), step, &VERTEX_COLOR);
         let buffers = match draw {
-            Draw::Model {
-                draw: ModelDraw::SkinView(_),
-                skinned,
-            } => vec![instances, geometry, influences.filter(|_| skinned), colors],
-            Draw::Model { skinned: true, .. } => vec![instances, geometry, influences],
-            Draw::Model { skinned: false, .. } => vec![instances, geometry],
+            Draw::Model { draw, skinned } => vec![
+                instances,
+                positions,
+                surface.filter(|_| draw.reads_surface()),
+                influences.filter(|_| skinned),
+                colors.filter(|_| draw.reads_colors()),
+            ],
             Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
             _ => Vec::new(),
         };

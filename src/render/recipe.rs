@@ -38,6 +38,18 @@ pub(super) enum ModelDraw {
     Highlight,
 }
 
+impl ModelDraw {
+    /// Whether it reads normals, tangents or texture coordinates of vertices, not positions alone.
+    pub(super) fn reads_surface(self) -> bool {
+        !matches!(self, Self::Caster(Cut::Whole) | Self::Contact | Self::Edges)
+    }
+
+    /// Whether it reads colours of vertices.
+    pub(super) fn reads_colors(self) -> bool {
+        matches!(self, Self::SkinView(_))
+    }
+}
+
 /// Everything that has a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Draw {
@@ -56,6 +68,23 @@ pub(super) enum Draw {
     OcclusionBlurColumns,
     ContactBlurRows,
     ContactBlurColumns,
+}
+
+impl Draw {
+    /// Whether it is drawn into the picture itself, not into a map that the picture reads.
+    pub(super) fn is_in_picture(self) -> bool {
+        match self {
+            Self::Model { draw, .. } => {
+                !matches!(draw, ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::Contact)
+            }
+            Self::Backdrop | Self::World { .. } => true,
+            Self::Occlusion(_)
+            | Self::OcclusionBlurRows
+            | Self::OcclusionBlurColumns
+            | Self::ContactBlurRows
+            | Self::ContactBlurColumns => false,
+        }
+    }
 }
 
 /// What stands in the world beside the model.

@@ -1,7 +1,7 @@
 //! What is drawn into: textures, the passes that fill them, and the target of a whole frame.
 
 /// Samples of each pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SampleCount {
     /// No antialiasing, for devices that cannot do better.
     One,
@@ -139,7 +139,7 @@ impl Target {
         Self::with_samples(device, width, height, SampleCount::default())
     }
 
-    /// With as many samples as the [`Renderer`](super::Renderer) that draws into it.
+    /// With so many samples a pixel; see [`device::sample_count`](super::device::sample_count).
     pub fn with_samples(device: &wgpu::Device, width: u32, height: u32, samples: SampleCount) -> Self {
         let [width, height] = within_limit(device, [width, height]);
         let texture = |label, format, sample_count, usage| {
@@ -177,6 +177,11 @@ impl Target {
             depth_view: view(&depth),
             resolved,
         }
+    }
+
+    /// Of each pixel.
+    pub(super) fn samples(&self) -> SampleCount {
+        self.samples
     }
 
     /// Width and height of the picture in pixels.

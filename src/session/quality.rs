@@ -106,6 +106,8 @@ pub enum QualityCommand {
 pub struct Lowered {
     /// Fraction of the picture's width and height.
     pub scale: f32,
+    /// Whether edges are not smooth.
+    pub without_smooth_edges: bool,
     /// Samples of ambient occlusion.
     pub occlusion: Detail,
     /// Taps of shadows.
@@ -186,6 +188,11 @@ impl Quality {
         self.render_scale.fraction() * self.step().scale
     }
 
+    /// Whether pixels at edges are made of several samples now.
+    pub fn smooths_edges_now(&self) -> bool {
+        self.step().smooths_edges
+    }
+
     /// How finely ambient occlusion and shadows are drawn now.
     pub(super) fn details_now(&self) -> [Detail; 2] {
         let step = self.step();
@@ -207,6 +214,7 @@ impl Quality {
         let step = self.moving_step();
         (step != Pacer::FINEST).then_some(Lowered {
             scale: step.scale,
+            without_smooth_edges: !step.smooths_edges,
             occlusion: step.occlusion,
             shadow: step.shadow,
             without_occlusion: self.state(Pass::AmbientOcclusion) == PassState::TooSlow,
@@ -225,7 +233,7 @@ impl Quality {
         match self.mode {
             QualityMode::Auto => self.pacer.step(),
             QualityMode::Full => Pacer::FINEST,
-            QualityMode::Low => Pacer::COARSEST,
+            QualityMode::Low => self.pacer.coarsest(),
         }
     }
 

@@ -128,12 +128,13 @@ pub struct Line {
     pub unused: [f32; 3],
 }
 
-/// What every vertex has: shader locations 0–3, bind space.
+/// Where every vertex is in bind space: shader location 0. A stream of its own, since passes that draw depth read nothing else.
+pub type PositionVertex = [f32; 3];
+
+/// What every vertex has besides: shader locations 1–3, bind space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct GeometryVertex {
-    /// Location 0.
-    pub position: [f32; 3],
+pub struct SurfaceVertex {
     /// Location 1, unit.
     pub normal: [f32; 3],
     /// Location 2; w = ±1.

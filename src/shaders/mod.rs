@@ -6,7 +6,8 @@
 mod layout;
 
 pub use layout::{
-    Camera, Environment, Filled, GeometryVertex, Ground, InfluenceVertex, Instance, Light, Line, Material,
+    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, Light, Line, Material, PositionVertex,
+    SurfaceVertex,
 };
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.

@@ -205,6 +205,9 @@ fn lowered_words(lowered: &Lowered) -> String {
     if lowered.scale < 1.0 {
         parts.push(format!("{:.0} % of the pixels each way", lowered.scale * 100.0));
     }
+    if lowered.without_smooth_edges {
+        parts.push("no smooth edges".to_owned());
+    }
     if lowered.without_occlusion {
         parts.push("no ambient occlusion".to_owned());
     } else if lowered.occlusion == Detail::Low {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Camera, Environment, Filled, GeometryVertex, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line,
-    Material, PROGRAMS, Program,
+    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line, Material, PROGRAMS,
+    PositionVertex, Program, SurfaceVertex,
 };
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -253,10 +253,11 @@ fn uniforms_fit_the_smallest_block_of_webgl2() {
 fn vertices_are_packed_and_within_the_least_stride() {
     // The least that `max_vertex_buffer_array_stride` may be.
     const LEAST_STRIDE: usize = 255;
-    assert_eq!(size_of::<GeometryVertex>(), (3 + 3 + 4 + 2) * 4);
+    assert_eq!(size_of::<PositionVertex>(), 3 * 4);
+    assert_eq!(size_of::<SurfaceVertex>(), (3 + 4 + 2) * 4);
     assert_eq!(size_of::<InfluenceVertex>(), (4 + 4) * 4);
     assert_eq!(size_of::<Instance>(), (3 * 4 + 4 + 1 + 1) * 4);
-    assert!(size_of::<GeometryVertex>() <= LEAST_STRIDE);
+    assert!(size_of::<SurfaceVertex>() <= LEAST_STRIDE);
     // The stream holds each instance twice.
     assert!(2 * size_of::<Instance>() <= LEAST_STRIDE);
 }

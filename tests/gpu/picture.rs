@@ -156,6 +156,24 @@ on_both_backends! {
         assert!(differs < 0.03, "{differs}");
     }
 
+    /// A slow device has a target with fewer samples for a picture that moves.
+    fn one_renderer_draws_into_targets_with_one_sample_and_with_more(gpu) {
+        let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
+        let (device, queue) = (&gpu.open.device, &gpu.open.queue);
+        let mut alone = Renderer::with_samples(device, queue, SampleCount::One);
+        let mut both = gpu.renderer();
+        let mut targets = [SampleCount::One, gpu.open.samples].map(|samples| Target::with_samples(device, 160, 100, samples));
+        let pictures = targets.each_mut().map(|target| {
+            both.set_model(&scene.model).expect("small");
+            both.render(&scene.frame(), target);
+            gpu.read(target)
+        });
+        alone.set_model(&scene.model).expect("small");
+        alone.render(&scene.frame(), &mut targets[0]);
+        assert_eq!(pictures, [gpu.read(&targets[0]), gpu.draw(&scene, 160, 100)]);
+        assert!(pictures[0] != pictures[1], "edges differ");
+    }
+
     fn a_cleared_model_is_gone(gpu) {
         let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
         let mut renderer = gpu.renderer();

@@ -3,13 +3,23 @@
 use bindpose::anim::{Palette, SkinnedVertices, skin};
 use bindpose::model::{Influences, Mesh};
 use bindpose::render::{BoneTexture, Queue};
-use bindpose::shaders::{GeometryVertex, InfluenceVertex, SKINNING_WGSL};
+use bindpose::shaders::{InfluenceVertex, SKINNING_WGSL};
 use glam::{Affine3A, DMat3, DMat4, DVec3, EulerRot, Mat3, Quat, Vec3};
 use wgpu::util::DeviceExt as _;
 
 use crate::gpu::{Gpu, read_texture};
 
 const VERTICES: usize = 512;
+
+/// A vertex in bind space, as the probe reads it.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+struct GeometryVertex {
+    position: [f32; 3],
+    normal: [f32; 3],
+    tangent: [f32; 4],
+}
+
 /// f32 blending of four matrices, relative to the length of the result.
 const TOLERANCE: f64 = 1e-4;
 
@@ -60,7 +70,6 @@ fn random_vertices(random: &mut Random, joints: usize) -> (Vec<GeometryVertex>, 
                 .normalize_or(Vec3::X)
                 .extend(if index.is_multiple_of(2) { 1.0 } else { -1.0 })
                 .to_array(),
-            tex_coord: [0.0; 2],
         };
         let mut weights: [f32; 4] = std::array::from_fn(|_| random.unit());
         // From four influences down to none, which leaves the vertex where it is.

@@ -17,7 +17,7 @@ use egui_wgpu::{RendererOptions, WgpuSetup, wgpu};
 use crate::models;
 use crate::page::{WIDE, whole_window};
 
-/// Bytes of the largest buffer of the device: room for 20 000 vertices.
+/// Bytes of the largest buffer of the device: room for 29 000 vertices.
 const LARGEST_BUFFER: u64 = 1 << 20;
 
 fn small_device() -> egui_wgpu::RenderState {
@@ -99,7 +99,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
         );
         assert_eq!(
             error.diagnostic.message,
-            "This cannot be drawn here: the model's vertices need 1440000 bytes; this device holds 1048576 in one buffer."
+            "This cannot be drawn here: the model's vertices need 1080000 bytes; this device holds 1048576 in one buffer."
         );
     }
     assert!(

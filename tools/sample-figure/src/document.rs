@@ -7,6 +7,7 @@ use glam::{DMat4, DVec2, DVec3};
 
 use crate::charts::{self, Chart};
 use crate::materials::Material;
+use crate::order;
 use crate::rig::Rig;
 use crate::skin::Skin;
 use crate::weights::Influences;
@@ -46,6 +47,7 @@ pub(crate) fn document(skin: &Skin, influences: &[Influences], rig: &Rig, clips:
 /// Adds the triangles of one material, with vertices of their own, split where charts meet or wrap.
 fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influences: &[Influences], rig: &Rig) {
     let mut added = BTreeMap::<(u32, [u32; 2], [u32; 4]), u32>::new();
+    let mut triangles = Vec::new();
     for (corners, region) in skin.triangles.iter().zip(&skin.regions) {
         if region.material() != material {
             continue;
@@ -53,7 +55,7 @@ fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influ
         let points = corners.map(|corner| skin.positions[corner as usize]);
         let chart = charts::chart(rig, *region, points);
         let near = chart.tex_coords(points.into_iter().sum::<DVec3>() / 3.0, None);
-        document.triangles.push(corners.map(|corner| {
+        triangles.push(corners.map(|corner| {
             let (point, normal) = (skin.positions[corner as usize], skin.normals[corner as usize]);
             let tex_coords = chart.tex_coords(point, Some(near));
             let vertex = vertex(point, normal, chart, tex_coords, influences[corner as usize]);
@@ -68,6 +70,11 @@ fn add_triangles(document: &mut Document, material: Material, skin: &Skin, influ
             })
         }));
     }
+    // The vertices keep the order in which they lie in space: it compresses best.
+    let order = order::for_vertex_cache(&triangles);
+    document
+        .triangles
+        .extend(order.into_iter().map(|place| triangles[place]));
 }
 
 fn vertex(point: DVec3, normal: DVec3, chart: Chart, tex_coords: DVec2, influences: Influences) -> Vertex {

@@ -18,6 +18,7 @@ mod document;
 mod maps;
 mod materials;
 mod motion;
+mod order;
 mod rig;
 mod sdf;
 mod skin;
