@@ -62,6 +62,7 @@ bindpose.reset = async () => {
   await give(files, "startOver");
   bindpose.setRenderScale(addressedScale());
   bindpose.setQuality(addressedQuality());
+  bindpose.setCrowd(addressedCrowd());
   return bindpose.state();
 };
 
@@ -132,6 +133,7 @@ async function boot() {
   try {
     const { Viewer } = await load();
     viewer = new Viewer({ renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), mirrored: true }, onEvent);
+    viewer.setCrowd(addressedCrowd());
   } catch (error) {
     fail(error);
     showDownloadFailure(error);
@@ -234,6 +236,12 @@ function addressedScale() {
 /** How finely the address asks for a moving picture to be drawn. */
 function addressedQuality() {
   return options.get("quality") ?? "auto";
+}
+
+/** The crowd that the address asks for: how many instances of the model, and what their clips, times and places come from. */
+function addressedCrowd() {
+  const [count, seed] = ["crowd", "seed"].map((key) => (/^\d{1,9}$/.test(options.get(key)) ? Number(options.get(key)) : undefined));
+  return { count, seed };
 }
 
 /**
