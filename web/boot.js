@@ -112,7 +112,7 @@ const pick = takeChoices({ files: element("files"), folder: element("folder"), c
 // The page has one viewer, so all of it is the viewer's.
 takeDrops(globalThis, { receive, refuse, openModel: () => openName, show: showDrop });
 takeUnclaimedKeys();
-printView(bindpose);
+printView(bindpose, () => view.querySelector("canvas"));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
 element("notice-close").addEventListener("click", clearNotice);

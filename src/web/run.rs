@@ -234,6 +234,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
     }
     let (ctx, adapter, device) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
     let contrast_watch = ContrastWatch::new(&ctx);
+    take_prints(&runner, &canvas, &app)?;
     Ok(Running {
         canvas,
         app,
@@ -246,6 +247,24 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         _context_watch: context_watch,
         _contrast_watch: contrast_watch,
     })
+}
+
+/// At a `beforeprint` event of the canvas the picture is drawn on it without the panels, at once: a print waits for no frame.
+fn take_prints(runner: &eframe::WebRunner, canvas: &HtmlCanvasElement, app: &AppSlot) -> Result<(), JsError> {
+    let app = Rc::clone(app);
+    let set_alone = move |alone| {
+        if let Some(app) = app.borrow_mut().as_mut() {
+            app.set_picture_alone(alone);
+        }
+    };
+    let listening = runner.add_event_listener(canvas, "beforeprint", move |_: web_sys::Event, runner| {
+        set_alone(true);
+        runner.logic();
+        runner.paint();
+        set_alone(false);
+        runner.egui_ctx().request_repaint();
+    });
+    listening.map_err(|error| JsError::new(&text_of(&error)))
 }
 
 /// What eframe runs: the app, and what the page does for it.
