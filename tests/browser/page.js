@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, CENTRE, LARGE, PAGE, atRest, call, keep, settled, state, test, until, withViewer } from "./harness.js";
+import { BACKEND, CENTRE, LARGE, PAGE, atRest, call, keep, panicAtStart, settled, state, test, until } from "./harness.js";
 import { assertDrawn, coloursOnScreen, decoded, difference, picture } from "./picture.js";
 
 test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true, passes: true, motion: true }, async (page) => {
@@ -223,12 +223,7 @@ test("a browser without graphics is told which other way there is", {
 test("a panic shows what happened and a way on", {
   bare: true,
   expectErrors: true,
-  prepare: withViewer(`
-    async start(...values) {
-      const gpu = await super.start(...values);
-      reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" }));
-      return gpu;
-    }`),
+  prepare: panicAtStart,
 }, async (page) => {
   await page.waitForSelector("#fault:not([hidden])");
   assert.match(await page.textContent("#fault-title"), /stopped/);
