@@ -133,7 +133,6 @@ async function boot() {
   try {
     const { Viewer } = await load();
     viewer = new Viewer({ renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), mirrored: true }, onEvent);
-    viewer.setCrowd(addressedCrowd());
   } catch (error) {
     fail(error);
     showDownloadFailure(error);
@@ -143,7 +142,9 @@ async function boot() {
   bindpose.ready.then(async () => {
     hideShell();
     const files = await opensAtOnce;
-    if (files && !wasUsed() && !received) await give(files, "open").catch(refuseError);
+    if (!files || wasUsed() || received) return;
+    // A crowd is of what is open.
+    await give(files, "open").then(() => bindpose.setCrowd(addressedCrowd()), refuseError);
   }, () => {});
   onCanvas = keepOnCanvas(viewer, {
     canvas: element("canvas"),
