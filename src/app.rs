@@ -23,6 +23,8 @@ pub struct App {
     session: Rc<RefCell<Session>>,
     state: UiState,
     painter: SessionPainter,
+    /// The picture covers the panels.
+    picture_alone: bool,
 }
 
 impl App {
@@ -37,6 +39,7 @@ impl App {
             session,
             state: UiState::new(coarse_pointer),
             painter: SessionPainter::new(ctx, gpu),
+            picture_alone: false,
         }
     }
 
@@ -60,6 +63,11 @@ impl App {
         let marked = session.joints().marked();
         for command in ui::show(ui, &mut session, &mut self.state) {
             session.apply(command);
+        }
+        if self.picture_alone {
+            // The panels live on behind it: what is open and what has the focus stays.
+            let top = ui.ctx().layer_painter(egui::LayerId::debug());
+            top.add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
         }
         if session.joints().marked() != marked {
             // A panel that moved under the pointer may have done that, and no input follows that would update the other panels.
@@ -108,6 +116,11 @@ impl App {
     /// Draws the interface with the contrast that the person asks for, from the next pass on.
     pub fn set_contrast(&mut self, contrast: Contrast) {
         self.state.contrast = contrast;
+    }
+
+    /// Whether the picture covers the panels, from the next pass on.
+    pub fn set_picture_alone(&mut self, alone: bool) {
+        self.picture_alone = alone;
     }
 
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.

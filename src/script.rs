@@ -60,6 +60,18 @@ pub fn whole(call: &str, given: &Given) -> Result<i32, Misuse> {
     Ok(number as i32)
 }
 
+/// A number of something that is counted from 0, or a seed.
+///
+/// # Errors
+/// When it is none.
+pub fn natural(call: &str, given: &Given) -> Result<u32, Misuse> {
+    let wanted = "a whole number from 0 to 4294967295";
+    let number = number(call, given, wanted)?;
+    let is_natural = number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number);
+    check(call, given, wanted, is_natural)?;
+    Ok(number as u32)
+}
+
 /// A factor: a finite number above 0.
 ///
 /// # Errors
@@ -160,6 +172,32 @@ mod tests {
                 Err(Misuse::Range(_))
             ));
         }
+    }
+
+    #[test]
+    fn seeds_are_whole_numbers_of_32_bits() {
+        for seed in [0, 7, u32::MAX] {
+            assert_eq!(natural("setCrowd({seed})", &Given::Number(f64::from(seed))), Ok(seed));
+        }
+        assert_eq!(
+            natural("setCrowd({seed})", &Given::Number(-1.0)),
+            Err(range_error(
+                "setCrowd({seed}) takes a whole number from 0 to 4294967295, not -1"
+            ))
+        );
+        for number in NONSENSE.into_iter().chain([0.5, 4_294_967_296.0]) {
+            assert!(
+                matches!(
+                    natural("setCrowd({seed})", &Given::Number(number)),
+                    Err(Misuse::Range(_))
+                ),
+                "{number}"
+            );
+        }
+        assert!(matches!(
+            natural("setCrowd({seed})", &Given::Text("7".to_owned())),
+            Err(Misuse::Type(_))
+        ));
     }
 
     #[test]

@@ -11,7 +11,7 @@ const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", m
 /** Commands that are handed on to the viewer as they are. */
 const COMMANDS = [
   "seek", "play", "pause", "selectClip", "stepFrames", "nextKey", "previousKey", "seekStart", "seekEnd",
-  "setRangeStart", "setRangeEnd", "clearRange", "setSpeed", "setLoop", "setWrap", "setPass", "setRenderScale", "setQuality",
+  "setRangeStart", "setRangeEnd", "clearRange", "setSpeed", "setLoop", "setWrap", "setPass", "setRenderScale", "setQuality", "setCrowd",
   "undo", "redo",
 ];
 

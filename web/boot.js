@@ -62,6 +62,7 @@ bindpose.reset = async () => {
   await give(files, "startOver");
   bindpose.setRenderScale(addressedScale());
   bindpose.setQuality(addressedQuality());
+  bindpose.setCrowd(addressedCrowd());
   return bindpose.state();
 };
 
@@ -111,7 +112,7 @@ const pick = takeChoices({ files: element("files"), folder: element("folder"), c
 // The page has one viewer, so all of it is the viewer's.
 takeDrops(globalThis, { receive, refuse, openModel: () => openName, show: showDrop });
 takeUnclaimedKeys();
-printView(bindpose);
+printView(bindpose, () => view.querySelector("canvas"));
 element("open-files").addEventListener("click", () => pick("files"));
 element("open-folder").addEventListener("click", () => pick("folder"));
 element("notice-close").addEventListener("click", clearNotice);
@@ -141,7 +142,9 @@ async function boot() {
   bindpose.ready.then(async () => {
     hideShell();
     const files = await opensAtOnce;
-    if (files && !wasUsed() && !received) await give(files, "open").catch(refuseError);
+    if (!files || wasUsed() || received) return;
+    // A crowd is of what is open.
+    await give(files, "open").then(() => bindpose.setCrowd(addressedCrowd()), refuseError);
   }, () => {});
   onCanvas = keepOnCanvas(viewer, {
     canvas: element("canvas"),
@@ -234,6 +237,12 @@ function addressedScale() {
 /** How finely the address asks for a moving picture to be drawn. */
 function addressedQuality() {
   return options.get("quality") ?? "auto";
+}
+
+/** The crowd that the address asks for: how many instances of the model, and what their clips, times and places come from. */
+function addressedCrowd() {
+  const [count, seed] = ["crowd", "seed"].map((key) => (/^\d{1,9}$/.test(options.get(key)) ? Number(options.get(key)) : undefined));
+  return { count, seed };
 }
 
 /**

@@ -52,12 +52,12 @@ export function showGpuFailure(error, backend) {
   );
 }
 
-/** The GPU went away again and again. `gpu` is the `{backend, adapter}` that it was, or null when no start had come to its end. */
+/** The GPU went away and did not come back. `gpu` is the `{backend, adapter}` that it was, or null when no start had come to its end. */
 export function showGpuLoss(error, gpu) {
-  const lost = gpu ? `${BACKENDS[gpu.backend]} on ${gpu.adapter} was lost more than once` : "The GPU was lost while it started";
+  const lost = gpu ? `${BACKENDS[gpu.backend]} on ${gpu.adapter} was lost` : "The GPU was lost while it started";
   showFault(
     "The graphics went away",
-    `${lost} and was not started again. The other way to draw may last.`,
+    `${lost} and could not be started again. The other way to draw may last.`,
     wordsOf(error),
     [reload("Try again"), ...backendLinks()],
   );

@@ -1,16 +1,17 @@
-// Prints the view with a line of facts, and not the interface that is drawn over it. Ctrl+P draws a picture first; a print that the
-// browser's menu begins cannot wait for one, so it prints the page as it is, above the same line.
+// Prints the view with a line of facts, and not the interface that is drawn over it. Ctrl+P draws a picture for paper first; a print that
+// the browser's menu begins cannot wait for one, so it gets a copy of the view as it is in the window.
 
 /** The largest side of a printed picture, in pixels. */
 const LONGEST_SIDE = 2400;
 
-/** Takes Ctrl+P (or the Mac's Command P) on the page of this viewer. */
-export function printView(bindpose) {
+/** Takes Ctrl+P (or the Mac's Command P) and the browser's own print on the page of this viewer; `canvas()` is the one that it is drawn on. */
+export function printView(bindpose, canvas) {
   const sheet = document.createElement("section");
   sheet.id = "print";
   const picture = new Image();
+  const copy = document.createElement("canvas");
   const line = document.createElement("p");
-  sheet.append(picture, line);
+  sheet.append(picture, copy, line);
   document.body.append(sheet);
 
   addEventListener("keydown", (event) => {
@@ -20,8 +21,14 @@ export function printView(bindpose) {
     event.stopPropagation();
     drawPicture(bindpose, picture).then(print, print);
   }, true);
-  addEventListener("beforeprint", () => (line.textContent = facts(bindpose.state())));
+  addEventListener("beforeprint", () => {
+    const state = bindpose.state();
+    line.textContent = facts(state);
+    copy.hidden = Boolean(picture.src) || !state.model;
+    if (!copy.hidden) copyView(canvas(), copy);
+  });
   addEventListener("afterprint", () => {
+    copy.width = 0; // Its pixels are freed.
     document.body.classList.remove("has-picture");
     URL.revokeObjectURL(picture.src);
     picture.removeAttribute("src");
@@ -33,6 +40,14 @@ async function drawPicture(bindpose, picture) {
   const [width, height] = [innerWidth, innerHeight].map((side) => Math.round(side * scale));
   picture.src = URL.createObjectURL(await bindpose.snapshot({ width, height }));
   await picture.decode();
+  document.body.classList.add("has-picture");
+}
+
+/** The viewer draws without its panels when its canvas hears of a print. What a canvas shows can be copied until the script ends. */
+function copyView(canvas, copy) {
+  canvas.dispatchEvent(new Event("beforeprint"));
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  copy.getContext("2d").drawImage(canvas, 0, 0);
   document.body.classList.add("has-picture");
 }
 

@@ -1,18 +1,18 @@
 // A viewer's life on its canvas: it starts there, and again on a fresh canvas when the GPU went away.
 
-/** A GPU that goes away more often than this within the time below does not come back for good. */
-const MAX_RESTARTS = 3;
-const RESTARTS_FORGOTTEN_MS = 60_000;
+/** After so many starts in a row that failed, the GPU does not come back. */
+const MOST_FAILURES = 6;
+/** The pause after the first of them; each later one is twice as long. */
+const FIRST_PAUSE_MS = 250;
 
 /**
  * Keeps `viewer` on a canvas that was never drawn on. `backend` is "webgpu", "webgl2" or "auto". `onStart({backend, adapter})` hears of
- * every start that worked; `onEnd(error, gpu)` that the GPU went away too often, and what the last start gave. `isOver()` says that the
+ * every start that worked; `onEnd(error, gpu)` that the GPU did not come back, and what the last start that worked gave. `isOver()` says that the
  * viewer is not to be called any more.
  */
 export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }) {
   let gpu = null; // {backend, adapter} of the last start that worked.
   let starts = 0;
-  let restarts = []; // Times of the latest restarts, in milliseconds.
   let restarting = false;
   let lostMeanwhile = null; // The reason, when the GPU went away again during a restart.
 
@@ -38,7 +38,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
     canvas = fresh;
   };
 
-  /** The GPU went away: what is open lives on in the viewer, so a fresh canvas and a new start bring all of it back. */
+  /** The GPU went away: what is open lives on in the viewer, so a fresh canvas and a new start bring all of it back, however often. */
   const restart = async (reason) => {
     if (isOver()) return;
     if (restarting) {
@@ -46,27 +46,31 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
       return;
     }
     restarting = true;
+    let hadFocus = false;
     try {
-      for (;;) {
-        const now = performance.now();
-        restarts = restarts.filter((at) => now - at < RESTARTS_FORGOTTEN_MS);
-        if (restarts.length === MAX_RESTARTS) throw new Error(`The GPU went away ${MAX_RESTARTS} times: ${reason}`);
-        restarts.push(now);
+      for (let failures = 0; !isOver(); ) {
         // The viewer's hidden input and its mirror stand behind its canvas.
-        const hadFocus = document.activeElement !== document.body && canvas.parentElement.contains(document.activeElement);
+        hadFocus ||= document.activeElement !== document.body && canvas.parentElement.contains(document.activeElement);
         viewer.stop();
         lostMeanwhile = null;
         replaceCanvas();
         try {
           // The last try takes the plainer way, unless one was asked for.
-          await start(restarts.length === MAX_RESTARTS && backend === "auto" ? "webgl2" : backend);
+          await start(failures === MOST_FAILURES - 1 && backend === "auto" ? "webgl2" : backend);
           if (hadFocus) canvas.focus();
           if (!lostMeanwhile) return;
           reason = lostMeanwhile;
+          // A GPU that went away again after it had drawn was there.
+          if (viewer.state().framesRendered > 0) {
+            failures = 0;
+            continue;
+          }
         } catch (error) {
           reason = error?.message ?? String(error);
-          await new Promise((done) => setTimeout(done, 250 * restarts.length));
         }
+        failures += 1;
+        if (failures === MOST_FAILURES) throw new Error(`The GPU did not come back in ${failures} starts: ${reason}`);
+        await new Promise((done) => setTimeout(done, FIRST_PAUSE_MS * 2 ** (failures - 1)));
       }
     } catch (error) {
       onEnd(error, gpu);

@@ -5,11 +5,15 @@
 //! adds some to document and window, for drags, the clipboard and the colour scheme, and acts on those that are meant for its canvas or its hidden
 //! input. After a lost GPU the page gives the viewer a fresh canvas, which shows what was open.
 
+mod arguments;
 mod backend;
 mod contrast;
+mod drawing;
 mod joint_names;
 mod mirror;
+mod opening;
 mod picture;
+mod playing;
 mod run;
 mod state;
 mod viewer;

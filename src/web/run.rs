@@ -6,7 +6,7 @@ use std::sync::mpsc;
 
 use js_sys::Function;
 use wasm_bindgen::prelude::*;
-use web_sys::{HtmlCanvasElement, HtmlElement};
+use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebglLoseContext};
 
 use super::backend::{self, Chosen, Preference};
 use super::contrast::{ContrastWatch, contrast};
@@ -41,6 +41,7 @@ pub(super) struct Running {
     pub(super) backend: &'static str,
     pub(super) adapter: String,
     pub(super) frames_rendered: Rc<Cell<u64>>,
+    device: wgpu::Device,
     runner: eframe::WebRunner,
     _context_watch: ContextWatch,
     _contrast_watch: ContrastWatch,
@@ -59,6 +60,9 @@ impl Running {
             }
             self.runner.destroy();
             self.app.take();
+            // The browser would keep all of it until it next collects garbage.
+            self.device.destroy();
+            lose_context(&self.canvas);
         });
     }
 }
@@ -215,7 +219,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
                     .session
                     .borrow_mut()
                     .apply(QualityCommand::SetSlowDevice(slow));
-                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), adapter));
+                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), adapter, gpu.device));
                 Ok(Box::new(shell))
             }),
         )
@@ -225,10 +229,12 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
     }
     if let Err(error) = started {
         runner.destroy();
+        lose_context(&canvas);
         return Err(JsError::new(&format!("{backend}: {}", text_of(&error))));
     }
-    let (ctx, adapter) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
+    let (ctx, adapter, device) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
     let contrast_watch = ContrastWatch::new(&ctx);
+    take_prints(&runner, &canvas, &app)?;
     Ok(Running {
         canvas,
         app,
@@ -236,10 +242,29 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         backend,
         adapter,
         frames_rendered,
+        device,
         runner,
         _context_watch: context_watch,
         _contrast_watch: contrast_watch,
     })
+}
+
+/// At a `beforeprint` event of the canvas the picture is drawn on it without the panels, at once: a print waits for no frame.
+fn take_prints(runner: &eframe::WebRunner, canvas: &HtmlCanvasElement, app: &AppSlot) -> Result<(), JsError> {
+    let app = Rc::clone(app);
+    let set_alone = move |alone| {
+        if let Some(app) = app.borrow_mut().as_mut() {
+            app.set_picture_alone(alone);
+        }
+    };
+    let listening = runner.add_event_listener(canvas, "beforeprint", move |_: web_sys::Event, runner| {
+        set_alone(true);
+        runner.logic();
+        runner.paint();
+        set_alone(false);
+        runner.egui_ctx().request_repaint();
+    });
+    listening.map_err(|error| JsError::new(&text_of(&error)))
 }
 
 /// What eframe runs: the app, and what the page does for it.
@@ -386,6 +411,18 @@ fn watch_device(device: &egui_wgpu::wgpu::Device, ctx: &egui::Context, tell_of_l
             ctx.request_repaint();
         }
     });
+}
+
+/// Frees what WebGL holds for a canvas. A browser lets few contexts live, 16 in Chromium, and loses the oldest for a further one.
+fn lose_context(canvas: &HtmlCanvasElement) {
+    // A canvas of WebGPU has none.
+    if let Ok(Some(context)) = canvas.get_context("webgl2")
+        && let Ok(Some(extension)) = context
+            .unchecked_into::<WebGl2RenderingContext>()
+            .get_extension("WEBGL_lose_context")
+    {
+        extension.unchecked_into::<WebglLoseContext>().lose_context();
+    }
 }
 
 /// Tells of a lost WebGL context of a canvas, until it is dropped.

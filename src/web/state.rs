@@ -7,9 +7,9 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::scene::{Detail, Overlay, Pass, Projection};
+use crate::scene::{Detail, FrameCost, Overlay, Pass, Projection, TimedPass};
 use crate::session::summary::{self, Finding};
-use crate::session::{Checklist, Event, LoadError, Session};
+use crate::session::{Checklist, CrowdState, Event, LoadError, Session};
 
 /// `bindpose.state()`.
 #[derive(Serialize)]
@@ -28,6 +28,8 @@ pub(super) struct State<'a> {
     grid_visible: bool,
     look: Look,
     skeleton: Skeleton<'a>,
+    crowd: Crowd,
+    cost: Cost,
     undo: Option<&'a str>,
     redo: Option<&'a str>,
     frames_rendered: u64,
@@ -117,6 +119,24 @@ struct Skeleton<'a> {
     names: BTreeMap<String, &'a str>,
 }
 
+/// How many instances of the model there are, and which one the rest of the state is of.
+#[derive(Serialize)]
+struct Crowd {
+    count: usize,
+    seed: u32,
+    selected: usize,
+}
+
+/// What the frame that was drawn last cost.
+#[derive(Serialize)]
+struct Cost {
+    cpu_ms: Option<f32>,
+    /// Of an earlier frame, since the GPU answers late.
+    gpu_ms: Option<BTreeMap<String, f32>>,
+    vertices: u64,
+    uploaded_bytes: u64,
+}
+
 #[derive(Serialize)]
 struct FileError<'a> {
     #[serde(flatten)]
@@ -163,6 +183,8 @@ impl<'a> State<'a> {
             grid_visible: session.grid_visible(),
             look: look(session),
             skeleton: skeleton(session),
+            crowd: crowd(session),
+            cost: cost(session),
             undo: session.history().undo_label(),
             redo: session.history().redo_label(),
             frames_rendered,
@@ -255,6 +277,27 @@ fn skeleton(session: &Session) -> Skeleton<'_> {
         skin_view: look.skin_view.map(|view| view.name()),
         bind_share: session.bind_weight(),
         names: names.map(|(bone, name)| (bone.to_string(), name.as_str())).collect(),
+    }
+}
+
+fn crowd(session: &Session) -> Crowd {
+    let CrowdState { count, seed, selected } = session.crowd();
+    Crowd { count, seed, selected }
+}
+
+fn cost(session: &Session) -> Cost {
+    let FrameCost {
+        cpu_secs,
+        gpu_secs,
+        vertices,
+        uploaded_bytes,
+    } = session.frame_cost();
+    let passes = TimedPass::ALL.map(|pass| pass.name().replace(' ', "_"));
+    Cost {
+        cpu_ms: cpu_secs.map(|secs| secs * 1e3),
+        gpu_ms: gpu_secs.map(|secs| passes.into_iter().zip(secs.map(|secs| secs * 1e3)).collect()),
+        vertices,
+        uploaded_bytes,
     }
 }
 

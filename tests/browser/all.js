@@ -10,6 +10,7 @@ import "./pictures.js";
 import "./looking.js";
 import "./subsets.js";
 import "./moving.js";
+import "./crowd.js";
 import "./fingers.js";
 import "./several.js";
 import "./lasting.js";

@@ -245,6 +245,14 @@ export const withViewer = (members) => (page) =>
     await route.fulfill({ contentType: "text/javascript", body });
   });
 
+/** For `prepare`: the program ends in a panic as soon as it has started. */
+export const panicAtStart = withViewer(`
+  async start(...values) {
+    const gpu = await super.start(...values);
+    reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" }));
+    return gpu;
+  }`);
+
 /** Waits until the viewer runs, shows a model and has drawn its panels, and makes sure that it draws with the backend under test. */
 export async function running(page) {
   await page.waitForFunction(() => !document.getElementById("fault").hidden || globalThis.bindpose?.state().model);

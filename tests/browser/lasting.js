@@ -1,20 +1,18 @@
 // What lasts: the session through a lost GPU, and memory through many loads.
 
 import assert from "node:assert/strict";
-import { existsSync, statSync } from "node:fs";
+import { existsSync, readFileSync, statSync } from "node:fs";
 import { BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until, withViewer } from "./harness.js";
 import { coloursOnScreen, difference, picture } from "./picture.js";
 
 /** Keeps what the page asks the browser for, so that a test can take it away again. */
 function watchGpu(page) {
   return page.addInitScript(() => {
-    globalThis.devices = [];
     if (globalThis.GPUAdapter) {
       const requestDevice = GPUAdapter.prototype.requestDevice;
       GPUAdapter.prototype.requestDevice = async function (...args) {
-        const device = await requestDevice.apply(this, args);
-        globalThis.devices.push(device);
-        return device;
+        globalThis.device = await requestDevice.apply(this, args);
+        return globalThis.device;
       };
     }
   });
@@ -25,7 +23,7 @@ function loseGpu(page) {
   return page.evaluate((backend) => {
     globalThis.lostCanvas = document.querySelector("#view canvas");
     if (backend === "webgpu") {
-      globalThis.devices.at(-1).destroy();
+      globalThis.device.destroy();
     } else {
       globalThis.lostCanvas.getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
     }
@@ -62,19 +60,126 @@ test("after the GPU was lost the model, the time and the camera are there again"
   await keep(page, "after-loss");
 });
 
-test("a GPU that goes away again and again ends in words", { prepare: watchGpu, expectErrors: true }, async (page) => {
-  for (let round = 0; round < 6 && (await page.isHidden("#fault")); round += 1) {
-    await loseGpu(page).catch(() => {});
-    // The new canvas is there before its device: only a viewer that runs has something to lose.
-    await page.waitForFunction(
-      () =>
-        !document.getElementById("fault").hidden ||
-        (document.querySelector("#view canvas") !== globalThis.lostCanvas && bindpose.state().backend),
-    );
+/** How often the GPU goes away in a row. `LOSSES=50` in the environment makes it a trial of endurance, and tells what it held. */
+const LOSSES = Number(process.env.LOSSES ?? 6);
+/** The rhythm of it. A restart may take longer where the GPU is software. */
+const LOSS_EVERY_MS = 1000;
+
+/** What the page holds once its garbage is gone: of each kind how many, and megabytes. */
+async function held(page) {
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send("HeapProfiler.enable");
+  // What one collection has ended, the next one frees.
+  for (let round = 0; round < 3; round += 1) {
+    await devtools.send("HeapProfiler.collectGarbage");
+    await settled(page);
   }
-  assert.match(await page.textContent("#fault-title"), /graphics/);
+  const count = async (kind) => {
+    const { result } = await devtools.send("Runtime.evaluate", { expression: `globalThis.${kind}?.prototype`, objectGroup: "held" });
+    if (!result.objectId) return 0;
+    const { objects } = await devtools.send("Runtime.queryObjects", { prototypeObjectId: result.objectId, objectGroup: "held" });
+    return Number(/\d+/.exec(objects.description)[0]);
+  };
+  const objects = {};
+  for (const kind of ["HTMLCanvasElement", "HTMLInputElement", "WebGL2RenderingContext", "WebGLTexture", "GPUDevice", "GPUTexture"]) objects[kind] = await count(kind);
+  const { jsEventListeners } = await devtools.send("Memory.getDOMCounters");
+  const { usedSize } = await devtools.send("Runtime.getHeapUsage");
+  await devtools.send("Runtime.releaseObjectGroup", { objectGroup: "held" });
+  await devtools.detach();
+  const browser = await page.context().browser().newBrowserCDPSession();
+  const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
+  await browser.detach();
+  const [status] = processInfo.filter(({ type }) => type === "GPU").map(({ id }) => `/proc/${id}/status`).filter(existsSync);
+  const gpuMB = status && Number(/VmRSS:\s*(\d+)/.exec(readFileSync(status, "utf8"))[1]) / 1e3;
+  const wasm = await page.evaluate(async () => {
+    const { default: init } = await import("/pkg/bindpose.js");
+    return (await init()).memory.buffer.byteLength;
+  });
+  return { ...objects, jsEventListeners, scriptMB: usedSize / 1e6, wasmMB: wasm / 1e6, gpuMB };
+}
+
+test(`the GPU comes back ${LOSSES} times in a row, and nothing of those before it is left`, { prepare: watchGpu, expectErrors: true }, async (page) => {
+  await call(page, "pause");
+  await call(page, "seek", 0.4);
+  await atRest(page);
+  const before = await picture(page);
+  const restarts = [];
+  let first;
+  for (let round = 1; round <= LOSSES; round += 1) {
+    const lostAt = performance.now();
+    await loseGpu(page);
+    // The new canvas is there before its device.
+    await page.waitForFunction(() => {
+      const isBack = document.querySelector("#view canvas") !== globalThis.lostCanvas && bindpose.state().framesRendered > 0;
+      return isBack || !document.getElementById("fault").hidden;
+    });
+    restarts.push(performance.now() - lostAt);
+    assert.equal(await page.textContent("#fault-details"), "", `round ${round}`);
+    await page.waitForTimeout(Math.max(LOSS_EVERY_MS - restarts.at(-1), 0));
+    // The first starts find the high-water mark.
+    if (round === 3) first = await held(page);
+  }
+  const last = await held(page);
+  const words = `restarts took ${restarts.map((ms) => ms.toFixed(0)).join(" ")} ms; held after the third ${JSON.stringify(first)}, after the last ${JSON.stringify(last)}`;
+  if (process.env.LOSSES) console.log(`${BACKEND}: ${words}`);
+  const { backend, model, timeSecs } = await state(page);
+  assert.equal(backend, BACKEND);
+  assert.equal(model.name, "figure.m3d");
+  assert.ok(Math.abs(timeSecs - 0.4) < 1e-4);
+  assert.ok(difference(before, await picture(page)) < 0.001, "the same picture");
+  assert.ok((await coloursOnScreen(page)) > 200, "on the last canvas too");
+  const { scriptMB, wasmMB, gpuMB, ...objects } = first;
+  for (const [kind, count] of Object.entries(objects)) assert.ok(last[kind] <= count, `${kind}: ${words}`);
+  assert.ok(last.scriptMB < scriptMB + 2 && last.wasmMB < wasmMB + 4, words);
+  assert.ok(!gpuMB || last.gpuMB < gpuMB + 50, words);
+});
+
+test("a GPU that does not come back ends in words, once some starts have failed", {
+  prepare: async (page) => {
+    await watchGpu(page);
+    await withViewer(`
+      async start(...values) {
+        globalThis.starts ??= [];
+        globalThis.starts.push(performance.now());
+        if (globalThis.starts.length > 1) throw new Error("no device any more");
+        return super.start(...values);
+      }`)(page);
+  },
+  expectErrors: true,
+}, async (page) => {
+  await loseGpu(page);
+  await page.waitForSelector("#fault:not([hidden])");
+  assert.match(await page.textContent("#fault-title"), /graphics went away/);
+  assert.match(await page.textContent("#fault-words"), /was lost and could not be started again/);
+  assert.match(await page.textContent("#fault-details"), /did not come back in 6 starts: no device any more/);
   assert.equal((await page.$$("#fault-actions a")).length, 2);
+  const times = await page.evaluate(() => globalThis.starts.slice(1));
+  const pauses = times.slice(1).map((time, index) => time - times[index]);
+  assert.equal(pauses.length, 5);
+  for (const [index, pause] of pauses.entries()) assert.ok(pause >= 249 * 2 ** index, `the pauses grow: ${pauses}`);
   await keep(page, "fault-lost");
+});
+
+test("a GPU that comes back after some starts that failed is as good as new", {
+  prepare: async (page) => {
+    await watchGpu(page);
+    // The second, third and fourth start fail, and so do the sixth, seventh and eighth.
+    await withViewer(`
+      async start(...values) {
+        globalThis.starts = (globalThis.starts ?? 0) + 1;
+        if (globalThis.starts % 4 !== 1) throw new Error("no device yet");
+        return super.start(...values);
+      }`)(page);
+  },
+  expectErrors: true,
+}, async (page) => {
+  for (const starts of [5, 9]) {
+    await loseGpu(page);
+    await page.waitForFunction((starts) => globalThis.starts === starts && bindpose.state().framesRendered > 0, starts);
+    assert.equal(await page.isHidden("#fault"), true);
+  }
+  assert.equal((await page.$$("#view canvas")).length, 1);
+  assert.ok((await coloursOnScreen(page)) > 200);
 });
 
 test("a GPU that goes away during the first start and does not come back ends in words", {

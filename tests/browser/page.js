@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, CENTRE, LARGE, PAGE, call, keep, settled, state, test, until, withViewer } from "./harness.js";
-import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
+import { BACKEND, CENTRE, LARGE, PAGE, atRest, call, keep, panicAtStart, settled, state, test, until } from "./harness.js";
+import { assertDrawn, coloursOnScreen, decoded, difference, picture } from "./picture.js";
 
 test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true, passes: true, motion: true }, async (page) => {
   const { model, playing, error } = await state(page);
@@ -112,6 +112,32 @@ test("P saves a picture, named after what it shows", { fine: true }, async (page
   assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [width, height]);
 });
 
+test("a print that the browser begins has the view without the panels, and the panels are there again", { fine: true }, async (page) => {
+  await call(page, "pause");
+  await atRest(page);
+  const { width, height } = page.viewportSize();
+  const before = await page.screenshot();
+  const view = await picture(page, { width, height });
+  // What a print does, with a look at the paper.
+  const copied = await page.evaluate(() => {
+    dispatchEvent(new Event("beforeprint"));
+    return document.querySelector("#print canvas").toDataURL().split(",")[1];
+  });
+  await page.emulateMedia({ media: "print" });
+  await keep(page, "print");
+  assert.match(await page.textContent("#print p"), /^figure\.m3d · .* triangles, \d+ bones$/);
+  assert.equal(await page.isVisible("#print canvas"), true);
+  assert.equal(await page.isVisible("#view"), false);
+  await page.emulateMedia({ media: "screen" });
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  const paper = await decoded(page, Buffer.from(copied, "base64"));
+  assert.ok(difference(view, paper) < 0.01, `${difference(view, paper)} of the pixels differ from the view`);
+  await settled(page);
+  const after = await decoded(page, await page.screenshot());
+  assert.ok(difference(await decoded(page, before), after) < 0.001, "the window is as before");
+  assert.ok(difference(paper, after) > 0.2, "with its panels");
+});
+
 test("programs may call before the viewer is there", {
   bare: true,
   prepare: (page) =>
@@ -197,12 +223,7 @@ test("a browser without graphics is told which other way there is", {
 test("a panic shows what happened and a way on", {
   bare: true,
   expectErrors: true,
-  prepare: withViewer(`
-    async start(...values) {
-      const gpu = await super.start(...values);
-      reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" }));
-      return gpu;
-    }`),
+  prepare: panicAtStart,
 }, async (page) => {
   await page.waitForSelector("#fault:not([hidden])");
   assert.match(await page.textContent("#fault-title"), /stopped/);

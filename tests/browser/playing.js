@@ -144,6 +144,7 @@ test("calls that make no sense throw, say what they take, and change nothing", {
       setRenderScale: [0, NaN],
       setLoop: [5],
       selectClip: [undefined],
+      setCrowd: [5, undefined, { count: 2.5 }, { count: "3" }, { count: 3, seed: -1 }, { seed: 2 ** 32 }, { count: 3, selected: NaN }],
     };
     const outcome = (name, value) => {
       try {
@@ -175,11 +176,18 @@ test("calls that make no sense throw, say what they take, and change nothing", {
     "RangeError: setRenderScale takes a finite number above 0, not NaN",
     "TypeError: setLoop takes a name, not 5",
     "TypeError: selectClip takes a name, not undefined",
+    "TypeError: setCrowd takes an object, not 5",
+    "TypeError: setCrowd takes an object, not undefined",
+    "RangeError: setCrowd({count}) takes a whole number, not 2.5",
+    'TypeError: setCrowd({count}) takes a whole number, not "3"',
+    "RangeError: setCrowd({seed}) takes a whole number from 0 to 4294967295, not -1",
+    "RangeError: setCrowd({seed}) takes a whole number from 0 to 4294967295, not 4294967296",
+    "RangeError: setCrowd({selected}) takes a whole number from 0 to 4294967295, not NaN",
   ]);
-  const { timeSecs, rangeSecs, speed, clip, look } = await state(page);
+  const { timeSecs, rangeSecs, speed, clip, look, crowd } = await state(page);
   assert.deepEqual(
-    { timeSecs, rangeSecs, speed, clip, look },
-    { timeSecs: before.timeSecs, rangeSecs: before.rangeSecs, speed: before.speed, clip: before.clip, look: before.look },
+    { timeSecs, rangeSecs, speed, clip, look, crowd },
+    { timeSecs: before.timeSecs, rangeSecs: before.rangeSecs, speed: before.speed, clip: before.clip, look: before.look, crowd: before.crowd },
   );
   await call(page, "setSpeed", 100);
   assert.equal((await state(page)).speed, 4, "a speed that means something is clamped");

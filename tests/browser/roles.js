@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { FIXTURES, call, dropAndWait, keep, settled, state, test, until, turnPhone, withViewer } from "./harness.js";
+import { FIXTURES, call, dropAndWait, keep, panicAtStart, settled, state, test, until, turnPhone } from "./harness.js";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -122,6 +122,22 @@ test("what is typed into a field of the mirror is in the viewer, and Tab goes on
   await focusOn(page, /^Names and branches/);
   await page.keyboard.press("Shift+Tab");
   await focusOn(page, /^Search bones/);
+});
+
+test("the mouse meets each control where its element is", {}, async (page) => {
+  for (const [start, holds] of [
+    ["Play", ({ playing }) => playing],
+    ["Pause", ({ playing }) => !playing],
+    ["Last frame", ({ timeSecs, model }) => Math.abs(timeSecs - model.clips[0].endSecs) < 1e-3],
+    ["Light(ing)?:", null],
+    ["(Light: |Lighting: )?Book", ({ look }) => look.light === "book"],
+  ]) {
+    await control(page, start).waitFor({ state: "attached" });
+    const { x, y, width, height } = await control(page, start).boundingBox();
+    await page.mouse.click(x + width / 2, y + height / 2);
+    if (holds) await until(page, holds);
+    await settled(page);
+  }
 });
 
 test("keys that a control has no use for are the viewer's", {}, async (page) => {
@@ -280,12 +296,7 @@ test("axe finds nothing before the viewer is there", {
 test("axe finds nothing when the viewer stops", {
   bare: true,
   expectErrors: true,
-  prepare: withViewer(`
-    async start(...values) {
-      const gpu = await super.start(...values);
-      reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" }));
-      return gpu;
-    }`),
+  prepare: panicAtStart,
 }, async (page) => {
   await page.waitForSelector("#fault:not([hidden])");
   await assertSound(page, "a failure");
