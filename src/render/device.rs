@@ -6,6 +6,7 @@ use std::task::{Context, Poll, Waker};
 
 use super::read_back::{ReadBackError, read_back};
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount, Target};
+use super::timing::FrameEncoder;
 use crate::shaders;
 
 /// How to reach a GPU without a window.
@@ -75,9 +76,15 @@ pub fn required_limits(adapter: &wgpu::Adapter) -> wgpu::Limits {
     wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
 }
 
-/// The features to ask of any adapter: block-compressed textures where it has them.
+/// The features to ask of any adapter, where it has them: block-compressed textures, and times of passes. GL's times are not asked for:
+/// it waits for them.
 pub fn required_features(adapter: &wgpu::Adapter) -> wgpu::Features {
-    adapter.features() & wgpu::Features::TEXTURE_COMPRESSION_BC
+    let mut wanted = wgpu::Features::TEXTURE_COMPRESSION_BC;
+    wanted.set(
+        wgpu::Features::TIMESTAMP_QUERY,
+        adapter.get_info().backend != wgpu::Backend::Gl,
+    );
+    adapter.features() & wanted
 }
 
 /// What to ask of any adapter.
@@ -205,13 +212,13 @@ pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl Async
         cache: None,
     });
     let target = Target::with_samples(device, PROBE_SIDE, PROBE_SIDE, SampleCount::Four);
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("probe") });
+    let mut encoder = FrameEncoder::new(device, "probe");
     {
         let mut pass = target.begin_pass(&mut encoder, wgpu::Color::TRANSPARENT);
         pass.set_pipeline(&pipeline);
         pass.draw(0..3, 0..1);
     }
-    queue.submit([encoder.finish()]);
+    queue.submit([encoder.commands.finish()]);
     let pixels = read_back(device, queue, &target, pause).await?;
     expect_pixel(&pixels, 3, PROBE_SIDE - 4, PROBE_COLOR)?;
     expect_pixel(&pixels, PROBE_SIDE - 4, 3, [0; 4])

@@ -9,7 +9,8 @@ use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
 use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture};
-use crate::scene::Light;
+use super::timing::FrameEncoder;
+use crate::scene::{Light, TimedPass};
 use crate::shaders;
 
 const DRAWN_AND_READ: wgpu::TextureUsages =
@@ -49,7 +50,7 @@ impl ShadowMap {
     /// Without a model the map is empty.
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         (frame_group, light): (&wgpu::BindGroup, &shaders::Light),
         (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),
         nothing: &wgpu::BindGroup,
@@ -62,7 +63,7 @@ impl ShadowMap {
             depth_is_kept: true,
             ..PassTargets::default()
         };
-        let mut pass = begin_pass(encoder, "shadow map", targets);
+        let mut pass = begin_pass(encoder, TimedPass::ShadowMap, targets);
         if let Some((model, posed)) = model {
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(2, nothing, &[]);
@@ -112,7 +113,7 @@ impl GeometryMap {
 
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         (frame_group, camera): (&wgpu::BindGroup, &shaders::Camera),
         (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
         nothing: &wgpu::BindGroup,
@@ -131,7 +132,7 @@ impl GeometryMap {
             depth: Some(&self.depth),
             ..PassTargets::default()
         };
-        let mut pass = begin_pass(encoder, "geometry", targets);
+        let mut pass = begin_pass(encoder, TimedPass::Geometry, targets);
         pass.set_bind_group(0, frame_group, &[]);
         pass.set_bind_group(2, nothing, &[]);
         model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
@@ -193,7 +194,7 @@ impl AmbientOcclusion {
     /// `columns` of the picture are this light's.
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         pipelines: &Pipelines,
         (frame_group, uniform): (&wgpu::BindGroup, &shaders::Light),
         (light, columns): (Light, &Range<u32>),
@@ -218,7 +219,7 @@ impl AmbientOcclusion {
                 scissor: Some([start, 0, end - start, height]),
                 ..PassTargets::default()
             };
-            let mut pass = begin_pass(encoder, "occlusion", targets);
+            let mut pass = begin_pass(encoder, TimedPass::AmbientOcclusion, targets);
             pass.set_pipeline(&pipelines.get(draw));
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(1, source, &[]);
@@ -287,7 +288,7 @@ impl ContactMap {
 
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         (frame_group, light, ground): (&wgpu::BindGroup, &shaders::Light, &shaders::Ground),
         (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
     ) {
@@ -306,7 +307,7 @@ impl ContactMap {
             ..PassTargets::default()
         };
         {
-            let mut pass = begin_pass(encoder, "contact", over_black(&self.map));
+            let mut pass = begin_pass(encoder, TimedPass::Contact, over_black(&self.map));
             pass.set_bind_group(0, frame_group, &[]);
             model.draw_shape(&mut pass, posed, ModelDraw::Contact);
         }
@@ -314,7 +315,7 @@ impl ContactMap {
         let columns = (Draw::ContactBlurColumns, &self.half_blurred_group, &self.map);
         // Two narrow blurs read fewer texels than one wide blur.
         for (draw, source, target) in [rows, columns, rows, columns] {
-            let mut pass = begin_pass(encoder, "contact blur", over_black(target));
+            let mut pass = begin_pass(encoder, TimedPass::Contact, over_black(target));
             pass.set_pipeline(&posed.pipelines.get(draw));
             pass.set_bind_group(0, source, &[]);
             pass.draw(0..3, 0..1);

@@ -8,6 +8,7 @@ use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
+use super::timing::FrameEncoder;
 use super::uniforms::{camera_uniform, ground_uniform, light_uniform};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
@@ -123,7 +124,7 @@ impl LightPasses {
     pub(super) fn draw_geometry(
         &self,
         common: &Common,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         map: &mut GeometryMap,
         model: (u64, (&GpuModel, Posed<'_>)),
     ) {
@@ -135,7 +136,7 @@ impl LightPasses {
     pub(super) fn draw(
         &mut self,
         common: &Common,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         frame: &RenderFrame<'_>,
         (columns, geometry): (&Range<u32>, Option<&GeometryMap>),
         (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),

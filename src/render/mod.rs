@@ -25,6 +25,7 @@ mod pipelines;
 mod read_back;
 mod recipe;
 mod target;
+mod timing;
 mod triangles;
 mod uniforms;
 
@@ -52,6 +53,7 @@ use model::{GpuModel, Posed};
 use overlays::Overlays;
 use pipelines::Pipelines;
 use recipe::{Cut, Draw, ModelDraw, Shading};
+use timing::{FrameEncoder, FrameTimer};
 
 /// Draws one model at a time. Resources are made when a frame first needs them; later frames make nothing.
 pub struct Renderer {
@@ -68,6 +70,8 @@ pub struct Renderer {
     shape: Shape,
     /// For ambient occlusion; fits the last size of the picture.
     geometry: Option<GeometryMap>,
+    /// None where the device tells no times.
+    timer: Option<FrameTimer>,
 }
 
 /// What of the model the maps show: all but its colours. Kept to see when it changes.
@@ -136,6 +140,7 @@ impl Renderer {
             model: None,
             shape: Shape::default(),
             geometry: None,
+            timer: FrameTimer::new(device, queue),
         }
     }
 
@@ -198,8 +203,27 @@ impl Renderer {
         self.shape.replace();
     }
 
-    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost.
+    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
+    /// for the GPU's times, which are those of an earlier frame.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        let mut encoder = FrameEncoder::new(&self.common.device, "frame");
+        if let Some(timer) = &mut self.timer {
+            timer.begin_frame(&mut encoder);
+        }
+        let cost = self.draw(frame, target, &mut encoder);
+        let Some(timer) = &mut self.timer else {
+            self.common.queue.submit([encoder.commands.finish()]);
+            return cost;
+        };
+        timer.submit(&self.common.queue, encoder);
+        FrameCost {
+            gpu_secs: timer.latest(),
+            ..cost
+        }
+    }
+
+    /// Draws a frame. Returns what is known of its cost.
+    fn draw(&mut self, frame: &RenderFrame<'_>, target: &mut Target, encoder: &mut FrameEncoder) -> FrameCost {
         self.common.environments.write(&self.common.queue, frame);
         let Common { device, queue, .. } = &self.common;
         if let Some(model) = &mut self.model {
@@ -221,10 +245,6 @@ impl Renderer {
             }
         }
 
-        let mut encoder = self
-            .common
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let pipelines = &self.common.pipelines;
         let model = self.model.as_ref().map(|model| {
             let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
@@ -248,18 +268,17 @@ impl Renderer {
                 let kept = self.geometry.take().filter(|map| map.size() == target.size());
                 let fresh = || GeometryMap::new(&self.common.device, target.size());
                 let map = self.geometry.insert(kept.unwrap_or_else(fresh));
-                passes.draw_geometry(&self.common, &mut encoder, map, (self.shape.revision, model));
+                passes.draw_geometry(&self.common, encoder, map, (self.shape.revision, model));
                 geometry = Some(&*map);
             }
         }
         for passes in &mut self.lights {
             if let Some(columns) = columns_of(passes.light()) {
                 let shape = (self.shape.revision, model);
-                passes.draw(&self.common, &mut encoder, frame, (columns, geometry), shape);
+                passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
             }
         }
-        self.draw_picture(frame, target, &parts, model, &mut encoder);
-        self.common.queue.submit([encoder.finish()]);
+        self.draw_picture(frame, target, &parts, model, encoder);
         FrameCost::default()
     }
 
@@ -271,7 +290,10 @@ impl Renderer {
     pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.clone());
         Picture::start(&device, &queue, self.samples, size, |target| {
-            self.render(frame, target);
+            // Its times would be taken for those of the window.
+            let mut encoder = FrameEncoder::new(&self.common.device, "picture");
+            self.draw(frame, target, &mut encoder);
+            self.common.queue.submit([encoder.commands.finish()]);
         })
     }
 
@@ -281,7 +303,7 @@ impl Renderer {
         target: &Target,
         parts: &[Columns],
         model: Option<(&GpuModel, Posed<'_>)>,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
     ) {
         let height = target.size()[1];
         let options = &frame.options;

@@ -48,6 +48,7 @@ mod still_life;
 mod studio_light;
 mod submeshes;
 mod textures;
+mod timing;
 #[path = "../common/twins/mod.rs"]
 mod twins;
 mod view_modes;
