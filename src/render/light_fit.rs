@@ -42,8 +42,6 @@ pub(super) fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
     BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
 }
 
-/// Texels along each edge of the shadow map.
-pub(super) const SHADOW_MAP_SIZE: u32 = 2048;
 /// Texels around the scene's box that stay empty, so that a blurred edge never leaves the map.
 const MARGIN_TEXELS: f32 = 8.0;
 
@@ -78,20 +76,20 @@ pub(super) struct ShadowFit {
 
 impl ShadowFit {
     /// For the studio light: the smallest square that holds the box as seen from the light, so that edges are as sharp as the map
-    /// allows. `to_key` is a unit vector.
-    pub(super) fn studio(world_bounds: &Aabb, to_key: Vec3) -> Self {
+    /// allows. `to_key` is a unit vector; the map has `map_side` texels along each edge.
+    pub(super) fn studio(world_bounds: &Aabb, to_key: Vec3, map_side: u32) -> Self {
         Self {
             radius_texels: STUDIO_RADIUS_TEXELS,
             ground_radius_texels: STUDIO_GROUND_RADIUS_TEXELS,
-            ..Self::with_least_texel(world_bounds, to_key, 0.0)
+            ..Self::with_least_texel(world_bounds, to_key, map_side, 0.0)
         }
     }
 
     /// For the book light: edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. So the map may be larger than the box,
     /// as it is in the demo. `book_unit` is one unit of the demo in world units.
-    pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, book_unit: f32) -> Self {
+    pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, map_side: u32, book_unit: f32) -> Self {
         let radius = BOOK_EDGE / DISC_EDGE * book_unit;
-        let fit = Self::with_least_texel(world_bounds, to_key, radius / BOOK_RADIUS_TEXELS);
+        let fit = Self::with_least_texel(world_bounds, to_key, map_side, radius / BOOK_RADIUS_TEXELS);
         let radius_texels = radius / fit.texel;
         Self {
             radius_texels,
@@ -101,7 +99,7 @@ impl ShadowFit {
     }
 
     /// A square that holds the box as seen from the light. Its texels are at least this large. No blur.
-    fn with_least_texel(world_bounds: &Aabb, to_key: Vec3, least_texel: f32) -> Self {
+    fn with_least_texel(world_bounds: &Aabb, to_key: Vec3, map_side: u32, least_texel: f32) -> Self {
         let [right, up, forward] = light_axes(to_key);
         let center = world_bounds.center();
         // The origin is the middle of the box, so that numbers stay small wherever the box lies.
@@ -112,8 +110,9 @@ impl ShadowFit {
         let reach = |axis: Vec3| axis.abs().dot(half_size);
         // An empty or flat box still needs a map of some size.
         let least = f32::MIN_POSITIVE.max(half_size.max_element() * 1e-3).max(1e-20);
-        let tight = reach(right).max(reach(up)).max(least) * (1.0 + 2.0 * MARGIN_TEXELS / SHADOW_MAP_SIZE as f32);
-        let half_width = tight.max(least_texel * SHADOW_MAP_SIZE as f32 * 0.5);
+        let map_side = map_side as f32;
+        let tight = reach(right).max(reach(up)).max(least) * (1.0 + 2.0 * MARGIN_TEXELS / map_side);
+        let half_width = tight.max(least_texel * map_side * 0.5);
         let half_depth = reach(forward).max(least) * 1.01;
         let clip_from_light = glam::camera::lh::proj::directx::orthographic(
             -half_width,
@@ -125,7 +124,7 @@ impl ShadowFit {
         );
         Self {
             shadow_clip_from_world: clip_from_light * light_from_world,
-            texel: 2.0 * half_width / SHADOW_MAP_SIZE as f32,
+            texel: 2.0 * half_width / map_side,
             radius_texels: 0.0,
             ground_radius_texels: 0.0,
         }
@@ -213,8 +212,8 @@ mod tests {
         ] {
             let bounds = Aabb { min, max };
             for fit in [
-                ShadowFit::studio(&bounds, to_key),
-                ShadowFit::book(&bounds, to_key, bounds.size().y / 3.6),
+                ShadowFit::studio(&bounds, to_key, MAP_SIDE),
+                ShadowFit::book(&bounds, to_key, MAP_SIDE, bounds.size().y / 3.6),
             ] {
                 for corner in 0..8 {
                     let pick = |bit: usize| if corner >> bit & 1 == 0 { min[bit] } else { max[bit] };
@@ -230,6 +229,7 @@ mod tests {
         }
     }
 
+    const MAP_SIDE: u32 = 2048;
     const FIGURE: Aabb = Aabb {
         min: Vec3::new(-0.7, 0.0, -0.4),
         max: Vec3::new(0.7, 3.6, 0.4),
@@ -245,8 +245,8 @@ mod tests {
             let fit_at = |step: u32| {
                 let turned = glam::Quat::from_rotation_y(step as f32 * STEP_RADIANS) * to_key;
                 [
-                    ShadowFit::studio(&FIGURE, turned),
-                    ShadowFit::book(&FIGURE, turned, 1.0),
+                    ShadowFit::studio(&FIGURE, turned, MAP_SIDE),
+                    ShadowFit::book(&FIGURE, turned, MAP_SIDE, 1.0),
                 ]
             };
             let mut sign_changes = 0;
@@ -283,7 +283,7 @@ mod tests {
         for width in [0.1, 1.4, 4.0, 11.0] {
             let half = Vec3::new(width * 0.5, 1.8, width * 0.5);
             let bounds = Aabb { min: -half, max: half };
-            let fit = ShadowFit::book(&bounds, to_key, 1.0);
+            let fit = ShadowFit::book(&bounds, to_key, MAP_SIDE, 1.0);
             let edge = fit.radius_texels * fit.texel * DISC_EDGE;
             assert!((edge / 3.6 - 0.011_74).abs() < 1e-4, "{edge} in a box {width} wide");
             assert!(fit.radius_texels >= 0.999 * BOOK_RADIUS_TEXELS, "the texels would show");
@@ -294,7 +294,7 @@ mod tests {
                 min: FIGURE.min * unit,
                 max: FIGURE.max * unit,
             };
-            ShadowFit::book(&bounds, to_key, unit)
+            ShadowFit::book(&bounds, to_key, MAP_SIDE, unit)
         });
         assert!(
             (large.texel / small.texel - 20.0).abs() < 1e-3 && (large.radius_texels - small.radius_texels).abs() < 1e-3

@@ -4,7 +4,6 @@
 use std::ops::Range;
 
 use super::buffers::bind_group;
-use super::light_fit::SHADOW_MAP_SIZE;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
@@ -36,11 +35,16 @@ pub(super) struct ShadowMap {
 }
 
 impl ShadowMap {
-    pub(super) fn new(device: &wgpu::Device) -> Self {
+    pub(super) fn new(device: &wgpu::Device, side: u32) -> Self {
         Self {
-            view: flat_texture(device, "shadow map", [SHADOW_MAP_SIZE; 2], DEPTH_FORMAT, DRAWN_AND_READ),
+            view: flat_texture(device, "shadow map", [side; 2], DEPTH_FORMAT, DRAWN_AND_READ),
             drawn_from: DrawnFrom(None),
         }
+    }
+
+    /// Texels along each edge.
+    pub(super) fn side(&self) -> u32 {
+        self.view.texture().width()
     }
 
     pub(super) fn view(&self) -> &wgpu::TextureView {

@@ -75,7 +75,7 @@ pub(super) struct LightPasses {
 }
 
 impl LightPasses {
-    pub(super) fn new(common: &Common, light: Light) -> Self {
+    pub(super) fn new(common: &Common, light: Light, shadow_map_side: u32) -> Self {
         let device = &common.device;
         let camera = uniform_buffer::<shaders::Camera>(device, "camera");
         let light_uniform = uniform_buffer::<shaders::Light>(device, "light");
@@ -88,7 +88,7 @@ impl LightPasses {
             light_uniform,
             ground,
             written: Default::default(),
-            shadow: ShadowMap::new(device),
+            shadow: ShadowMap::new(device, shadow_map_side),
             occlusion: None,
             contact: None,
             lighting: None,
@@ -112,8 +112,8 @@ impl LightPasses {
     /// Writes the uniforms for a picture of this size, pixels.
     pub(super) fn write(&mut self, queue: &wgpu::Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
         let camera = camera_uniform(frame, size);
-        let light = light_uniform(frame, self.light);
-        let ground = ground_uniform(frame, self.light);
+        let light = light_uniform(frame, self.light, self.shadow.side());
+        let ground = ground_uniform(frame, self.light, self.shadow.side());
         queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
         queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
         queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));

@@ -55,10 +55,29 @@ use pipelines::Pipelines;
 use recipe::{Cut, Draw, ModelDraw, Shading};
 use timing::{FrameEncoder, FrameTimer};
 
+/// What a renderer is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RendererOptions {
+    /// Of each pixel of its targets; see [`device::sample_count`].
+    pub samples: SampleCount,
+    /// Texels along each edge of the shadow maps.
+    pub shadow_map_side: u32,
+}
+
+impl Default for RendererOptions {
+    /// What WebGPU and WebGL2 promise, and all detail.
+    fn default() -> Self {
+        Self {
+            samples: SampleCount::default(),
+            shadow_map_side: 2048,
+        }
+    }
+}
+
 /// Draws one model at a time. Resources are made when a frame first needs them; later frames make nothing.
 pub struct Renderer {
     common: Common,
-    samples: SampleCount,
+    options: RendererOptions,
     /// The lights that were shown so far.
     lights: Vec<LightPasses>,
     instances: Instances,
@@ -111,17 +130,21 @@ impl Shape {
 type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {
-    /// For targets with four samples a pixel, which WebGPU and WebGL2 promise.
-    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        Self::with_samples(device, queue, SampleCount::default())
+    /// With so many samples a pixel, and all detail.
+    pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
+        let options = RendererOptions {
+            samples,
+            ..RendererOptions::default()
+        };
+        Self::new(device, queue, options)
     }
 
-    /// For targets with this many samples; see [`device::sample_count`].
-    pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
-        let pipelines = Pipelines::new(device, samples);
+    /// Without a model.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, options: RendererOptions) -> Self {
+        let pipelines = Pipelines::new(device, options.samples);
         let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
         Self {
-            samples,
+            options,
             lights: Vec::new(),
             instances: Instances::new(device),
             overlays: Overlays::new(device, &pipelines.layouts),
@@ -203,6 +226,31 @@ impl Renderer {
         self.shape.replace();
     }
 
+    /// Whether all pipelines are built that one key or the pointer may ask for while this model is open.
+    pub fn is_prepared(&self) -> bool {
+        self.unprepared().is_none()
+    }
+
+    /// Builds one more of these pipelines, which takes a moment: call it while nothing moves. False when all are there.
+    pub fn prepare_next(&mut self) -> bool {
+        let next = self.unprepared();
+        next.is_some_and(|draw| {
+            self.common.pipelines.get(draw);
+            true
+        })
+    }
+
+    /// How many pipelines were built so far.
+    pub fn pipelines_built(&self) -> usize {
+        self.common.pipelines.count()
+    }
+
+    fn unprepared(&self) -> Option<Draw> {
+        let model = self.model.as_ref()?;
+        let wanted = Draw::within_reach(model.bones.is_some(), model.has_cut_submeshes());
+        wanted.into_iter().find(|draw| !self.common.pipelines.has(*draw))
+    }
+
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
     /// for the GPU's times, which are those of an earlier frame.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
@@ -241,7 +289,8 @@ impl Renderer {
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
-                self.lights.push(LightPasses::new(&self.common, *light));
+                self.lights
+                    .push(LightPasses::new(&self.common, *light, self.options.shadow_map_side));
             }
         }
 
@@ -289,7 +338,7 @@ impl Renderer {
     /// When the device draws no picture of this size.
     pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.clone());
-        Picture::start(&device, &queue, self.samples, size, |target| {
+        Picture::start(&device, &queue, self.options.samples, size, |target| {
             // Its times would be taken for those of the window.
             let mut encoder = FrameEncoder::new(&self.common.device, "picture");
             self.draw(frame, target, &mut encoder);

@@ -1,5 +1,5 @@
-//! Bind group layouts, and pipelines, each built when it is first drawn with: a page that shows the studio light never waits for
-//! the others.
+//! Bind group layouts, and pipelines, each built when it is first drawn with or, before that, while nothing moves: no page waits for
+//! more than it shows.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -150,6 +150,16 @@ impl Pipelines {
             self.built.borrow_mut().insert(draw, pipeline.clone());
             pipeline
         })
+    }
+
+    /// Whether it is built.
+    pub(super) fn has(&self, draw: Draw) -> bool {
+        self.built.borrow().contains_key(&draw)
+    }
+
+    /// How many are built.
+    pub(super) fn count(&self) -> usize {
+        self.built.borrow().len()
     }
 
     fn module(&self, program: &Program) -> wgpu::ShaderModule {

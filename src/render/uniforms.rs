@@ -109,10 +109,10 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
     }
 }
 
-/// The part of a picture that this light lights.
-pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Light {
+/// The part of a picture that this light lights, with a shadow map of so many texels along each edge.
+pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Light {
     let options = &frame.options;
-    let (to_key, shadow) = key_light(frame, light);
+    let (to_key, shadow) = key_light(frame, light, map_side);
     let to_rim = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_rim;
     let [_, to_book_light_1, to_book_light_2] = to_book_lights(options.book_lights_turn_radians);
     let book_unit = book_unit(frame);
@@ -143,14 +143,14 @@ pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::L
     }
 }
 
-/// The ground where this light lights it, and what is behind the model.
-pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Ground {
+/// The ground where this light lights it, and what is behind the model. `map_side` as in [`light_uniform`].
+pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Ground {
     let options = &frame.options;
     let colors = theme_colors(options.theme);
     let bounds = &frame.world_bounds;
     let ground = Ground::under(bounds);
     let contact = ContactFit::new(bounds);
-    let (_, shadow) = key_light(frame, light);
+    let (_, shadow) = key_light(frame, light, map_side);
     let center = bounds.center();
     let (background, background_srgb) = match options.background {
         Background::Backdrop | Background::None => (0, [0; 3]),
@@ -181,16 +181,16 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::
 }
 
 /// The unit vector towards the light that casts shadows, and what its shadow map covers.
-fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
+fn key_light(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> (Vec3, ShadowFit) {
     let (options, bounds) = (&frame.options, &frame.world_bounds);
     match light {
         Light::Studio => {
             let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
-            (to_key, ShadowFit::studio(bounds, to_key))
+            (to_key, ShadowFit::studio(bounds, to_key, map_side))
         }
         Light::Book => {
             let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);
-            (to_key, ShadowFit::book(bounds, to_key, book_unit(frame)))
+            (to_key, ShadowFit::book(bounds, to_key, map_side, book_unit(frame)))
         }
     }
 }

@@ -38,6 +38,7 @@ mod normal_maps;
 mod over_model;
 mod passes;
 mod picture;
+mod prepared;
 mod robust;
 mod scenes;
 mod sets;
