@@ -230,25 +230,30 @@ impl AmbientOcclusion {
             pass.draw(0..3, 0..1);
         };
         fill(Draw::Occlusion(light), &self.half_blurred_group, &self.occlusion);
-        // The books' demo blurs twice.
-        let blurs = match light {
-            Light::Book => 2,
-            Light::Studio => 1,
-        };
-        for _ in 0..blurs {
+        for _ in 0..occlusion_blurs(light) {
             fill(Draw::OcclusionBlurRows, &self.occlusion_group, &self.half_blurred);
             fill(Draw::OcclusionBlurColumns, &self.half_blurred_group, &self.occlusion);
         }
     }
 }
 
+/// How often ambient occlusion is blurred, along rows and along columns: in the books' demo twice.
+pub(super) fn occlusion_blurs(light: Light) -> u32 {
+    match light {
+        Light::Book => 2,
+        Light::Studio => 1,
+    }
+}
+
 /// Size of the textures for a picture of this size.
-fn half(size: [u32; 2]) -> [u32; 2] {
+pub(super) fn half(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.div_ceil(2))
 }
 
 /// Texels along each edge of the contact map. Few are enough, since it is blurred.
-const CONTACT_MAP_SIZE: u32 = 256;
+pub(super) const CONTACT_MAP_SIZE: u32 = 256;
+/// Along rows and columns in turn: two narrow blurs read fewer texels than one wide blur.
+pub(super) const CONTACT_BLURS: usize = 4;
 
 /// The soft dark on the ground under what is near it: the model seen from straight below, blurred.
 pub(super) struct ContactMap {
@@ -317,8 +322,7 @@ impl ContactMap {
         }
         let rows = (Draw::ContactBlurRows, &self.map_group, &self.half_blurred);
         let columns = (Draw::ContactBlurColumns, &self.half_blurred_group, &self.map);
-        // Two narrow blurs read fewer texels than one wide blur.
-        for (draw, source, target) in [rows, columns, rows, columns] {
+        for (draw, source, target) in [rows, columns].into_iter().cycle().take(CONTACT_BLURS) {
             let mut pass = begin_pass(encoder, TimedPass::Contact, over_black(target));
             pass.set_pipeline(&posed.pipelines.get(draw));
             pass.set_bind_group(0, source, &[]);

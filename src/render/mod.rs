@@ -20,6 +20,8 @@ mod maps;
 mod materials;
 mod model;
 mod overlays;
+#[cfg(test)]
+mod performance;
 mod picture;
 mod pipelines;
 mod read_back;

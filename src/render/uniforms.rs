@@ -74,7 +74,7 @@ const BOOK_HEIGHT: f32 = 3.6;
 /// A flat model counts as tall as this fraction of its diagonal.
 const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// Samples of the shadow map for each point.
-const SHADOW_TAPS: u32 = 16;
+pub(super) const SHADOW_TAPS: u32 = 16;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
