@@ -69,8 +69,13 @@ pub(super) struct FrameTimer {
 /// A buffer for the times of one frame.
 struct Answer {
     buffer: wgpu::Buffer,
-    /// The passes whose times are to come, in their order.
-    pending: Option<(Vec<TimedPass>, Receiver<Result<(), wgpu::BufferAsyncError>>)>,
+    pending: Option<Pending>,
+}
+
+struct Pending {
+    /// Those whose times are to come, in their order.
+    passes: Vec<TimedPass>,
+    outcome: Receiver<Result<(), wgpu::BufferAsyncError>>,
 }
 
 impl FrameTimer {
@@ -146,29 +151,29 @@ impl FrameTimer {
             // Fails when the timer is gone.
             let _ = tell.send(result);
         });
-        answer.pending = Some((passes, outcome));
+        answer.pending = Some(Pending { passes, outcome });
     }
 }
 
 impl Answer {
     /// The times, if they have come. Then the buffer is free again.
     fn take(&mut self, secs_per_tick: f64) -> Option<PassSecs> {
-        let (passes, outcome) = self.pending.as_ref()?;
-        let secs = match outcome.try_recv() {
-            Err(TryRecvError::Empty) => return None,
-            Ok(Ok(())) => {
-                let bytes = ..passes.len() as u64 * u64::from(STAMPS_PER_PASS * wgpu::QUERY_SIZE);
-                let mapped = self.buffer.get_mapped_range(bytes).ok();
-                mapped.map(|mapped| {
-                    let (stamps, _) = mapped.as_chunks();
-                    let stamps = stamps.iter().map(|stamp| u64::from_le_bytes(*stamp));
-                    sums(passes, &stamps.collect::<Vec<_>>(), secs_per_tick)
-                })
+        let Pending { passes, outcome } = self.pending.as_ref()?;
+        let outcome = outcome.try_recv();
+        if outcome == Err(TryRecvError::Empty) {
+            return None;
+        }
+        let mut secs = None;
+        // Else the device is lost.
+        if outcome == Ok(Ok(())) {
+            let bytes = ..passes.len() as u64 * u64::from(STAMPS_PER_PASS * wgpu::QUERY_SIZE);
+            if let Ok(mapped) = self.buffer.get_mapped_range(bytes) {
+                let (stamps, _) = mapped.as_chunks();
+                let stamps: Vec<_> = stamps.iter().map(|stamp| u64::from_le_bytes(*stamp)).collect();
+                secs = Some(sums(passes, &stamps, secs_per_tick));
             }
-            // The device is lost.
-            Ok(Err(_)) | Err(TryRecvError::Disconnected) => None,
-        };
-        self.buffer.unmap();
+            self.buffer.unmap();
+        }
         self.pending = None;
         secs
     }

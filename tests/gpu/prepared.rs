@@ -27,7 +27,7 @@ const ASKED: [Ask; 9] = [
     ("the pointer", |scene| scene.highlighted = Some(0)),
     ("T", |scene| scene.options.view_mode = ViewMode::BaseColor),
     ("W", |scene| {
-        scene.colors_srgb = vec![[200, 100, 50, 255]; scene.model.mesh.vertex_count()]
+        scene.colors_srgb = vec![[200, 100, 50, 255]; scene.model.mesh.vertex_count()];
     }),
 ];
 

@@ -57,6 +57,9 @@ fn draw_every_way(gpu: &Gpu, what: &str, scene: Scene, size: [u32; 2]) {
     });
 }
 
+/// Changes bones, of which the last has this index.
+type Wrong = (&'static str, fn(&mut [Affine3A], usize));
+
 /// Tries the device with bones that were changed.
 fn probe_with(gpu: &Gpu, change: impl FnOnce(&mut Palette)) -> Result<(), ProbeError> {
     let mut bones = device::probe_bones();
@@ -67,21 +70,16 @@ fn probe_with(gpu: &Gpu, change: impl FnOnce(&mut Palette)) -> Result<(), ProbeE
 on_both_backends! {
     fn the_probe_notices_wrong_bones_and_wrong_depths(gpu) {
         assert_eq!(probe_with(gpu, |_| {}), Ok(()));
-        let last = device::probe_bones().0.len() - 1;
-        let swapped: fn(&mut Palette) = |bones| {
-            let last = bones.0.len() - 1;
-            bones.0.swap(0, last);
-        };
-        let wrong: [(&str, &dyn Fn(&mut Palette)); 5] = [
-            ("no bones at all", &|bones| bones.0.fill(Affine3A::ZERO)),
-            ("the first row for the second", &|bones| bones.0[last] = bones.0[0]),
-            ("the second row for the first", &|bones| bones.0[0] = bones.0[last]),
-            ("rows exchanged, the farther one drawn first", &swapped),
+        let wrong: [Wrong; 5] = [
+            ("no bones at all", |bones, _| bones.fill(Affine3A::ZERO)),
+            ("the first row for the second", |bones, last| bones[last] = bones[0]),
+            ("the second row for the first", |bones, last| bones[0] = bones[last]),
+            ("rows exchanged, the farther one drawn first", |bones, last| bones.swap(0, last)),
             // What a device without a depth test draws.
-            ("the second one over the first", &|bones| bones.0[last].translation.z = 0.1),
+            ("the second one over the first", |bones, last| bones[last].translation.z = 0.1),
         ];
         for (what, change) in wrong {
-            let found = probe_with(gpu, change);
+            let found = probe_with(gpu, |bones| change(&mut bones.0, device::probe_bones().0.len() - 1));
             assert!(matches!(found, Err(ProbeError::WrongPicture { .. })), "{what}: {found:?}");
         }
     }
