@@ -8,8 +8,8 @@ use std::task::{Context, Poll, Wake, Waker};
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
 use crate::render::{
-    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, SampleCount, Target, UploadError, device,
-    watched,
+    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, RendererOptions, SampleCount, Target,
+    UploadError, device, watched,
 };
 use crate::scene::{FrameCost, FrameOptions, Theme};
 use crate::session::{Quality, Session};
@@ -17,6 +17,20 @@ use crate::ui::{self, Contrast, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
 const MAX_STEP_SECS: f32 = 0.25;
+
+/// Between two pipelines that are built while nothing moves, so that input comes first.
+const PREPARE_PAUSE_SECS: f32 = 0.05;
+/// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
+const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
+
+/// What an app is told of where it runs.
+#[derive(Clone, Copy, Debug)]
+pub struct AppOptions {
+    /// Fingers are the device's pointer.
+    pub coarse_pointer: bool,
+    /// Seconds since some moment.
+    pub now_secs: fn() -> f64,
+}
 
 /// The viewer in a window. The session belongs to whoever made it, so that it outlives a lost GPU.
 pub struct App {
@@ -28,8 +42,8 @@ pub struct App {
 }
 
 impl App {
-    /// Shows a session, which may have a model open already. `coarse_pointer`: fingers are the device's pointer.
-    pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, coarse_pointer: bool) -> Self {
+    /// Shows a session, which may have a model open already.
+    pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, options: AppOptions) -> Self {
         ui::install(ctx);
         gpu.renderer
             .write()
@@ -37,8 +51,8 @@ impl App {
             .insert(Compositor::new(&gpu.device, gpu.target_format));
         Self {
             session,
-            state: UiState::new(coarse_pointer),
-            painter: SessionPainter::new(ctx, gpu),
+            state: UiState::new(options.coarse_pointer),
+            painter: SessionPainter::new(ctx, gpu, options),
             picture_alone: false,
         }
     }
@@ -109,6 +123,11 @@ impl App {
             ui.ctx().request_repaint();
         } else if let Some(secs) = session.quality().rests_in_secs() {
             ui.ctx().request_repaint_after_secs(secs);
+        } else if !self.painter.renderer.is_prepared() {
+            let is_idle = cost.is_none() && ui.input(|input| input.events.is_empty());
+            if !is_idle || self.painter.renderer.prepare_next() {
+                ui.ctx().request_repaint_after_secs(PREPARE_PAUSE_SECS);
+            }
         }
         requests
     }
@@ -186,6 +205,7 @@ struct Sizes {
 struct SessionPainter {
     gpu: RenderState,
     samples: SampleCount,
+    now_secs: fn() -> f64,
     renderer: Renderer,
     target: Target,
     /// With one sample a pixel, for pictures without smooth edges.
@@ -215,14 +235,22 @@ impl Wake for Repaint {
 }
 
 impl SessionPainter {
-    fn new(ctx: &egui::Context, gpu: &RenderState) -> Self {
+    fn new(ctx: &egui::Context, gpu: &RenderState, options: AppOptions) -> Self {
         let samples = device::sample_count(&gpu.adapter);
+        let mut of_renderer = RendererOptions {
+            samples,
+            ..RendererOptions::default()
+        };
+        if options.coarse_pointer {
+            of_renderer.shadow_map_side = SMALL_SHADOW_MAP_SIDE;
+        }
         Self {
-            renderer: Renderer::with_samples(&gpu.device, &gpu.queue, samples),
+            renderer: Renderer::new(&gpu.device, &gpu.queue, of_renderer),
             target: Target::with_samples(&gpu.device, 1, 1, samples),
             plain_target: Target::with_samples(&gpu.device, 1, 1, SampleCount::One),
             gpu: gpu.clone(),
             samples,
+            now_secs: options.now_secs,
             model: None,
             maps: None,
             materials: None,
@@ -262,7 +290,8 @@ impl SessionPainter {
         } else {
             (&mut self.plain_target, sizes.now)
         };
-        let cost;
+        let start_secs = (self.now_secs)();
+        let mut cost;
         if target.size() == sizes.now {
             cost = self.renderer.render(&session.frame(), target);
         } else {
@@ -278,6 +307,7 @@ impl SessionPainter {
                 self.target_answer = Some(answer);
             }
         }
+        cost.cpu_secs = Some(((self.now_secs)() - start_secs) as f32);
         if let Some(compositor) = self.gpu.renderer.write().callback_resources.get_mut::<Compositor>() {
             compositor.prepare(&self.gpu.device, &self.gpu.queue, target);
         }

@@ -4,8 +4,15 @@ use std::future::Future;
 use std::pin::Pin;
 use std::task::{Context, Poll, Waker};
 
+use glam::{Affine3A, Vec3};
+
+use super::buffers::Queue;
+use super::buffers::bind_group;
+use super::instances::BoneTexture;
 use super::read_back::{ReadBackError, read_back};
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount, Target};
+use super::timing::FrameEncoder;
+use crate::anim::Palette;
 use crate::shaders;
 
 /// How to reach a GPU without a window.
@@ -75,9 +82,15 @@ pub fn required_limits(adapter: &wgpu::Adapter) -> wgpu::Limits {
     wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
 }
 
-/// The features to ask of any adapter: block-compressed textures where it has them.
+/// The features to ask of any adapter, where it has them: block-compressed textures, and times of passes. GL's times are not asked for:
+/// it waits for them.
 pub fn required_features(adapter: &wgpu::Adapter) -> wgpu::Features {
-    adapter.features() & wgpu::Features::TEXTURE_COMPRESSION_BC
+    let mut wanted = wgpu::Features::TEXTURE_COMPRESSION_BC;
+    wanted.set(
+        wgpu::Features::TIMESTAMP_QUERY,
+        adapter.get_info().backend != wgpu::Backend::Gl,
+    );
+    adapter.features() & wanted
 }
 
 /// What to ask of any adapter.
@@ -141,8 +154,8 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
 
 /// Side of the probe's picture.
 const PROBE_SIDE: u32 = 16;
-/// The triangle's colour, sRGB: what [`shaders::PROBE`] writes, encoded.
-const PROBE_COLOR: [u8; 4] = [188, 137, 99, 255];
+/// Colours of the near and of the far triangle, sRGB: what [`shaders::PROBE`] writes, encoded.
+const PROBE_COLORS: [[u8; 4]; 2] = [[188, 137, 99, 255], [99, 137, 188, 255]];
 
 /// Why a device cannot be trusted.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -151,7 +164,7 @@ pub enum ProbeError {
     #[error(transparent)]
     ReadBack(#[from] ReadBackError),
     /// A pixel has the wrong colour.
-    #[error("a known triangle came out as {found:?} instead of {expected:?} at ({x}, {y})")]
+    #[error("known triangles came out as {found:?} instead of {expected:?} at ({x}, {y})")]
     WrongPicture {
         /// Pixels from the left.
         x: u32,
@@ -164,19 +177,46 @@ pub enum ProbeError {
     },
 }
 
-/// Draws a triangle over the lower left half of a small picture, and checks a pixel inside and one outside: some browsers have a
-/// WebGPU that starts and draws wrong. `pause` as in [`read_back`].
+/// The bones of the probe, two rows of their texture. The first joint of the first row brings a triangle over the lower left half of the
+/// picture, the first of the second row brings one behind it, over the whole picture.
+pub fn probe_bones() -> Palette {
+    let mut bones = vec![Affine3A::IDENTITY; shaders::JOINTS_PER_ROW as usize + 1];
+    bones[0] = Affine3A::from_translation(Vec3::new(0.0, 0.0, 0.25));
+    let far = Affine3A::from_translation(Vec3::new(1.0, 1.0, 0.75));
+    bones[shaders::JOINTS_PER_ROW as usize] = far * Affine3A::from_scale(Vec3::new(2.0, 2.0, 1.0));
+    Palette(bones)
+}
+
+/// Draws two triangles where [`probe_bones`] bring them into a small picture, the nearer one first, and checks a pixel in which it hides
+/// the farther one and a pixel beside it: some browsers have a WebGPU that starts and draws wrong. `pause` as in [`read_back`].
 ///
 /// # Errors
 /// When a pixel is wrong, or the picture cannot be read.
-pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl AsyncFn()) -> Result<(), ProbeError> {
+pub async fn probe(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    bones: &Palette,
+    pause: impl AsyncFn(),
+) -> Result<(), ProbeError> {
+    let bones_layout = BoneTexture::layout(device);
+    let mut bone_texture = BoneTexture::new(device, &bones_layout, bones.0.len());
+    bone_texture.write(&Queue::new(queue), [&bones.0[..]]);
+    let nothing_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("nothing"),
+        entries: &[],
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("probe"),
+        bind_group_layouts: &[Some(&nothing_layout), Some(&bones_layout)],
+        immediate_size: 0,
+    });
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(shaders::PROBE.name),
         source: wgpu::ShaderSource::Wgsl(shaders::PROBE.source().into()),
     });
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("probe"),
-        layout: None,
+        layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some("vertex"),
@@ -205,16 +245,18 @@ pub async fn probe(device: &wgpu::Device, queue: &wgpu::Queue, pause: impl Async
         cache: None,
     });
     let target = Target::with_samples(device, PROBE_SIDE, PROBE_SIDE, SampleCount::Four);
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("probe") });
+    let mut encoder = FrameEncoder::new(device, "probe");
     {
         let mut pass = target.begin_pass(&mut encoder, wgpu::Color::TRANSPARENT);
         pass.set_pipeline(&pipeline);
-        pass.draw(0..3, 0..1);
+        pass.set_bind_group(0, &bind_group(device, "nothing", &nothing_layout, []), &[]);
+        pass.set_bind_group(1, bone_texture.group(), &[]);
+        pass.draw(0..6, 0..1);
     }
-    queue.submit([encoder.finish()]);
+    queue.submit([encoder.commands.finish()]);
     let pixels = read_back(device, queue, &target, pause).await?;
-    expect_pixel(&pixels, 3, PROBE_SIDE - 4, PROBE_COLOR)?;
-    expect_pixel(&pixels, PROBE_SIDE - 4, 3, [0; 4])
+    expect_pixel(&pixels, 3, PROBE_SIDE - 4, PROBE_COLORS[0])?;
+    expect_pixel(&pixels, PROBE_SIDE - 4, 3, PROBE_COLORS[1])
 }
 
 fn expect_pixel(pixels: &[u8], x: u32, y: u32, expected: [u8; 4]) -> Result<(), ProbeError> {

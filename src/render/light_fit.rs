@@ -42,8 +42,6 @@ pub(super) fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
     BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
 }
 
-/// Texels along each edge of the shadow map.
-pub(super) const SHADOW_MAP_SIZE: u32 = 2048;
 /// Texels around the scene's box that stay empty, so that a blurred edge never leaves the map.
 const MARGIN_TEXELS: f32 = 8.0;
 
@@ -81,11 +79,11 @@ pub(super) struct ShadowFit {
 impl ShadowFit {
     /// For the studio light: the smallest square that holds the box as seen from the light, so that edges are as sharp as the map
     /// allows. They are as soft as with one instance in the map, whose size is `instance_size`, or as little softer as the map allows.
-    /// `to_key` is a unit vector.
-    pub(super) fn studio(world_bounds: &Aabb, instance_size: Vec3, to_key: Vec3) -> Self {
-        let fit = Self::with_least_texel(world_bounds, to_key, 0.0);
+    /// `to_key` is a unit vector; the map has `map_side` texels along each edge.
+    pub(super) fn studio(world_bounds: &Aabb, instance_size: Vec3, to_key: Vec3, map_side: u32) -> Self {
+        let fit = Self::with_least_texel(world_bounds, to_key, map_side, 0.0);
         let axes = light_axes(to_key);
-        let half_width = |size: Vec3| tight_half_width(size * 0.5, axes);
+        let half_width = |size: Vec3| tight_half_width(size * 0.5, axes, map_side);
         let share = half_width(instance_size) / half_width(world_bounds.size());
         Self {
             radius_texels: (STUDIO_RADIUS_TEXELS * share).max(LEAST_RADIUS_TEXELS),
@@ -96,9 +94,9 @@ impl ShadowFit {
 
     /// For the book light: edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. So the map may be larger than the box,
     /// as it is in the demo. Where the map is too coarse for that, they are wider. `book_unit` is one unit of the demo in world units.
-    pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, book_unit: f32) -> Self {
+    pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, map_side: u32, book_unit: f32) -> Self {
         let radius = BOOK_EDGE / DISC_EDGE * book_unit;
-        let fit = Self::with_least_texel(world_bounds, to_key, radius / BOOK_RADIUS_TEXELS);
+        let fit = Self::with_least_texel(world_bounds, to_key, map_side, radius / BOOK_RADIUS_TEXELS);
         let radius_texels = (radius / fit.texel).max(LEAST_RADIUS_TEXELS);
         Self {
             radius_texels,
@@ -108,7 +106,7 @@ impl ShadowFit {
     }
 
     /// A square that holds the box as seen from the light. Its texels are at least this large. No blur.
-    fn with_least_texel(world_bounds: &Aabb, to_key: Vec3, least_texel: f32) -> Self {
+    fn with_least_texel(world_bounds: &Aabb, to_key: Vec3, map_side: u32, least_texel: f32) -> Self {
         let axes = light_axes(to_key);
         let [right, up, forward] = axes;
         let center = world_bounds.center();
@@ -117,7 +115,7 @@ impl ShadowFit {
             .transpose()
             * Mat4::from_translation(-center);
         let half_size = world_bounds.size() * 0.5;
-        let half_width = tight_half_width(half_size, axes).max(least_texel * SHADOW_MAP_SIZE as f32 * 0.5);
+        let half_width = tight_half_width(half_size, axes, map_side).max(least_texel * map_side as f32 * 0.5);
         let half_depth = reach(half_size, forward).max(least_reach(half_size)) * 1.01;
         let clip_from_light = glam::camera::lh::proj::directx::orthographic(
             -half_width,
@@ -129,7 +127,7 @@ impl ShadowFit {
         );
         Self {
             shadow_clip_from_world: clip_from_light * light_from_world,
-            texel: 2.0 * half_width / SHADOW_MAP_SIZE as f32,
+            texel: 2.0 * half_width / map_side as f32,
             radius_texels: 0.0,
             ground_radius_texels: 0.0,
         }
@@ -137,9 +135,9 @@ impl ShadowFit {
 }
 
 /// Half the width of the least map that holds a box of this half size.
-fn tight_half_width(half_size: Vec3, [right, up, _]: [Vec3; 3]) -> f32 {
+fn tight_half_width(half_size: Vec3, [right, up, _]: [Vec3; 3], map_side: u32) -> f32 {
     let reach = reach(half_size, right).max(reach(half_size, up));
-    reach.max(least_reach(half_size)) * (1.0 + 2.0 * MARGIN_TEXELS / SHADOW_MAP_SIZE as f32)
+    reach.max(least_reach(half_size)) * (1.0 + 2.0 * MARGIN_TEXELS / map_side as f32)
 }
 
 /// How far a box of this half size reaches from its middle along an axis.
@@ -164,7 +162,7 @@ fn light_axes(to_key: Vec3) -> [Vec3; 3] {
 const CONTACT_MARGIN: f32 = 1.4;
 
 /// Texels along each edge of the contact map of one instance. Few are enough, since it is blurred.
-const CONTACT_MAP_SIZE: u32 = 256;
+pub(super) const CONTACT_MAP_SIZE: u32 = 256;
 /// The same of a crowd's, at most. Its blur takes the time.
 const LARGEST_CONTACT_MAP_SIZE: u32 = 1024;
 
@@ -245,8 +243,8 @@ mod tests {
         ] {
             let bounds = Aabb { min, max };
             for fit in [
-                ShadowFit::studio(&bounds, bounds.size(), to_key),
-                ShadowFit::book(&bounds, to_key, bounds.size().y / 3.6),
+                ShadowFit::studio(&bounds, bounds.size(), to_key, MAP_SIDE),
+                ShadowFit::book(&bounds, to_key, MAP_SIDE, bounds.size().y / 3.6),
             ] {
                 for corner in 0..8 {
                     let pick = |bit: usize| if corner >> bit & 1 == 0 { min[bit] } else { max[bit] };
@@ -262,6 +260,7 @@ mod tests {
         }
     }
 
+    const MAP_SIDE: u32 = 2048;
     const FIGURE: Aabb = Aabb {
         min: Vec3::new(-0.7, 0.0, -0.4),
         max: Vec3::new(0.7, 3.6, 0.4),
@@ -277,8 +276,8 @@ mod tests {
             let fit_at = |step: u32| {
                 let turned = glam::Quat::from_rotation_y(step as f32 * STEP_RADIANS) * to_key;
                 [
-                    ShadowFit::studio(&FIGURE, FIGURE.size(), turned),
-                    ShadowFit::book(&FIGURE, turned, 1.0),
+                    ShadowFit::studio(&FIGURE, FIGURE.size(), turned, MAP_SIDE),
+                    ShadowFit::book(&FIGURE, turned, MAP_SIDE, 1.0),
                 ]
             };
             let mut sign_changes = 0;
@@ -315,7 +314,7 @@ mod tests {
         for width in [0.1, 1.4, 4.0, 11.0] {
             let half = Vec3::new(width * 0.5, 1.8, width * 0.5);
             let bounds = Aabb { min: -half, max: half };
-            let fit = ShadowFit::book(&bounds, to_key, 1.0);
+            let fit = ShadowFit::book(&bounds, to_key, MAP_SIDE, 1.0);
             let edge = fit.radius_texels * fit.texel * DISC_EDGE;
             assert!((edge / 3.6 - 0.011_74).abs() < 1e-4, "{edge} in a box {width} wide");
             assert!(fit.radius_texels >= 0.999 * BOOK_RADIUS_TEXELS, "the texels would show");
@@ -326,7 +325,7 @@ mod tests {
                 min: FIGURE.min * unit,
                 max: FIGURE.max * unit,
             };
-            ShadowFit::book(&bounds, to_key, unit)
+            ShadowFit::book(&bounds, to_key, MAP_SIDE, unit)
         });
         assert!(
             (large.texel / small.texel - 20.0).abs() < 1e-3 && (large.radius_texels - small.radius_texels).abs() < 1e-3
@@ -337,7 +336,7 @@ mod tests {
     #[test]
     fn shadows_and_contacts_of_a_crowd_are_as_sharp_as_the_maps_allow() {
         let to_key = Vec3::new(0.64, 0.74, -0.34).normalize();
-        let alone = ShadowFit::studio(&FIGURE, FIGURE.size(), to_key);
+        let alone = ShadowFit::studio(&FIGURE, FIGURE.size(), to_key, MAP_SIDE);
         assert_eq!((alone.radius_texels, alone.ground_radius_texels), (2.5, 6.0));
         assert_eq!(ContactFit::new(&FIGURE, FIGURE.size()).map_size, 256);
         for (wider, map_size) in [(2.0, 1024), (30.0, 1024), (500.0, 1024)] {
@@ -345,12 +344,12 @@ mod tests {
                 max: FIGURE.max + Vec3::X * wider,
                 ..FIGURE
             };
-            let fit = ShadowFit::studio(&row, FIGURE.size(), to_key);
+            let fit = ShadowFit::studio(&row, FIGURE.size(), to_key, MAP_SIDE);
             let width = |fit: &ShadowFit| fit.ground_radius_texels * fit.texel;
             assert!(width(&fit) >= 0.999 * width(&alone) && fit.ground_radius_texels >= LEAST_RADIUS_TEXELS);
             assert!(width(&fit) <= width(&alone).max(1.001 * LEAST_RADIUS_TEXELS * fit.texel));
             assert_eq!(ContactFit::new(&row, FIGURE.size()).map_size, map_size, "{wider} wider");
-            assert!(ShadowFit::book(&row, to_key, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
+            assert!(ShadowFit::book(&row, to_key, MAP_SIDE, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
         }
     }
 }

@@ -4,12 +4,12 @@
 use std::ops::Range;
 
 use super::buffers::bind_group;
-use super::light_fit::SHADOW_MAP_SIZE;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
 use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture};
-use crate::scene::Light;
+use super::timing::FrameEncoder;
+use crate::scene::{Light, TimedPass};
 use crate::shaders;
 
 const DRAWN_AND_READ: wgpu::TextureUsages =
@@ -35,11 +35,16 @@ pub(super) struct ShadowMap {
 }
 
 impl ShadowMap {
-    pub(super) fn new(device: &wgpu::Device) -> Self {
+    pub(super) fn new(device: &wgpu::Device, side: u32) -> Self {
         Self {
-            view: flat_texture(device, "shadow map", [SHADOW_MAP_SIZE; 2], DEPTH_FORMAT, DRAWN_AND_READ),
+            view: flat_texture(device, "shadow map", [side; 2], DEPTH_FORMAT, DRAWN_AND_READ),
             drawn_from: DrawnFrom(None),
         }
+    }
+
+    /// Texels along each edge.
+    pub(super) fn side(&self) -> u32 {
+        self.view.texture().width()
     }
 
     pub(super) fn view(&self) -> &wgpu::TextureView {
@@ -49,7 +54,7 @@ impl ShadowMap {
     /// Without a model the map is empty.
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         (frame_group, light): (&wgpu::BindGroup, &shaders::Light),
         (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),
         nothing: &wgpu::BindGroup,
@@ -62,7 +67,7 @@ impl ShadowMap {
             depth_is_kept: true,
             ..PassTargets::default()
         };
-        let mut pass = begin_pass(encoder, "shadow map", targets);
+        let mut pass = begin_pass(encoder, TimedPass::ShadowMap, targets);
         if let Some((model, posed)) = model {
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(2, nothing, &[]);
@@ -112,7 +117,7 @@ impl GeometryMap {
 
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         (frame_group, camera): (&wgpu::BindGroup, &shaders::Camera),
         (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
         nothing: &wgpu::BindGroup,
@@ -131,7 +136,7 @@ impl GeometryMap {
             depth: Some(&self.depth),
             ..PassTargets::default()
         };
-        let mut pass = begin_pass(encoder, "geometry", targets);
+        let mut pass = begin_pass(encoder, TimedPass::Geometry, targets);
         pass.set_bind_group(0, frame_group, &[]);
         pass.set_bind_group(2, nothing, &[]);
         model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
@@ -193,7 +198,7 @@ impl AmbientOcclusion {
     /// `columns` of the picture are this light's.
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         pipelines: &Pipelines,
         (frame_group, uniform): (&wgpu::BindGroup, &shaders::Light),
         (light, columns): (Light, &Range<u32>),
@@ -218,29 +223,35 @@ impl AmbientOcclusion {
                 scissor: Some([start, 0, end - start, height]),
                 ..PassTargets::default()
             };
-            let mut pass = begin_pass(encoder, "occlusion", targets);
+            let mut pass = begin_pass(encoder, TimedPass::AmbientOcclusion, targets);
             pass.set_pipeline(&pipelines.get(draw));
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(1, source, &[]);
             pass.draw(0..3, 0..1);
         };
         fill(Draw::Occlusion(light), &self.half_blurred_group, &self.occlusion);
-        // The books' demo blurs twice.
-        let blurs = match light {
-            Light::Book => 2,
-            Light::Studio => 1,
-        };
-        for _ in 0..blurs {
+        for _ in 0..occlusion_blurs(light) {
             fill(Draw::OcclusionBlurRows, &self.occlusion_group, &self.half_blurred);
             fill(Draw::OcclusionBlurColumns, &self.half_blurred_group, &self.occlusion);
         }
     }
 }
 
+/// How often ambient occlusion is blurred, along rows and along columns: in the books' demo twice.
+pub(super) fn occlusion_blurs(light: Light) -> u32 {
+    match light {
+        Light::Book => 2,
+        Light::Studio => 1,
+    }
+}
+
 /// Size of the textures for a picture of this size.
-fn half(size: [u32; 2]) -> [u32; 2] {
+pub(super) fn half(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.div_ceil(2))
 }
+
+/// Along rows and columns in turn: two narrow blurs read fewer texels than one wide blur.
+pub(super) const CONTACT_BLURS: usize = 4;
 
 /// The soft dark on the ground under what is near it: the model seen from straight below, blurred.
 pub(super) struct ContactMap {
@@ -292,7 +303,7 @@ impl ContactMap {
 
     pub(super) fn draw(
         &mut self,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         (frame_group, light, ground): (&wgpu::BindGroup, &shaders::Light, &shaders::Ground),
         (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
     ) {
@@ -311,15 +322,14 @@ impl ContactMap {
             ..PassTargets::default()
         };
         {
-            let mut pass = begin_pass(encoder, "contact", over_black(&self.map));
+            let mut pass = begin_pass(encoder, TimedPass::Contact, over_black(&self.map));
             pass.set_bind_group(0, frame_group, &[]);
             model.draw_shape(&mut pass, posed, ModelDraw::Contact);
         }
         let rows = (Draw::ContactBlurRows, &self.map_group, &self.half_blurred);
         let columns = (Draw::ContactBlurColumns, &self.half_blurred_group, &self.map);
-        // Two narrow blurs read fewer texels than one wide blur.
-        for (draw, source, target) in [rows, columns, rows, columns] {
-            let mut pass = begin_pass(encoder, "contact blur", over_black(target));
+        for (draw, source, target) in [rows, columns].into_iter().cycle().take(CONTACT_BLURS) {
+            let mut pass = begin_pass(encoder, TimedPass::Contact, over_black(target));
             pass.set_pipeline(&posed.pipelines.get(draw));
             pass.set_bind_group(0, source, &[]);
             pass.draw(0..3, 0..1);

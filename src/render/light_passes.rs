@@ -8,6 +8,7 @@ use super::environment::Environments;
 use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
+use super::timing::FrameEncoder;
 use super::uniforms::{camera_uniform, contact_fit, ground_uniform, light_uniform};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
@@ -74,7 +75,7 @@ pub(super) struct LightPasses {
 }
 
 impl LightPasses {
-    pub(super) fn new(common: &Common, light: Light) -> Self {
+    pub(super) fn new(common: &Common, light: Light, shadow_map_side: u32) -> Self {
         let device = &common.device;
         let camera = uniform_buffer::<shaders::Camera>(device, "camera");
         let light_uniform = uniform_buffer::<shaders::Light>(device, "light");
@@ -87,7 +88,7 @@ impl LightPasses {
             light_uniform,
             ground,
             written: Default::default(),
-            shadow: ShadowMap::new(device),
+            shadow: ShadowMap::new(device, shadow_map_side),
             occlusion: None,
             contact: None,
             lighting: None,
@@ -111,8 +112,8 @@ impl LightPasses {
     /// Writes the uniforms for a picture of this size, pixels.
     pub(super) fn write(&mut self, queue: &Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
         let camera = camera_uniform(frame, size);
-        let light = light_uniform(frame, self.light);
-        let ground = ground_uniform(frame, self.light);
+        let light = light_uniform(frame, self.light, self.shadow.side());
+        let ground = ground_uniform(frame, self.light, self.shadow.side());
         queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
         queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
         queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));
@@ -123,7 +124,7 @@ impl LightPasses {
     pub(super) fn draw_geometry(
         &self,
         common: &Common,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         map: &mut GeometryMap,
         model: (u64, (&GpuModel, Posed<'_>)),
     ) {
@@ -135,7 +136,7 @@ impl LightPasses {
     pub(super) fn draw(
         &mut self,
         common: &Common,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
         frame: &RenderFrame<'_>,
         (columns, geometry): (&Range<u32>, Option<&GeometryMap>),
         (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),

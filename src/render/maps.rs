@@ -99,15 +99,23 @@ pub(super) fn one_texel(device: &wgpu::Device, queue: &Queue, label: &str, texel
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// Uploads a map with all its levels: compressed where the device reads the blocks, else decoded, which looks the same.
-/// Levels too large for the device are left out.
+/// The longest side of a map where the device reads no blocks: phones. Decoded, a map takes four to eight times their memory.
+const LONGEST_DECODED_SIDE: u32 = 2048;
+
+/// Uploads a map with its levels: compressed where the device reads the blocks, else decoded, which looks the same.
+/// Levels too large for the device are left out; where it reads no blocks, also those larger than [`LONGEST_DECODED_SIDE`].
 fn upload(device: &wgpu::Device, queue: &Queue, image: &Image, kind: MapKind) -> wgpu::TextureView {
-    let limit = device.limits().max_texture_dimension_2d;
+    let takes_blocks = device.features().contains(wgpu::Features::TEXTURE_COMPRESSION_BC);
+    let of_device = device.limits().max_texture_dimension_2d;
+    let limit = if takes_blocks {
+        of_device
+    } else {
+        of_device.min(LONGEST_DECODED_SIDE)
+    };
     let image = fitting(image, kind, limit);
     let first = first_fitting_level(&image, limit);
     let (width, height) = image.level_size(first);
     let whole_blocks = width % 4 == 0 && height % 4 == 0;
-    let takes_blocks = device.features().contains(wgpu::Features::TEXTURE_COMPRESSION_BC);
     let compressed = compressed_format(image.format(), kind).filter(|_| whole_blocks && takes_blocks);
     let format = compressed.unwrap_or(match kind {
         MapKind::Diffuse => wgpu::TextureFormat::Rgba8UnormSrgb,

@@ -20,11 +20,14 @@ mod maps;
 mod materials;
 mod model;
 mod overlays;
+#[cfg(test)]
+mod performance;
 mod picture;
 mod pipelines;
 mod read_back;
 mod recipe;
 mod target;
+mod timing;
 mod triangles;
 mod uniforms;
 
@@ -50,11 +53,31 @@ use model::{GpuModel, Posed};
 use overlays::Overlays;
 use pipelines::Pipelines;
 use recipe::{Cut, Draw, ModelDraw, Shading};
+use timing::{FrameEncoder, FrameTimer};
+
+/// What a renderer is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RendererOptions {
+    /// Of each pixel of its targets; see [`device::sample_count`].
+    pub samples: SampleCount,
+    /// Texels along each edge of the shadow maps.
+    pub shadow_map_side: u32,
+}
+
+impl Default for RendererOptions {
+    /// What WebGPU and WebGL2 promise, and all detail.
+    fn default() -> Self {
+        Self {
+            samples: SampleCount::default(),
+            shadow_map_side: 2048,
+        }
+    }
+}
 
 /// Draws one model at a time. Resources are made when a frame first needs them; later frames make nothing.
 pub struct Renderer {
     common: Common,
-    samples: SampleCount,
+    options: RendererOptions,
     /// The lights that were shown so far.
     lights: Vec<LightPasses>,
     instances: Instances,
@@ -66,6 +89,8 @@ pub struct Renderer {
     shape: Shape,
     /// For ambient occlusion; fits the last size of the picture.
     geometry: Option<GeometryMap>,
+    /// None where the device tells no times.
+    timer: Option<FrameTimer>,
 }
 
 /// What of the model the maps show: all but its colours. Kept to see when it changes.
@@ -110,18 +135,23 @@ impl Shape {
 type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {
-    /// For pictures with four samples a pixel, which WebGPU and WebGL2 promise.
-    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        Self::with_samples(device, queue, SampleCount::default())
+    /// With so many samples a pixel, and all detail.
+    pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
+        let options = RendererOptions {
+            samples,
+            ..RendererOptions::default()
+        };
+        Self::new(device, queue, options)
     }
 
-    /// For pictures with this many samples a pixel; see [`device::sample_count`]. A target may have one sample all the same.
-    pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
-        let pipelines = Pipelines::new(device, samples);
+    /// Without a model.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, options: RendererOptions) -> Self {
+        let pipelines = Pipelines::new(device, options.samples);
+        let timer = FrameTimer::new(device, queue);
         let queue = Queue::new(queue);
         let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
         Self {
-            samples,
+            options,
             lights: Vec::new(),
             instances: Instances::new(device),
             overlays: Overlays::new(device, &pipelines.layouts),
@@ -137,6 +167,7 @@ impl Renderer {
                 black: one_texel(device, &queue, "black", [0; 4]),
                 queue,
             },
+            timer,
             model: None,
             shape: Shape::default(),
             geometry: None,
@@ -202,8 +233,52 @@ impl Renderer {
         self.shape.replace();
     }
 
-    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost.
+    /// Whether all pipelines are built that one key or the pointer may ask for while this model is open.
+    pub fn is_prepared(&self) -> bool {
+        self.unprepared().is_none()
+    }
+
+    /// Builds one more of these pipelines, which takes a moment: call it while nothing moves. False when all are there.
+    pub fn prepare_next(&mut self) -> bool {
+        let next = self.unprepared();
+        next.is_some_and(|draw| {
+            self.common.pipelines.get(draw);
+            true
+        })
+    }
+
+    /// How many pipelines were built so far.
+    pub fn pipelines_built(&self) -> usize {
+        self.common.pipelines.count()
+    }
+
+    fn unprepared(&self) -> Option<Draw> {
+        let model = self.model.as_ref()?;
+        let wanted = Draw::within_reach(model.bones.is_some(), model.has_cut_submeshes());
+        wanted.into_iter().find(|draw| !self.common.pipelines.has(*draw))
+    }
+
+    /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
+    /// for the GPU's times, which are those of an earlier frame.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        let mut encoder = FrameEncoder::new(&self.common.device, "frame");
+        if let Some(timer) = &mut self.timer {
+            timer.begin_frame(&mut encoder);
+        }
+        let cost = self.draw(frame, target, &mut encoder);
+        let Some(timer) = &mut self.timer else {
+            self.common.queue.inner.submit([encoder.commands.finish()]);
+            return cost;
+        };
+        timer.submit(&self.common.queue.inner, encoder);
+        FrameCost {
+            gpu_secs: timer.latest(),
+            ..cost
+        }
+    }
+
+    /// Draws a frame. Returns what is known of its cost.
+    fn draw(&mut self, frame: &RenderFrame<'_>, target: &mut Target, encoder: &mut FrameEncoder) -> FrameCost {
         self.common.environments.write(&self.common.queue, frame);
         let Common { device, queue, .. } = &self.common;
         let mut posed_anew = false;
@@ -224,14 +299,11 @@ impl Renderer {
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
-                self.lights.push(LightPasses::new(&self.common, *light));
+                self.lights
+                    .push(LightPasses::new(&self.common, *light, self.options.shadow_map_side));
             }
         }
 
-        let mut encoder = self
-            .common
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let pipelines = &self.common.pipelines;
         let model = self.model.as_ref().map(|model| {
             let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
@@ -256,20 +328,19 @@ impl Renderer {
                 let fresh = || GeometryMap::new(&self.common.device, target.size());
                 let map = self.geometry.insert(kept.unwrap_or_else(fresh));
                 let model = with(model, self.instances.in_sight());
-                passes.draw_geometry(&self.common, &mut encoder, map, (self.shape.revision_in_sight, model));
+                passes.draw_geometry(&self.common, encoder, map, (self.shape.revision_in_sight, model));
                 geometry = Some(&*map);
             }
         }
         for passes in &mut self.lights {
             if let Some(columns) = columns_of(passes.light()) {
                 let shape = (self.shape.revision, model);
-                passes.draw(&self.common, &mut encoder, frame, (columns, geometry), shape);
+                passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
             }
         }
         let own = model.map(|model| with(model, self.instances.own()));
         pipelines.set_samples(target.samples());
-        self.draw_picture(frame, target, &parts, own, &mut encoder);
-        self.common.queue.inner.submit([encoder.finish()]);
+        self.draw_picture(frame, target, &parts, own, encoder);
         FrameCost {
             vertices: model.map_or(0, |(model, _)| model.take_drawn_vertices()),
             uploaded_bytes: self.common.queue.take_bytes(),
@@ -284,8 +355,11 @@ impl Renderer {
     /// When the device draws no picture of this size.
     pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.inner.clone());
-        Picture::start(&device, &queue, self.samples, size, |target| {
-            self.render(frame, target);
+        Picture::start(&device, &queue, self.options.samples, size, |target| {
+            // Its times would be taken for those of the window.
+            let mut encoder = FrameEncoder::new(&self.common.device, "picture");
+            self.draw(frame, target, &mut encoder);
+            self.common.queue.inner.submit([encoder.commands.finish()]);
         })
     }
 
@@ -295,7 +369,7 @@ impl Renderer {
         target: &Target,
         parts: &[Columns],
         model: Option<(&GpuModel, Posed<'_>)>,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: &mut FrameEncoder,
     ) {
         let height = target.size()[1];
         let options = &frame.options;

@@ -171,9 +171,14 @@ impl GpuModel {
         }
     }
 
+    /// Whether the alpha of a map cuts some of it.
+    pub(super) fn has_cut_submeshes(&self) -> bool {
+        self.ranges.iter().any(|range| self.materials.is_cut(range.material))
+    }
+
     /// Draws what casts a shadow. The caller sets group 0.
     pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
-        if self.ranges.iter().any(|range| self.materials.is_cut(range.material)) {
+        if self.has_cut_submeshes() {
             self.draw(pass, posed, Cut::Hard, ModelDraw::Caster);
         } else {
             self.draw_shape(pass, posed, ModelDraw::Caster(Cut::Whole));

@@ -1,5 +1,5 @@
-//! Bind group layouts, and pipelines, each built when it is first drawn with: a page that shows the studio light never waits for
-//! the others.
+//! Bind group layouts, and pipelines, each built when it is first drawn with or, before that, while nothing moves: no page waits for
+//! more than it shows.
 
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
@@ -151,17 +151,31 @@ impl Pipelines {
 
     /// The pipeline that draws this, built at the first call.
     pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
-        let samples = if draw.is_in_picture() {
-            self.samples.get()
-        } else {
-            SampleCount::One
-        };
+        let samples = self.samples_of(draw);
         let known = self.built.borrow().get(&(draw, samples)).cloned();
         known.unwrap_or_else(|| {
             let pipeline = self.build(draw, samples);
             self.built.borrow_mut().insert((draw, samples), pipeline.clone());
             pipeline
         })
+    }
+
+    /// Whether it is built.
+    pub(super) fn has(&self, draw: Draw) -> bool {
+        self.built.borrow().contains_key(&(draw, self.samples_of(draw)))
+    }
+
+    fn samples_of(&self, draw: Draw) -> SampleCount {
+        if draw.is_in_picture() {
+            self.samples.get()
+        } else {
+            SampleCount::One
+        }
+    }
+
+    /// How many are built.
+    pub(super) fn count(&self) -> usize {
+        self.built.borrow().len()
     }
 
     fn module(&self, program: &Program) -> wgpu::ShaderModule {

@@ -85,6 +85,30 @@ impl Draw {
             | Self::ContactBlurColumns => false,
         }
     }
+
+    /// What one key or the pointer may ask for while a model is open, in a picture with a background, the likeliest first: what the
+    /// pointer marks, the other light, view modes, wires, bones, weights, normals.
+    pub(super) fn within_reach(skinned: bool, has_cuts: bool) -> Vec<Self> {
+        let cuts = |cut| [Cut::Whole, cut].into_iter().take(if has_cuts { 2 } else { 1 });
+        let mesh = |shading| cuts(Cut::Smooth).map(move |cut| ModelDraw::Mesh(shading, cut));
+        let of_model = |draw| Self::Model { draw, skinned };
+        let mut draws = vec![of_model(ModelDraw::Highlight)];
+        for light in Light::ALL {
+            draws.extend(mesh(Shading::Lit(light)).map(of_model));
+            draws.push(Self::Occlusion(light));
+        }
+        draws.extend([
+            of_model(ModelDraw::Contact),
+            Self::ContactBlurRows,
+            Self::ContactBlurColumns,
+        ]);
+        draws.extend(mesh(Shading::Inspect).map(of_model));
+        draws.push(of_model(ModelDraw::Edges));
+        draws.extend([WorldShape::Triangles, WorldShape::Lines].map(|shape| Self::World { shape, through: true }));
+        draws.extend(cuts(Cut::Hard).map(ModelDraw::SkinView).map(of_model));
+        draws.push(of_model(ModelDraw::Normals));
+        draws
+    }
 }
 
 /// What stands in the world beside the model.

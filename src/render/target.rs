@@ -1,5 +1,8 @@
 //! What is drawn into: textures, the passes that fill them, and the target of a whole frame.
 
+use super::timing::FrameEncoder;
+use crate::scene::TimedPass;
+
 /// Samples of each pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SampleCount {
@@ -69,8 +72,8 @@ pub(super) struct PassTargets<'a> {
 
 /// Opens a render pass: every pass of the renderer begins here.
 pub(super) fn begin_pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
+    encoder: &'a mut FrameEncoder,
+    pass: TimedPass,
     targets: PassTargets<'_>,
 ) -> wgpu::RenderPass<'a> {
     let store = |is_kept| {
@@ -98,14 +101,13 @@ pub(super) fn begin_pass<'a>(
         stencil_ops: None,
     });
     let colors = [color];
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
+    let descriptor = wgpu::RenderPassDescriptor {
+        label: Some(pass.name()),
         color_attachments: if targets.color.is_some() { &colors } else { &[] },
         depth_stencil_attachment: depth,
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    });
+        ..Default::default()
+    };
+    let mut pass = encoder.begin_pass(pass, &descriptor);
     if let Some([left, top, width, height]) = targets.scissor {
         pass.set_scissor_rect(left, top, width, height);
     }
@@ -236,17 +238,13 @@ impl Target {
 
     /// Fills the picture with a colour, through the same pass that a frame is drawn with.
     pub(super) fn fill(&self, device: &wgpu::Device, queue: &wgpu::Queue, color: wgpu::Color) {
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("fill") });
+        let mut encoder = FrameEncoder::new(device, "fill");
         drop(self.begin_pass(&mut encoder, color));
-        queue.submit([encoder.finish()]);
+        queue.submit([encoder.commands.finish()]);
     }
 
     /// A pass over a picture of this colour.
-    pub(super) fn begin_pass<'a>(
-        &self,
-        encoder: &'a mut wgpu::CommandEncoder,
-        color: wgpu::Color,
-    ) -> wgpu::RenderPass<'a> {
+    pub(super) fn begin_pass<'a>(&self, encoder: &'a mut FrameEncoder, color: wgpu::Color) -> wgpu::RenderPass<'a> {
         let (view, resolved) = match &self.multisampled_view {
             Some(samples) => (samples, Some(&self.resolved_view)),
             None => (&self.resolved_view, None),
@@ -257,7 +255,7 @@ impl Target {
             depth: Some(&self.depth_view),
             ..PassTargets::default()
         };
-        let mut pass = begin_pass(encoder, "picture", targets);
+        let mut pass = begin_pass(encoder, TimedPass::Picture, targets);
         let [width, height] = self.size;
         pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
         pass.set_scissor_rect(0, 0, width, height);

@@ -74,7 +74,7 @@ const BOOK_HEIGHT: f32 = 3.6;
 /// A flat model counts as tall as this fraction of its diagonal.
 const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// Samples of the shadow map for each point.
-const SHADOW_TAPS: u32 = 16;
+pub(super) const SHADOW_TAPS: u32 = 16;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
@@ -109,10 +109,10 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
     }
 }
 
-/// The part of a picture that this light lights.
-pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Light {
+/// The part of a picture that this light lights, with a shadow map of so many texels along each edge.
+pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Light {
     let options = &frame.options;
-    let (to_key, shadow) = key_light(frame, light);
+    let (to_key, shadow) = key_light(frame, light, map_side);
     let to_rim = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_rim;
     let [_, to_book_light_1, to_book_light_2] = to_book_lights(options.book_lights_turn_radians);
     let book_unit = book_unit(frame);
@@ -143,14 +143,14 @@ pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::L
     }
 }
 
-/// The ground where this light lights it, and what is behind the model.
-pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Ground {
+/// The ground where this light lights it, and what is behind the model. `map_side` as in [`light_uniform`].
+pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Ground {
     let options = &frame.options;
     let colors = theme_colors(options.theme);
     let bounds = &frame.world_bounds;
     let ground = Ground::under(bounds);
     let contact = contact_fit(frame);
-    let (_, shadow) = key_light(frame, light);
+    let (_, shadow) = key_light(frame, light, map_side);
     let center = bounds.center();
     let (background, background_srgb) = match options.background {
         Background::Backdrop | Background::None => (0, [0; 3]),
@@ -186,16 +186,19 @@ pub(super) fn contact_fit(frame: &RenderFrame<'_>) -> ContactFit {
 }
 
 /// The unit vector towards the light that casts shadows, and what its shadow map covers.
-fn key_light(frame: &RenderFrame<'_>, light: Light) -> (Vec3, ShadowFit) {
+fn key_light(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> (Vec3, ShadowFit) {
     let (options, bounds) = (&frame.options, &frame.world_bounds);
     match light {
         Light::Studio => {
             let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
-            (to_key, ShadowFit::studio(bounds, instance_size(frame), to_key))
+            (
+                to_key,
+                ShadowFit::studio(bounds, instance_size(frame), to_key, map_side),
+            )
         }
         Light::Book => {
             let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);
-            (to_key, ShadowFit::book(bounds, to_key, book_unit(frame)))
+            (to_key, ShadowFit::book(bounds, to_key, map_side, book_unit(frame)))
         }
     }
 }
@@ -289,7 +292,7 @@ mod tests {
         for count in [0, 1, 7] {
             let frame = frame(count);
             assert_eq!(instance_size(&frame), Vec3::new(2.0, 4.0, 1.0), "{count} beside it");
-            let light = light_uniform(&frame, Light::Studio);
+            let light = light_uniform(&frame, Light::Studio, 2048);
             assert_eq!(light.book_unit, 4.0 / BOOK_HEIGHT);
         }
     }

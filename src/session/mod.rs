@@ -235,7 +235,7 @@ impl Session {
     pub fn frame_drawn(&mut self, cost: FrameCost) -> bool {
         self.cost = cost;
         let moves = self.is_in_motion();
-        self.quality.frame_drawn(moves);
+        self.quality.frame_drawn(moves, &cost);
         moves
     }
 

@@ -1,5 +1,8 @@
-//! Which detail a device keeps up with while the picture moves. Frames that come too late lower it step by step; frames that come
-//! in time for a while raise it again, and a step that was too much is tried later each time.
+//! Which detail a device keeps up with while the picture moves. Frames that take too long lower it step by step; frames that are quick
+//! enough for a while raise it again, and a step that was too much is tried later each time.
+//!
+//! Where the GPU tells how long it took for a frame, that is judged: a page that is slow for other reasons is not helped by a coarser
+//! picture. The time between frames then only bounds it, as a clock of the GPU may be wrong. Elsewhere the time between frames is judged.
 
 use crate::scene::Detail;
 
@@ -7,6 +10,8 @@ use crate::scene::Detail;
 pub(super) const TARGET_SECS: f32 = 1.0 / 60.0;
 /// Frames that take so much longer than the target are too late.
 const TOLERANCE: f32 = 1.25;
+/// The GPU's times are to be this much of the target: the panels, and bringing all onto the page, are not timed.
+const GPU_SHARE: f32 = 0.9;
 /// Frames are judged together: so many, or as many as fit this time when each takes long.
 const WINDOW_FRAMES: usize = 12;
 const WINDOW_SECS: f32 = 1.0;
@@ -15,6 +20,8 @@ const LEAST_FRAMES: usize = 3;
 const PERCENTILE: f32 = 0.75;
 /// The first frames with another detail make textures and pipelines: they are not judged.
 const SETTLING_FRAMES: u32 = 2;
+/// The GPU's times are those of a frame so many frames ago, or fewer.
+const GPU_LAG_FRAMES: u32 = 3;
 /// A frame that took so much longer than the others was held up by something else: files load, a tab was hidden.
 const STALL: f32 = 4.0;
 const LEAST_STALL_SECS: f32 = 0.25;
@@ -74,17 +81,20 @@ const STEPS: [Step; 8] = [
 /// The last step that has fewer pixels than the one before.
 const COARSEST_SCALE: usize = 4;
 
-/// Judges the intervals between frames of a moving picture.
+/// Judges how long frames of a moving picture take.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pacer {
     step: usize,
     /// The step of another model, or of a device that is known to be slow.
     first_step: usize,
     target_secs: f32,
-    /// Intervals of frames that are not judged yet.
+    /// Intervals of frames that are not judged yet, and the GPU's times for them.
     window: Vec<f32>,
+    gpu_window: Vec<f32>,
     /// Frames that are not judged at all.
     settling: u32,
+    /// Frames whose GPU times are still those of before.
+    gpu_lag: u32,
     stalled: bool,
     /// How long frames came in time, and how long they have to before a finer step is tried.
     in_time_secs: f32,
@@ -93,8 +103,9 @@ pub(super) struct Pacer {
     tries: bool,
     /// How long frames took when the first of the steps was taken down that led here.
     before_secs: Option<f32>,
-    /// How long frames took in the last window.
+    /// How long frames took in the last window, by the GPU or by the time between them.
     frame_secs: f32,
+    by_gpu: bool,
 }
 
 impl Default for Pacer {
@@ -104,13 +115,16 @@ impl Default for Pacer {
             first_step: 0,
             target_secs: TARGET_SECS,
             window: Vec::new(),
+            gpu_window: Vec::new(),
             settling: SETTLING_FRAMES,
+            gpu_lag: GPU_LAG_FRAMES,
             stalled: false,
             in_time_secs: 0.0,
             wait_secs: FIRST_WAIT_SECS,
             tries: false,
             before_secs: None,
             frame_secs: 0.0,
+            by_gpu: false,
         }
     }
 }
@@ -171,15 +185,18 @@ impl Pacer {
     /// The picture begins to move. Its first frame may have to wait for the device.
     pub(super) fn begin_motion(&mut self) {
         self.settling = self.settling.max(1);
+        self.gpu_lag = GPU_LAG_FRAMES;
     }
 
-    /// Learns the time between two frames of a moving picture, seconds.
-    pub(super) fn note_frame(&mut self, frame_secs: f32) {
+    /// Learns the time between two frames of a moving picture, and the GPU's time for a frame if it tells any, seconds.
+    pub(super) fn note_frame(&mut self, frame_secs: f32, gpu_secs: Option<f32>) {
         if frame_secs.is_nan() || frame_secs > LONGEST_FRAME_SECS {
             return;
         }
-        if self.settling > 0 {
-            self.settling -= 1;
+        let settles = self.settling > 0 || (gpu_secs.is_some() && self.gpu_lag > 0);
+        self.settling = self.settling.saturating_sub(1);
+        self.gpu_lag = self.gpu_lag.saturating_sub(1);
+        if settles {
             return;
         }
         let usual_secs = percentile(&self.window, 0.5);
@@ -189,17 +206,24 @@ impl Pacer {
             return;
         }
         self.window.push(frame_secs);
+        self.gpu_window.extend(gpu_secs);
         let window_secs: f32 = self.window.iter().sum();
         let is_long = window_secs >= WINDOW_SECS && self.window.len() >= LEAST_FRAMES;
         if is_long || self.window.len() >= WINDOW_FRAMES {
             self.frame_secs = percentile(&self.window, PERCENTILE);
+            self.by_gpu = !self.gpu_window.is_empty();
+            if self.by_gpu {
+                self.frame_secs = self.frame_secs.min(percentile(&self.gpu_window, PERCENTILE));
+            }
             self.window.clear();
+            self.gpu_window.clear();
             self.judge(window_secs);
         }
     }
 
     fn judge(&mut self, window_secs: f32) {
-        if self.frame_secs > self.target_secs * TOLERANCE {
+        let most = if self.by_gpu { GPU_SHARE } else { TOLERANCE };
+        if self.frame_secs > self.target_secs * most {
             self.lower();
             return;
         }
@@ -239,7 +263,8 @@ impl Pacer {
         if next > COARSEST_SCALE {
             return next;
         }
-        let wanted = self.step().scale * (self.target_secs / self.frame_secs).sqrt();
+        let share = if self.by_gpu { GPU_SHARE } else { 1.0 };
+        let wanted = self.step().scale * (self.target_secs * share / self.frame_secs).sqrt();
         let fits = (next..COARSEST_SCALE).find(|&step| STEPS[step].scale <= wanted);
         fits.unwrap_or(COARSEST_SCALE)
     }
@@ -248,6 +273,7 @@ impl Pacer {
         self.step = step;
         self.in_time_secs = 0.0;
         self.settling = SETTLING_FRAMES;
+        self.gpu_lag = GPU_LAG_FRAMES;
     }
 }
 
@@ -288,7 +314,7 @@ mod tests {
             let mut played = 0.0;
             while played < secs {
                 let frame_secs = self.frame_secs(pacer.step());
-                pacer.note_frame(frame_secs);
+                pacer.note_frame(frame_secs, None);
                 played += frame_secs;
             }
         }
@@ -353,8 +379,8 @@ mod tests {
         let (device, mut pacer) = device(0.005, 60.0);
         for stall_secs in [0.3, 1.0, 3.0, 60.0, f32::NAN] {
             device.play(&mut pacer, 0.5);
-            pacer.note_frame(stall_secs);
-            pacer.note_frame(0.1);
+            pacer.note_frame(stall_secs, None);
+            pacer.note_frame(0.1, None);
         }
         device.play(&mut pacer, 1.0);
         assert_eq!(pacer.step(), FULL);
@@ -412,7 +438,7 @@ mod tests {
         let mut motions = 0;
         while pacer.step() == FULL {
             pacer.begin_motion();
-            (0..5).for_each(|_| pacer.note_frame(0.1));
+            (0..5).for_each(|_| pacer.note_frame(0.1, None));
             motions += 1;
             assert!(motions < 10);
         }

@@ -3,7 +3,7 @@
 
 use super::pacing::{Pacer, Step};
 use crate::modes::modes;
-use crate::scene::{Detail, Pass, Passes};
+use crate::scene::{Detail, FrameCost, Pass, Passes};
 
 /// A picture rests when it did not move for so long. Short enough not to be waited for, long enough for a pointer that hesitates.
 const REST_SECS: f32 = 0.15;
@@ -114,7 +114,7 @@ pub struct Lowered {
     pub shadow: Detail,
     /// Whether ambient occlusion is left out.
     pub without_occlusion: bool,
-    /// How long three of four frames took when that was last looked at, seconds; 0 before.
+    /// How long three of four frames took when that was last looked at, by the GPU where it tells, seconds; 0 before.
     pub frame_secs: f32,
 }
 
@@ -134,6 +134,8 @@ pub struct Quality {
     rested_secs: f32,
     /// The last pass of the window drew a frame of a motion, so the time until the next is that frame's.
     times_frame: bool,
+    /// What the GPU took for a frame of late, if it tells.
+    gpu_secs: Option<f32>,
 }
 
 impl Quality {
@@ -280,7 +282,7 @@ impl Quality {
     /// A pass of the window begins, so long after the one before, seconds.
     pub(super) fn begin_pass(&mut self, dt_secs: f32) {
         if std::mem::take(&mut self.times_frame) {
-            self.pacer.note_frame(dt_secs);
+            self.pacer.note_frame(dt_secs, self.gpu_secs);
         } else if dt_secs > 0.0 {
             self.rested_secs += dt_secs;
         }
@@ -299,7 +301,8 @@ impl Quality {
     }
 
     /// The window drew a frame, of a motion or not.
-    pub(super) fn frame_drawn(&mut self, of_motion: bool) {
+    pub(super) fn frame_drawn(&mut self, of_motion: bool, cost: &FrameCost) {
         self.times_frame = of_motion;
+        self.gpu_secs = cost.gpu_secs.map(|passes| passes.iter().sum());
     }
 }

@@ -136,6 +136,6 @@ programs! {
     /// The finished picture onto a surface.
     COMPOSITE "composite" ["color" "fullscreen" "composite"]
 
-    /// A known triangle, by which a device is tried.
-    PROBE "probe" ["probe"]
+    /// Known triangles, by which a device is tried.
+    PROBE "probe" ["skinning" "probe"]
 }

@@ -102,7 +102,7 @@ async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
         .request_device(&device::descriptor(&adapter))
         .await
         .map_err(|error| error.to_string())?;
-    crate::render::probe(&device, &queue, async || super::sleep(1).await)
+    crate::render::probe(&device, &queue, &device::probe_bones(), async || super::sleep(1).await)
         .await
         .map_err(|error| error.to_string())?;
     Ok(WgpuSetupExisting {

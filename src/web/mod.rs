@@ -66,6 +66,12 @@ fn coarse_pointer() -> bool {
     matches_media("(pointer: coarse)")
 }
 
+/// Seconds since the page began; 0 where the browser has no such clock.
+fn now_secs() -> f64 {
+    let clock = web_sys::window().and_then(|window| window.performance());
+    clock.map_or(0.0, |clock| clock.now() * 1e-3)
+}
+
 fn matches_media(query: &str) -> bool {
     media_query(query).is_some_and(|query| query.matches())
 }

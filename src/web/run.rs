@@ -13,8 +13,8 @@ use super::contrast::{ContrastWatch, contrast};
 use super::joint_names::JointNames;
 use super::mirror::{self, MirrorLink};
 use super::picture::{self, AppSlot};
-use super::{coarse_pointer, field, object, sleep, state, text_of};
-use crate::app::App;
+use super::{coarse_pointer, field, now_secs, object, sleep, state, text_of};
+use crate::app::{App, AppOptions};
 use crate::render::device;
 use crate::session::{QualityCommand, Session};
 use crate::ui::{Announcement, Request, picture_name, view_in_words};
@@ -210,7 +210,11 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
                 watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
                 shell.shared.mirror.install(&creation.egui_ctx);
                 let session = Rc::clone(&shell.shared.session);
-                let app = App::new(&creation.egui_ctx, &gpu, session, coarse_pointer());
+                let options = AppOptions {
+                    coarse_pointer: coarse_pointer(),
+                    now_secs,
+                };
+                let app = App::new(&creation.egui_ctx, &gpu, session, options);
                 shell.app.replace(Some(app));
                 let adapter = backend::adapter_name(&gpu.adapter);
                 let slow = device::is_software(&gpu.adapter.get_info());

@@ -39,6 +39,7 @@ mod normal_maps;
 mod over_model;
 mod passes;
 mod picture;
+mod prepared;
 mod robust;
 mod scenes;
 mod sets;
@@ -49,6 +50,7 @@ mod still_life;
 mod studio_light;
 mod submeshes;
 mod textures;
+mod timing;
 #[path = "../common/twins/mod.rs"]
 mod twins;
 mod view_modes;

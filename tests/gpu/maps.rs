@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bindpose::image::Image;
+use bindpose::image::{Image, MapKind};
 use bindpose::scene::{Background, ViewMode};
 use glam::Vec2;
 
@@ -213,6 +213,23 @@ on_both_backends! {
             assert!(share < 0.005, "{}: {share}", map.description());
             assert!(read.share_that_differs(&draw(gpu, &scene), 10) > 0.1, "{}", map.description());
         }
+    }
+
+    /// Black and white columns, of which the next level has the mean.
+    fn a_device_that_reads_no_blocks_leaves_levels_above_2048_out(gpu) {
+        let columns = (0..4096 * 4).flat_map(|texel| [[255; 4], [0, 0, 0, 255]][texel % 2]);
+        let image = Image::from_rgba8(4096, 4, columns.collect(), "test").expect("small");
+        let map = Arc::new(image.with_mips(MapKind::Diffuse));
+        let scene = card(linear([255; 3]), [Vec2::ZERO, Vec2::new(4.0 / 4096.0, 1.0)]);
+        let spread = |gpu: &Gpu| {
+            let picture = draw_with(gpu, &scene, &map);
+            let row = pixels_of_card(&scene).filter(|&(_, y, _)| y == HEIGHT / 2);
+            let greens: Vec<_> = row.map(|(x, y, _)| picture.pixel(x, y)[1]).collect();
+            greens.iter().max().expect("pixels") - greens.iter().min().expect("pixels")
+        };
+        assert!(spread(gpu) > 80, "{}", spread(gpu));
+        let decodes = without_blocks(gpu.backend);
+        assert!(spread(&decodes) < 10, "{}", spread(&decodes));
     }
 
     /// Sides that are no multiple of four, and pictures of one texel.

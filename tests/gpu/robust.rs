@@ -2,6 +2,8 @@
 
 use bindpose::anim::Palette;
 use bindpose::model::Model;
+use bindpose::render::ProbeError;
+use bindpose::render::device;
 use bindpose::scene::{Aabb, Background, Light, Overlay, Overlays, Passes, Theme, ViewMode};
 use glam::{Affine3A, Vec3};
 
@@ -55,7 +57,33 @@ fn draw_every_way(gpu: &Gpu, what: &str, scene: Scene, size: [u32; 2]) {
     });
 }
 
+/// Changes bones, of which the last has this index.
+type Wrong = (&'static str, fn(&mut [Affine3A], usize));
+
+/// Tries the device with bones that were changed.
+fn probe_with(gpu: &Gpu, change: impl FnOnce(&mut Palette)) -> Result<(), ProbeError> {
+    let mut bones = device::probe_bones();
+    change(&mut bones);
+    pollster::block_on(device::probe(&gpu.open.device, &gpu.open.queue, &bones, async || {}))
+}
+
 on_both_backends! {
+    fn the_probe_notices_wrong_bones_and_wrong_depths(gpu) {
+        assert_eq!(probe_with(gpu, |_| {}), Ok(()));
+        let wrong: [Wrong; 5] = [
+            ("no bones at all", |bones, _| bones.fill(Affine3A::ZERO)),
+            ("the first row for the second", |bones, last| bones[last] = bones[0]),
+            ("the second row for the first", |bones, last| bones[0] = bones[last]),
+            ("rows exchanged, the farther one drawn first", |bones, last| bones.swap(0, last)),
+            // What a device without a depth test draws.
+            ("the second one over the first", |bones, last| bones[last].translation.z = 0.1),
+        ];
+        for (what, change) in wrong {
+            let found = probe_with(gpu, |bones| change(&mut bones.0, device::probe_bones().0.len() - 1));
+            assert!(matches!(found, Err(ProbeError::WrongPicture { .. })), "{what}: {found:?}");
+        }
+    }
+
     /// A wait in one thread may take up what another waits for.
     fn threads_read_from_one_device_at_once(gpu) {
         let scene = bent_tube(0.6);

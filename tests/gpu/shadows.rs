@@ -1,5 +1,6 @@
 //! How soft the edges of the first light's shadows are.
 
+use bindpose::render::{Renderer, RendererOptions};
 use bindpose::scene::{Light, Projection, ViewMode};
 use glam::Vec3;
 
@@ -63,6 +64,24 @@ fn edge_width(gpu: &Gpu, scene: &Scene) -> f32 {
 }
 
 on_both_backends! {
+    fn a_smaller_map_shows_the_same_shadow_softer(gpu) {
+        let scene = scene(1.2, 1.0);
+        let with_side = |shadow_map_side| {
+            let options = RendererOptions { samples: gpu.open.samples, shadow_map_side };
+            let mut renderer = Renderer::new(&gpu.open.device, &gpu.open.queue, options);
+            renderer.set_model(&scene.model).expect("small");
+            let mut target = gpu.target(SIZE[0], SIZE[1]);
+            renderer.render(&scene.frame(), &mut target);
+            gpu.read(&target)
+        };
+        let [full, small] = [2048, 1024].map(with_side);
+        assert!(full == gpu.draw(&scene, SIZE[0], SIZE[1]), "2048 unless said otherwise");
+        assert!(full != small);
+        // Its texels are twice as large: the edge moves by less than one.
+        let moved = (crossing(&full, 0.5) - crossing(&small, 0.5)).abs();
+        assert!(moved < 4.0, "{moved} pixels");
+    }
+
     /// From 10 to 90 %: 2.4 texels of the demo's map, 2 · 18.03 / 2048 units each, of a figure 3.6 units tall. The taps lie evenly
     /// over a disc only on average, so a tenth more or less is allowed.
     fn the_books_edges_are_as_wide_as_the_demos_whatever_the_scene(gpu) {

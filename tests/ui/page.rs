@@ -1,5 +1,6 @@
 //! A window with the interface in it, its commands applied to a real session, without a GPU.
 
+use bindpose::app::AppOptions;
 use bindpose::session::{Command, File, FileCommand, Session};
 use bindpose::ui::{self, Request, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
@@ -217,6 +218,14 @@ impl Window {
     pub(crate) fn press(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
+    }
+}
+
+/// For an app whose clock stands still.
+pub(crate) fn app_options(coarse_pointer: bool) -> AppOptions {
+    AppOptions {
+        coarse_pointer,
+        now_secs: || 0.0,
     }
 }
 

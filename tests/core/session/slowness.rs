@@ -1,6 +1,8 @@
-//! What a device that is too slow is spared, with a clock made up.
+//! What a device that is too slow is spared, with a clock and GPU times made up.
 
-use bindpose::scene::{FrameCost, Pass, Passes};
+use std::collections::VecDeque;
+
+use bindpose::scene::{FrameCost, Pass, Passes, TimedPass};
 use bindpose::session::{CameraCommand, Command, LookCommand, PassChoice, QualityCommand, QualityMode, Session};
 
 use super::models::{moving, still};
@@ -11,12 +13,21 @@ const SLOW: f32 = 0.2;
 /// A pass of the window in which nothing is drawn.
 const QUICK: f32 = 1.0 / 60.0;
 
+/// The GPU's times come so many frames later.
+const GPU_LAG: usize = 3;
+
 /// The window: draws when the picture changed and goes on while it is told to, as the application does.
 struct Window {
     session: Session,
     drawn: u64,
     /// How long drawing the whole picture takes.
     frame_secs: f32,
+    /// What else each pass takes.
+    page_secs: f32,
+    /// What the GPU tells of each pass of the whole picture, if it tells.
+    gpu_secs: Option<f32>,
+    /// Times of the GPU that are under way, the newest first.
+    untold: VecDeque<f32>,
     /// How long the pass that is over took.
     pass_secs: f32,
     /// The next pass begins at once, without waiting for the pointer.
@@ -29,6 +40,9 @@ impl Window {
             session,
             drawn: 0,
             frame_secs,
+            page_secs: 0.0,
+            gpu_secs: None,
+            untold: VecDeque::new(),
             pass_secs: 0.0,
             goes_on: false,
         }
@@ -43,9 +57,16 @@ impl Window {
         self.session.follow_motion();
         let draws = self.session.picture_revision() != self.drawn;
         self.drawn = self.session.picture_revision();
-        self.goes_on = draws && self.session.frame_drawn(FrameCost::default());
         let scale = self.session.quality().scale_now();
-        self.pass_secs = if draws { self.frame_secs * scale * scale } else { QUICK };
+        let mut cost = FrameCost::default();
+        if let (true, Some(secs)) = (draws, self.gpu_secs) {
+            let told = self.untold.get(GPU_LAG - 1);
+            let passes = TimedPass::ALL.len();
+            cost.gpu_secs = told.map(|secs| [secs / passes as f32; TimedPass::ALL.len()]);
+            self.untold.push_front(secs * scale * scale);
+        }
+        self.goes_on = draws && self.session.frame_drawn(cost);
+        self.pass_secs = self.page_secs + if draws { self.frame_secs * scale * scale } else { QUICK };
     }
 
     /// A pointer event, and the passes that follow until the window waits again.
@@ -151,6 +172,73 @@ fn a_clip_that_plays_is_measured() {
     }
     assert_eq!(window.moving_scale(), 0.5);
     assert_eq!(window.session.quality().scale_now(), 0.5);
+}
+
+/// A clip that plays for so many frames. Returns how much of the picture is drawn in the end.
+fn play(window: &mut Window, frames: u32) -> f32 {
+    for _ in 0..frames {
+        window.session.advance(window.pass_secs);
+        window.pass(0.0, &[]);
+    }
+    window.moving_scale()
+}
+
+#[test]
+fn a_quick_gpu_under_a_slow_page_draws_all() {
+    let mut window = Window::new(opened(moving("a.m3d")), 0.003);
+    window.page_secs = 0.047;
+    assert!(play(&mut window, 60) < 1.0, "20 frames a second, and nobody tells why");
+    let mut window = Window::new(opened(moving("a.m3d")), 0.003);
+    (window.page_secs, window.gpu_secs) = (0.047, Some(0.003));
+    assert_eq!(play(&mut window, 600), 1.0);
+    assert_eq!(window.session.quality().lowered(), None);
+}
+
+#[test]
+fn a_slow_gpu_draws_fewer_pixels() {
+    let mut window = Window::new(opened(moving("a.m3d")), 0.03);
+    (window.page_secs, window.gpu_secs) = (0.02, Some(0.03));
+    assert_eq!(play(&mut window, 40), 0.7, "half of the pixels take 15 ms");
+    let lowered = window.session.quality().lowered().expect("lowered");
+    assert!(
+        (lowered.frame_secs - 0.0147).abs() < 1e-4,
+        "what the GPU took: {lowered:?}"
+    );
+}
+
+#[test]
+fn a_gpu_that_is_a_little_too_slow_for_the_display_is_noticed() {
+    // Frames come in time, nearly: nobody could tell by them.
+    let mut window = Window::new(opened(moving("a.m3d")), 0.018);
+    assert_eq!(play(&mut window, 60), 1.0);
+    let mut window = Window::new(opened(moving("a.m3d")), 0.018);
+    window.gpu_secs = Some(0.018);
+    assert_eq!(play(&mut window, 30), 0.85);
+}
+
+#[test]
+fn a_time_longer_than_between_frames_is_no_time_of_a_gpu() {
+    let mut window = Window::new(opened(moving("a.m3d")), 0.003);
+    window.gpu_secs = Some(7.0);
+    assert_eq!(play(&mut window, 120), 1.0);
+}
+
+#[test]
+fn gpu_times_of_a_still_picture_are_not_taken_for_those_of_a_motion() {
+    let mut window = Window::new(opened(still("a.m3d")), 0.03);
+    (window.page_secs, window.gpu_secs) = (0.02, Some(0.03));
+    window.pass(0.0, &[]);
+    window.drag(30);
+    let moving = window.moving_scale();
+    assert_eq!(moving, 0.7);
+    for _ in 0..20 {
+        // At rest the whole picture is drawn, and its times come with the next frames.
+        for _ in 0..GPU_LAG {
+            window.pass(1.0, &[LookCommand::ToggleLight.into()]);
+        }
+        window.drag(4);
+    }
+    assert_eq!(window.moving_scale(), moving);
 }
 
 #[test]

@@ -1,0 +1,80 @@
+//! Pipelines are built before somebody asks for what they draw, and each once.
+
+use bindpose::render::MaterialImages;
+use bindpose::scene::{Light, Overlay, Theme, ViewMode};
+use glam::Vec3;
+
+use crate::gpu::{Gpu, vulkan};
+use crate::scenes::{Scene, bent_tube};
+use crate::textures::{card_once, diffuse, square};
+
+const SIZE: [u32; 2] = [32, 24];
+
+/// What a key or the pointer asks for.
+type Ask = (&'static str, fn(&mut Scene));
+
+/// One after another, and what was asked for before stays.
+const ASKED: [Ask; 9] = [
+    ("nothing", |_| {}),
+    ("V", |scene| scene.options.light = Light::Book),
+    ("the divider", |scene| scene.options.split = Some(0.5)),
+    ("Z", |scene| scene.options.overlays.set(Overlay::Wireframe, true)),
+    ("N", |scene| scene.options.overlays.set(Overlay::Normals, true)),
+    ("B", |scene| {
+        scene.over_model.line(Vec3::ZERO, Vec3::Y, [255; 4]);
+        scene.over_model.triangle([Vec3::ZERO, Vec3::X, Vec3::Y], [255; 4]);
+    }),
+    ("the pointer", |scene| scene.highlighted = Some(0)),
+    ("T", |scene| scene.options.view_mode = ViewMode::BaseColor),
+    ("W", |scene| {
+        scene.colors_srgb = vec![[200, 100, 50, 255]; scene.model.mesh.vertex_count()];
+    }),
+];
+
+fn check(gpu: &Gpu, mut scene: Scene, maps: &[MaterialImages<'_>]) {
+    let mut easel = gpu.easel(&scene, maps, SIZE);
+    easel.draw(&scene);
+    let of_first_picture = easel.renderer.pipelines_built();
+    let mut prepared = 0;
+    while !easel.renderer.is_prepared() {
+        assert!(easel.renderer.prepare_next());
+        prepared += 1;
+        assert_eq!(
+            easel.renderer.pipelines_built(),
+            of_first_picture + prepared,
+            "one at a time, none twice"
+        );
+    }
+    assert!(prepared > 5);
+    assert!(!easel.renderer.prepare_next(), "nothing is left");
+    let all = easel.renderer.pipelines_built();
+    for (what, ask) in ASKED {
+        ask(&mut scene);
+        let drawn = easel.draw(&scene);
+        assert_eq!(easel.renderer.pipelines_built(), all, "{what} builds none");
+        assert!(
+            drawn == gpu.easel(&scene, maps, SIZE).draw(&scene),
+            "{what} is drawn as ever"
+        );
+    }
+}
+
+on_both_backends! {
+    fn no_key_builds_a_pipeline(gpu) {
+        check(gpu, bent_tube(0.3).three_quarter(Theme::Dark), &[]);
+    }
+
+    fn no_key_builds_one_for_a_model_with_holes(gpu) {
+        let map = square(16, |x, _| [40, 160, 60, if x < 8 { 0 } else { 255 }]);
+        let mut scene = card_once().three_quarter(Theme::Dark);
+        scene.model.materials[0].alpha_clip = true;
+        check(gpu, scene, &diffuse(&map));
+    }
+}
+
+#[test]
+fn without_a_model_there_is_nothing_to_prepare() {
+    let mut renderer = vulkan().renderer();
+    assert!(renderer.is_prepared() && !renderer.prepare_next());
+    assert_eq!(renderer.pipelines_built(), 0);
+}
