@@ -7,9 +7,9 @@
 use glam::Affine3A;
 
 use super::changes::Revisions;
-use super::crowd::{Instances, moved};
+use super::instances::{CrowdState, Instances, moved};
 use super::open_model::OpenModel;
-use super::{CrowdState, View};
+use super::view::View;
 use crate::anim::{ClipPose, CrowdPalettes};
 use crate::scene::{Camera, Crowd, CrowdInstance, Sight};
 

@@ -3,7 +3,7 @@
 use glam::{Affine3A, Vec3};
 
 use super::Session;
-use super::crowd::moved;
+use super::instances::moved;
 use crate::scene::Insets;
 
 /// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.

@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::actor::Actor;
-use super::crowd::CrowdState;
+use super::instances::CrowdState;
 use super::view::View;
 use crate::anim::{GhostPlan, LoopMode, SkinView, WrapMode};
 use crate::model::{Clip, Handedness, UpAxis};
