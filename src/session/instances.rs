@@ -290,7 +290,7 @@ fn place(seed: u32, index: usize) -> Vec2 {
         return Vec2::ZERO;
     }
     let of_ring = index - ring * (2 * ring - 1);
-    let side = if of_ring % 2 == 0 { -1.0 } else { 1.0 };
+    let side = if of_ring.is_multiple_of(2) { -1.0 } else { 1.0 };
     let pair = of_ring / 2;
     let (aside, behind) = if pair <= ring {
         (ring, pair)
