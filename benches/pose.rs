@@ -2,11 +2,13 @@
 //!
 //! The textbook does what the books' `SkinnedData` does, in f32 with the same maths library: it walks over the keys of each
 //! bone, blends two of them into a matrix, multiplies down the hierarchy and with the offsets, each into a new list.
+//!
+//! A crowd in one call stands beside as many single poses.
 
 use std::hint::black_box;
 use std::time::Duration;
 
-use bindpose::anim::{CompiledClip, PoseBuffers};
+use bindpose::anim::{ClipPose, CompiledClip, CrowdPalettes, PoseBuffers};
 use bindpose::format::{Document, Keyframe};
 use bindpose::model::Clip;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -67,6 +69,50 @@ fn posing(criterion: &mut Criterion) {
                 }
             },
         );
+    }
+}
+
+/// A crowd in one call beside as many single poses, and one in which all poses are equal. Each round is of another time, so that no
+/// palette is there already.
+fn crowd(criterion: &mut Criterion) {
+    let (name, _, model) = input::input();
+    let (skeleton, clips) = (&model.skeleton, CompiledClip::all(&model.clips));
+    let [_, (_, times_secs)] = forward_and_random_times(&model.clips[0]);
+    let length_secs = model.clips[0].duration_secs();
+    for count in [1, 10, 100, 1_000] {
+        for (poses, are_apart) in [("apart", true), ("equal", false)] {
+            let mut single = PoseBuffers::for_skeleton(skeleton);
+            let mut palettes = CrowdPalettes::default();
+            let mut wanted: Vec<ClipPose> = Vec::new();
+            let time_of = |instance: usize, round: usize| {
+                let clip = &model.clips[0];
+                let secs = times_secs[round % times_secs.len()] + times_secs[instance] * f32::from(are_apart);
+                clip.start_secs + (secs - 2.0 * clip.start_secs).rem_euclid(length_secs)
+            };
+            let mut round = 0;
+            let mut together = || {
+                round += 1;
+                wanted.clear();
+                wanted.extend((0..count).map(|instance| ClipPose::new(Some(0), time_of(instance, round))));
+                palettes.update(skeleton, &clips, 0.0, &wanted);
+                black_box(palettes.palettes());
+            };
+            let mut other_round = 0;
+            let mut one_by_one = || {
+                other_round += 1;
+                for instance in 0..count {
+                    single.evaluate(skeleton, &clips[0], black_box(time_of(instance, other_round)));
+                    black_box(&single.palette);
+                }
+            };
+            let mut group = criterion.benchmark_group(format!("crowd/{name}/{count} {poses}"));
+            group.throughput(Throughput::Elements(count as u64));
+            group.measurement_time(Duration::from_secs(2));
+            group.bench_function("together", |bencher| bencher.iter(&mut together));
+            group.bench_function("one by one", |bencher| bencher.iter(&mut one_by_one));
+            group.finish();
+            input::report_ratio(&format!("crowd/{name}/{count} {poses}"), &mut one_by_one, &mut together);
+        }
     }
 }
 
@@ -161,5 +207,5 @@ fn interpolated(keys: &[Key], time_secs: f32) -> Mat4 {
     unreachable!("a time between the first and the last key lies between two keys")
 }
 
-criterion_group!(benches, posing);
+criterion_group!(benches, posing, crowd);
 criterion_main!(benches);

@@ -336,10 +336,7 @@ impl SessionPainter {
         adjust: impl FnOnce(&mut FrameOptions),
     ) -> Result<Picture, PictureError> {
         self.update(session);
-        let passes = session.quality().wanted();
-        let mut frame = session.frame();
-        frame.options.passes = passes;
-        (frame.options.occlusion_detail, frame.options.shadow_detail) = Default::default();
+        let mut frame = session.frame_at_rest();
         adjust(&mut frame.options);
         self.renderer.picture(&frame, size)
     }

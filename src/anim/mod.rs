@@ -7,6 +7,7 @@ mod activity;
 mod blend;
 mod buffers;
 mod compile;
+mod crowd;
 mod curve;
 mod extent;
 mod inspect;
@@ -26,6 +27,7 @@ pub use activity::{JointActivity, activity};
 pub use blend::{blend, blend_to_rest};
 pub use buffers::PoseBuffers;
 pub use compile::CompiledClip;
+pub use crowd::{ClipPose, CrowdPalettes};
 pub use curve::{Curve, CurvePoint, CurveSpace};
 pub use extent::{animated_bounds, extreme_points};
 pub use inspect::{

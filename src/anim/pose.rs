@@ -79,8 +79,12 @@ fn placed(model_from_joint: &[Affine3A], parent: Option<JointIndex>) -> &Affine3
 /// `model_from_bind` of each joint; the books write it offset · toRoot, with row vectors.
 pub fn palette(skeleton: &Skeleton, model: &ModelPose, palette: &mut Palette) {
     palette.0.clear();
+    palette.0.extend(palette_matrices(skeleton, model));
+}
+
+/// The matrices of [`palette`], in the skeleton's order.
+#[inline]
+pub(super) fn palette_matrices(skeleton: &Skeleton, model: &ModelPose) -> impl Iterator<Item = Affine3A> {
     let joints = model.0.iter().zip(skeleton.joint_from_bind());
-    palette
-        .0
-        .extend(joints.map(|(&model_from_joint, &joint_from_bind)| model_from_joint * joint_from_bind));
+    joints.map(|(&model_from_joint, &joint_from_bind)| model_from_joint * joint_from_bind)
 }

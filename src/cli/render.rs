@@ -16,7 +16,7 @@ use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, watched};
 use crate::scene::{Insets, Theme, ViewPreset};
-use crate::session::{CameraCommand, Command, FileCommand, PlayCommand, Session};
+use crate::session::{CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Session};
 
 /// Draw a model into a PNG file.
 ///
@@ -45,6 +45,12 @@ pub(super) struct Arguments {
     /// How the GPU is driven [default: vulkan, or gl where that is missing].
     #[arg(long, value_enum)]
     backend: Option<Backend>,
+    /// Instances of the model, 1 to 1000; the others stand beside and behind the first, each with a clip and a time of its own.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_CROWD as i64), default_value_t = 1)]
+    crowd: u16,
+    /// What the clips, times and places of the others come from.
+    #[arg(long, value_name = "S", requires = "crowd", default_value_t = CrowdState::default().seed)]
+    seed: u32,
     /// The theme of the backdrop and the grid.
     #[arg(long, value_parser = input::one_of(&Theme::ALL, Theme::name), default_value = "dark")]
     theme: Theme,
@@ -112,9 +118,13 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let posed = session.clip().map_or_else(String::new, |clip| {
         format!(", {} at {} s", clip.name, session.playback().time_secs())
     });
+    let crowd = match session.crowd().count {
+        1 => String::new(),
+        count => format!(", {count} instances"),
+    };
     let output = arguments.output.display();
     let line = format!(
-        "{output}: {width}x{height}{posed}, drawn by {} ({backend})",
+        "{output}: {width}x{height}{posed}{crowd}, drawn by {} ({backend})",
         gpu.info.name
     );
     writeln!(out, "{}", Plain(&line))?;
@@ -146,6 +156,10 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     if let Some(time_secs) = arguments.time {
         session.apply(PlayCommand::Seek { time_secs });
     }
+    session.apply(CrowdCommand::Set {
+        count: usize::from(arguments.crowd),
+        seed: arguments.seed,
+    });
     let [width, height] = arguments.size;
     session.apply(CameraCommand::SetViewport {
         aspect: width as f32 / height as f32,

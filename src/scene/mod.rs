@@ -12,6 +12,7 @@ mod framing;
 mod ground;
 mod pick;
 mod ray;
+mod sight;
 mod skin_colors;
 mod tint;
 
@@ -29,5 +30,6 @@ pub use framing::Insets;
 pub use ground::Ground;
 pub use pick::{Hit, pick, tex_coord_at};
 pub use ray::Ray;
+pub use sight::Sight;
 pub use skin_colors::{LegendStop, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear, stand_in_color};

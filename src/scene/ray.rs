@@ -25,6 +25,22 @@ impl Ray {
     }
 }
 
+impl Ray {
+    /// Distance at which it comes into a box: 0 where it begins inside, none where it misses.
+    pub fn enters(&self, bounds: &Aabb) -> Option<f32> {
+        let to_least = (bounds.min - self.origin) / self.direction;
+        let to_greatest = (bounds.max - self.origin) / self.direction;
+        // Along a side 0 / 0 is NaN, which `max` and `min` of numbers leave out.
+        let enters = to_least.min(to_greatest).to_array().into_iter().fold(0.0, f32::max);
+        let leaves = to_least
+            .max(to_greatest)
+            .to_array()
+            .into_iter()
+            .fold(f32::INFINITY, f32::min);
+        (!bounds.is_empty() && enters <= leaves).then_some(enters)
+    }
+}
+
 impl Camera {
     /// The ray that a point of the picture shows: x right, y up, −1…1, in a picture of `aspect` = width / height. It
     /// begins on the near plane of [`Camera::depth_range`], since nothing in front of that is drawn.
@@ -80,6 +96,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_ray_comes_into_a_box_where_it_meets_its_nearest_side() {
+        let bounds = Aabb {
+            min: Vec3::new(-1.0, 0.0, -2.0),
+            max: Vec3::new(1.0, 4.0, 2.0),
+        };
+        let enters = |origin: Vec3, direction: Vec3| {
+            let direction = direction.normalize();
+            Ray { origin, direction }.enters(&bounds)
+        };
+        assert_eq!(enters(Vec3::new(0.0, 1.0, -5.0), Vec3::Z), Some(3.0));
+        assert_eq!(enters(Vec3::new(0.0, 1.0, -5.0), Vec3::NEG_Z), None, "behind it");
+        assert_eq!(enters(Vec3::new(0.0, 1.0, 0.0), Vec3::X), Some(0.0), "inside");
+        assert_eq!(enters(Vec3::new(1.5, 1.0, -5.0), Vec3::Z), None, "beside it");
+        assert_eq!(enters(Vec3::new(1.0, 4.0, -5.0), Vec3::Z), Some(3.0), "along an edge");
+        let aslant = enters(Vec3::new(-4.0, 2.0, -5.0), Vec3::new(1.0, 0.0, 1.0)).expect("through a side");
+        assert!((aslant - 3.0 * 2.0_f32.sqrt()).abs() < 1e-5, "{aslant}");
+        assert_eq!(
+            Ray {
+                origin: Vec3::ZERO,
+                direction: Vec3::Z
+            }
+            .enters(&Aabb::EMPTY),
+            None
+        );
     }
 
     #[test]

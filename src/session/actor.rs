@@ -1,15 +1,15 @@
-//! A figure of the open model: the clip that plays, its time, what is mixed into it, and the pose.
+//! The selected instance of the open model: the clip that plays, its time, what is mixed into it, and the pose.
 
 use super::mixer::{Blend, Mixer};
 use super::open_model::OpenModel;
-use crate::anim::{LoopMode, Playback, PoseBuffers, WrapMode};
+use super::player::Player;
+use crate::anim::{LoopMode, PoseBuffers, WrapMode};
 use crate::scene::Aabb;
 
-/// One figure of the open model. Clips are those of the model, by their indices.
+/// The instance of the open model that timeline, skeleton and read-outs are of.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Actor {
-    pub(super) clip: Option<usize>,
-    pub(super) playback: Playback,
+    pub(super) player: Player,
     /// The pointer holds the time.
     pub(super) scrubbing: bool,
     pub(super) mixer: Mixer,
@@ -38,46 +38,6 @@ pub(super) struct PoseInputs {
     bind_weight: f32,
 }
 
-/// The figures of the open model, and which of them commands are about. A session has one.
-#[derive(Clone, Debug)]
-pub(super) struct Actors {
-    /// Never empty.
-    all: Vec<Actor>,
-    picked: usize,
-}
-
-impl Default for Actors {
-    fn default() -> Self {
-        Self::one(Actor::default())
-    }
-}
-
-impl Actors {
-    pub(super) fn one(actor: Actor) -> Self {
-        Self {
-            all: vec![actor],
-            picked: 0,
-        }
-    }
-
-    /// The one that commands are about, and that is shown.
-    pub(super) fn picked(&self) -> &Actor {
-        &self.all[self.picked]
-    }
-
-    pub(super) fn picked_mut(&mut self) -> &mut Actor {
-        &mut self.all[self.picked]
-    }
-
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Actor> {
-        self.all.iter()
-    }
-
-    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Actor> {
-        self.all.iter_mut()
-    }
-}
-
 impl Actor {
     /// One for a model that has just opened, in the bind pose. The length of crossfades stays as it was chosen.
     pub(super) fn for_model(open: &OpenModel, before: &Self) -> Self {
@@ -92,56 +52,30 @@ impl Actor {
     /// them.
     pub(super) fn for_model_again(open: &OpenModel, before: &Self, clip_name: Option<&str>) -> Self {
         let mut actor = Self {
-            playback: before.playback.clone(),
+            player: before.player.clone(),
             bind_weight: before.bind_weight,
             ..Self::for_model(open, before)
         };
-        let clips = &open.model.clips;
-        let named = clip_name.and_then(|name| clips.iter().position(|clip| clip.name == name));
-        let (time_secs, range_secs) = (actor.playback.time_secs(), actor.playback.range_secs());
-        if !actor.show_clip(open, named.unwrap_or(0)) {
-            actor.playback = Playback::default();
-            return actor;
-        }
-        if let (Some(_), Some([start_secs, end_secs])) = (named, range_secs) {
-            actor.playback.set_range_end(end_secs);
-            actor.playback.set_range_start(start_secs);
-        }
-        actor.playback.seek(time_secs);
+        actor.player.show_again(open, clip_name);
         actor
     }
 
     pub(super) fn settings(&self) -> PlaybackSettings {
         PlaybackSettings {
-            clip: self.clip,
-            range_secs: self.playback.range_secs(),
-            speed: self.playback.speed(),
-            loop_mode: self.playback.loop_mode(),
-            wrap_mode: self.playback.wrap_mode(),
+            clip: self.player.clip,
+            range_secs: self.player.playback.range_secs(),
+            speed: self.player.playback.speed(),
+            loop_mode: self.player.playback.loop_mode(),
+            wrap_mode: self.player.playback.wrap_mode(),
         }
     }
 
     pub(super) fn pose_inputs(&self) -> PoseInputs {
         PoseInputs {
-            clip: self.clip,
-            time_secs: self.playback.time_secs(),
+            clip: self.player.clip,
+            time_secs: self.player.playback.time_secs(),
             bind_weight: self.bind_weight,
         }
-    }
-
-    /// Goes to a clip's first time; false when there is no such clip.
-    pub(super) fn show_clip(&mut self, open: &OpenModel, index: usize) -> bool {
-        let Some(clip) = open.model.clips.get(index) else {
-            return false;
-        };
-        self.playback.set_span(clip.start_secs, clip.end_secs);
-        self.playback.seek(if self.playback.is_backward() {
-            clip.end_secs
-        } else {
-            clip.start_secs
-        });
-        self.clip = Some(index);
-        true
     }
 
     /// NaN is ignored; other values are clamped to 0…1.
@@ -158,9 +92,10 @@ impl Actor {
         }
         self.posed = Some(revision);
         let skeleton = &open.model.skeleton;
-        match self.clip.and_then(|clip| open.compiled.get(clip)) {
+        match self.player.clip.and_then(|clip| open.compiled.get(clip)) {
             Some(clip) => {
-                self.mixer.pose(open, clip, self.playback.time_secs(), &mut self.pose);
+                self.mixer
+                    .pose(open, clip, self.player.playback.time_secs(), &mut self.pose);
                 self.pose.bring_toward_bind(skeleton, self.bind_weight);
             }
             None => self.pose.set_bind_pose(skeleton),
@@ -175,7 +110,7 @@ impl Actor {
 
     /// Blends a second of `clip_count` clips into the one that plays.
     pub(super) fn set_blend(&mut self, Blend { clip, weight }: Blend, clip_count: usize) {
-        if clip < clip_count && Some(clip) != self.clip && !weight.is_nan() {
+        if clip < clip_count && Some(clip) != self.player.clip && !weight.is_nan() {
             let weight = weight.clamp(0.0, 1.0);
             self.mixer.set_blend(Some(Blend { clip, weight }));
         }
@@ -184,9 +119,9 @@ impl Actor {
     /// Fades the clip that plays out while the `next` one plays; with `at_once` nothing fades. A blend stays with the next clip,
     /// unless the next clip is the one that was blended in.
     pub(super) fn fade_to(&mut self, next: usize, at_once: bool) {
-        match self.clip {
-            Some(clip) if self.playback.is_playing() && !self.scrubbing && !at_once => {
-                self.mixer.fade_from(clip, &self.playback);
+        match self.player.clip {
+            Some(clip) if self.player.playback.is_playing() && !self.scrubbing && !at_once => {
+                self.mixer.fade_from(clip, &self.player.playback);
             }
             _ => self.mixer.end_fades(),
         }
@@ -195,27 +130,29 @@ impl Actor {
         }
     }
 
+    /// Whether time goes by for it, and for all other instances with it.
+    pub(super) fn plays(&self) -> bool {
+        self.player.playback.is_playing() && !self.scrubbing && self.player.clip.is_some()
+    }
+
     /// Whether its time moves by itself.
     pub(super) fn is_animating(&self) -> bool {
-        // A clip of no length would loop on the spot for ever; playing it once still has to end.
-        let [start_secs, end_secs] = self.playback.played_secs();
-        let has_length = start_secs < end_secs || self.playback.loop_mode() == LoopMode::Once;
-        self.playback.is_playing() && !self.scrubbing && self.clip.is_some() && has_length
+        self.plays() && self.player.has_way()
     }
 
     /// Lets time pass for its clip and for what fades.
     pub(super) fn advance(&mut self, dt_secs: f32) {
         if self.is_fading() && dt_secs > 0.0 {
-            self.mixer.advance_fades(&self.playback, dt_secs);
+            self.mixer.advance_fades(&self.player.playback, dt_secs);
         }
         if self.is_animating() {
-            self.playback.advance(dt_secs);
+            self.player.playback.advance(dt_secs);
         }
     }
 
     /// Box of all that the clips in the pose reach, in the file's space; with the bind pose in it while the pose is brought there.
     pub(super) fn reach(&self, open: &OpenModel) -> Aabb {
-        let of_clip = open.extent(self.clip).0;
+        let of_clip = open.extent(self.player.clip).0;
         let of_clips = self
             .mixer
             .clips()

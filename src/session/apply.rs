@@ -1,6 +1,6 @@
 //! The one place where things change.
 
-use super::actor::{Actor, PlaybackSettings, PoseInputs};
+use super::actor::{PlaybackSettings, PoseInputs};
 use super::quality::QualityNow;
 use super::view::View;
 use super::{Changes, Command, Event, Session};
@@ -68,7 +68,7 @@ struct Before {
     view: View,
     /// How the model stands in the world.
     space: (Handedness, UpAxis),
-    poses: Vec<PoseInputs>,
+    pose: PoseInputs,
     settings: PlaybackSettings,
     clip_count: usize,
     quality: QualityNow,
@@ -79,8 +79,8 @@ impl Session {
         Before {
             view: self.view.clone(),
             space: (self.handedness(), self.up_axis()),
-            poses: self.actors.iter().map(Actor::pose_inputs).collect(),
-            settings: self.actors.picked().settings(),
+            pose: self.actor.pose_inputs(),
+            settings: self.actor.settings(),
             clip_count: self.content.clip_count(),
             quality: self.quality.now(),
         }
@@ -91,14 +91,11 @@ impl Session {
         let mut changes = self.content.changes.take();
         changes.picture |= self.selection.joints.take_redraw();
         changes.picture |= self.selection.submeshes.take_redraw();
-        let poses: Vec<_> = self.actors.iter().map(Actor::pose_inputs).collect();
-        changes.pose |= changes.clips || poses != before.poses;
-        for actor in self.actors.iter_mut() {
-            changes.pose |= actor.mixer.take_changed();
-        }
-        changes.playback |= changes.clips
-            || self.actors.picked().settings() != before.settings
-            || self.content.clip_count() != before.clip_count;
+        changes.pose |= changes.clips || self.actor.pose_inputs() != before.pose;
+        changes.pose |= self.actor.mixer.take_changed();
+        changes.pose |= self.instances.take_changed();
+        changes.playback |=
+            changes.clips || self.actor.settings() != before.settings || self.content.clip_count() != before.clip_count;
         changes.picture |= changes.pose
             || changes.maps
             || changes.materials

@@ -1,6 +1,6 @@
 //! From where the model is seen: turning, zooming, gliding, flying.
 
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 use super::Session;
 use super::view::View;
@@ -35,10 +35,10 @@ pub enum CameraCommand {
         /// Fractions of the picture's height from its centre, x right, y down.
         pointer: Vec2,
     },
-    /// Frames all that the clip reaches.
+    /// Frames all that the clip reaches; those of all instances in a crowd.
     FrameModel,
-    /// Frames what is selected as it is posed now: what a joint moves, the neighbourhood of a vertex, or a submesh; all that the
-    /// clip reaches when nothing is selected.
+    /// Frames what is selected as it is posed now: what a joint moves, the neighbourhood of a vertex, or a submesh. When nothing of it
+    /// is selected, all that the clip of the selected instance reaches.
     FrameSelection,
     /// Looks from a named direction and frames.
     LookFrom(ViewPreset),
@@ -204,16 +204,11 @@ impl Session {
         self.view.up_axis
     }
 
-    /// The file's space -> the world.
-    pub(super) fn world_from_model(&self) -> Affine3A {
-        self.view.world_from_model(self.open_model())
-    }
-
     fn zoom(&mut self, factor: f32, pointer: Vec2) {
-        let radius = self.world_bounds().radius().max(1e-6);
+        let [of_one, of_all] = [self.selected_bounds(), self.world_bounds()].map(|bounds| bounds.radius().max(1e-6));
         let View { camera, framed, .. } = &mut self.view;
-        // Not through the model, and not so far away that it is a dot.
-        let distance = (camera.distance * factor).clamp(radius * 1e-2, radius * 100.0);
+        // Not through the model, and not so far away that all is a dot.
+        let distance = (camera.distance * factor).clamp(of_one * 1e-2, of_all * 100.0);
         camera.zoom(distance / camera.distance, pointer);
         *framed = false;
     }

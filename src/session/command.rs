@@ -77,8 +77,12 @@ groups! {
 }
 
 impl Command {
-    /// Whether what it changes can be undone. Names that are read from where they were kept were no change of the person's.
+    /// Whether what it changes can be undone. Names that are read from where they were kept were no change of the person's; which
+    /// instances there are and which is selected is how the model is looked at.
     pub(super) fn is_undoable(&self) -> bool {
-        !matches!(self, Self::History(_) | Self::Name(NameCommand::Import(_)))
+        !matches!(
+            self,
+            Self::History(_) | Self::Crowd(_) | Self::Name(NameCommand::Import(_))
+        )
     }
 }

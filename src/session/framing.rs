@@ -1,8 +1,9 @@
 //! The camera frames the model, or what of it is selected, in what the panels leave free.
 
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 
 use super::Session;
+use super::instances::moved;
 use crate::scene::Insets;
 
 /// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
@@ -10,20 +11,28 @@ const VERTEX_ROOM: f32 = 0.15;
 
 impl Session {
     pub(super) fn frame_model(&mut self) {
-        let world_from_model = self.world_from_model();
-        if let Some(open) = &self.content.open {
-            let (_, points) = open.extent(self.clip_index());
-            let points: Vec<_> = points
-                .iter()
-                .map(|&point| world_from_model.transform_point3(point))
-                .collect();
-            self.view.frame_points(&points);
+        let mut points = Vec::new();
+        self.add_reach(self.clip_index(), self.world_from_model(), &mut points);
+        let (formation, world_from_file) = (self.formation(), self.world_from_file());
+        for (index, player) in self.instances.others() {
+            let world_from_model = moved(world_from_file, self.instances.offset(&formation, index));
+            self.add_reach(player.clip, world_from_model, &mut points);
         }
+        self.view.frame_points(&points);
         self.view.framed = true;
     }
 
+    /// Adds the points by which a clip is framed, world space.
+    fn add_reach(&self, clip: Option<usize>, world_from_model: Affine3A, points: &mut Vec<Vec3>) {
+        let of_clip = self.content.open.as_ref().map_or(&[][..], |open| open.extent(clip).1);
+        points.extend(of_clip.iter().map(|&point| world_from_model.transform_point3(point)));
+    }
+
     pub(super) fn frame_selection(&mut self) {
-        let points = self.selected_points();
+        let mut points = self.selected_points();
+        if points.is_empty() && self.instances.are_many() {
+            self.add_reach(self.clip_index(), self.world_from_model(), &mut points);
+        }
         if points.is_empty() {
             self.frame_model();
         } else {
@@ -36,7 +45,7 @@ impl Session {
     /// around it; or those of the selected submesh. World space, as they are posed now.
     fn selected_points(&mut self) -> Vec<Vec3> {
         self.pose_vertices();
-        let around_vertex = VERTEX_ROOM * self.world_bounds().radius();
+        let around_vertex = VERTEX_ROOM * self.selected_bounds().radius();
         let world_from_model = self.world_from_model();
         let joints = &self.selection.joints;
         let (joint, vertex) = (joints.selected(), joints.selected_vertex().copied());

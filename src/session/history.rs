@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::mem::discriminant;
+use std::sync::Arc;
 
 use super::clip_swap::ClipSwap;
 use super::open_model::OpenModel;
@@ -64,6 +65,8 @@ impl Step {
 /// The range, which belongs to the clip on show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ClipRange {
+    /// Of the model.
+    pub(super) instance: usize,
     pub(super) clip: Option<usize>,
     pub(super) secs: Option<[f32; 2]>,
 }
@@ -77,7 +80,7 @@ pub(super) enum Value {
     },
     /// Names of bones, by their numbers in the file.
     Names(BTreeMap<usize, Option<String>>),
-    Visibility(Visibility),
+    Visibility(Arc<Visibility>),
     Range(ClipRange),
     WrapMode(WrapMode),
     Handedness(Option<Handedness>),

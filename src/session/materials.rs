@@ -33,6 +33,11 @@ impl Materials {
         &self.drawn
     }
 
+    /// Whether these are those of a copy, without a change of either since.
+    pub(super) fn are_shared_with(&self, copy: &Self) -> bool {
+        Arc::ptr_eq(&self.drawn, &copy.drawn)
+    }
+
     pub(super) fn get(&self, index: usize) -> Option<&Material> {
         self.drawn.get(index)
     }

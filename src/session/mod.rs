@@ -8,11 +8,13 @@ mod clip_swap;
 mod command;
 mod content;
 mod crowd;
+mod crowd_cache;
 mod event;
 mod files;
 mod framing;
 mod going_back;
 mod history;
+mod instances;
 mod joining;
 mod joint_rows;
 mod joints;
@@ -28,6 +30,7 @@ mod opening;
 mod overlays;
 mod pacing;
 mod picking;
+mod player;
 mod playing;
 mod quality;
 mod restoring;
@@ -46,10 +49,11 @@ mod view_state;
 pub use camera::CameraCommand;
 pub use changes::Changes;
 pub use command::Command;
-pub use crowd::{CrowdCommand, CrowdState, MAX_CROWD};
+pub use crowd::CrowdCommand;
 pub use event::Event;
 pub use files::{File, FileSet};
 pub use history::{History, HistoryCommand};
+pub use instances::{CrowdState, MAX_CROWD};
 pub use joint_rows::JointRow;
 pub use joints::{Joints, SelectedVertex};
 pub use load::{LoadError, LoadJob, LoadStep, Loaded, Progress, load};
@@ -70,9 +74,11 @@ pub use textures::{
 };
 pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 
-use actor::{Actor, Actors};
+use actor::Actor;
 use changes::Revisions;
 use content::Content;
+use crowd_cache::CrowdCache;
+use instances::Instances;
 use overlays::OverlayCache;
 use picking::Picker;
 use skeleton_cache::SkeletonCache;
@@ -94,8 +100,10 @@ pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 
 #[derive(Clone, Debug, Default)]
 pub struct Session {
     content: Content,
-    actors: Actors,
-    crowd: CrowdState,
+    /// The selected instance of the model.
+    actor: Actor,
+    /// All of them.
+    instances: Instances,
     view: View,
     selection: Selection,
     quality: Quality,
@@ -124,6 +132,7 @@ struct Caches {
     picker: Picker,
     skeleton: SkeletonCache,
     overlays: OverlayCache,
+    crowd: CrowdCache,
 }
 
 impl Session {
@@ -180,27 +189,28 @@ impl Session {
 
     /// Index of the clip on show.
     pub fn clip_index(&self) -> Option<usize> {
-        self.actors.picked().clip
+        self.actor.player.clip
     }
 
     /// The clip on show.
     pub fn clip(&self) -> Option<&Clip> {
-        self.content.clips().get(self.actors.picked().clip?)
+        self.content.clips().get(self.actor.player.clip?)
     }
 
     /// Where playing is.
     pub fn playback(&self) -> &Playback {
-        &self.actors.picked().playback
+        &self.actor.player.playback
     }
 
     /// Whether the pointer holds the time.
     pub fn is_scrubbing(&self) -> bool {
-        self.actors.picked().scrubbing
+        self.actor.scrubbing
     }
 
     /// Whether time moves by itself. The camera may move too: [`Session::is_moving`].
     pub fn is_animating(&self) -> bool {
-        self.actors.iter().any(Actor::is_animating)
+        let another_goes = || self.instances.others().any(|(_, player)| player.has_way());
+        self.actor.is_animating() || (self.actor.plays() && another_goes())
     }
 
     /// Whether the ground grid is drawn.
@@ -226,8 +236,8 @@ impl Session {
 
     /// The window is about to draw: what moves is drawn with the detail that the device keeps up with, what rests with all.
     pub fn follow_motion(&mut self) {
-        let moves = self.is_in_motion();
-        self.track(|session| session.quality.follow(moves));
+        let (moves, has_crowd) = (self.is_in_motion(), self.instances.are_many());
+        self.track(|session| session.quality.follow(moves, has_crowd));
     }
 
     /// The window drew the picture. Returns whether it moves, by itself or under a pointer that holds the camera or the time: the next
@@ -334,25 +344,30 @@ impl Session {
             session.advance_camera(dt_secs);
             let is_animating = session.is_animating();
             let (was_at, was_playing) = (session.playback().time_secs(), session.playback().is_playing());
-            for actor in session.actors.iter_mut() {
-                actor.advance(dt_secs);
-            }
+            session.actor.advance(dt_secs);
             if is_animating {
+                session.instances.advance(dt_secs);
                 session.view.look.advance(dt_secs);
             }
             if session.playback().time_secs() != was_at {
                 session.note(Event::TimeUpdate);
             }
             if was_playing && !session.playback().is_playing() {
+                session.instances.set_playing(false);
                 session.note(Event::Pause);
             }
         })
     }
 
-    /// Box of all that the clips in the pose reach, world space; with the bind pose in it while the pose is brought there.
+    /// Box of all that the clips in the pose reach, world space; with the bind pose in it while the pose is brought there. In a crowd
+    /// it holds all that any instance reaches.
     pub fn world_bounds(&self) -> Aabb {
-        let reach = self.content.open.as_ref().map(|open| self.actors.picked().reach(open));
-        reach.unwrap_or_default().transformed(self.world_from_model())
+        let selected = self.selected_bounds();
+        if self.instances.are_many() {
+            selected.union(self.instances.bounds(&self.formation()))
+        } else {
+            selected
+        }
     }
 
     fn note(&mut self, event: Event) {

@@ -3,13 +3,15 @@
 use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
-use super::actor::{Actor, Actors};
+use super::actor::Actor;
 use super::changes::Changes;
 use super::content::Content;
 use super::files::{File, FileSet};
+use super::instances::Instances;
 use super::load::{LoadError, LoadJob, Loaded};
 use super::materials::Materials;
 use super::mixer::Blend;
+use super::player::Player;
 use super::sky::FoundSky;
 use super::{Event, Session};
 
@@ -40,6 +42,8 @@ impl FileCommand {
 #[derive(Clone, Debug)]
 pub(super) struct ShownClips {
     shown: Option<String>,
+    /// By the other instances of the model.
+    others: Vec<Option<String>>,
     blended: Option<(String, f32)>,
 }
 
@@ -190,7 +194,7 @@ impl Session {
     fn replace_model(&mut self, loaded: Loaded) {
         let Loaded { files, open, maps, sky } = loaded;
         let was_playing = self.playback().is_playing();
-        let clip_name = self.clip().map(|clip| clip.name.clone());
+        let clips_before = self.shown_clips();
         let others = self.content.others_of(&files);
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
@@ -212,11 +216,14 @@ impl Session {
             self.view.look.trails.clear();
         }
         let actor = if again {
-            Actor::for_model_again(&open, self.actors.picked(), clip_name.as_deref())
+            let others = &clips_before.others;
+            self.instances.find_clips(&open, others, Player::show_again);
+            Actor::for_model_again(&open, &self.actor, clips_before.shown.as_deref())
         } else {
-            Actor::for_model(&open, self.actors.picked())
+            self.instances = Instances::default();
+            Actor::for_model(&open, &self.actor)
         };
-        self.actors = Actors::one(actor);
+        self.actor = actor;
         self.content = Content {
             open: Some(Arc::new(open)),
             files,
@@ -248,11 +255,11 @@ impl Session {
     /// Goes to the first clip, if there is one, and plays it unless motion is reduced.
     fn show_first_clip(&mut self) {
         if let Some(open) = &self.content.open
-            && let actor = self.actors.picked_mut()
-            && actor.show_clip(open, 0)
+            && let actor = &mut self.actor
+            && actor.player.show_clip(open, 0)
             && !self.reduced_motion
         {
-            actor.playback.play();
+            actor.player.playback.play();
         }
     }
 
@@ -288,6 +295,7 @@ impl Session {
                 Err(error) => refused = refused.or(Some(error)),
             }
         }
+        self.instances.measure(open);
         match refused {
             Some(error) => self.fail(*error),
             None => self.content.error = None,
@@ -303,6 +311,7 @@ impl Session {
     /// Shows the first clip of a model that had none, and plays it unless motion is reduced.
     pub(super) fn begin_first_clip(&mut self) {
         self.show_first_clip();
+        self.begin_clips_of_crowd();
         if self.playback().is_playing() {
             self.note(Event::Play);
         }
@@ -314,45 +323,32 @@ impl Session {
         let name = |index: usize| Some(self.content.clips().get(index)?.name.clone());
         ShownClips {
             shown: self.clip_index().and_then(name),
+            others: self
+                .instances
+                .others()
+                .map(|(_, player)| player.clip.and_then(name))
+                .collect(),
             blended: self.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
         }
     }
 
-    /// Finds what played among clips that took the places of others. Time and range stay as far as the clip has them; when its
-    /// name is gone, the clip in its place is shown.
+    /// Finds what played among clips that took the places of others, as [`Player::follow_clips`] says.
     pub(super) fn show_clips_again(&mut self, before: &ShownClips) {
         self.content.changes.clips = true;
         let Some(open) = &self.content.open else { return };
-        let actor = self.actors.picked_mut();
+        let actor = &mut self.actor;
         let clips = &open.model.clips;
-        let place_of = |name: &str| clips.iter().position(|clip| clip.name == name);
         actor.mixer.end_fades();
-        let was_at = actor.playback.time_secs();
-        let place = before.shown.as_deref().and_then(place_of);
-        match place.and_then(|place| Some((place, clips.get(place)?))) {
-            Some((place, clip)) => {
-                actor.clip = Some(place);
-                if [clip.start_secs, clip.end_secs] != [actor.playback.start_secs(), actor.playback.end_secs()] {
-                    let range_secs = actor.playback.range_secs();
-                    actor.playback.set_span(clip.start_secs, clip.end_secs);
-                    if let Some([start_secs, end_secs]) = range_secs {
-                        actor.playback.set_range_end(end_secs);
-                        actor.playback.set_range_start(start_secs);
-                    }
-                }
-            }
-            None => {
-                let last = clips.len().saturating_sub(1);
-                actor.show_clip(open, actor.clip.unwrap_or_default().min(last));
-            }
-        }
+        let was_at = actor.player.playback.time_secs();
+        actor.player.follow_clips(open, before.shown.as_deref());
+        self.instances.find_clips(open, &before.others, Player::follow_clips);
         actor.mixer.set_blend(None);
         if let Some((name, weight)) = &before.blended
-            && let Some(clip) = place_of(name)
+            && let Some(clip) = clips.iter().position(|clip| clip.name == *name)
         {
             actor.set_blend(Blend { clip, weight: *weight }, clips.len());
         }
-        if actor.playback.time_secs() != was_at {
+        if actor.player.playback.time_secs() != was_at {
             self.note(Event::TimeUpdate);
         }
     }

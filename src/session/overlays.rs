@@ -119,7 +119,7 @@ impl OverlayCache {
             );
         }
         let Some(open) = open else { return };
-        if look.trails.is_empty() || actor.clip.is_none() {
+        if look.trails.is_empty() || actor.player.clip.is_none() {
             return;
         }
         self.update_trails(open, actor, &look.trails, revisions);
@@ -155,9 +155,9 @@ impl OverlayCache {
         self.palettes.clear();
         let Some(open) = open else { return };
         let skeleton = &open.model.skeleton;
-        let clip = actor.clip.and_then(|clip| open.clip(clip));
+        let clip = actor.player.clip.and_then(|clip| open.clip(clip));
         if let (Some(plan), Some((clip, compiled))) = (look.ghosts, clip) {
-            let now_secs = actor.playback.time_secs();
+            let now_secs = actor.player.playback.time_secs();
             self.times_secs.clear();
             ghost_times(clip, now_secs, plan, &mut self.times_secs);
             let (times_secs, mixer) = (&self.times_secs, &mut actor.mixer);
@@ -179,7 +179,7 @@ impl OverlayCache {
     fn update_trails(&mut self, open: &OpenModel, actor: &mut Actor, joints: &[JointIndex], revisions: Revisions) {
         let wanted = TrailsKey {
             clips_revision: revisions.clips,
-            clip: actor.clip,
+            clip: actor.player.clip,
             blend: actor.mixer.blend(),
             joints: joints.to_vec(),
         };
@@ -188,7 +188,7 @@ impl OverlayCache {
         }
         self.trails_for = Some(wanted);
         let mixer = &mut actor.mixer;
-        match actor.clip.and_then(|clip| open.clip(clip)) {
+        match actor.player.clip.and_then(|clip| open.clip(clip)) {
             Some((clip, compiled)) => self.trails.follow(clip, joints, &mut self.scratch, |time_secs, pose| {
                 mixer.pose_unfaded(open, compiled, time_secs, pose);
             }),

@@ -19,6 +19,11 @@ pub(super) struct Picker {
     /// The revision of the pose of the positions.
     posed: Option<u64>,
     positions: Vec<Vec3>,
+    /// The same of another instance of the model than the selected one, as it was met last.
+    of_other: Vec<Vec3>,
+    palette: Palette,
+    /// Instances whose boxes a ray comes into, with the distances.
+    entered: Vec<(f32, usize)>,
     in_ray: Vec<Vec3>,
     cutouts: Cutouts,
 }
@@ -37,37 +42,100 @@ impl Picker {
         }
     }
 
-    /// What a ray of the world meets first of the vertices as they were posed last. Submeshes that are left out are looked through,
-    /// and what alpha cuts away too.
+    /// Gets ready for picks of the model with these maps.
+    pub(super) fn prepare(&mut self, content: &Content, maps_revision: u64) {
+        let Content {
+            open, maps, materials, ..
+        } = content;
+        self.cutouts.keep_of(maps_revision);
+        // Before the search, which asks them in the midst of its triangles.
+        for submesh in open.iter().flat_map(|open| &open.model.mesh.submeshes) {
+            let material = submesh.material as usize;
+            if materials.get(material).is_some_and(|material| material.alpha_clip) {
+                self.cutouts.decode(material, maps);
+            }
+        }
+    }
+
+    /// What a ray of the world meets first of the selected instance, as its vertices were posed last. Submeshes that are left out are
+    /// looked through, and what alpha cuts away too.
     pub(super) fn pick(
         &mut self,
         content: &Content,
         submeshes: &Submeshes,
         world_from_model: Affine3A,
         ray: Ray,
-        maps_revision: u64,
     ) -> Option<Hit> {
-        let Content {
-            open, maps, materials, ..
-        } = content;
-        self.cutouts.keep_of(maps_revision);
-        let mesh = &open.as_ref()?.model.mesh;
+        let positions = std::mem::take(&mut self.positions);
+        let hit = self.pick_posed(&positions, content, submeshes, world_from_model, ray);
+        self.positions = positions;
+        hit
+    }
+
+    /// The same of another instance, which this palette poses.
+    pub(super) fn pick_other(
+        &mut self,
+        content: &Content,
+        submeshes: &Submeshes,
+        (world_from_model, palette): (Affine3A, &[Affine3A]),
+        ray: Ray,
+    ) -> Option<Hit> {
+        let mut positions = std::mem::take(&mut self.of_other);
+        self.palette.0.clear();
+        self.palette.0.extend_from_slice(palette);
+        anim::skin_positions(&content.open.as_ref()?.model.mesh, &self.palette, &mut positions);
+        let hit = self.pick_posed(&positions, content, submeshes, world_from_model, ray);
+        self.of_other = positions;
+        hit
+    }
+
+    /// A list for [`first_met`], empty; it comes back by [`Picker::keep_list`].
+    pub(super) fn take_list(&mut self) -> Vec<(f32, usize)> {
+        self.entered.clear();
+        std::mem::take(&mut self.entered)
+    }
+
+    pub(super) fn keep_list(&mut self, entered: Vec<(f32, usize)>) {
+        self.entered = entered;
+    }
+
+    fn pick_posed(
+        &mut self,
+        positions: &[Vec3],
+        content: &Content,
+        submeshes: &Submeshes,
+        world_from_model: Affine3A,
+        ray: Ray,
+    ) -> Option<Hit> {
+        let mesh = &content.open.as_ref()?.model.mesh;
+        let materials = &content.materials;
         let alpha_clips = |material: usize| materials.get(material).is_some_and(|material| material.alpha_clip);
-        // Before the search, which asks them in the midst of its triangles.
-        for submesh in &mesh.submeshes {
-            let material = submesh.material as usize;
-            if alpha_clips(material) {
-                self.cutouts.decode(material, maps);
-            }
-        }
         let cutouts = &self.cutouts;
         let is_solid = |hit: &Hit| {
             let material = mesh.submeshes[hit.submesh].material as usize;
             let is_cut = || alpha_clips(material) && cutouts.is_cut(material, tex_coord_at(mesh, hit));
             submeshes.is_visible(hit.submesh) && !is_cut()
         };
-        pick(mesh, &self.positions, world_from_model, ray, &mut self.in_ray, is_solid)
+        pick(mesh, positions, world_from_model, ray, &mut self.in_ray, is_solid)
     }
+}
+
+/// The nearest of what a ray meets of some instances, with whose it is. `entered` has the distances at which it comes into their
+/// boxes. `meet` is asked about the nearest box first, and no more when what was met is nearer than the next box.
+pub(super) fn first_met(
+    entered: &mut [(f32, usize)],
+    mut meet: impl FnMut(usize) -> Option<Hit>,
+) -> Option<(usize, Hit)> {
+    entered.sort_unstable_by(|(a, of_a), (b, of_b)| a.total_cmp(b).then(of_a.cmp(of_b)));
+    let mut nearest: Option<(usize, Hit)> = None;
+    for &(distance, instance) in entered.iter() {
+        if nearest.is_some_and(|(_, nearest)| nearest.distance < distance) {
+            break;
+        }
+        let met = meet(instance).filter(|hit| nearest.is_none_or(|(_, nearest)| hit.distance < nearest.distance));
+        nearest = met.map(|hit| (instance, hit)).or(nearest);
+    }
+    nearest
 }
 
 /// Alpha of diffuse maps, by material.
@@ -131,6 +199,39 @@ impl Alpha {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_thousand_instances_only_the_nearest_are_looked_at() {
+        let hit = |distance: f32| Hit {
+            submesh: 0,
+            triangle: 0,
+            barycentric: Vec3::X,
+            vertex: 0,
+            position: Vec3::ZERO,
+            distance,
+        };
+        // Boxes a unit apart and two deep. The ray slips past the first two figures, and meets every other in the middle of its box.
+        let boxes = || {
+            (0..1_000)
+                .rev()
+                .map(|instance| (instance as f32, instance))
+                .collect::<Vec<_>>()
+        };
+        let mut asked = Vec::new();
+        let first = first_met(&mut boxes(), |instance| {
+            asked.push(instance);
+            (instance >= 2).then(|| hit(instance as f32 + 1.0))
+        });
+        assert_eq!(first.map(|(instance, hit)| (instance, hit.distance)), Some((2, 3.0)));
+        assert_eq!(asked, [0, 1, 2, 3], "the fourth box begins where the hit is");
+        // A hit far in its box is not the first.
+        let first = first_met(&mut boxes(), |instance| {
+            Some(hit(if instance == 0 { 1.9 } else { instance as f32 + 0.1 }))
+        });
+        assert_eq!(first.map(|(instance, _)| instance), Some(1));
+        assert_eq!(first_met(&mut boxes(), |_| None), None);
+        assert_eq!(first_met(&mut [], |_| Some(hit(1.0))), None);
+    }
 
     #[test]
     fn alpha_is_that_of_the_texel_and_repeats() {

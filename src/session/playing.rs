@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::actor::Actor;
+use super::player::Player;
 use super::{Blend, Event, SPEEDS, Session};
 use crate::anim::{Direction, LoopGap, LoopMode, WrapMode, next_key, previous_key};
 use crate::model::JointIndex;
@@ -84,19 +85,20 @@ pub enum PlayCommand {
 }
 
 impl Session {
+    /// Playing, times and ways of playing are for all instances; clips, ranges and what is mixed are for the selected one.
     pub(super) fn apply_to_playback(&mut self, command: PlayCommand) {
-        let actor = self.actors.picked_mut();
+        let actor = &mut self.actor;
         match command {
             PlayCommand::Play => self.set_playing(true),
             PlayCommand::Pause => self.set_playing(false),
             PlayCommand::Toggle => {
-                let playing = !actor.playback.is_playing();
-                actor.playback.set_backward(false);
+                let playing = !actor.player.playback.is_playing();
+                actor.player.playback.set_backward(false);
                 self.set_playing(playing);
             }
             PlayCommand::ToggleBackward => {
-                let playing = !(actor.playback.is_playing() && actor.playback.is_backward());
-                actor.playback.set_backward(true);
+                let playing = !(actor.player.playback.is_playing() && actor.player.playback.is_backward());
+                actor.player.playback.set_backward(true);
                 self.set_playing(playing);
             }
             PlayCommand::Seek { time_secs } => self.seek(time_secs),
@@ -104,22 +106,22 @@ impl Session {
             PlayCommand::SeekFrame(frame) => self.seek_frame(frame),
             PlayCommand::StepKey { direction, joint } => self.step_key(direction, joint),
             PlayCommand::SeekStart => {
-                let [start_secs, _] = actor.playback.played_secs();
+                let [start_secs, _] = actor.player.playback.played_secs();
                 self.seek(start_secs);
             }
             PlayCommand::SeekEnd => {
-                let [_, end_secs] = actor.playback.played_secs();
+                let [_, end_secs] = actor.player.playback.played_secs();
                 self.seek(end_secs);
             }
             PlayCommand::SetRangeStart(secs) => {
-                let secs = secs.unwrap_or(actor.playback.time_secs());
-                actor.playback.set_range_start(secs);
+                let secs = secs.unwrap_or(actor.player.playback.time_secs());
+                actor.player.playback.set_range_start(secs);
             }
             PlayCommand::SetRangeEnd(secs) => {
-                let secs = secs.unwrap_or(actor.playback.time_secs());
-                actor.playback.set_range_end(secs);
+                let secs = secs.unwrap_or(actor.player.playback.time_secs());
+                actor.player.playback.set_range_end(secs);
             }
-            PlayCommand::ClearRange => actor.playback.clear_range(),
+            PlayCommand::ClearRange => actor.player.playback.clear_range(),
             PlayCommand::BeginScrub => actor.scrubbing = true,
             PlayCommand::EndScrub => actor.scrubbing = false,
             PlayCommand::SelectClip(clip) => self.select_clip(clip),
@@ -129,44 +131,43 @@ impl Session {
                 actor.set_blend(Blend { clip, weight }, self.content.clip_count());
             }
             PlayCommand::ClearBlend => actor.mixer.set_blend(None),
-            PlayCommand::SetSpeed(speed) => actor.playback.set_speed(speed),
+            PlayCommand::SetSpeed(speed) => actor.player.playback.set_speed(speed),
             PlayCommand::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             PlayCommand::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),
-            PlayCommand::SetLoopMode(mode) => actor.playback.set_loop_mode(mode),
+            PlayCommand::SetLoopMode(mode) => actor.player.playback.set_loop_mode(mode),
             PlayCommand::CycleLoopMode => {
-                let next = match actor.playback.loop_mode() {
+                let next = match actor.player.playback.loop_mode() {
                     LoopMode::Once => LoopMode::Loop,
                     LoopMode::Loop => LoopMode::PingPong,
                     LoopMode::PingPong => LoopMode::Once,
                 };
-                actor.playback.set_loop_mode(next);
+                actor.player.playback.set_loop_mode(next);
             }
-            PlayCommand::SetWrapMode(mode) => actor.playback.set_wrap_mode(mode),
+            PlayCommand::SetWrapMode(mode) => actor.player.playback.set_wrap_mode(mode),
             PlayCommand::SetBindWeight(weight) => actor.set_bind_weight(weight),
             PlayCommand::ToggleBindPose => {
                 let weight = if actor.bind_weight < 0.5 { 1.0 } else { 0.0 };
                 actor.set_bind_weight(weight);
             }
         }
+        self.instances.play_as(&self.actor.player);
     }
 
     /// How far the pose is brought to the bind pose: 0 as the clip has it … 1 the bind pose. See
     /// [`crate::anim::blend_to_rest`].
     pub fn bind_weight(&self) -> f32 {
-        self.actors.picked().bind_weight
+        self.actor.bind_weight
     }
 
     /// Brings the pose to the clip and the time.
     pub(super) fn pose_now(&mut self) {
         if let Some(open) = &self.content.open {
-            for actor in self.actors.iter_mut() {
-                actor.update_pose(open, self.revisions.pose);
-            }
+            self.actor.update_pose(open, self.revisions.pose);
         }
     }
 
     pub(super) fn set_playing(&mut self, playing: bool) {
-        let Actor { clip, playback, .. } = self.actors.picked_mut();
+        let Player { clip, playback } = &mut self.actor.player;
         if clip.is_none() || playing == playback.is_playing() {
             return;
         }
@@ -178,6 +179,7 @@ impl Session {
         }
         // To play at the end of a clip starts it over.
         let moved = playback.time_secs() != was_at;
+        self.instances.set_playing(playing);
         self.note(if playing { Event::Play } else { Event::Pause });
         if moved {
             self.note(Event::TimeUpdate);
@@ -189,11 +191,13 @@ impl Session {
             return;
         }
         // A time that was asked for is shown without fades.
-        let Actor { mixer, playback, .. } = self.actors.picked_mut();
+        let Actor { mixer, player, .. } = &mut self.actor;
         mixer.end_fades();
-        let was_at = playback.time_secs();
-        playback.seek(time_secs);
-        if playback.time_secs() != was_at {
+        let was_at = player.playback.time_secs();
+        player.playback.seek(time_secs);
+        let is_at = player.playback.time_secs();
+        if is_at != was_at {
+            self.instances.shift(f64::from(is_at) - f64::from(was_at));
             self.note(Event::TimeUpdate);
         }
     }
@@ -230,9 +234,9 @@ impl Session {
         if self.clip_index() == Some(index) || index >= open.model.clips.len() {
             return;
         }
-        let actor = self.actors.picked_mut();
+        let actor = &mut self.actor;
         actor.fade_to(index, self.reduced_motion);
-        actor.show_clip(&open, index);
+        actor.player.show_clip(&open, index);
         self.note(Event::TimeUpdate);
     }
 
@@ -245,25 +249,25 @@ impl Session {
 
     fn step_speed(&mut self, pick: impl Fn(&'static [f32], f32) -> Option<&'static f32>) {
         if let Some(&speed) = pick(&SPEEDS, self.playback().speed()) {
-            self.actors.picked_mut().playback.set_speed(speed);
+            self.actor.player.playback.set_speed(speed);
         }
     }
 
     /// How long the pose takes from one clip to the next while it plays, in seconds; 0 is at once. Paused and under reduced
     /// motion clips change at once.
     pub fn crossfade_secs(&self) -> f32 {
-        self.actors.picked().mixer.crossfade_secs()
+        self.actor.mixer.crossfade_secs()
     }
 
     /// The clip that is blended into the one that plays.
     pub fn blend(&self) -> Option<Blend> {
-        self.actors.picked().mixer.blend()
+        self.actor.mixer.blend()
     }
 
     /// Whether a clip that played before is still seen. A fade goes on to its end when playing is paused, so that a picture that
     /// stands still is a pose of its clip and time.
     pub fn is_fading(&self) -> bool {
-        self.actors.iter().any(Actor::is_fading)
+        self.actor.is_fading()
     }
 
     /// Key times of the clip on show, in order: of one joint, or of all.

@@ -119,7 +119,7 @@ pub struct Lowered {
 }
 
 /// What a picture shows of it: what is drawn, what the person chose, and how fine it is.
-pub(super) type QualityNow = (Step, Passes, PassChoice, RenderScale);
+pub(super) type QualityNow = (Step, Passes, PassChoice, RenderScale, bool);
 
 /// The passes of a session, and how fine its picture is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -130,6 +130,8 @@ pub struct Quality {
     pacer: Pacer,
     /// The picture moves, or did a moment ago.
     in_motion: bool,
+    /// There are several instances of the model.
+    has_crowd: bool,
     /// Since it moved last.
     rested_secs: f32,
     /// The last pass of the window drew a frame of a motion, so the time until the next is that frame's.
@@ -208,7 +210,13 @@ impl Quality {
             self.wanted(),
             self.choice(Pass::AmbientOcclusion),
             self.render_scale,
+            self.poses_all(),
         )
+    }
+
+    /// Whether every instance of a crowd is posed anew, be it out of sight or small.
+    pub(super) fn poses_all(&self) -> bool {
+        !(self.in_motion && self.has_crowd) || self.mode == QualityMode::Full
     }
 
     /// What is less fine while the picture moves; none when nothing is.
@@ -226,7 +234,7 @@ impl Quality {
 
     /// In how many seconds the picture rests, if nothing moves until then. None when it rests, or when it would be the same.
     pub fn rests_in_secs(&self) -> Option<f32> {
-        let is_lowered = self.in_motion && self.moving_step() != Pacer::FINEST;
+        let is_lowered = (self.in_motion && self.moving_step() != Pacer::FINEST) || !self.poses_all();
         is_lowered.then_some((REST_SECS - self.rested_secs).max(0.0))
     }
 
@@ -288,8 +296,9 @@ impl Quality {
         }
     }
 
-    /// The picture is about to be drawn, and moves or not.
-    pub(super) fn follow(&mut self, moves: bool) {
+    /// The picture, of a crowd or not, is about to be drawn, and moves or not.
+    pub(super) fn follow(&mut self, moves: bool, has_crowd: bool) {
+        self.has_crowd = has_crowd;
         if moves {
             self.rested_secs = 0.0;
         }

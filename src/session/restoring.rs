@@ -16,8 +16,9 @@ impl Session {
         let file_bones = open.map_or(&[][..], |open| open.model.skeleton.file_bones());
         ViewState {
             camera: CameraState::of(&self.view),
+            crowd: self.crowd(),
             appearance: AppearanceState::of(&self.view, file_bones),
-            playback: PlaybackState::of(self.actors.picked(), self.content.clips()),
+            playback: PlaybackState::of(&self.actor, self.content.clips()),
             selection: SelectionState {
                 bone: joints.selected().map(|joint| self.bone_number(joint)),
                 vertex: joints.selected_vertex().map(|selected| selected.vertex),
@@ -35,6 +36,7 @@ impl Session {
     pub(super) fn restore(&mut self, state: &ViewState) {
         self.restore_appearance(&state.appearance);
         self.restore_playback(&state.playback);
+        self.restore_crowd(state.crowd);
         self.restore_selection(&state.selection);
         self.view.motion.interrupt();
         self.view.motion.set_turntable(state.camera.turntable);
@@ -81,12 +83,12 @@ impl Session {
     }
 
     fn restore_playback(&mut self, state: &PlaybackState) {
-        let actor = self.actors.picked_mut();
+        let actor = &mut self.actor;
         actor.mixer.set_crossfade(state.crossfade_secs);
         actor.mixer.end_fades();
         actor.mixer.set_blend(None);
         actor.set_bind_weight(state.bind_weight);
-        let playback = &mut actor.playback;
+        let playback = &mut actor.player.playback;
         playback.set_speed(state.speed);
         playback.set_loop_mode(state.loop_mode);
         playback.set_wrap_mode(state.wrap_mode);
@@ -98,19 +100,16 @@ impl Session {
         let Some(clip) = state.clip.as_deref().and_then(named) else {
             return;
         };
-        actor.show_clip(open, clip);
+        actor.player.show_clip(open, clip);
         if let Some((name, weight)) = &state.blend
             && let Some(clip) = named(name)
         {
             actor.set_blend(Blend { clip, weight: *weight }, clips.len());
         }
-        if let Some([start_secs, end_secs]) = state.range_secs {
-            actor.playback.set_range_end(end_secs);
-            actor.playback.set_range_start(start_secs);
-        }
+        actor.player.set_range(state.range_secs);
         self.set_playing(state.playing);
         // After playing: to play at the end of a clip starts it over.
-        self.actors.picked_mut().playback.seek(state.time_secs);
+        self.actor.player.playback.seek(state.time_secs);
         self.note(Event::TimeUpdate);
     }
 

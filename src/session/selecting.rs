@@ -2,16 +2,20 @@
 
 use glam::{Vec2, Vec3};
 
-use super::Session;
 use super::joint_rows::{JointRow, joint_rows};
 use super::joints::{Joints, SelectedVertex};
+use super::picking::first_met;
 use super::submeshes::Submeshes;
+use super::{Caches, Session};
 use crate::anim::dominant_joint;
 use crate::model::JointIndex;
-use crate::scene::{Hit, pick_joint};
+use crate::scene::{Aabb, Hit, pick_joint};
 
 /// How far from a bone the pointer may be, in heights of the picture: 14 pixels of 900.
 const PICK_RADIUS: f32 = 0.016;
+
+/// How much larger than the box of a clip is taken what may reach out of it between two keys.
+const REACH_BETWEEN_KEYS: f32 = 0.05;
 
 /// A command about joints and vertices. One that the model does not have is ignored. Selecting one clears the selected submesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +24,7 @@ pub enum JointCommand {
     Select(Option<JointIndex>),
     /// Selects what is at a point of the picture: x right, y up, −1…1. That is the nearest bone within a few pixels, else the
     /// strongest bone of the skin there. While the skin is coloured it is a bone that is drawn there, else the nearest vertex.
-    /// Beside the model it clears the selection, but for the bone whose weights are shown.
+    /// Beside the model it clears the selection, but for the bone whose weights are shown. Another instance there is selected first.
     SelectAt(Vec2),
     /// Selects the parent of the selected one, if it has one.
     SelectParent,
@@ -60,11 +64,11 @@ pub enum SubmeshCommand {
     /// Selects one, or none.
     Select(Option<usize>),
     /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none. Either way it
-    /// clears the selected joint and vertex.
+    /// clears the selected joint and vertex. Another instance there is selected first.
     SelectAt(Vec2),
     /// Highlights one, or none.
     Hover(Option<usize>),
-    /// Highlights what is drawn at a point of the picture: x right, y up, −1…1.
+    /// Highlights what is drawn of the selected instance at a point of the picture: x right, y up, −1…1.
     HoverAt(Option<Vec2>),
 }
 
@@ -73,16 +77,21 @@ impl Session {
     pub(super) fn pose_vertices(&mut self) {
         self.pose_now();
         if let Some(open) = &self.content.open {
-            let palette = &self.actors.picked().pose.palette;
+            let palette = &self.actor.pose.palette;
             self.caches
                 .picker
                 .update(&open.model.mesh, palette, self.revisions.pose);
         }
     }
 
-    /// What is at a point of the picture: x right, y up, −1…1. Submeshes that are left out are looked through, and what alpha
-    /// cuts away too. Skins the mesh once a pose.
+    /// What is at a point of the picture, whichever instance it is of: x right, y up, −1…1. Submeshes that are left out are looked
+    /// through, and what alpha cuts away too. Skins the mesh once a pose.
     pub fn pick(&mut self, pointer: Vec2) -> Option<Hit> {
+        self.pick_instance(pointer).map(|(_, hit)| hit)
+    }
+
+    /// What is at a point of the picture, and of which instance.
+    fn pick_instance(&mut self, pointer: Vec2) -> Option<(usize, Hit)> {
         if !pointer.is_finite() {
             return None;
         }
@@ -90,18 +99,65 @@ impl Session {
         let ray = self.view.camera.ray(pointer, self.view.aspect, &world_bounds);
         let world_from_model = self.world_from_model();
         self.pose_vertices();
-        self.caches.picker.pick(
-            &self.content,
-            &self.selection.submeshes,
-            world_from_model,
-            ray,
-            self.revisions.maps,
-        )
+        let (selected, has_crowd) = (self.crowd().selected, self.instances.are_many());
+        if has_crowd {
+            self.pose_crowd(self.quality.poses_all());
+        }
+        let formation = self.formation();
+        let joint_count = self.selection.joints.count();
+        let (content, submeshes) = (&self.content, &self.selection.submeshes);
+        let Caches { picker, crowd, .. } = &mut self.caches;
+        picker.prepare(content, self.revisions.maps);
+        if !has_crowd {
+            let hit = picker.pick(content, submeshes, world_from_model, ray)?;
+            return Some((selected, hit));
+        }
+        // Between two keys a turning part may reach a little out of its clip's box.
+        let room = formation.reach.size() * REACH_BETWEEN_KEYS;
+        let mut entered = picker.take_list();
+        entered.extend((0..self.instances.count()).filter_map(|instance| {
+            let offset = self.instances.offset(&formation, instance);
+            let reach = Aabb {
+                min: formation.reach.min + offset - room,
+                max: formation.reach.max + offset + room,
+            };
+            Some((ray.enters(&reach)?, instance))
+        }));
+        let first = first_met(&mut entered, |instance| {
+            if instance == selected {
+                return picker.pick(content, submeshes, world_from_model, ray);
+            }
+            picker.pick_other(content, submeshes, crowd.posed(instance, joint_count)?, ray)
+        });
+        picker.keep_list(entered);
+        first
     }
 
-    /// The joint at a point of the picture: x right, y up, −1…1, whether bones are shown or not.
+    /// Selects the instance that is at a point of the picture. Returns what is there of it.
+    fn select_instance_at(&mut self, pointer: Vec2) -> Option<Hit> {
+        let (instance, hit) = self.pick_instance(pointer)?;
+        self.select_instance(instance);
+        Some(hit)
+    }
+
+    /// What is at a point of the picture, if it is of the selected instance.
+    fn pick_selected(&mut self, pointer: Vec2) -> Option<Hit> {
+        let (instance, hit) = self.pick_instance(pointer)?;
+        (instance == self.crowd().selected).then_some(hit)
+    }
+
+    /// Whether another instance than the selected one is at a point of the picture.
+    fn is_other_at(&mut self, pointer: Vec2) -> bool {
+        self.instances.are_many()
+            && self
+                .pick_instance(pointer)
+                .is_some_and(|(instance, _)| instance != self.instances.state().selected)
+    }
+
+    /// The joint of the selected instance at a point of the picture: x right, y up, −1…1, whether bones are shown or not. Where they
+    /// are not shown, what is behind another instance is not there.
     pub fn joint_at(&mut self, pointer: Vec2) -> Option<JointIndex> {
-        if !pointer.is_finite() {
+        if !pointer.is_finite() || (!self.view.look.bones_visible && self.is_other_at(pointer)) {
             return None;
         }
         let screen = self.screen();
@@ -117,8 +173,12 @@ impl Session {
             self.selection.joints.select(bone);
             return;
         }
-        let hit = self.pick(pointer);
-        if colored {
+        let was_selected = self.crowd().selected;
+        let hit = self.select_instance_at(pointer);
+        let bone = (is_picked && self.crowd().selected != was_selected).then(|| self.joint_at(pointer));
+        if let Some(bone) = bone.flatten() {
+            self.selection.joints.select(Some(bone));
+        } else if colored {
             self.selection.joints.select_vertex(hit.map(|hit| SelectedVertex {
                 vertex: hit.vertex,
                 hit: Some(hit),
@@ -156,13 +216,13 @@ impl Session {
             SubmeshCommand::ShowAll => self.selection.submeshes.show_all(),
             SubmeshCommand::Select(submesh) => self.selection.submeshes.select(submesh, None),
             SubmeshCommand::SelectAt(pointer) => {
-                let hit = self.pick(pointer);
+                let hit = self.select_instance_at(pointer);
                 self.selection.submeshes.select(hit.map(|hit| hit.submesh), hit);
                 self.selection.joints.clear_selection();
             }
             SubmeshCommand::Hover(submesh) => self.selection.submeshes.hover(submesh),
             SubmeshCommand::HoverAt(pointer) => {
-                let hit = pointer.and_then(|pointer| self.pick(pointer));
+                let hit = pointer.and_then(|pointer| self.pick_selected(pointer));
                 self.selection.submeshes.hover(hit.map(|hit| hit.submesh));
             }
         }

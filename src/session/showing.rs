@@ -10,20 +10,55 @@ use crate::scene::{Bones, Crowd, LabelPlace, RenderFrame, Screen, label_places};
 impl Session {
     /// All that a renderer needs for the picture of now. The box is empty and the palette too when nothing is open.
     pub fn frame(&mut self) -> RenderFrame<'_> {
+        self.frame_with(self.quality.poses_all())
+    }
+
+    /// The same for a picture that rests, though this one may move: with all detail.
+    pub fn frame_at_rest(&mut self) -> RenderFrame<'_> {
+        let passes = self.quality.wanted();
+        let mut frame = self.frame_with(true);
+        frame.options.passes = passes;
+        (frame.options.occlusion_detail, frame.options.shadow_detail) = Default::default();
+        frame
+    }
+
+    fn frame_with(&mut self, poses_all: bool) -> RenderFrame<'_> {
         self.pose_now();
+        self.pose_crowd(poses_all);
         self.update_overlays();
         RenderFrame {
             camera: self.view.camera,
             world_from_model: self.world_from_model(),
             world_bounds: self.world_bounds(),
-            palette: &self.actors.picked().pose.palette,
-            crowd: Crowd::default(),
+            palette: &self.actor.pose.palette,
+            crowd: if self.instances.are_many() {
+                self.caches.crowd.crowd()
+            } else {
+                Crowd::default()
+            },
             hidden_submeshes: self.selection.submeshes.left_out(),
             highlighted_submesh: self.selection.submeshes.highlighted(),
             vertex_colors: self.caches.overlays.vertex_colors(),
             ghosts: self.caches.overlays.ghosts(),
             over_model: Some(self.caches.overlays.geometry()),
             options: self.frame_options(),
+        }
+    }
+
+    /// Brings the other instances to the pose of now.
+    pub(super) fn pose_crowd(&mut self, poses_all: bool) {
+        if let Some(open) = self.content.open.as_deref()
+            && self.instances.are_many()
+        {
+            let (bind_weight, crowd) = (self.actor.bind_weight, &mut self.caches.crowd);
+            crowd.update(
+                open,
+                &self.instances,
+                bind_weight,
+                &self.view,
+                self.revisions,
+                poses_all,
+            );
         }
     }
 
@@ -35,12 +70,13 @@ impl Session {
         }
         let in_world = (self.view.theme, self.world_from_model());
         let open = self.content.open.as_deref();
-        let (actor, look, revisions) = (self.actors.picked_mut(), &self.view.look, self.revisions);
+        let (actor, look, revisions) = (&mut self.actor, &self.view.look, self.revisions);
         let marked = self.selection.joints.marked();
         let Caches {
             picker,
             skeleton,
             overlays,
+            crowd: _,
         } = &mut self.caches;
         let model = open.map(|open| &open.model);
         overlays.update_colors(colors_key, model, picker.positions(), skeleton);
@@ -59,11 +95,11 @@ impl Session {
             return;
         }
         self.pose_now();
-        let (world_from_model, scene_radius) = (self.world_from_model(), self.world_bounds().radius());
+        let (world_from_model, scene_radius) = (self.world_from_model(), self.selected_bounds().radius());
         let no_skeleton = Skeleton::default();
         let open = self.content.open.as_ref();
         let skeleton = open.map_or(&no_skeleton, |open| &open.model.skeleton);
-        let pose = &self.actors.picked().pose.model;
+        let pose = &self.actor.pose.model;
         self.caches
             .skeleton
             .place(key, skeleton, pose, world_from_model, scene_radius);
@@ -100,19 +136,14 @@ impl Session {
     pub fn inspect_joint(&mut self, joint: JointIndex) -> Option<JointReadout> {
         self.pose_now();
         let skeleton = &self.content.open.as_ref()?.model.skeleton;
-        JointReadout::of(
-            skeleton,
-            self.selection.joints.tree(),
-            &self.actors.picked().pose,
-            joint,
-        )
+        JointReadout::of(skeleton, self.selection.joints.tree(), &self.actor.pose, joint)
     }
 
     /// How the selected vertex comes to its place in the pose of now.
     pub fn explain_vertex(&mut self) -> Option<VertexExplanation> {
         self.pose_now();
         let vertex = self.selection.joints.selected_vertex()?.vertex;
-        explain_vertex(&self.content.open.as_ref()?.model, &self.actors.picked().pose, vertex)
+        explain_vertex(&self.content.open.as_ref()?.model, &self.actor.pose, vertex)
     }
 
     /// What the colours of the skin depend on: the same key, the same colours. None while the skin is shown as it is. Weights are

@@ -43,12 +43,7 @@ impl Session {
 
     fn label_of_visibility(&self, then: &Visibility) -> String {
         let submeshes = self.submeshes();
-        let name = |index: usize| {
-            let open = self.open_model()?;
-            let submesh = open.model.mesh.submeshes.get(index)?;
-            Some(brief(&self.materials().get(submesh.material as usize)?.name))
-        };
-        let name = |index| name(index).unwrap_or_default();
+        let name = |index: usize| brief(self.submesh_name(index));
         let was_left_out = then.left_out();
         let differ = |&index: &usize| submeshes.left_out().get(index) != was_left_out.get(index);
         let changed: Vec<usize> = (0..submeshes.count()).filter(differ).collect();

@@ -1,9 +1,11 @@
 //! Which submeshes of the model are drawn, and which one is selected or hovered.
 
+use std::sync::Arc;
+
 use crate::scene::Hit;
 
 /// Which submeshes are shown and hidden.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Visibility {
     /// For each whether it was hidden by itself.
     pub(super) hidden: Vec<bool>,
@@ -22,7 +24,8 @@ impl Visibility {
 /// The submeshes of the open model, as they are looked at.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Submeshes {
-    visibility: Visibility,
+    /// Shared with the steps that can be undone.
+    visibility: Arc<Visibility>,
     /// Those that are not drawn.
     left_out: Vec<bool>,
     selected: Option<usize>,
@@ -92,37 +95,39 @@ impl Submeshes {
             return;
         }
         *self = Self {
-            visibility: Visibility {
+            visibility: Arc::new(Visibility {
                 hidden: vec![false; count],
                 solo: None,
-            },
+            }),
             left_out: vec![false; count],
             ..Self::default()
         };
     }
 
-    pub(super) fn visibility(&self) -> &Visibility {
+    pub(super) fn visibility(&self) -> &Arc<Visibility> {
         &self.visibility
     }
 
-    pub(super) fn set_visibility(&mut self, visibility: Visibility) {
+    pub(super) fn set_visibility(&mut self, visibility: Arc<Visibility>) {
         self.visibility = visibility;
         self.update();
     }
 
     pub(super) fn set_visible(&mut self, submesh: usize, visible: bool) {
         if submesh < self.count() {
-            if self.visibility.solo.take().is_some() {
-                self.visibility.hidden.clone_from(&self.left_out);
+            let visibility = Arc::make_mut(&mut self.visibility);
+            if visibility.solo.take().is_some() {
+                visibility.hidden.clone_from(&self.left_out);
             }
-            self.visibility.hidden[submesh] = !visible;
+            visibility.hidden[submesh] = !visible;
             self.update();
         }
     }
 
     pub(super) fn toggle_solo(&mut self, submesh: usize) {
         if submesh < self.count() {
-            self.visibility.solo = if self.visibility.solo == Some(submesh) {
+            let visibility = Arc::make_mut(&mut self.visibility);
+            visibility.solo = if visibility.solo == Some(submesh) {
                 None
             } else {
                 Some(submesh)
@@ -132,8 +137,9 @@ impl Submeshes {
     }
 
     pub(super) fn show_all(&mut self) {
-        self.visibility.hidden.fill(false);
-        self.visibility.solo = None;
+        let visibility = Arc::make_mut(&mut self.visibility);
+        visibility.hidden.fill(false);
+        visibility.solo = None;
         self.update();
     }
 

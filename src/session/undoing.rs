@@ -17,7 +17,7 @@ pub(super) struct Undoable {
     open: Option<Arc<OpenModel>>,
     materials: Materials,
     names: Arc<JointNames>,
-    visibility: Visibility,
+    visibility: Arc<Visibility>,
     range: ClipRange,
     wrap_mode: WrapMode,
     handedness: Option<Handedness>,
@@ -88,8 +88,8 @@ impl Session {
                 let all = self.joint_names().all();
                 Value::Names(names.keys().map(|bone| (*bone, all.get(bone).cloned())).collect())
             }
-            Value::Visibility(_) => Value::Visibility(self.submeshes().visibility().clone()),
-            Value::Range(_) => Value::Range(self.clip_range()),
+            Value::Visibility(_) => Value::Visibility(Arc::clone(self.submeshes().visibility())),
+            Value::Range(range) => Value::Range(self.clip_range(range.instance)),
             Value::WrapMode(_) => Value::WrapMode(self.playback().wrap_mode()),
             Value::Handedness(_) => Value::Handedness(self.handedness_override()),
             Value::UpAxis(_) => Value::UpAxis(self.up_axis_override()),
@@ -112,7 +112,10 @@ impl Session {
             }
             Value::Visibility(visibility) => self.selection.submeshes.set_visibility(visibility),
             Value::Range(range) => self.set_clip_range(range),
-            Value::WrapMode(mode) => self.actors.picked_mut().playback.set_wrap_mode(mode),
+            Value::WrapMode(mode) => {
+                self.actor.player.playback.set_wrap_mode(mode);
+                self.instances.play_as(&self.actor.player);
+            }
             Value::Handedness(handedness) => {
                 self.view.handedness = handedness;
                 self.change_goal(Self::frame_model);
@@ -131,8 +134,8 @@ impl Session {
             open: self.content.open.clone(),
             materials: self.content.materials.clone(),
             names: Arc::clone(&self.content.names),
-            visibility: self.submeshes().visibility().clone(),
-            range: self.clip_range(),
+            visibility: Arc::clone(self.submeshes().visibility()),
+            range: self.clip_range(self.crowd().selected),
             wrap_mode: self.playback().wrap_mode(),
             handedness: self.handedness_override(),
             up_axis: self.up_axis_override(),
@@ -143,10 +146,12 @@ impl Session {
     /// The values that lead back to what was before.
     fn values_to(&self, before: &Undoable) -> Vec<Value> {
         let mut values = Vec::new();
-        for (index, (now, then)) in self.materials().iter().zip(before.materials.drawn()).enumerate() {
-            if now != then {
-                let material = then.clone();
-                values.push(Value::Material { index, material });
+        if !self.content.materials.are_shared_with(&before.materials) {
+            for (index, (now, then)) in self.materials().iter().zip(before.materials.drawn()).enumerate() {
+                if now != then {
+                    let material = then.clone();
+                    values.push(Value::Material { index, material });
+                }
             }
         }
         if self.content.names != before.names {
@@ -158,14 +163,14 @@ impl Session {
             ));
         }
         let others = [
-            Value::Visibility(before.visibility.clone()),
+            Value::Visibility(Arc::clone(&before.visibility)),
             Value::WrapMode(before.wrap_mode),
             Value::Handedness(before.handedness),
             Value::UpAxis(before.up_axis),
             Value::NormalGreenFlipped(before.normal_green_flipped),
         ];
         values.extend(others.into_iter().filter(|value| self.now(value) != *value));
-        if self.clip_range().secs != before.range.secs {
+        if self.clip_range(before.range.instance).secs != before.range.secs {
             values.push(Value::Range(before.range));
         }
         values
@@ -178,29 +183,32 @@ impl Session {
         (!same).then(|| ClipSwap::between(now, then)).flatten()
     }
 
-    fn clip_range(&self) -> ClipRange {
+    /// The range of an instance; none of one that is gone.
+    fn clip_range(&self, instance: usize) -> ClipRange {
+        let player = self.player(instance);
         ClipRange {
-            clip: self.clip_index(),
-            secs: self.playback().range_secs(),
+            instance,
+            clip: player.and_then(|player| player.clip),
+            secs: player.and_then(|player| player.playback.range_secs()),
         }
     }
 
-    /// Shows the clip of the range, if another is on show, with the range.
-    fn set_clip_range(&mut self, ClipRange { clip, secs }: ClipRange) {
+    /// Shows the clip of the range, if another is on show, with the range, on the instance that had it.
+    fn set_clip_range(&mut self, ClipRange { instance, clip, secs }: ClipRange) {
+        if self.player(instance).is_none() {
+            return;
+        }
+        self.select_instance(instance);
         if let (Some(clip), Some(open)) = (clip, self.content.open.clone())
             && self.clip_index() != Some(clip)
         {
-            let actor = self.actors.picked_mut();
+            let actor = &mut self.actor;
             actor.fade_to(clip, true);
-            actor.show_clip(&open, clip);
+            actor.player.show_clip(&open, clip);
             self.note(Event::TimeUpdate);
         }
-        let playback = &mut self.actors.picked_mut().playback;
-        playback.clear_range();
-        if let Some([start_secs, end_secs]) = secs {
-            playback.set_range_end(end_secs);
-            playback.set_range_start(start_secs);
-        }
+        self.actor.player.playback.clear_range();
+        self.actor.player.set_range(secs);
     }
 
     /// Puts clips back in the list. What plays goes on as far as it is still there. Returns what does the reverse.
@@ -211,14 +219,15 @@ impl Session {
             return swap;
         };
         let back = Arc::make_mut(open).swap_clips(swap);
+        if open.model.clips.is_empty() {
+            self.instances.show_no_clips(open);
+        }
         if self.content.clip_count() == 0 {
             self.set_playing(false);
-            let actor = self.actors.picked_mut();
+            let actor = &mut self.actor;
             actor.mixer.end_fades();
             actor.mixer.set_blend(None);
-            // Speed, loop and wrap mode stay.
-            actor.playback.set_span(0.0, 0.0);
-            actor.clip = None;
+            actor.player.show_no_clip();
             self.content.changes.clips = true;
             self.note(Event::TimeUpdate);
         } else if had_clips {

@@ -4,6 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::actor::Actor;
+use super::instances::CrowdState;
 use super::view::View;
 use crate::anim::{GhostPlan, LoopMode, SkinView, WrapMode};
 use crate::model::{Clip, Handedness, UpAxis};
@@ -20,6 +21,8 @@ pub struct ViewState {
     pub appearance: AppearanceState,
     /// At which time of which clip.
     pub playback: PlaybackState,
+    /// With how many instances. What the selected one plays is `playback`; the others' clips and times come from the seed.
+    pub crowd: CrowdState,
     /// With what selected.
     pub selection: SelectionState,
 }
@@ -225,10 +228,10 @@ impl AppearanceState {
 
 impl PlaybackState {
     pub(super) fn of(actor: &Actor, clips: &[Clip]) -> Self {
-        let Actor { playback, mixer, .. } = actor;
+        let (playback, mixer) = (&actor.player.playback, &actor.mixer);
         let name = |clip: usize| Some(clips.get(clip)?.name.clone());
         Self {
-            clip: actor.clip.and_then(name),
+            clip: actor.player.clip.and_then(name),
             time_secs: playback.time_secs(),
             playing: playback.is_playing(),
             backward: playback.is_backward(),

@@ -76,6 +76,25 @@ fn a_figure_is_framed_on_gl() {
     a_framed_figure("gl");
 }
 
+#[test]
+fn a_crowd_is_said_and_framed() {
+    let alone = ["--size", "200x150", "--transparent"];
+    let (one, printed) = draw("crowd-1.png", FIGURE, &alone);
+    assert!(!printed.contains("instances"), "{printed}");
+    let (three, printed) = draw(
+        "crowd-3.png",
+        FIGURE,
+        &[&alone[..], &["--crowd", "3", "--seed", "7"]].concat(),
+    );
+    assert!(printed.contains(" s, 3 instances, drawn by"), "{printed}");
+    // The camera is farther away, so that all have room.
+    let height = |picture: &RgbaImage| {
+        let [_, _, top, bottom] = extent(picture).expect("something is drawn");
+        bottom - top
+    };
+    assert!(height(&three) < height(&one), "{} {}", height(&three), height(&one));
+}
+
 fn same_frame_twice(backend: &str) -> RgbaImage {
     let arguments = [
         "--backend",

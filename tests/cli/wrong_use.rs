@@ -24,6 +24,9 @@ fn wrong_use_is_told_apart_from_bad_files() {
             vec!["render", &file, "-o", "x.png", "--size", "0x9"],
             "such as 1280x720",
         ),
+        (vec!["render", &file, "-o", "x.png", "--crowd", "1001"], "1..=1000"),
+        (vec!["render", &file, "-o", "x.png", "--crowd", "0"], "1..=1000"),
+        (vec!["render", &file, "-o", "x.png", "--seed", "3"], "--crowd <N>"),
         (
             vec!["render", &file, "-o", "x.png", "--view", "inside"],
             "three-quarter",

@@ -4,6 +4,7 @@ mod activity;
 mod bind_weight;
 mod blend;
 mod bounds;
+mod crowd;
 mod curve;
 mod drift;
 mod explain;

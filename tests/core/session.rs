@@ -1,6 +1,7 @@
 //! Tests of `session`: what is open and how it is looked at, without a window.
 
 mod clips;
+mod crowd;
 mod folders;
 mod going_back;
 mod history;

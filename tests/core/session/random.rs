@@ -6,8 +6,8 @@ use bindpose::anim::{Direction, GhostPlan, LoopMode, MAX_SPEED, MIN_SPEED, SkinV
 use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
 use bindpose::scene::{BoneStyle, Insets, Overlay, Theme, ViewPreset};
 use bindpose::session::{
-    CameraCommand, Command, Event, File, FileCommand, HistoryCommand, JointCommand, LookCommand, MaterialCommand,
-    NameCommand, PlayCommand, Session, SubmeshCommand,
+    CameraCommand, Command, CrowdCommand, CrowdState, Event, File, FileCommand, HistoryCommand, JointCommand,
+    LookCommand, MaterialCommand, NameCommand, PlayCommand, Session, SubmeshCommand,
 };
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -244,6 +244,11 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         prop::sample::select(vec![None, Some(UpAxis::Y), Some(UpAxis::Z)]).prop_map(Command::SetUpAxis),
         prop::sample::select(vec![Theme::Dark, Theme::Light]).prop_map(Command::SetTheme),
     ];
+    let crowd = prop_oneof![
+        (prop::sample::select(vec![0, 1, 2, 3, 7, 40]), 0_u32..3)
+            .prop_map(|(count, seed)| CrowdCommand::Set { count, seed }),
+        (0_usize..8).prop_map(CrowdCommand::Select),
+    ];
     let history = prop::sample::select(vec![
         HistoryCommand::Undo,
         HistoryCommand::Redo,
@@ -263,6 +268,7 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         3 => look.prop_map(Command::Look),
         2 => material_command().prop_map(Command::Material),
         5 => files.prop_map(Command::File),
+        3 => crowd.prop_map(Command::Crowd),
         4 => history.prop_map(Command::History),
     ]
 }
@@ -336,7 +342,23 @@ fn check(session: &mut Session) -> Result<(), TestCaseError> {
     let frame = session.frame();
     prop_assert_eq!(frame.palette.0.len(), joints);
     prop_assert!(frame.palette.0.iter().all(|matrix| matrix.is_finite()));
+    check_crowd(session, joints)?;
     check_joints(session, joints)
+}
+
+fn check_crowd(session: &mut Session, joints: usize) -> Result<(), TestCaseError> {
+    let CrowdState { count, selected, .. } = session.crowd();
+    prop_assert!(count >= 1 && selected < count);
+    prop_assert!(count == 1 || session.open_model().is_some());
+    let crowd = session.frame().crowd;
+    prop_assert_eq!(crowd.instances.len(), count - 1);
+    prop_assert!(crowd.in_sight < count);
+    prop_assert!(crowd.palettes.iter().all(|matrix| matrix.is_finite()));
+    for instance in crowd.instances {
+        prop_assert!(instance.world_from_model.is_finite());
+        prop_assert!((instance.palette as usize + 1) * joints <= crowd.palettes.len());
+    }
+    Ok(())
 }
 
 fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError> {

@@ -28,8 +28,8 @@ fn snapshot(session: &mut Session) -> String {
         };
         let ghosts: Vec<_> = frame.ghosts.palettes.iter().map(bits).collect();
         let over = format!(
-            "{ghosts:?} {:?} {:?} {:?}",
-            frame.ghosts.colors_srgb, frame.over_model, frame.vertex_colors
+            "{ghosts:?} {:?} {:?} {:?} {:?}",
+            frame.crowd, frame.ghosts.colors_srgb, frame.over_model, frame.vertex_colors
         );
         (bits(frame.palette), over)
     };
@@ -37,6 +37,7 @@ fn snapshot(session: &mut Session) -> String {
     let session = &*session;
     let time = (
         session.playback(),
+        session.crowd(),
         session.frame_place(),
         session.is_scrubbing(),
         session.blend(),
