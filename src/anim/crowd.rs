@@ -1,8 +1,7 @@
 //! Palettes of many instances of one skeleton, in one buffer.
 
-use std::collections::HashMap;
-
 use glam::Affine3A;
+use rustc_hash::FxHashMap;
 
 use super::blend::blend_to_rest;
 use super::compile::CompiledClip;
@@ -44,7 +43,7 @@ pub struct CrowdPalettes {
     joint_count: usize,
     /// One for each pose of the last update.
     slots: Vec<u32>,
-    slot_of: HashMap<ClipPose, u32>,
+    slot_of: FxHashMap<ClipPose, u32>,
     /// For each slot.
     is_used: Vec<bool>,
     bind_weight: f32,

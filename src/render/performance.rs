@@ -124,7 +124,9 @@ fn taken(way: Way, size: [u32; 2], few: bool) -> Taken {
         }
         if light == Light::Studio && way.is_posed {
             let texels = area([CONTACT_MAP_SIZE; 2]);
-            let taps = 2.0 * constant(shaders::CONTACT_BLUR, "BLUR_RADIUS") + 1.0;
+            // The middle, and each pair beside it.
+            let pairs = shaders::CONTACT_BLUR.source().matches("* beside(").count();
+            let taps = 1.0 + 2.0 * pairs as f64;
             taken.pass(texels, 0.0);
             for _ in 0..CONTACT_BLURS {
                 taken.pass(texels, texels * taps);

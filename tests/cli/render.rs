@@ -87,12 +87,11 @@ fn a_crowd_is_said_and_framed() {
         &[&alone[..], &["--crowd", "3", "--seed", "7"]].concat(),
     );
     assert!(printed.contains(" s, 3 instances, drawn by"), "{printed}");
-    // The camera is farther away, so that all have room.
-    let height = |picture: &RgbaImage| {
-        let [_, _, top, bottom] = extent(picture).expect("something is drawn");
-        bottom - top
-    };
-    assert!(height(&three) < height(&one), "{} {}", height(&three), height(&one));
+    // They stand beside each other, and all have room in the picture.
+    let [one, three] = [&one, &three].map(|picture| extent(picture).expect("something is drawn"));
+    let [left, right, top, bottom] = three;
+    assert!(right - left > one[1] - one[0], "{one:?} {three:?}");
+    assert!(left > 0 && top > 0 && right < 199 && bottom < 149, "{three:?}");
 }
 
 fn same_frame_twice(backend: &str) -> RgbaImage {
