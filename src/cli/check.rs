@@ -168,8 +168,8 @@ fn diagnostics_of(bytes: &[u8]) -> Vec<Diagnostic> {
     let mut diagnostics = match import::import(bytes) {
         Ok(imported) => {
             let compiled = CompiledClip::all(&imported.model.clips);
-            let of_motion = check::motion(&imported.model, &compiled, &imported.clip_lines);
-            imported.diagnostics.into_iter().chain(of_motion).collect::<Vec<_>>()
+            let checked = check::model(&imported.model, &compiled, &imported.lines);
+            imported.diagnostics.into_iter().chain(checked).collect::<Vec<_>>()
         }
         Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
     };
