@@ -92,7 +92,8 @@ pub(super) fn note_repeated(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diag
     let mut repeated: Vec<u32> = pairs.map(|pair| pair[1].1).collect();
     if !repeated.is_empty() {
         repeated.sort_unstable();
-        let tally = tally(repeated);
+        let mut tally = Tally::default();
+        repeated.into_iter().for_each(|triangle| tally.add(triangle));
         diagnostics.add(
             &codes::TRIANGLES_REPEATED,
             Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
@@ -103,11 +104,11 @@ pub(super) fn note_repeated(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diag
         );
         by_corners.dedup_by_key(|(corners, _)| *corners);
     }
-    note_crowded_edges(&by_corners, lines, diagnostics);
+    note_crowded_edges(by_corners, lines, diagnostics);
 }
 
 /// Takes different triangles with their corners in order.
-fn note_crowded_edges(triangles: &[([u32; 3], u32)], lines: &LineMap, diagnostics: &mut Diagnostics) {
+fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let mut edges: Vec<u64> = triangles.iter().flat_map(|(corners, _)| edges_of(*corners)).collect();
     edges.sort_unstable();
     let mut crowded: Vec<u64> = edges
@@ -119,21 +120,27 @@ fn note_crowded_edges(triangles: &[([u32; 3], u32)], lines: &LineMap, diagnostic
     if crowded.is_empty() {
         return;
     }
-    let at_one = |corners: [u32; 3]| edges_of(corners).iter().any(|edge| crowded.binary_search(edge).is_ok());
-    let mut around: Vec<u32> = triangles
-        .iter()
-        .filter(|(corners, _)| at_one(*corners))
-        .map(|(_, triangle)| *triangle)
-        .collect();
-    around.sort_unstable();
-    let mut tally = tally(around);
-    tally.count = crowded.len();
+    // The place of each edge is the first triangle too many.
+    let mut met = vec![0_u32; crowded.len()];
+    let mut third = Tally::default();
+    triangles.sort_unstable_by_key(|(_, triangle)| *triangle);
+    for (corners, triangle) in triangles {
+        for edge in edges_of(corners)
+            .iter()
+            .filter_map(|edge| crowded.binary_search(edge).ok())
+        {
+            met[edge] += 1;
+            if met[edge] == 3 {
+                third.add(triangle);
+            }
+        }
+    }
     diagnostics.add(
         &codes::EDGES_CROWDED,
-        Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
+        Place::of_rows(&third, Subject::Triangle, &lines.triangles),
         format!(
             "{} to more than two triangles.",
-            counted(tally.count, "edge belongs", "edges belong")
+            counted(third.count, "edge belongs", "edges belong")
         ),
     );
 }
@@ -141,10 +148,4 @@ fn note_crowded_edges(triangles: &[([u32; 3], u32)], lines: &LineMap, diagnostic
 /// The edges of corners in order, each as one number that has both ends.
 fn edges_of([a, b, c]: [u32; 3]) -> [u64; 3] {
     [[a, b], [b, c], [a, c]].map(|[from, to]| u64::from(from) << 32 | u64::from(to))
-}
-
-fn tally(rows: Vec<u32>) -> Tally {
-    let mut tally = Tally::default();
-    rows.into_iter().for_each(|row| tally.add(row));
-    tally
 }

@@ -93,7 +93,7 @@ pub(crate) fn document() -> Document {
             let unit = normal * sign + u * along_u + v * along_v;
             vertices.push(Vertex {
                 position: ((min + max) * 0.5 + (max - min) * 0.5 * unit).to_array(),
-                tangent: u.extend(1.0).to_array(),
+                tangent: u.extend(sign).to_array(),
                 normal: (normal * sign).to_array(),
                 tex_coords: [along_u * 0.5 + 0.5, along_v * 0.5 + 0.5],
                 ..Vertex::default()
