@@ -32,10 +32,11 @@ pub(crate) fn still(path: &str) -> File {
     file(path, &document())
 }
 
-/// A file that ends in the middle of its vertices.
+/// A file that ends in the middle of its vertices, in the word `Normal` of its tenth vertex.
 pub(crate) fn broken(path: &str) -> File {
     let text = format::write(&document());
-    File::new(path, text.as_bytes()[..text.len() / 2].to_vec())
+    let (start, _) = text.match_indices("Normal: ").nth(9).expect("ten vertices");
+    File::new(path, text.as_bytes()[..start + "Norm".len()].to_vec())
 }
 
 /// Writes a document.
