@@ -7,7 +7,7 @@ use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
 use crate::model::{Material, Mesh, Model};
 
-/// A bitangent whose cosine with the way in which v grows is below this points clearly the other way: by more than 135°. In the books'
+/// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
 /// files a few slanted triangles come to 131°, and all else agrees.
 const AGAINST: f64 = -std::f64::consts::FRAC_1_SQRT_2;
 
@@ -55,8 +55,7 @@ fn ends_of_equal_coords(mesh: &Mesh) -> Vec<u32> {
 /// sign is right, and the seam is too thin to be seen.
 pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let mesh = &model.mesh;
-    // The greatest cosine that a triangle of the vertex gives.
-    let mut agreement = vec![f64::NEG_INFINITY; mesh.vertex_count()];
+    let (mut accused, mut cleared) = (vec![false; mesh.vertex_count()], vec![false; mesh.vertex_count()]);
     let (triangles, _) = mesh.indices.as_chunks::<3>();
     for corners in normal_mapped(model).map(|triangle| triangles[triangle]) {
         let Some(along_v) = along_v(mesh, corners) else {
@@ -64,14 +63,17 @@ pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &m
         };
         for vertex in corners.map(|vertex| vertex as usize) {
             let tangent = mesh.tangents[vertex];
-            let bitangent = mesh.normals[vertex].cross(tangent.truncate()) * tangent.w;
-            let cosine = bitangent.as_dvec3().normalize_or_zero().dot(along_v);
-            agreement[vertex] = agreement[vertex].max(cosine);
+            let bitangent = (mesh.normals[vertex].cross(tangent.truncate()) * tangent.w).as_dvec3();
+            let cosine = bitangent.dot(along_v);
+            // Most agree, and need no lengths.
+            let is_against = cosine < 0.0 && cosine < AGAINST * bitangent.length() * along_v.length();
+            accused[vertex] |= is_against;
+            cleared[vertex] |= !is_against;
         }
     }
     let mut against = Tally::default();
-    for (vertex, cosine) in (0u32..).zip(agreement) {
-        if f64::NEG_INFINITY < cosine && cosine < AGAINST {
+    for (vertex, (accused, cleared)) in (0u32..).zip(accused.into_iter().zip(cleared)) {
+        if accused && !cleared {
             against.add(vertex);
         }
     }
@@ -108,17 +110,23 @@ fn normal_mapped(model: &Model) -> impl Iterator<Item = usize> {
 /// The sine of a triangle's angle, on the surface or in the texture, below which its directions are rounding errors: half a degree.
 const NEEDLE: f64 = 0.01;
 
-/// The direction in which v grows on a triangle. `None` where it is a needle, there or in the texture.
+/// The direction in which v grows on a triangle, of any length. `None` where it is a needle, there or in the texture.
 fn along_v(mesh: &Mesh, corners: [u32; 3]) -> Option<DVec3> {
     let [a, b, c] = corners.map(|vertex| vertex as usize);
-    let step = |to: usize| (mesh.tex_coords[to] - mesh.tex_coords[a]).as_dvec2();
-    let edge = |to: usize| mesh.positions[to].as_dvec3() - mesh.positions[a].as_dvec3();
-    let (step_1, step_2) = (step(b), step(c));
+    let position = |vertex: usize| mesh.positions[vertex].as_dvec3();
+    let coords = |vertex: usize| mesh.tex_coords[vertex].as_dvec2();
+    let (edge_1, edge_2) = (position(b) - position(a), position(c) - position(a));
+    let (step_1, step_2) = (coords(b) - coords(a), coords(c) - coords(a));
     let texture_area = step_1.perp_dot(step_2);
-    let is_needle = texture_area.abs() <= NEEDLE * step_1.length() * step_2.length()
-        || edge(b).cross(edge(c)).length() <= NEEDLE * edge(b).length() * edge(c).length();
-    if is_needle {
+    let is_needle = |area_squared: f64, sides_squared: f64| area_squared <= NEEDLE * NEEDLE * sides_squared;
+    if is_needle(
+        texture_area * texture_area,
+        step_1.length_squared() * step_2.length_squared(),
+    ) || is_needle(
+        edge_1.cross(edge_2).length_squared(),
+        edge_1.length_squared() * edge_2.length_squared(),
+    ) {
         return None;
     }
-    ((edge(c) * step_1.x - edge(b) * step_2.x) * texture_area.signum()).try_normalize()
+    Some((edge_2 * step_1.x - edge_1 * step_2.x) * texture_area.signum())
 }
