@@ -7,9 +7,12 @@ use std::hint::black_box;
 use std::str::{FromStr, SplitAsciiWhitespace};
 use std::time::Duration;
 
+use bindpose::anim::CompiledClip;
+use bindpose::check;
 use bindpose::format::{
     AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex, parse, write,
 };
+use bindpose::import;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 fn parsing(criterion: &mut Criterion) {
@@ -29,26 +32,39 @@ fn parsing(criterion: &mut Criterion) {
         bencher.iter(|| Textbook::document(black_box(&bytes)));
     });
     group.finish();
-    report_ratio(&bytes);
+    let product = || drop(black_box(parse(black_box(&bytes))));
+    report_ratio("parsing: textbook / product", product, || {
+        drop(black_box(Textbook::document(black_box(&bytes))));
+    });
+    let import = || import::import(black_box(&bytes)).expect("the input is sound");
+    report_ratio(
+        "parsing, building and checking / parsing and building",
+        || drop(black_box(import())),
+        || {
+            let imported = import();
+            let compiled = CompiledClip::all(&imported.model.clips);
+            drop(black_box(check::model(&imported.model, &compiled, &imported.lines)));
+        },
+    );
 }
 
-/// Both in turn, so that what else the machine does falls on both: the median of the ratios of one round.
+/// Both in turn, so that what else the machine does falls on both: how many times as long as the first the second takes in one round,
+/// median, least and greatest.
 #[expect(clippy::print_stdout, reason = "the ratio is what the benchmark is for")]
-fn report_ratio(bytes: &[u8]) {
+fn report_ratio(name: &str, mut first: impl FnMut(), mut second: impl FnMut()) {
     const ROUNDS: usize = 31;
     let mut ratios: Vec<f64> = (0..ROUNDS)
         .map(|_| {
-            let textbook = seconds(|| drop(black_box(Textbook::document(black_box(bytes)))));
-            let product = seconds(|| drop(black_box(parse(black_box(bytes)))));
-            textbook / product
+            let second = seconds(&mut second);
+            second / seconds(&mut first)
         })
         .collect();
     ratios.sort_by(f64::total_cmp);
     let [low, median, high] = [0, ROUNDS / 2, ROUNDS - 1].map(|index| ratios[index]);
-    println!("product against textbook, in one round: {median:.2} times as fast ({low:.2} to {high:.2})");
+    println!("{name}, in one round: {median:.2} ({low:.2} to {high:.2})");
 }
 
-fn seconds(work: impl FnOnce()) -> f64 {
+fn seconds(work: &mut impl FnMut()) -> f64 {
     let start = std::time::Instant::now();
     work();
     start.elapsed().as_secs_f64()

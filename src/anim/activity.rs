@@ -80,7 +80,7 @@ const REACH_FRACTION: f32 = 0.1;
 
 /// The way from one pose of a joint to another, relative to its parent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct JointChange {
+pub(crate) struct JointChange {
     /// Distance of the joint's place in model units.
     pub(super) translation: f32,
     /// Angle of the turn, 0…π.
@@ -92,7 +92,7 @@ pub(super) struct JointChange {
 impl JointChange {
     /// From one pose of a joint to another. The parent's bind pose brings lengths into model space: its scale is often that of an
     /// exporter's units.
-    pub(super) fn between(skeleton: &Skeleton, joint: JointIndex, from: &LocalJoint, to: &LocalJoint) -> Self {
+    pub(crate) fn between(skeleton: &Skeleton, joint: JointIndex, from: &LocalJoint, to: &LocalJoint) -> Self {
         let way: Vec3A = (to.translation - from.translation).into();
         let parent = skeleton.parents().get(joint.index()).copied().flatten();
         let way = parent.map_or(way, |parent| {
@@ -116,7 +116,7 @@ impl JointChange {
     }
 
     /// How far the surface that follows the joint moves, in model units, for a model of a size in those units.
-    pub(super) fn surface_way(&self, size: f32) -> f32 {
+    pub(crate) fn surface_way(&self, size: f32) -> f32 {
         self.translation + (self.rotation_radians + self.scale) * REACH_FRACTION * size
     }
 }

@@ -23,6 +23,7 @@ mod span;
 mod trails;
 
 pub use crate::model::LocalJoint;
+pub(crate) use activity::JointChange;
 pub use activity::{JointActivity, activity};
 pub use blend::{blend, blend_to_rest};
 pub use buffers::PoseBuffers;

@@ -3,19 +3,34 @@
 
 pub mod book;
 mod exploded;
+mod keys;
+mod mesh;
 mod overflow;
+mod rig;
 pub mod sarif;
+mod texture;
 
 use crate::anim::CompiledClip;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::collect::Diagnostics;
+use crate::format::LineMap;
 use crate::model::Model;
 
-/// Checks all clips of a model in motion: meshes that fly apart, numbers that overflow. `compiled` are the model's clips,
-/// in its order. `clip_lines` are the clips' lines in the file; it may be empty.
-pub fn motion(model: &Model, compiled: &[CompiledClip], clip_lines: &[u32]) -> Vec<Diagnostic> {
+/// Checks a model that is sound: its mesh, its maps' coordinates, its bones, and all clips in motion. `compiled` are the model's clips,
+/// in its order. `lines` has the lines of the file; it may be empty. The time is that of a sort of the triangles and of a few looks at
+/// each vertex, bone and key, whatever the file holds.
+pub fn model(model: &Model, compiled: &[CompiledClip], lines: &LineMap) -> Vec<Diagnostic> {
     let mut diagnostics = Diagnostics::default();
-    exploded::note_exploded(model, compiled, clip_lines, &mut diagnostics);
-    overflow::note_overflows(model, compiled, clip_lines, &mut diagnostics);
+    mesh::note_useless(&model.mesh, lines, &mut diagnostics);
+    mesh::note_repeated(&model.mesh, lines, &mut diagnostics);
+    texture::note_equal_coords(model, lines, &mut diagnostics);
+    texture::note_tangent_signs(model, lines, &mut diagnostics);
+    rig::note_idle_bones(model, lines, &mut diagnostics);
+    let clip_lines = lines.clip_lines();
+    rig::note_shears(model, compiled, &clip_lines, &mut diagnostics);
+    keys::note_still_tracks(model, &clip_lines, &mut diagnostics);
+    keys::note_loop_gaps(model, &clip_lines, &mut diagnostics);
+    exploded::note_exploded(model, compiled, &clip_lines, &mut diagnostics);
+    overflow::note_overflows(model, compiled, &clip_lines, &mut diagnostics);
     diagnostics.into_vec()
 }

@@ -241,8 +241,8 @@ fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>) -> Vec<Diagn
     match imported {
         Ok(imported) => {
             let compiled = CompiledClip::all(&imported.model.clips);
-            let of_motion = check::motion(&imported.model, &compiled, &imported.clip_lines);
-            imported.diagnostics.into_iter().chain(of_motion).collect()
+            let checked = check::model(&imported.model, &compiled, &imported.lines);
+            imported.diagnostics.into_iter().chain(checked).collect()
         }
         Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
     }

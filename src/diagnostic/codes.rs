@@ -280,6 +280,40 @@ table! {
             "Such a quaternion has no direction.";
     }
 
+    /// What the checks of a mesh and its rig give ([`check::model`](crate::check::model)).
+    OF_MESH_AND_RIG {
+        TRIANGLES_WITHOUT_AREA = "triangles-without-area", Note,
+            "A triangle has no area: corners coincide or lie in a line.",
+            "It is not seen and can be left out.";
+        TRIANGLES_REPEATED = "triangles-repeated", Note,
+            "A triangle has the same three vertices as another one before.",
+            "One hides the other, or flickers with it. Where it is meant as the back, it needs vertices with normals of its own.";
+        VERTICES_UNUSED = "vertices-unused", Note,
+            "A vertex is a corner of no triangle.",
+            "It is not seen, but counts for the model's size and is moved with the others. It can be left out.";
+        EDGES_CROWDED = "edges-crowded", Note,
+            "An edge belongs to more than two triangles.",
+            "Perhaps a surface lies inside another one. They share normals at that edge, which fit no more than one of them.";
+        TEX_COORDS_EQUAL = "tex-coords-equal", Warning,
+            "All texture coordinates of a subset are equal, so its maps show one point.",
+            "Perhaps the file was exported without them. One point is enough only where the map is a palette of colours.";
+        TANGENT_SIGN_AGAINST_UV = "tangent-sign-against-uv", Warning,
+            "A tangent has a sign that contradicts the texture coordinates.",
+            "Bumps of the normal map look like dents there. The sign is −1 or 1 so that sign · cross(normal, tangent) points along v.";
+        BONES_IDLE = "bones-idle", Note,
+            "A bone moves no vertex, nor does a bone below.",
+            "Often it marks the end of a limb or a place for props. Where it should move something, its weights are missing.";
+        KEYS_ALL_EQUAL = "keys-all-equal", Note,
+            "A good part of a clip's keys are equal keys of bones that keep still.",
+            "One key of each such bone shows the same, in a smaller file.";
+        LOOP_JUMPS = "loop-jumps", Note,
+            "A clip ends near its first pose, but not near enough to loop without a jump.",
+            "Give the last keys the values of the first. The timeline shows the gap bone by bone.";
+        SCALE_SHEARS = "scale-shears", Note,
+            "A clip turns a bone while one above it is scaled by different factors, which shears it.",
+            "It is shown as the books' demos do. Programs that keep scale and rotation apart show it otherwise.";
+    }
+
     /// What the checks of a model in motion give.
     OF_MOTION {
         EXPLODED = "exploded", Warning,

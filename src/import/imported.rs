@@ -1,7 +1,7 @@
 //! What comes out of a file of any format.
 
 use crate::diagnostic::Diagnostic;
-use crate::format::Dialect;
+use crate::format::{Dialect, LineMap};
 use crate::model::Model;
 
 /// Why a file makes no model.
@@ -22,6 +22,6 @@ pub struct Imported {
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
-    /// Line of each clip in the file; empty for a format without lines.
-    pub clip_lines: Vec<u32>,
+    /// Where its parts stand in the file; empty for a format without lines.
+    pub lines: LineMap,
 }

@@ -122,10 +122,10 @@ impl OpenModel {
             dialect,
             model,
             mut diagnostics,
-            clip_lines,
+            lines,
         } = imported;
         let compiled = CompiledClip::all(&model.clips);
-        diagnostics.extend(check::motion(&model, &compiled, &clip_lines));
+        diagnostics.extend(check::model(&model, &compiled, &lines));
         diagnostics.sort_by_key(|diagnostic| diagnostic.position);
         Self {
             file: file.clone(),

@@ -60,9 +60,9 @@ fn assert_close(bounds: &Value, expected: [[f64; 3]; 2]) {
     }
 }
 
-/// Findings about the whole file come first, then those with a place.
+/// Of the parser, the model and its checks. Findings about the whole file come first, then those with a place.
 #[test]
-fn notices_come_from_both_stages_in_the_order_of_the_file() {
+fn notices_come_from_all_stages_in_the_order_of_the_file() {
     let found = run(["info", "--json", &fixture("good/subset_typos.m3d")]).json();
     let expected = json!([
         {
@@ -100,6 +100,18 @@ fn notices_come_from_both_stages_in_the_order_of_the_file() {
             "subject": null,
             "count": 1,
             "places": [{"line": 30, "column": 29}],
+        },
+        {
+            "severity": "note",
+            "code": "triangles-repeated",
+            "message": "1 triangle has the same three vertices as another one before.",
+            "line": 51,
+            "column": 1,
+            "expected": null,
+            "found": null,
+            "subject": {"kind": "triangle", "index": 1},
+            "count": 1,
+            "places": [{"line": 51, "column": 1}],
         },
     ]);
     assert_eq!(found["notices"], expected);

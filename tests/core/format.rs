@@ -18,7 +18,7 @@ use bindpose::diagnostic::Diagnostic;
 /// A fixture, by its folder (`good` or `bad`) and its name without the extension.
 pub(crate) struct Fixture {
     pub(crate) name: String,
-    path: PathBuf,
+    pub(crate) path: PathBuf,
     pub(crate) bytes: Vec<u8>,
 }
 
@@ -54,7 +54,7 @@ fn real_file(path: &str) -> Option<Vec<u8>> {
 }
 
 /// `severity[code] line:column: message`
-fn one_line(diagnostic: &Diagnostic) -> String {
+pub(crate) fn one_line(diagnostic: &Diagnostic) -> String {
     let place = diagnostic
         .position
         .map_or_else(String::new, |place| format!("{}:{}: ", place.line, place.column));

@@ -3,6 +3,7 @@
 mod anim;
 mod book;
 mod chains;
+mod check;
 mod codes;
 mod documents;
 mod format;

@@ -30,7 +30,7 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
         dialect: parsed.document.dialect,
         model,
         diagnostics,
-        clip_lines: parsed.lines.clip_lines(),
+        lines: parsed.lines,
     })
 }
 

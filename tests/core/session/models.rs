@@ -32,10 +32,11 @@ pub(crate) fn still(path: &str) -> File {
     file(path, &document())
 }
 
-/// A file that ends in the middle of its vertices.
+/// A file that ends in the middle of its vertices, in the word `Normal` of its tenth vertex.
 pub(crate) fn broken(path: &str) -> File {
     let text = format::write(&document());
-    File::new(path, text.as_bytes()[..text.len() / 2].to_vec())
+    let (start, _) = text.match_indices("Normal: ").nth(9).expect("ten vertices");
+    File::new(path, text.as_bytes()[..start + "Norm".len()].to_vec())
 }
 
 /// Writes a document.
@@ -93,7 +94,7 @@ pub(crate) fn document() -> Document {
             let unit = normal * sign + u * along_u + v * along_v;
             vertices.push(Vertex {
                 position: ((min + max) * 0.5 + (max - min) * 0.5 * unit).to_array(),
-                tangent: u.extend(1.0).to_array(),
+                tangent: u.extend(sign).to_array(),
                 normal: (normal * sign).to_array(),
                 tex_coords: [along_u * 0.5 + 0.5, along_v * 0.5 + 0.5],
                 ..Vertex::default()

@@ -1,0 +1,156 @@
+//! Triangles and vertices that add nothing to the picture, or harm it.
+
+use glam::DVec3;
+
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::{Subject, codes};
+use crate::format::LineMap;
+use crate::model::{Aabb, Mesh};
+
+/// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
+/// `f32`, so a lesser height is a rounding error.
+const LEAST_HEIGHT: f64 = 1e-6;
+
+/// Notes triangles without area, and vertices that no triangle uses.
+pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
+    let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
+    let mut used = vec![false; mesh.vertex_count()];
+    let (mut flat, mut unused) = (Tally::default(), Tally::default());
+    for (triangle, corners) in triangles(mesh) {
+        for vertex in corners {
+            used[vertex as usize] = true;
+        }
+        if is_flat(
+            corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3()),
+            least_height,
+        ) {
+            flat.add(triangle);
+        }
+    }
+    for (vertex, _) in (0u32..).zip(used).filter(|(_, used)| !used) {
+        unused.add(vertex);
+    }
+    if flat.count > 0 {
+        diagnostics.add(
+            &codes::TRIANGLES_WITHOUT_AREA,
+            Place::of_rows(&flat, Subject::Triangle, &lines.triangles),
+            format!(
+                "{} no area: corners coincide or lie in a line.",
+                counted(flat.count, "triangle has", "triangles have")
+            ),
+        );
+    }
+    if unused.count > 0 {
+        diagnostics.add(
+            &codes::VERTICES_UNUSED,
+            Place::of_rows(&unused, Subject::Vertex, &lines.vertices),
+            format!(
+                "{} of no triangle.",
+                counted(unused.count, "vertex is a corner", "vertices are corners")
+            ),
+        );
+    }
+}
+
+/// Number and corners of each triangle.
+fn triangles(mesh: &Mesh) -> impl Iterator<Item = (u32, [u32; 3])> {
+    let (corners, _) = mesh.indices.as_chunks::<3>();
+    (0u32..).zip(corners.iter().copied())
+}
+
+/// Length of a box's diagonal; 0 for an empty one.
+fn diagonal(bounds: &Aabb) -> f64 {
+    if bounds.is_empty() {
+        return 0.0;
+    }
+    bounds.min.as_dvec3().distance(bounds.max.as_dvec3())
+}
+
+/// Whether the height above the longest side is no more than `least_height`.
+fn is_flat([a, b, c]: [DVec3; 3], least_height: f64) -> bool {
+    let sides = [b - a, c - b, a - c].map(DVec3::length_squared);
+    let longest_squared = sides.into_iter().fold(0.0, f64::max);
+    // Twice the area is side times height.
+    (b - a).cross(c - a).length_squared() <= least_height * least_height * longest_squared
+}
+
+/// Notes triangles of the same three vertices, and edges of more than two triangles. Both come from sorted lists, so a vertex or an
+/// edge with any number of triangles costs no more than others. Vertices count as the same by their number, not by their place: a mesh
+/// may well be sewn together of sheets that touch.
+pub(super) fn note_repeated(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let mut by_corners: Vec<([u32; 3], u32)> = triangles(mesh)
+        .map(|(triangle, mut corners)| {
+            corners.sort_unstable();
+            (corners, triangle)
+        })
+        // One with equal corners is no triangle; it is told of elsewhere.
+        .filter(|([a, b, c], _)| a != b && b != c)
+        .collect();
+    // As one number each they are sorted faster.
+    by_corners.sort_unstable_by_key(|&([a, b, c], triangle)| {
+        [a, b, c, triangle]
+            .into_iter()
+            .fold(0_u128, |number, part| number << 32 | u128::from(part))
+    });
+    let pairs = by_corners.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+    let mut repeated: Vec<u32> = pairs.map(|pair| pair[1].1).collect();
+    if !repeated.is_empty() {
+        repeated.sort_unstable();
+        let mut tally = Tally::default();
+        repeated.into_iter().for_each(|triangle| tally.add(triangle));
+        diagnostics.add(
+            &codes::TRIANGLES_REPEATED,
+            Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
+            format!(
+                "{} the same three vertices as another one before.",
+                counted(tally.count, "triangle has", "triangles have")
+            ),
+        );
+        by_corners.dedup_by_key(|(corners, _)| *corners);
+    }
+    note_crowded_edges(by_corners, lines, diagnostics);
+}
+
+/// Takes different triangles with their corners in order.
+fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let mut edges: Vec<u64> = triangles.iter().flat_map(|(corners, _)| edges_of(*corners)).collect();
+    edges.sort_unstable();
+    let mut crowded: Vec<u64> = edges
+        .windows(3)
+        .filter(|three| three[0] == three[2])
+        .map(|three| three[0])
+        .collect();
+    crowded.dedup();
+    if crowded.is_empty() {
+        return;
+    }
+    // The place of each edge is the first triangle too many.
+    let mut met = vec![0_u32; crowded.len()];
+    let mut third = Tally::default();
+    triangles.sort_unstable_by_key(|(_, triangle)| *triangle);
+    for (corners, triangle) in triangles {
+        for edge in edges_of(corners)
+            .iter()
+            .filter_map(|edge| crowded.binary_search(edge).ok())
+        {
+            met[edge] += 1;
+            if met[edge] == 3 {
+                third.add(triangle);
+            }
+        }
+    }
+    diagnostics.add(
+        &codes::EDGES_CROWDED,
+        Place::of_rows(&third, Subject::Triangle, &lines.triangles),
+        format!(
+            "{} to more than two triangles.",
+            counted(third.count, "edge belongs", "edges belong")
+        ),
+    );
+}
+
+/// The edges of corners in order, each as one number that has both ends.
+fn edges_of([a, b, c]: [u32; 3]) -> [u64; 3] {
+    [[a, b], [b, c], [a, c]].map(|[from, to]| u64::from(from) << 32 | u64::from(to))
+}
