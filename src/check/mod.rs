@@ -4,6 +4,7 @@
 pub mod book;
 mod exploded;
 mod overflow;
+pub mod report;
 pub mod sarif;
 
 use crate::anim::CompiledClip;

@@ -40,6 +40,7 @@ mod submeshes;
 pub mod summary;
 mod textures;
 mod undoing;
+mod verdicts;
 mod view;
 mod view_state;
 
@@ -76,6 +77,7 @@ use content::Content;
 use overlays::OverlayCache;
 use picking::Picker;
 use skeleton_cache::SkeletonCache;
+use verdicts::Verdicts;
 use view::View;
 
 use std::sync::Arc;
@@ -124,6 +126,7 @@ struct Caches {
     picker: Picker,
     skeleton: SkeletonCache,
     overlays: OverlayCache,
+    verdicts: Verdicts,
 }
 
 impl Session {

@@ -41,6 +41,7 @@ impl Session {
             picker,
             skeleton,
             overlays,
+            verdicts: _,
         } = &mut self.caches;
         let model = open.map(|open| &open.model);
         overlays.update_colors(colors_key, model, picker.positions(), skeleton);

@@ -8,7 +8,7 @@ use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
 use crate::scene::{Detail, Overlay, Pass, Projection};
-use crate::session::summary::{self, Finding};
+use crate::session::summary::{self, Books, Finding};
 use crate::session::{Checklist, Event, LoadError, Session};
 
 /// `bindpose.state()`.
@@ -32,6 +32,7 @@ pub(super) struct State<'a> {
     redo: Option<&'a str>,
     frames_rendered: u64,
     notices: Vec<Finding<'a>>,
+    book: Option<Books<'a>>,
     error: Option<FileError<'a>>,
 }
 
@@ -167,6 +168,7 @@ impl<'a> State<'a> {
             redo: session.history().redo_label(),
             frames_rendered,
             notices: session.diagnostics().map(Finding::from).collect(),
+            book: session.open_model().map(|_| Books::of(session.verdicts())),
             error: session.error().map(FileError::from),
         }
     }
