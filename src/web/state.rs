@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use js_sys::{Array, Object, Reflect};
+use js_sys::{Array, JSON, Object, Reflect};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
@@ -289,6 +289,13 @@ pub(super) fn to_js(value: &impl Serialize) -> JsValue {
     let value = value.serialize(&Serializer::json_compatible());
     // All of our values can be written.
     value.map_or(JsValue::NULL, with_camel_case_keys)
+}
+
+/// JSON with the keys as they are, with a new line for each.
+pub(super) fn json(value: &impl Serialize) -> Option<String> {
+    let value = value.serialize(&Serializer::json_compatible()).ok()?;
+    let text = JSON::stringify_with_replacer_and_space(&value, &JsValue::NULL, &2.into()).ok()?;
+    text.as_string()
 }
 
 fn with_camel_case_keys(value: JsValue) -> JsValue {
