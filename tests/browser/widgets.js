@@ -12,7 +12,7 @@ export const LIGHT_POPOVER = {
 };
 
 /** Subsets in the panel on the left: the eye of the orange parts. */
-export const TRIM_EYE = [238, 433];
+export const TRIM_EYE = [238, 517];
 
 /** The name of the file, where there are several models; the last of three in its menu. */
 export const FILE_MENU = [140, 30];
