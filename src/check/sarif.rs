@@ -57,7 +57,7 @@ impl Results {
 }
 
 /// The document of some files. Its rules are the codes that occur.
-pub fn log(files: impl IntoIterator<Item = Results>) -> impl Serialize {
+pub fn log(files: impl IntoIterator<Item = Results>) -> Log {
     let mut rules = Vec::new();
     let mut places = HashMap::new();
     let mut results: Vec<Result> = files.into_iter().flat_map(|file| file.all).collect();
@@ -84,15 +84,16 @@ pub fn log(files: impl IntoIterator<Item = Results>) -> impl Serialize {
     }
 }
 
-#[derive(Serialize)]
-struct Log {
+/// What serde writes as a SARIF document.
+#[derive(Debug, Serialize)]
+pub struct Log {
     #[serde(rename = "$schema")]
     schema: &'static str,
     version: &'static str,
     runs: [Run; 1],
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Run {
     tool: Tool,
@@ -100,12 +101,12 @@ struct Run {
     results: Vec<Result>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct Tool {
     driver: Driver,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Driver {
     name: &'static str,
@@ -113,7 +114,7 @@ struct Driver {
     rules: Vec<Rule>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Rule {
     id: &'static str,
@@ -122,7 +123,7 @@ struct Rule {
     default_configuration: Configuration,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct Configuration {
     level: &'static str,
 }

@@ -46,7 +46,7 @@ impl Session {
                 self.content.changes.materials |= self.content.materials.apply(command, of_file);
             }
             Command::Quality(command) => self.quality.apply(command),
-            Command::Crowd(command) => self.apply_to_crowd(command),
+            Command::Crowd(command) => self.crowd.apply(command),
             Command::History(command) => self.apply_to_history(command),
             Command::SetHandedness(handedness) => {
                 self.view.handedness = handedness;
@@ -114,7 +114,7 @@ impl Session {
     pub(super) fn commit(&mut self, changes: Changes) {
         self.revisions.count(changes);
         if changes.model || changes.maps {
-            self.forget_verdicts();
+            self.caches.verdicts.forget();
         }
     }
 

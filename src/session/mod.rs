@@ -30,6 +30,7 @@ mod pacing;
 mod picking;
 mod playing;
 mod quality;
+mod reporting;
 mod restoring;
 mod selecting;
 mod showing;
@@ -249,6 +250,11 @@ impl Session {
 
     fn is_in_motion(&self) -> bool {
         self.is_moving() || self.view.motion.is_held() || self.is_scrubbing()
+    }
+
+    /// How many instances of the model there are, and which is selected.
+    pub fn crowd(&self) -> CrowdState {
+        self.crowd
     }
 
     /// How the model is looked at.

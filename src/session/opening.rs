@@ -173,7 +173,7 @@ impl Session {
                     self.content.changes.maps = true;
                 }
                 // The first picture makes the others missing, even one that fits none.
-                self.forget_verdicts();
+                self.caches.verdicts.forget();
                 self.content.error = None;
             }
             None if has_maps => self.fail(LoadError::no_model(files)),

@@ -4,7 +4,7 @@ use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::filter::color;
-use super::row::{explanation, tell_fold};
+use super::row::{INDENT, explanation, tell_fold};
 use super::state::{BookLines, FindingsState};
 use crate::check::book::{Limit, Verdict};
 use crate::diagnostic::{Severity, codes};
@@ -13,9 +13,6 @@ use crate::ui::error_card::show_excerpt;
 use crate::ui::state::UiState;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{hint_beside, paint_elided, paint_fold_mark, pressed_row};
-
-/// Where the words of a line begin, behind its dot.
-pub(super) const INDENT: f32 = 16.0;
 
 /// What a book's program does with a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,7 +18,7 @@ use super::widgets::{RowList, TextButton, closable_heading, control_size, is_tou
 use super::wording::{counted, counted_vertices};
 use crate::diagnostic::Diagnostic;
 use crate::session::{Command, OpenModel, Session};
-use row::FindingRow;
+use row::{FindingRow, row_height};
 
 /// Gap between the parts of the panel.
 const GAP: f32 = 8.0;
@@ -97,7 +97,8 @@ fn rows(
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
-    let heights = state.findings.heights.take_of(ui, session, open, listed);
+    let height_of = |diagnostic: &Diagnostic| row_height(ui, session, open, diagnostic);
+    let heights = state.findings.heights.take_of(ui, listed, height_of);
     let seen = ui.clip_rect().y_range();
     RowList::show(ui, "Findings", |ui, list| {
         let (mut y, mut skipped) = (ui.cursor().min.y, 0.0);

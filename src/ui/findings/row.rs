@@ -4,7 +4,6 @@ use egui::accesskit::Action;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
-use super::books::INDENT;
 use super::filter::color;
 use super::goal::Goal;
 use super::state::ShownDiagnostic;
@@ -16,6 +15,8 @@ use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{RowList, paint_elided, paint_row_ground, pressed_row};
 use crate::ui::wording::grouped;
 
+/// Where the words of a line begin, behind its dot.
+pub(super) const INDENT: f32 = 16.0;
 /// Room above and below the words.
 const AROUND: f32 = 12.0;
 

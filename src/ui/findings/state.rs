@@ -5,11 +5,10 @@ use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use egui::Ui;
 
 use super::filter::Filter;
-use super::row::row_height;
 use crate::check::book::Verdict;
 use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
-use crate::session::{OpenModel, Session};
+use crate::session::OpenModel;
 
 /// Of one model.
 #[derive(Debug, Default)]
@@ -70,7 +69,12 @@ pub(super) struct Heights {
 
 impl Heights {
     /// The heights of the rows of these diagnostics in the width that is available; [`Heights::put_back`] keeps them.
-    pub(super) fn take_of(&mut self, ui: &Ui, session: &Session, open: &OpenModel, listed: &[&Diagnostic]) -> Vec<f32> {
+    pub(super) fn take_of(
+        &mut self,
+        ui: &Ui,
+        listed: &[&Diagnostic],
+        height_of: impl Fn(&Diagnostic) -> f32,
+    ) -> Vec<f32> {
         let mut hasher = DefaultHasher::new();
         ui.available_width().to_bits().hash(&mut hasher);
         for diagnostic in listed {
@@ -79,8 +83,7 @@ impl Heights {
         let of = hasher.finish();
         if self.of != of || self.all.len() != listed.len() {
             self.of = of;
-            let height = |diagnostic: &&Diagnostic| row_height(ui, session, open, diagnostic);
-            self.all = listed.iter().map(height).collect();
+            self.all = listed.iter().map(|diagnostic| height_of(diagnostic)).collect();
         }
         std::mem::take(&mut self.all)
     }
