@@ -46,7 +46,7 @@ impl Session {
                 self.content.changes.materials |= self.content.materials.apply(command, of_file);
             }
             Command::Quality(command) => self.quality.apply(command),
-            Command::Crowd(command) => self.crowd.apply(command),
+            Command::Crowd(command) => self.apply_to_crowd(command),
             Command::History(command) => self.apply_to_history(command),
             Command::SetHandedness(handedness) => {
                 self.view.handedness = handedness;

@@ -1,5 +1,7 @@
 //! Several instances of the open model, each with a clip and a time of its own.
 
+use super::Session;
+
 /// The most instances in a crowd.
 pub const MAX_CROWD: usize = 1_000;
 
@@ -39,14 +41,19 @@ impl Default for CrowdState {
     }
 }
 
-impl CrowdState {
-    pub(super) fn apply(&mut self, command: CrowdCommand) {
+impl Session {
+    /// How many instances of the model there are, and which is selected.
+    pub fn crowd(&self) -> CrowdState {
+        self.crowd
+    }
+
+    pub(super) fn apply_to_crowd(&mut self, command: CrowdCommand) {
         match command {
             CrowdCommand::Set { count, seed } => {
-                (self.count, self.seed) = (count.clamp(1, MAX_CROWD), seed);
-                self.selected = self.selected.min(self.count - 1);
+                (self.crowd.count, self.crowd.seed) = (count.clamp(1, MAX_CROWD), seed);
+                self.crowd.selected = self.crowd.selected.min(self.crowd.count - 1);
             }
-            CrowdCommand::Select(instance) if instance < self.count => self.selected = instance,
+            CrowdCommand::Select(instance) if instance < self.crowd.count => self.crowd.selected = instance,
             CrowdCommand::Select(_) => {}
         }
     }

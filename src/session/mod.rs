@@ -252,11 +252,6 @@ impl Session {
         self.is_moving() || self.view.motion.is_held() || self.is_scrubbing()
     }
 
-    /// How many instances of the model there are, and which is selected.
-    pub fn crowd(&self) -> CrowdState {
-        self.crowd
-    }
-
     /// How the model is looked at.
     pub fn look(&self) -> &Look {
         &self.view.look
