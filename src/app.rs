@@ -161,6 +161,11 @@ impl App {
         self.state.messages.say_saved(name, size);
     }
 
+    /// Says that a report was saved under this name.
+    pub fn report_was_saved(&mut self, name: &str) {
+        self.state.messages.say(format!("Saved {name}"));
+    }
+
     /// How many pictures of the model were drawn: stands still while nothing changes.
     pub fn frames_rendered(&self) -> u64 {
         self.painter.frames_rendered

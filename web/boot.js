@@ -284,6 +284,7 @@ function onEvent(type, detail) {
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
   if (type === "picture") return void savePicture(detail);
+  if (type === "report") return saveFile(detail.name, detail.text, "application/sarif+json");
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
     clearNotice();
@@ -362,9 +363,9 @@ async function savePicture({ name, bytes, choosesPlace }) {
   }
 }
 
-/** Saves bytes as a file of this name, as a download. */
-function saveFile(name, bytes, type) {
-  const address = URL.createObjectURL(new Blob([bytes], { type }));
+/** Saves bytes or text as a file of this name, as a download. */
+function saveFile(name, contents, type) {
+  const address = URL.createObjectURL(new Blob([contents], { type }));
   const link = document.createElement("a");
   link.href = address;
   link.download = name;

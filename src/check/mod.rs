@@ -6,6 +6,7 @@ mod exploded;
 mod keys;
 mod mesh;
 mod overflow;
+pub mod report;
 mod rig;
 pub mod sarif;
 mod texture;

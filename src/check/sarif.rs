@@ -4,19 +4,10 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 
+use super::book::Verdict;
+use super::report::CheckedFile;
 use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
 use crate::format::LineIndex;
-
-/// A file and what was found in it.
-#[derive(Clone, Copy, Debug)]
-pub struct CheckedFile<'a> {
-    /// Path or name, as the person gave it.
-    pub path: &'a str,
-    /// What it holds.
-    pub bytes: &'a [u8],
-    /// What was found.
-    pub diagnostics: &'a [Diagnostic],
-}
 
 /// The results of one file. They need nothing of its bytes any more.
 #[derive(Clone, Debug)]
@@ -25,10 +16,12 @@ pub struct Results {
 }
 
 impl Results {
-    /// Brings findings into SARIF's form: columns count UTF-16 code units.
+    /// Brings findings into SARIF's form, those of books among them: columns count UTF-16 code units.
     pub fn of(file: &CheckedFile<'_>) -> Self {
         let lines = LineIndex::new(file.bytes);
         let uri = uri(file.path);
+        let of_books: Vec<_> = file.verdicts.iter().flat_map(Verdict::diagnostics).collect();
+        let all = file.diagnostics.iter().chain(&of_books);
         let result = |diagnostic: &Diagnostic| Result {
             rule_id: diagnostic.code,
             rule_index: 0,
@@ -58,13 +51,13 @@ impl Results {
             occurrence_count: diagnostic.count,
         };
         Self {
-            all: file.diagnostics.iter().map(result).collect(),
+            all: all.map(result).collect(),
         }
     }
 }
 
 /// The document of some files. Its rules are the codes that occur.
-pub fn log(files: impl IntoIterator<Item = Results>) -> impl Serialize {
+pub fn log(files: impl IntoIterator<Item = Results>) -> Log {
     let mut rules = Vec::new();
     let mut places = HashMap::new();
     let mut results: Vec<Result> = files.into_iter().flat_map(|file| file.all).collect();
@@ -91,15 +84,16 @@ pub fn log(files: impl IntoIterator<Item = Results>) -> impl Serialize {
     }
 }
 
-#[derive(Serialize)]
-struct Log {
+/// What serde writes as a SARIF document.
+#[derive(Debug, Serialize)]
+pub struct Log {
     #[serde(rename = "$schema")]
     schema: &'static str,
     version: &'static str,
     runs: [Run; 1],
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Run {
     tool: Tool,
@@ -107,12 +101,12 @@ struct Run {
     results: Vec<Result>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct Tool {
     driver: Driver,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Driver {
     name: &'static str,
@@ -120,7 +114,7 @@ struct Driver {
     rules: Vec<Rule>,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Rule {
     id: &'static str,
@@ -129,7 +123,7 @@ struct Rule {
     default_configuration: Configuration,
 }
 
-#[derive(Serialize)]
+#[derive(Debug, Serialize)]
 struct Configuration {
     level: &'static str,
 }

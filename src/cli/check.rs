@@ -4,24 +4,24 @@ use std::collections::BTreeMap;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use anstyle::Style;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::diagnostic::{Colors, write_in_colors};
+use super::diagnostic::Colors;
 use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
 use super::paths;
-use super::text::{OneLine, counted};
+use super::text::counted;
 use super::textures::{MapState, Textures, Wanted, missing, without_name};
 use crate::anim::CompiledClip;
 use crate::check::book::{self, Book, Known, Verdict};
+use crate::check::report::{self, CheckedFile};
 use crate::check::{self, sarif};
 use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
-use crate::format::{self, LineIndex};
+use crate::format;
 use crate::import::{self, Imported};
-use crate::session::summary::Finding;
+use crate::session::summary::{self, Finding};
 use crate::session::{File, Maps};
 
 /// List what is wrong with files, or was mended while reading them.
@@ -44,7 +44,7 @@ pub(super) struct Arguments {
     deny: Vec<Deny>,
     /// Whether the programs of Frank Luna's books read the files, and what they show.
     #[arg(long, value_name = "BOOK")]
-    book: Option<Books>,
+    book: Option<WhichBooks>,
     /// Look for maps in this folder and in those in it; may be given more than once.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
@@ -72,7 +72,7 @@ enum Deny {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Books {
+enum WhichBooks {
     D3d11,
     D3d12,
     All,
@@ -249,16 +249,16 @@ fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>) -> Vec<Diagn
 }
 
 fn verdicts(
-    books: Option<Books>,
+    books: Option<WhichBooks>,
     bytes: &[u8],
     imported: Option<&Imported>,
     missing_maps: Option<&[String]>,
 ) -> Vec<Verdict> {
     let books: &[Book] = match books {
         None => return Vec::new(),
-        Some(Books::D3d11) => &[Book::D3d11],
-        Some(Books::D3d12) => &[Book::D3d12],
-        Some(Books::All) => &Book::ALL,
+        Some(WhichBooks::D3d11) => &[Book::D3d11],
+        Some(WhichBooks::D3d12) => &[Book::D3d12],
+        Some(WhichBooks::All) => &Book::ALL,
     };
     let parsed = imported.and_then(|_| format::parse(bytes).ok());
     let known = Known {
@@ -329,7 +329,7 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
 struct Report<'a> {
     file: String,
     findings: Vec<Explained<'a>>,
-    book: Option<BooksReport<'a>>,
+    book: Option<summary::Books<'a>>,
 }
 
 /// A finding and what its code means.
@@ -349,50 +349,6 @@ impl<'a> From<&'a Diagnostic> for Explained<'a> {
     }
 }
 
-#[derive(Serialize)]
-struct BooksReport<'a> {
-    d3d11: Option<VerdictReport<'a>>,
-    d3d12: Option<VerdictReport<'a>>,
-}
-
-#[derive(Serialize)]
-struct VerdictReport<'a> {
-    reads: bool,
-    line: Option<u32>,
-    column: Option<u32>,
-    why: Option<&'a str>,
-    shows: &'a str,
-    ends: bool,
-    limits: Vec<LimitReport<'a>>,
-}
-
-#[derive(Serialize)]
-struct LimitReport<'a> {
-    code: &'static str,
-    message: &'a str,
-}
-
-impl<'a> From<&'a Verdict> for VerdictReport<'a> {
-    fn from(verdict: &'a Verdict) -> Self {
-        Self {
-            reads: verdict.reads(),
-            line: verdict.position().map(|at| at.line),
-            column: verdict.position().map(|at| at.column),
-            why: verdict.trouble.as_ref().map(|trouble| trouble.why.as_str()),
-            shows: &verdict.shows,
-            ends: verdict.ends,
-            limits: verdict
-                .limits
-                .iter()
-                .map(|limit| LimitReport {
-                    code: limit.code,
-                    message: &limit.message,
-                })
-                .collect(),
-        }
-    }
-}
-
 impl Checked {
     fn outcome(&self, deny: &[Deny]) -> Outcome {
         let worst = self.diagnostics.iter().map(|diagnostic| diagnostic.severity).max();
@@ -408,65 +364,31 @@ impl Checked {
     }
 
     fn write(&self, out: &mut dyn Write, colors: Colors) -> io::Result<()> {
-        if self.diagnostics.is_empty() && self.verdicts.is_empty() {
-            return Ok(());
-        }
-        let lines = LineIndex::new(&self.bytes);
-        for diagnostic in &self.diagnostics {
-            let excerpt = diagnostic
-                .position
-                .map(|position| lines.excerpt(position, diagnostic.length));
-            write_in_colors(out, colors, &self.path, diagnostic, excerpt.as_ref())?;
-        }
-        let path = OneLine(&self.path.display().to_string()).to_string();
-        for verdict in &self.verdicts {
-            let book = verdict.book.label();
-            if let Some(trouble) = &verdict.trouble {
-                let at = trouble.position;
-                let place = colors.paint(Style::new().bold(), &format!("{path}:{}:{}", at.line, at.column));
-                let word = colors.paint(Colors::of(Severity::Warning), book);
-                writeln!(out, "{place}: {word}: {}", OneLine(&trouble.why))?;
-                write!(out, "{}", lines.excerpt(at, trouble.length))?;
-                writeln!(out, "   = one sees: {}", verdict.shows)?;
-            } else {
-                let place = colors.paint(Style::new().bold(), &path);
-                let word = colors.paint(Colors::of(Severity::Note), book);
-                writeln!(
-                    out,
-                    "{place}: {word}: It reads the file. One sees: {}",
-                    OneLine(&verdict.shows)
-                )?;
-            }
-            for limit in &verdict.limits {
-                writeln!(out, "   = {}: {}", limit.code, OneLine(&limit.message))?;
-            }
-        }
-        Ok(())
+        let text = report::text(&self.file(&self.path.to_string_lossy()), &|ink, text| {
+            colors.paint(ink, text)
+        });
+        out.write_all(text.as_bytes())
     }
 
-    fn report(&self, books: Option<Books>) -> Report<'_> {
-        let of = |book: Book| {
-            let verdict = self.verdicts.iter().find(|verdict| verdict.book == book);
-            verdict.map(VerdictReport::from)
-        };
+    fn file<'a>(&'a self, path: &'a str) -> CheckedFile<'a> {
+        CheckedFile {
+            path,
+            bytes: &self.bytes,
+            diagnostics: &self.diagnostics,
+            verdicts: &self.verdicts,
+        }
+    }
+
+    fn report(&self, books: Option<WhichBooks>) -> Report<'_> {
         Report {
             file: self.path.display().to_string(),
             findings: self.diagnostics.iter().map(Explained::from).collect(),
-            book: books.map(|_| BooksReport {
-                d3d11: of(Book::D3d11),
-                d3d12: of(Book::D3d12),
-            }),
+            book: books.map(|_| summary::Books::of(&self.verdicts)),
         }
     }
 
     fn sarif_results(&self) -> sarif::Results {
-        let of_books = self.verdicts.iter().flat_map(Verdict::diagnostics);
-        let diagnostics: Vec<_> = self.diagnostics.iter().cloned().chain(of_books).collect();
-        sarif::Results::of(&sarif::CheckedFile {
-            path: &self.path.to_string_lossy(),
-            bytes: &self.bytes,
-            diagnostics: &diagnostics,
-        })
+        sarif::Results::of(&self.file(&self.path.to_string_lossy()))
     }
 }
 

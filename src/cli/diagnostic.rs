@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anstyle::{AnsiColor, Style};
 
-use super::text::OneLine;
+use crate::check::report::{self, Ink};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::format::Excerpt;
 
@@ -14,23 +14,19 @@ use crate::format::Excerpt;
 pub(super) struct Colors(pub(super) bool);
 
 impl Colors {
-    /// The text in a style.
-    pub(super) fn paint(self, style: Style, text: &str) -> String {
-        if self.0 {
-            format!("{}{text}{}", style.render(), style.render_reset())
-        } else {
-            text.to_owned()
+    /// A part of a line in its colour.
+    pub(super) fn paint(self, ink: Ink, text: &str) -> String {
+        if !self.0 {
+            return text.to_owned();
         }
-    }
-
-    /// The style of a severity's word.
-    pub(super) fn of(severity: Severity) -> Style {
-        let color = match severity {
-            Severity::Error => AnsiColor::Red,
-            Severity::Warning => AnsiColor::Yellow,
-            Severity::Note => AnsiColor::Cyan,
+        let style = match ink {
+            Ink::Place => Style::new(),
+            Ink::Severity(Severity::Error) => AnsiColor::Red.on_default(),
+            Ink::Severity(Severity::Warning) => AnsiColor::Yellow.on_default(),
+            Ink::Severity(Severity::Note) => AnsiColor::Cyan.on_default(),
         };
-        color.on_default().bold()
+        let style = style.bold();
+        format!("{}{text}{}", style.render(), style.render_reset())
     }
 }
 
@@ -41,45 +37,8 @@ pub(super) fn write_diagnostic(
     diagnostic: &Diagnostic,
     excerpt: Option<&Excerpt>,
 ) -> io::Result<()> {
-    write_in_colors(out, Colors(false), path, diagnostic, excerpt)
-}
-
-/// The same in colours.
-pub(super) fn write_in_colors(
-    out: &mut dyn Write,
-    colors: Colors,
-    path: &Path,
-    diagnostic: &Diagnostic,
-    excerpt: Option<&Excerpt>,
-) -> io::Result<()> {
-    let place = diagnostic.position.map_or_else(
-        || path.display().to_string(),
-        |at| format!("{}:{}:{}", path.display(), at.line, at.column),
-    );
-    let place = colors.paint(Style::new().bold(), &OneLine(&place).to_string());
-    let severity = format!("{}[{}]", diagnostic.severity, diagnostic.code);
-    let severity = colors.paint(Colors::of(diagnostic.severity), &severity);
-    writeln!(out, "{place}: {severity}: {}", OneLine(&diagnostic.message))?;
-    if let Some(excerpt) = excerpt {
-        write!(out, "{excerpt}")?;
-    }
-    match also_on(diagnostic) {
-        Some(lines) => writeln!(out, "   = also on {lines}"),
-        None => Ok(()),
-    }
-}
-
-/// The other lines of a diagnostic: `line 12`, `lines 12, 16, 20, …`.
-fn also_on(diagnostic: &Diagnostic) -> Option<String> {
-    let mut lines: Vec<u32> = diagnostic.few_places().iter().map(|place| place.line).collect();
-    lines.dedup();
-    let others: Vec<String> = lines.iter().skip(1).map(u32::to_string).collect();
-    let more = diagnostic.count as usize > diagnostic.few_places().len();
-    match (others.as_slice(), more) {
-        ([], _) => None,
-        ([line], false) => Some(format!("line {line}")),
-        _ => Some(format!("lines {}{}", others.join(", "), if more { ", …" } else { "" })),
-    }
+    let text = report::finding(&path.to_string_lossy(), diagnostic, excerpt, &report::plain);
+    out.write_all(text.as_bytes())
 }
 
 /// `line:column: severity[code]: message`; without the numbers when there is no place.

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::diagnostic::write_diagnostic;
-use super::text::{OneLine, Plain};
+use super::text::Plain;
+use crate::check::report::OneLine;
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
 use crate::render::{GpuError, PictureError, UploadError};

@@ -20,23 +20,6 @@ impl fmt::Display for Plain<'_> {
     }
 }
 
-/// Text from outside on one line: characters that end the line or control the terminal are written as escapes, such as
-/// `\n`.
-pub(super) struct OneLine<'a>(pub(super) &'a str);
-
-impl fmt::Display for OneLine<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        use fmt::Write as _;
-        self.0.chars().try_for_each(|character| {
-            if is_printable(character) {
-                f.write_char(character)
-            } else {
-                write!(f, "{}", character.escape_default())
-            }
-        })
-    }
-}
-
 /// A count with its thousands apart: `13,748`.
 pub(super) fn grouped(count: usize) -> String {
     let digits = count.to_string();
@@ -79,12 +62,6 @@ mod tests {
         ] {
             assert_eq!(grouped(count), text);
         }
-    }
-
-    #[test]
-    fn a_line_stays_one_line() {
-        let name = "a\nb\r\u{85}\u{1b}[31m\u{202e}ä";
-        assert_eq!(OneLine(name).to_string(), "a\\nb\\r\\u{85}\\u{1b}[31m\\u{202e}ä");
     }
 
     #[test]

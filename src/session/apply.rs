@@ -110,6 +110,9 @@ impl Session {
     /// Counts changes in the revisions, so that caches that were made from what changed are filled again.
     pub(super) fn commit(&mut self, changes: Changes) {
         self.revisions.count(changes);
+        if changes.model || changes.maps {
+            self.caches.verdicts.forget();
+        }
     }
 
     /// Runs `act`, counts what it changed, and returns it.

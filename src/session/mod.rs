@@ -33,6 +33,7 @@ mod picking;
 mod player;
 mod playing;
 mod quality;
+mod reporting;
 mod restoring;
 mod selecting;
 mod showing;
@@ -43,6 +44,7 @@ mod submeshes;
 pub mod summary;
 mod textures;
 mod undoing;
+mod verdicts;
 mod view;
 mod view_state;
 
@@ -82,6 +84,7 @@ use instances::Instances;
 use overlays::OverlayCache;
 use picking::Picker;
 use skeleton_cache::SkeletonCache;
+use verdicts::Verdicts;
 use view::View;
 
 use std::sync::Arc;
@@ -133,6 +136,7 @@ struct Caches {
     skeleton: SkeletonCache,
     overlays: OverlayCache,
     crowd: CrowdCache,
+    verdicts: Verdicts,
 }
 
 impl Session {

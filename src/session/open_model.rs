@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::files::File;
 use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Position};
 use crate::format::{self, Dialect, Excerpt};
 use crate::import::Imported;
 use crate::model::{Clip, JointIndex, Model};
@@ -151,8 +151,12 @@ impl OpenModel {
 
     /// Lines of the file around a diagnostic.
     pub fn excerpt(&self, diagnostic: &Diagnostic) -> Option<Excerpt> {
-        let position = diagnostic.position?;
-        Some(format::excerpt(&self.file.bytes, position, diagnostic.length))
+        Some(self.excerpt_at(diagnostic.position?, diagnostic.length))
+    }
+
+    /// Lines of the file around some bytes.
+    pub fn excerpt_at(&self, position: Position, length: u32) -> Excerpt {
+        format::excerpt(&self.file.bytes, position, length)
     }
 
     /// The list of clips, in the order of their indices.

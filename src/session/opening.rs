@@ -176,6 +176,8 @@ impl Session {
                 if self.content.maps.join(&open.model.materials, files.images().cloned()) {
                     self.content.changes.maps = true;
                 }
+                // The first picture makes the others missing, even one that fits none.
+                self.caches.verdicts.forget();
                 self.content.error = None;
             }
             None if has_maps => self.fail(LoadError::no_model(files)),

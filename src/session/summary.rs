@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::OpenModel;
+use crate::check::book::{self, Book};
 use crate::diagnostic::{Diagnostic, Position, Subject};
 use crate::scene::Aabb;
 
@@ -100,6 +101,71 @@ pub struct Part {
 pub struct Place {
     pub line: u32,
     pub column: u32,
+}
+
+/// What the books' programs make of a file, each if it was asked for.
+#[derive(Debug, Serialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Books<'a> {
+    pub d3d11: Option<Verdict<'a>>,
+    pub d3d12: Option<Verdict<'a>>,
+}
+
+/// What a book's program makes of a file.
+#[derive(Debug, Serialize)]
+pub struct Verdict<'a> {
+    /// Whether its loader reads the file as it is meant.
+    pub reads: bool,
+    /// Line, from 1, where it goes wrong.
+    pub line: Option<u32>,
+    /// Column in bytes, from 1, where it goes wrong.
+    pub column: Option<u32>,
+    /// What happens there, one sentence.
+    pub why: Option<&'a str>,
+    /// What one then sees.
+    pub shows: &'a str,
+    /// Whether its demo ends before it shows anything.
+    pub ends: bool,
+    /// What the demo cannot show as it is meant.
+    pub limits: Vec<Limit<'a>>,
+}
+
+/// Something that a book's demo cannot show as it is meant.
+#[derive(Debug, Serialize)]
+pub struct Limit<'a> {
+    /// Stable name of the kind of finding.
+    pub code: &'static str,
+    /// One sentence.
+    pub message: &'a str,
+}
+
+impl<'a> Books<'a> {
+    /// Those of some verdicts.
+    pub fn of(verdicts: &'a [book::Verdict]) -> Self {
+        let of = |book| verdicts.iter().find(|verdict| verdict.book == book).map(Verdict::from);
+        Self {
+            d3d11: of(Book::D3d11),
+            d3d12: of(Book::D3d12),
+        }
+    }
+}
+
+impl<'a> From<&'a book::Verdict> for Verdict<'a> {
+    fn from(verdict: &'a book::Verdict) -> Self {
+        let limits = verdict.limits.iter().map(|limit| Limit {
+            code: limit.code,
+            message: &limit.message,
+        });
+        Self {
+            reads: verdict.reads(),
+            line: verdict.position().map(|at| at.line),
+            column: verdict.position().map(|at| at.column),
+            why: verdict.trouble.as_ref().map(|trouble| trouble.why.as_str()),
+            shows: &verdict.shows,
+            ends: verdict.ends,
+            limits: limits.collect(),
+        }
+    }
 }
 
 impl<'a> From<&'a OpenModel> for Model<'a> {

@@ -16,8 +16,7 @@ use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
 use super::widgets::TextButton;
 use super::wording::grouped;
 use super::{
-    diagnostics_panel, error_card, focus, help, inspector, light, model_panel, overlays, picture, timeline, toolbar,
-    widgets,
+    error_card, findings, focus, help, inspector, light, model_panel, overlays, picture, timeline, toolbar, widgets,
 };
 use crate::actions;
 use crate::session::{Command, LoadError, Session};
@@ -156,9 +155,9 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
     }
     if state.diagnostics_open {
         let room = beside.room();
-        let list = Panel::new("diagnostics", "Diagnostics", Align2::LEFT_TOP)
+        let list = Panel::new("diagnostics", "Findings", Align2::LEFT_TOP)
             .width(DIAGNOSTICS_WIDTH.min(room.width()))
-            .show(ui, room, |ui| diagnostics_panel::show(ui, session, state, commands));
+            .show(ui, room, |ui| findings::show(ui, session, state, commands));
         beside.cut_left(list);
         // A click on a diagnostic shows its subject, so the list does not cover it. If the list leaves too little room, it does.
         if beside.rect.width() >= LEAST_BESIDE_DIAGNOSTICS {
@@ -371,7 +370,7 @@ fn is_side_page(page: SheetPage, session: &Session, state: &UiState) -> bool {
 /// The title of a page of the sheet.
 fn page_title(page: SheetPage, session: &Session, state: &UiState) -> &'static str {
     match page {
-        SheetPage::Model if state.diagnostics_open => "Diagnostics",
+        SheetPage::Model if state.diagnostics_open => "Findings",
         SheetPage::Model | SheetPage::Skeleton if is_side_page(page, session, state) => side_label(state),
         SheetPage::Model | SheetPage::Skeleton => "Inspector",
         SheetPage::ViewMode => "View mode",
@@ -386,7 +385,7 @@ fn page_title(page: SheetPage, session: &Session, state: &UiState) -> &'static s
 /// A page of the sheet below its title, no higher than what is available.
 fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if page == SheetPage::Model && state.diagnostics_open {
-        diagnostics_panel::show(ui, session, state, commands);
+        findings::show(ui, session, state, commands);
         return;
     }
     let is_side = is_side_page(page, session, state);

@@ -4,8 +4,8 @@ mod announce;
 mod chips;
 mod cost;
 mod crowd;
-mod diagnostics_panel;
 mod error_card;
+mod findings;
 mod focus;
 mod help;
 mod icons;
@@ -39,12 +39,13 @@ pub use announce::{Announcement, view_in_words};
 pub use keys::owns_key;
 pub use message::Messages;
 pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
-pub use picture::picture_name;
+pub use picture::{picture_name, report_name};
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
 pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCommand};
+use findings::state::FindingsState;
 use input::{Grip, InputOrder, MOST_PASSES};
 use state::Framed;
 use theme::MARGIN;
@@ -71,7 +72,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.focus.begin(ui.ctx());
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
-        state.shown_diagnostic = None;
+        state.findings = FindingsState::default();
         state.diagnostics_open = false;
         state.maps_open = false;
         tell_of_drop(session, state);

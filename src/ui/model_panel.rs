@@ -1,9 +1,10 @@
-//! The open model: counts, handedness, up axis, size, diagnostics, maps, submeshes.
+//! The open model: counts, handedness, up axis, size, diagnostics, books' programs, maps, submeshes.
 
 use egui::accesskit::HasPopup;
 use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::crowd;
+use super::findings;
 use super::icons::Icon;
 use super::skeleton::state::has_joints;
 use super::state::UiState;
@@ -36,6 +37,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     let has_maps = session.maps().checklist().named > 0;
     // The rows of a phone are high: there the subsets come first.
     let subsets_first = is_touch(ui);
+    if !subsets_first {
+        findings::show_books_row(ui, session, state);
+    }
     if has_maps && !subsets_first {
         textures::show(ui, session, open, state);
     }
@@ -46,6 +50,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     }
     submesh_list(ui, session, open, state, commands);
     if subsets_first {
+        rule(ui, MARGIN);
+        findings::show_books_row(ui, session, state);
         rule(ui, MARGIN);
         crowd::show(ui, session, &mut state.cost, commands);
     }
@@ -131,17 +137,12 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
     let (rect, response) = pressed_row(ui, false);
     let font = FontId::proportional(13.0);
-    ui.painter().text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        "Diagnostics",
-        font,
-        tokens.text,
-    );
+    ui.painter()
+        .text(rect.left_center(), Align2::LEFT_CENTER, "Findings", font, tokens.text);
     let (count, color) = summary(session, &tokens);
     let right = rect.right_center();
     paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
-    let label = format!("Diagnostics: {count}");
+    let label = format!("Findings: {count}");
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &label));
     if hint_beside(response, None, "What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;

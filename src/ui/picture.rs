@@ -76,17 +76,33 @@ fn words(ui: &mut Ui, text: &str, width: f32) {
         .text(rect.center(), egui::Align2::CENTER_CENTER, text, font, color);
 }
 
-/// The name of a picture: model, clip and frame, as in `soldier-Take1-31.png`. Characters that file systems refuse become dashes.
+/// The name of a picture: model, clip and frame, as in `soldier-Take1-31.png`.
 pub fn picture_name(session: &Session) -> String {
-    let mut parts = Vec::new();
-    if let Some(open) = session.open_model() {
-        let name = open.file.base_name();
-        parts.push(name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned());
-    }
+    let mut parts = model_name(session);
     if let Some(clip) = session.clip() {
         parts.push(clip.name.clone());
         parts.push(clip.frame_at(session.playback().time_secs()).to_string());
     }
+    file_name(&parts, "png")
+}
+
+/// The name of a report, as in `soldier.sarif`.
+pub fn report_name(session: &Session) -> String {
+    file_name(&model_name(session), "sarif")
+}
+
+/// The name of the open model without its extension.
+fn model_name(session: &Session) -> Vec<String> {
+    let open = session.open_model().into_iter();
+    open.map(|open| {
+        let name = open.file.base_name();
+        name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned()
+    })
+    .collect()
+}
+
+/// The parts with dashes between them. Characters that file systems refuse become dashes.
+fn file_name(parts: &[String], extension: &str) -> String {
     let safe = |c: char| {
         if c.is_alphanumeric() || "-_.".contains(c) {
             c
@@ -101,5 +117,5 @@ pub fn picture_name(session: &Session) -> String {
         .collect();
     let name = parts.join("-");
     let name = name.trim_start_matches('.');
-    format!("{}.png", if name.is_empty() { "bindpose" } else { name })
+    format!("{}.{extension}", if name.is_empty() { "bindpose" } else { name })
 }

@@ -4,6 +4,7 @@ use egui::{Rect, Ui};
 
 use super::announce::{Announcement, Announcer};
 use super::cost::SteadyCost;
+use super::findings::state::FindingsState;
 use super::focus::Focus;
 use super::input::{Grip, Keyboard};
 use super::message::Messages;
@@ -13,8 +14,6 @@ use super::theme::Contrast;
 use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
-use crate::diagnostic::Diagnostic;
-use crate::format::Excerpt;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
 use crate::session::Session;
@@ -42,6 +41,8 @@ pub enum Request {
         /// Without a background.
         transparent: bool,
     },
+    /// Save the report of all that was found in the open file; [`report_name`](crate::ui::report_name) says how the file is called.
+    SaveReport,
     /// Have a screen reader speak.
     Announce(Announcement),
 }
@@ -93,7 +94,7 @@ pub struct UiState {
     /// The camera was moved by hand, and the panels have changed since: a button offers to frame the model.
     pub(super) offers_frame: bool,
     pub(super) coarse_pointer: bool,
-    pub(super) shown_diagnostic: Option<ShownDiagnostic>,
+    pub(super) findings: FindingsState,
     /// The maps are listed.
     pub(super) maps_open: bool,
     /// The models of the drop that a message told of last, by their paths.
@@ -165,15 +166,6 @@ impl UiState {
             transparent: transparent || self.picture.transparent,
         });
     }
-}
-
-/// The diagnostic whose lines are shown. They are read from the file once, when it is unfolded or another of its places is chosen.
-#[derive(Debug)]
-pub(super) struct ShownDiagnostic {
-    pub(super) diagnostic: Diagnostic,
-    /// Which of its occurrences.
-    pub(super) occurrence: usize,
-    pub(super) excerpt: Option<Excerpt>,
 }
 
 /// Vertices of the submesh counted last.

@@ -1,7 +1,7 @@
 //! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
 //! help.
 
-use egui::{Align2, Color32, Label, Rangef, RectAlign, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{Color32, Label, Rangef, RectAlign, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::cost::SteadyCost;
 use super::icons::Icon;
@@ -11,9 +11,8 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
-    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, focus_ring, hint_beside,
-    icon_button, keyed_menu_item, menu_item, paint_chip, push_button, section_name, untold_icon_button,
-    valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, hint_beside, icon_button, keyed_menu_item,
+    menu_item, pressed_chip, push_button, section_name, untold_icon_button, valued_menu_item,
 };
 use super::wording::{dialect_name, shortened_front};
 use super::{light, overlays, picture};
@@ -377,20 +376,7 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
 
 /// How many findings there are. It opens their list.
 fn findings_chip(ui: &mut Ui, state: &mut UiState, count: &str, color: Color32) {
-    let size = chip_size(ui, count);
-    let (place, response) = ui.allocate_exact_size(vec2(size.x, control_size(ui)), Sense::click());
-    let tokens = Tokens::of(ui);
-    let lit = response.hovered() || state.diagnostics_open;
-    let ground = if lit { tokens.field_hovered } else { tokens.field };
-    let chip = paint_chip(
-        ui.painter(),
-        place.center(),
-        Align2::CENTER_CENTER,
-        count,
-        color,
-        ground,
-    );
-    focus_ring(ui, chip, &response);
+    let response = pressed_chip(ui, count, color, state.diagnostics_open);
     let label = format!("Show {count}");
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &label));
     if response.on_hover_text("What was found in the file").clicked() {

@@ -17,7 +17,7 @@ use super::{coarse_pointer, field, now_secs, object, sleep, state, text_of};
 use crate::app::{App, AppOptions};
 use crate::render::device;
 use crate::session::{QualityCommand, Session};
-use crate::ui::{Announcement, Request, picture_name, view_in_words};
+use crate::ui::{Announcement, Request, picture_name, report_name, view_in_words};
 
 /// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
@@ -296,6 +296,22 @@ impl Shell {
         }
     }
 
+    /// Hands the report of what was found to the page, which saves it. A message says so.
+    fn save_report(&self) {
+        // The page is told when nothing is borrowed: its listener may call the viewer.
+        let (name, text) = {
+            let session = self.shared.session.borrow();
+            let text = session.sarif().and_then(|sarif| state::json(&sarif));
+            (report_name(&session), text)
+        };
+        let Some(text) = text else { return };
+        let report = [("name", name.as_str().into()), ("text", text.into())];
+        self.shared.emit("report", &object(report));
+        if let Some(app) = self.app.borrow_mut().as_mut() {
+            app.report_was_saved(&name);
+        }
+    }
+
     /// Draws a picture and hands it to the page, which saves it. A message says so.
     fn save_picture(&self, ctx: &egui::Context, size: [u32; 2], transparent: bool) {
         let shared = Rc::clone(&self.shared);
@@ -349,6 +365,7 @@ impl eframe::App for Shell {
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
                 Request::SavePicture { size, transparent } => self.save_picture(ui.ctx(), size, transparent),
                 Request::SavePictureAs => self.save_picture_as(),
+                Request::SaveReport => self.save_report(),
                 Request::Announce(Announcement { text, assertive }) => {
                     let detail = object([("text", text.into()), ("assertive", assertive.into())]);
                     self.shared.emit("announce", &detail);

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use js_sys::{Array, Object, Reflect};
+use js_sys::{Array, JSON, Object, Reflect};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
 use crate::scene::{Detail, FrameCost, Overlay, Pass, Projection, TimedPass};
-use crate::session::summary::{self, Finding};
+use crate::session::summary::{self, Books, Finding};
 use crate::session::{Checklist, CrowdState, Event, LoadError, Session};
 
 /// `bindpose.state()`.
@@ -34,6 +34,7 @@ pub(super) struct State<'a> {
     redo: Option<&'a str>,
     frames_rendered: u64,
     notices: Vec<Finding<'a>>,
+    book: Option<Books<'a>>,
     error: Option<FileError<'a>>,
 }
 
@@ -189,6 +190,7 @@ impl<'a> State<'a> {
             redo: session.history().redo_label(),
             frames_rendered,
             notices: session.diagnostics().map(Finding::from).collect(),
+            book: session.open_model().map(|_| Books::of(session.verdicts())),
             error: session.error().map(FileError::from),
         }
     }
@@ -330,6 +332,13 @@ pub(super) fn to_js(value: &impl Serialize) -> JsValue {
     let value = value.serialize(&Serializer::json_compatible());
     // All of our values can be written.
     value.map_or(JsValue::NULL, with_camel_case_keys)
+}
+
+/// JSON with the keys as they are, with a new line for each.
+pub(super) fn json(value: &impl Serialize) -> Option<String> {
+    let value = value.serialize(&Serializer::json_compatible()).ok()?;
+    let text = JSON::stringify_with_replacer_and_space(&value, &JsValue::NULL, &2.into()).ok()?;
+    text.as_string()
 }
 
 fn with_camel_case_keys(value: JsValue) -> JsValue {

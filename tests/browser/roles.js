@@ -84,6 +84,30 @@ test("by roles and names alone a model is opened, played, scrubbed, a bone's mat
   await spoken(page, /^Saved d3d12_skinned.*\.png, \d+ × \d+\.$/);
 });
 
+test("the findings say what the books' programs make of a file, and the report is saved", {}, async (page) => {
+  await dropAndWait(page, [`${FIXTURES}good/clip_names.m3d`]);
+  const { book, notices } = await state(page);
+  assert.deepEqual([book.d3d11.line, book.d3d12.line, book.d3d12.reads], [9, 56, false]);
+  await press(page, "Books' programs: D3D12 fails, D3D11 fails");
+  const line = control(page, "D3D12 book: goes wrong at line 56, reads the number of keys of bone 0");
+  assert.equal(await line.getAttribute("aria-expanded"), "false");
+  await line.focus();
+  await page.keyboard.press("Enter");
+  await page.getByText(/^One sees: It crashes at its first frame/).first().waitFor({ state: "attached" });
+  assert.equal(await line.getAttribute("aria-expanded"), "true");
+  await assertSound(page, "the findings");
+  await keep(page, "findings");
+  const [saved] = await Promise.all([page.waitForEvent("download"), press(page, "Save report")]);
+  assert.equal(saved.suggestedFilename(), "clip_names.sarif");
+  const { version, runs: [run] } = JSON.parse(readFileSync(await saved.path(), "utf8"));
+  assert.deepEqual([version, run.tool.driver.name], ["2.1.0", "bindpose"]);
+  const limits = book.d3d11.limits.length + book.d3d12.limits.length;
+  assert.equal(run.results.length, notices.length + 2 + limits);
+  assert.deepEqual(run.results.filter(({ ruleId }) => ruleId === "book-stops").map(({ locations: [at] }) => at.physicalLocation.region.startLine), [9, 56]);
+  await spoken(page, /^Saved clip_names\.sarif\.$/);
+  await page.keyboard.press("Escape");
+});
+
 test("all that steps the time is a button, and where it led is spoken", {}, async (page) => {
   const { model } = await state(page);
   const [{ endSecs, keysPerSec }] = model.clips;

@@ -35,6 +35,9 @@ test("the eye of a subset hides it and shows it again", {}, async (page) => {
   await atRest(page);
   const all = await picture(page);
   const clickEye = async () => {
+    await page.mouse.move(...TRIM_EYE);
+    await page.mouse.wheel(0, 1000);
+    await settled(page);
     await page.mouse.click(...TRIM_EYE);
     await settled(page);
     await page.mouse.move(...GROUND);

@@ -11,8 +11,8 @@ export const LIGHT_POPOVER = {
   passes: { shadow: [700, 386], reflections: [700, 409], contact: [700, 432], ao: [700, 455] },
 };
 
-/** Subsets in the panel on the left: the eye of the orange parts. */
-export const TRIM_EYE = [238, 433];
+/** Subsets in the panel on the left, once it is scrolled to its end: the eye of the orange parts. */
+export const TRIM_EYE = [238, 452];
 
 /** The name of the file, where there are several models; the last of three in its menu. */
 export const FILE_MENU = [140, 30];

@@ -1,5 +1,6 @@
 //! `bindpose check`.
 
+use bindpose::session::{File, FileCommand, Session};
 use serde_json::{Value, json};
 
 use crate::program::{bindpose, fixture, fixtures, run, scratch, shared};
@@ -385,6 +386,38 @@ fn a_book_is_told_with_the_line_at_which_it_goes_wrong() {
         "{text}"
     );
     assert!(text.contains("   = book-clip-name: "), "{text}");
+}
+
+/// What the page copies and saves.
+#[test]
+fn the_report_of_a_session_is_that_of_the_command_line() {
+    for name in ["subset_typos", "clip_names", "pose_overflows", "d3d12_skinned"] {
+        let path = fixture(&format!("good/{name}.m3d"));
+        let mut session = Session::new(true);
+        let bytes = std::fs::read(&path).expect("a fixture");
+        session.apply(FileCommand::Add(vec![File::new(&format!("{name}.m3d"), bytes)]));
+        let text = run(["check", "--book", "all", &path]).out;
+        let folder = path.strip_suffix(&format!("{name}.m3d")).expect("it ends so");
+        assert_eq!(session.report(), text.replace(folder, ""));
+        let of_file = run(["check", "--book", "all", "--format", "sarif", &path]).json();
+        let of_session = serde_json::to_value(session.sarif().expect("open")).expect("it can be written");
+        for (pointer, count) in [("/runs/0/tool", None), ("/runs/0/results", Some(2))] {
+            assert!(of_file.pointer(pointer).is_some(), "{pointer}");
+            let without_path = |value: &Value| {
+                let value = value.pointer(pointer).expect("it has one").to_string();
+                value.replace(&path.replace(' ', "%20"), "").replace("file://", "")
+            };
+            assert_eq!(
+                without_path(&of_session).replace(&format!("{name}.m3d"), ""),
+                without_path(&of_file).replace(&format!("{name}.m3d"), "")
+            );
+            let results = of_session
+                .pointer(pointer)
+                .and_then(Value::as_array)
+                .map_or(0, Vec::len);
+            assert!(count.is_none_or(|least| results >= least), "{results}");
+        }
+    }
 }
 
 #[test]

@@ -23,6 +23,7 @@ mod sky;
 mod slowness;
 mod submeshes;
 mod transport;
+mod verdicts;
 mod view_state;
 
 use bindpose::session::{File, FileCommand, Session};

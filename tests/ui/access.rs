@@ -367,7 +367,7 @@ fn at_twice_the_size_nothing_is_lost() {
     window.press(PLAIN, Key::Escape);
     window.harness.state_mut().state.sheet = Some(SheetPage::Model);
     window.pass_on();
-    assert!(window.shows("Diagnostics, nothing found") || window.shows("Panel: Skeleton"));
+    assert!(window.shows("Findings, nothing found") || window.shows("Panel: Skeleton"));
     window.click("Panel: Skeleton");
     assert!(window.shows("Search bones"));
     window.click("Speed ");

@@ -3,11 +3,15 @@
 use bindpose::diagnostic::Subject;
 use bindpose::format::{Document, Subset};
 use bindpose::model::JointIndex;
-use bindpose::session::{File, JointCommand, PlayCommand, SubmeshCommand};
+use bindpose::session::{File, FileCommand, JointCommand, PlayCommand, SubmeshCommand};
+use bindpose::ui::{Request, report_name};
+use egui::accesskit::Action;
 use egui::{CursorIcon, Key, Modifiers};
 
+use crate::joint_numbers::copied_by;
+use crate::joint_tree::type_text;
 use crate::models;
-use crate::page::{WIDE, Window, phone, window};
+use crate::page::{WIDE, Window, phone, touch_window, window};
 use crate::skeleton::selected;
 
 /// A finding about each kind of part: a material that two subsets could mean, a subset of too many triangles, a vertex whose
@@ -51,7 +55,7 @@ pub(crate) fn files() -> Vec<File> {
 /// A wide window with the findings open.
 fn opened() -> Window {
     let mut window = window(WIDE, files());
-    window.click("Diagnostics: ");
+    window.click("Findings: ");
     window
 }
 
@@ -227,8 +231,8 @@ fn a_finding_can_be_reached_and_opened_by_keys_and_shows_that_it_can_be_clicked(
 fn on_a_phone_the_view_above_the_list_goes_there_and_the_inspector_waits_below_it() {
     let mut window = phone(files());
     window.click("Model facts");
-    window.click("Diagnostics: ");
-    window.click(OF_BONE);
+    window.click("Findings: ");
+    window.click_anywhere(OF_BONE);
     assert_eq!(selected(&window), Some(1));
     assert!(window.session().look().bones_visible && shows_lines(&window));
     window.click("Close");
@@ -248,7 +252,7 @@ fn every_place_of_a_finding_is_listed_and_leads_there() {
         if window.shows("Model facts") {
             window.click("Model facts");
         }
-        window.click("Diagnostics: ");
+        window.click("Findings: ");
         assert!(window.named(|name| name.starts_with("Go to ")).is_empty());
         window.click(OF_VERTEX);
         let vertex = |window: &Window| {
@@ -260,7 +264,7 @@ fn every_place_of_a_finding_is_listed_and_leads_there() {
             let lines = |window: &Window| window.named(|name| name.contains(" | ") && name.contains('^'));
             let before = lines(&window);
             let (name, _) = window.named(|name| name.starts_with(&format!("Go to Vertex {other} · line ")))[0].clone();
-            window.click(&name);
+            window.click_anywhere(&name);
             assert_eq!(vertex(&window), Some(other));
             let (_, line) = name.split_once(" · line ").expect("it has one");
             let shown = lines(&window);
@@ -282,4 +286,144 @@ fn of_many_places_the_first_are_listed_and_the_rest_are_counted() {
     window.click(OF_VERTEX);
     assert_eq!(window.named(|name| name.starts_with("Go to Vertex ")).len(), 20);
     assert!(window.shows("and 4 more"));
+}
+
+/// The names of the rows of findings.
+fn listed(window: &Window) -> Vec<String> {
+    let starts = ["note ", "warning ", "error "];
+    let rows = window.named(|name| starts.iter().any(|start| name.starts_with(start)) && name.contains(": "));
+    rows.into_iter().map(|(name, _)| name).collect()
+}
+
+#[test]
+fn chips_count_each_severity_and_list_it_alone() {
+    let mut window = opened();
+    let all = listed(&window);
+    let count = |severity: &str| all.iter().filter(|name| name.starts_with(severity)).count();
+    let (warnings, notes) = (count("warning "), count("note "));
+    assert!(warnings > 1 && notes > 0, "{all:?}");
+    assert!(
+        window
+            .named(|name| name.starts_with("Only ") && name.contains("error"))
+            .is_empty()
+    );
+    window.click(&format!("Only {warnings} warnings"));
+    assert!(listed(&window).len() == warnings && listed(&window).iter().all(|name| name.starts_with("warning ")));
+    window.click("Only 1 note");
+    assert!(listed(&window).len() == notes && listed(&window).iter().all(|name| name.starts_with("note ")));
+    window.click("Only 1 note");
+    assert_eq!(listed(&window), all);
+}
+
+#[test]
+fn the_search_looks_in_words_and_codes_and_esc_clears_it() {
+    let mut window = opened();
+    let all = listed(&window);
+    window.click("Search findings");
+    type_text(&mut window, "OFFSET affine");
+    assert_eq!(listed(&window).len(), 1, "{all:?}");
+    assert!(listed(&window)[0].starts_with(OF_BONE));
+    type_text(&mut window, " banana");
+    assert!(listed(&window).is_empty() && window.shows("No finding has these words."));
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(listed(&window), all);
+    assert!(
+        window.harness.state().state.diagnostics_open,
+        "it clears and does nothing else"
+    );
+}
+
+#[test]
+fn an_open_row_says_how_to_mend_it() {
+    let mut window = opened();
+    let code = bindpose::diagnostic::codes::named("offset-not-affine").expect("it is in the table");
+    assert!(!window.shows(code.explanation));
+    window.click(OF_BONE);
+    assert!(window.shows(code.explanation) && shows_lines(&window));
+}
+
+#[test]
+fn each_book_has_a_line_that_unfolds_to_what_one_sees_and_the_place() {
+    for mut window in [window(WIDE, files()), phone(files())] {
+        if window.shows("Model facts") {
+            window.click("Model facts");
+        }
+        window.click_anywhere("Books' programs: ");
+        let d3d11 = "D3D11 book: goes wrong at line 9, takes `Name:` for the label Ambient of material 0";
+        assert!(window.shows(d3d11), "{:?}", window.widgets());
+        assert!(!shows_lines(&window) && window.node(d3d11).data().is_expanded() == Some(false));
+        window.click(d3d11);
+        assert!(shows_lines(&window) && window.node(d3d11).data().is_expanded() == Some(true));
+        assert!(
+            !window
+                .named(|name| name.starts_with("One sees: It ends with an error"))
+                .is_empty()
+        );
+        window.ask(d3d11, Action::Collapse, None);
+        assert!(!shows_lines(&window));
+        window.ask(d3d11, Action::Expand, None);
+        assert!(shows_lines(&window));
+    }
+}
+
+#[test]
+fn a_book_that_reads_the_file_tells_its_limits() {
+    let mut document = models::skinned(&models::CLIPS);
+    document.clips[0].name = "Take1".to_owned();
+    let mut window = window(WIDE, vec![models::file("take.m3d", &document)]);
+    window.click("Books' programs: D3D12 reads, D3D11 fails");
+    let verdict = window.session().verdicts().last().expect("of the D3D12 book").clone();
+    assert!(
+        verdict.reads() && !verdict.ends && !verdict.limits.is_empty(),
+        "{verdict:?}"
+    );
+    window.click("D3D12 book: reads it, with ");
+    for limit in &verdict.limits {
+        assert!(window.shows(&limit.message) && window.shows(limit.code), "{limit:?}");
+    }
+}
+
+#[test]
+fn the_report_is_copied_as_text_and_saved_by_the_page() {
+    let mut window = opened();
+    let copied = copied_by(&mut window, "Copy report");
+    assert_eq!(copied, window.session().report());
+    assert!(
+        copied.contains("D3D11 book: It takes `Name:`") && copied.contains("[offset-not-affine]: "),
+        "{copied}"
+    );
+    assert!(window.shows("Copied the report"));
+    window.click("Save report");
+    assert_eq!(window.harness.state().requests.last(), Some(&Request::SaveReport));
+    assert_eq!(report_name(window.session()), "faulty.sarif");
+}
+
+#[test]
+fn of_thousands_of_findings_only_those_near_the_view_are_laid_out_and_the_search_finds_the_others() {
+    let damaged = |index: usize| File::new(&format!("{index}.png"), vec![1, 2, 3]);
+    let mut window = window(WIDE, vec![models::file("box.m3d", &models::document())]);
+    window.apply(FileCommand::Add((0..3000).map(damaged).collect()));
+    assert!(window.session().diagnostics().count() >= 3000);
+    window.click("Findings: ");
+    let laid_out = listed(&window).len();
+    assert!((5..100).contains(&laid_out), "{laid_out}");
+    window.click("Search findings");
+    type_text(&mut window, "2999.png");
+    assert_eq!(listed(&window).len(), 1);
+}
+
+#[test]
+fn with_a_mouse_the_buttons_stay_below_the_rows_and_for_fingers_they_come_after_them() {
+    let low = egui::vec2(844.0, 390.0);
+    for (mut window, is_touch) in [(window(low, files()), false), (touch_window(low, files()), true)] {
+        window.click("Model facts");
+        window.click_anywhere("Findings: ");
+        assert!(!listed(&window).is_empty());
+        let transport = window.rect("Play (Space)");
+        for button in ["Copy report", "Save report"] {
+            let rect = window.rect(button);
+            assert_eq!(rect.max.y > transport.min.y, is_touch, "{button} {rect:?}");
+            assert!(!is_touch || rect.height() >= 44.0);
+        }
+    }
 }

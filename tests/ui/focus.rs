@@ -47,7 +47,7 @@ fn tab_goes_in_reading_order_and_every_stop_is_seen() {
         "View mode",
         "Keys (?)",
         "Panel: Model",
-        "Diagnostics",
+        "Findings",
         "Model view",
         "Play",
     ]
@@ -90,7 +90,7 @@ fn what_opens_takes_the_focus_and_gives_it_back() {
         ("Lines over the model", "Ground grid"),
         ("View from", "Three-quarter"),
         ("Keys (?)", "Close"),
-        ("Diagnostics", "Close"),
+        ("Findings", "Close"),
         ("Speed ", ""),
     ] {
         let mut window = window(WIDE, vec![moving("a.m3d")]);

@@ -60,7 +60,7 @@ fn a_clip_of_no_length_asks_for_no_pass() {
 fn what_was_touched_settles() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     for label in [
-        "Diagnostics",
+        "Findings",
         "Keys (?)",
         "At the end: loops",
         "Lines over the model",

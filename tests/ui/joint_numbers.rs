@@ -12,7 +12,7 @@ use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
 use crate::skeleton::{chains, selected, tree};
 
 /// What a click copies.
-fn copied_by(window: &mut Window, start: &str) -> String {
+pub(crate) fn copied_by(window: &mut Window, start: &str) -> String {
     let at = window.rect(start).center();
     window.harness.hover_at(at);
     window.harness.drag_at(at);

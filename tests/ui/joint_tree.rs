@@ -31,7 +31,7 @@ fn double_click(window: &mut Window, start: &str) {
     window.pass_on();
 }
 
-fn type_text(window: &mut Window, text: &str) {
+pub(crate) fn type_text(window: &mut Window, text: &str) {
     window.harness.event(Event::Text(text.to_owned()));
     window.pass_on();
 }

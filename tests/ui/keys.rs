@@ -396,7 +396,7 @@ fn the_table_says_what_is_in_force_now() {
 #[test]
 fn escape_takes_away_what_lies_on_top() {
     let mut window = open();
-    window.click("Diagnostics");
+    window.click("Findings");
     window.click("Keys (?)");
     window.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
     let lying = |window: &Window| {

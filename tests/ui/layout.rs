@@ -111,7 +111,7 @@ fn in_a_wide_window_nothing_is_cut_and_no_panel_lies_on_another() {
             assert_inside(&window, size);
             assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
             if size.y >= 600.0 {
-                window.click("Diagnostics");
+                window.click("Findings");
                 assert_inside(&window, size);
                 assert_apart(&window, &["title", "toolbar", "model", "diagnostics", "timeline"]);
                 window.apply(SubmeshCommand::Select(Some(0)));
@@ -467,7 +467,7 @@ fn targets_are_large_enough_for_fingers() {
         "Time",
         "Handedness",
         "Up axis",
-        "Diagnostics",
+        "Findings",
     ];
     for start in buttons {
         let rect = window.rect(start);

@@ -164,6 +164,16 @@ impl Window {
         self.pass_on();
     }
 
+    /// Clicks it as a screen reader does, wherever the list that it is in has scrolled to.
+    #[track_caller]
+    pub(crate) fn click_anywhere(&mut self, start: &str) {
+        let found = self.named(|name| name.starts_with(start));
+        let [(name, _)] = &found[..] else {
+            panic!("{start:?} is not one: {found:?}")
+        };
+        self.ask(&name.clone(), Action::Click, None);
+    }
+
     /// Drags the handle of the open sheet, and holds it until it stands.
     #[track_caller]
     pub(crate) fn drag_sheet(&mut self, down: f32) {

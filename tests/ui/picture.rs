@@ -51,6 +51,8 @@ fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> R
 
 /// Among clicks: the key.
 const TAB: &str = "Tab";
+/// Among clicks, before the beginning of a name: scrolled into view.
+const SCROLLED: &str = "Scrolled: ";
 
 /// The same after clicks on controls, by the beginnings of their names.
 fn draw_after(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>, clicks: &[&str]) -> RgbaImage {
@@ -95,6 +97,11 @@ fn draw_with(
             harness.run();
             continue;
         }
+        if let Some(start) = start.strip_prefix(SCROLLED) {
+            node_of(&harness, start).scroll_to_me();
+            harness.run();
+            continue;
+        }
         let at = rect_of(&harness, start).center();
         harness.hover_at(at);
         harness.drag_at(at);
@@ -106,13 +113,18 @@ fn draw_with(
 
 #[track_caller]
 fn rect_of(harness: &Harness<'_>, start: &str) -> egui::Rect {
+    node_of(harness, start).rect()
+}
+
+#[track_caller]
+fn node_of<'h>(harness: &'h Harness<'_>, start: &str) -> egui_kittest::Node<'h> {
     let named = |node: &egui_kittest::Node<'_>| {
         node.accesskit_node()
             .label()
             .is_some_and(|name| name.starts_with(start))
     };
     let node = harness.root().children_recursive().find(named);
-    node.unwrap_or_else(|| panic!("no {start:?}")).rect()
+    node.unwrap_or_else(|| panic!("no {start:?}"))
 }
 
 fn compare(name: &str, actual: &RgbaImage) {
@@ -227,7 +239,7 @@ fn modes_that_are_on_and_a_message() {
 
 #[test]
 fn a_finding_that_leads_to_a_vertex() {
-    let clicks = ["Diagnostics: ", "warning weights-not-normalized"];
+    let clicks = ["Findings: ", "warning weights-not-normalized"];
     let then = || vec![FileCommand::Add(crate::findings::files()).into()];
     for (name, size, theme, touch) in [
         ("wide-dark-finding", WIDE, Theme::Dark, false),
@@ -236,6 +248,34 @@ fn a_finding_that_leads_to_a_vertex() {
         let open: &[&str] = if touch { &["Model facts"] } else { &[] };
         compare(name, &draw_after(size, theme, touch, then(), &[open, &clicks].concat()));
     }
+}
+
+#[test]
+fn the_findings_with_the_lines_of_a_book() {
+    let clicks = ["Findings: ", "D3D11 book: "];
+    let then = || vec![FileCommand::Add(crate::findings::files()).into()];
+    let low = Vec2::new(844.0, 390.0);
+    for (name, size, theme, touch, clicks) in [
+        ("wide-light-findings", WIDE, Theme::Light, false, &clicks[..]),
+        ("phone-dark-findings", PHONE, Theme::Dark, true, &clicks[..1]),
+        ("low-dark-findings", low, Theme::Dark, true, &clicks[..1]),
+    ] {
+        let open: &[&str] = if touch {
+            &["Model facts", "Scrolled: Findings: "]
+        } else {
+            &[]
+        };
+        compare(name, &draw_after(size, theme, touch, then(), &[open, clicks].concat()));
+    }
+}
+
+#[test]
+fn nothing_found() {
+    let clicks = ["Findings: ", "D3D12 book: "];
+    compare(
+        "wide-dark-no-findings",
+        &draw_after(WIDE, Theme::Dark, false, vec![], &clicks),
+    );
 }
 
 #[test]

@@ -75,7 +75,7 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
 fn tooltips_of_a_panel_stand_beside_it_and_menus_let_no_text_through() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let panel = shown_panel(&window, "model").expect("it is shown");
-    for row in ["Size ", "Painted, 12 triangles", "Hide Painted", "Diagnostics: "] {
+    for row in ["Size ", "Painted, 12 triangles", "Hide Painted", "Findings: "] {
         let at = window.rect(row).center();
         window.harness.hover_at(at);
         window.wait(0.6);

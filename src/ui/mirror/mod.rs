@@ -162,15 +162,7 @@ impl Snapshot {
 /// The panels in the order in which a person reads them, by their names. A failure comes first, what has no place between those on the
 /// left and those on the right.
 fn reading_rank(node: &MirrorNode) -> usize {
-    const LEFT: [&str; 7] = [
-        "Title",
-        "Toolbar",
-        "Tools",
-        "Model",
-        "Skeleton",
-        "Legend",
-        "Diagnostics",
-    ];
+    const LEFT: [&str; 7] = ["Title", "Toolbar", "Tools", "Model", "Skeleton", "Legend", "Findings"];
     const RIGHT: [&str; 4] = ["Inspector", "Timeline", "Sheet", "Keys"];
     let place = |names: &[&str]| names.iter().position(|&name| name == node.name);
     match (node.role, place(&LEFT), place(&RIGHT)) {

@@ -337,6 +337,18 @@ pub(crate) fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
     response
 }
 
+/// A chip in a row that can be pressed. Its target is as high as a control. `on`: it is in force, or what it opens is open.
+pub(crate) fn pressed_chip(ui: &mut Ui, text: &str, color: Color32, on: bool) -> Response {
+    let tokens = Tokens::of(ui);
+    let size = vec2(chip_size(ui, text).x, control_size(ui));
+    let (place, response) = ui.allocate_exact_size(size, Sense::click());
+    let lit = on || response.hovered();
+    let ground = if lit { tokens.field_hovered } else { tokens.field };
+    let chip = paint_chip(ui.painter(), place.center(), Align2::CENTER_CENTER, text, color, ground);
+    focus_ring(ui, chip, &response);
+    response
+}
+
 /// How large a chip is.
 pub(crate) fn chip_size(ui: &Ui, text: &str) -> Vec2 {
     layout(ui.painter(), text, Color32::WHITE).size() + AROUND

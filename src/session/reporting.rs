@@ -1,0 +1,44 @@
+//! What the books' programs make of the open file, and the report of all that was found in it.
+
+use super::Session;
+use crate::check::book::Verdict;
+use crate::check::report::{self, CheckedFile};
+use crate::check::sarif;
+use crate::diagnostic::Diagnostic;
+
+impl Session {
+    /// What the books' programs make of the open file, in the order of [`Book::ALL`](crate::check::book::Book::ALL); empty without a
+    /// model. They are worked out at the first call, and kept until the model or its maps change.
+    pub fn verdicts(&self) -> &[Verdict] {
+        self.open_model()
+            .map_or(&[], |open| self.caches.verdicts.of(open, self.maps()))
+    }
+
+    /// All that was found in the open file, as `bindpose check --book all` prints it; empty without a model.
+    pub fn report(&self) -> String {
+        let found = self.found();
+        self.checked_file(&found)
+            .map_or_else(String::new, |file| report::text(&file, &report::plain))
+    }
+
+    /// The same as a SARIF document; `None` without a model.
+    pub fn sarif(&self) -> Option<sarif::Log> {
+        let found = self.found();
+        let results = sarif::Results::of(&self.checked_file(&found)?);
+        Some(sarif::log([results]))
+    }
+
+    fn found(&self) -> Vec<Diagnostic> {
+        self.diagnostics().cloned().collect()
+    }
+
+    fn checked_file<'a>(&'a self, diagnostics: &'a [Diagnostic]) -> Option<CheckedFile<'a>> {
+        let open = self.open_model()?;
+        Some(CheckedFile {
+            path: open.file.base_name(),
+            bytes: &open.file.bytes,
+            diagnostics,
+            verdicts: self.verdicts(),
+        })
+    }
+}

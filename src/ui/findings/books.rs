@@ -1,0 +1,232 @@
+//! What the books' programs make of the file: a row of the model panel, and a line for each book above the findings, which unfolds.
+
+use egui::text::{LayoutJob, TextFormat, TextWrapping};
+use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Ui, WidgetInfo, vec2};
+
+use super::filter::color;
+use super::row::{INDENT, explanation, tell_fold};
+use super::state::{BookLines, FindingsState};
+use crate::check::book::{Limit, Verdict};
+use crate::diagnostic::{Severity, codes};
+use crate::session::{OpenModel, Session};
+use crate::ui::error_card::show_excerpt;
+use crate::ui::state::UiState;
+use crate::ui::theme::{self, Tokens};
+use crate::ui::widgets::{hint_beside, paint_elided, paint_fold_mark, pressed_row};
+
+/// What a book's program does with a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// It reads it and shows it.
+    Shows,
+    /// It reads it, and ends before it shows anything.
+    Ends,
+    /// It goes wrong while it reads.
+    Fails,
+}
+
+impl Outcome {
+    fn of(verdict: &Verdict) -> Self {
+        match (verdict.reads(), verdict.ends) {
+            (true, false) => Self::Shows,
+            (true, true) => Self::Ends,
+            (false, _) => Self::Fails,
+        }
+    }
+
+    /// In one word, after the book.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Shows => "reads",
+            Self::Ends => "ends",
+            Self::Fails => "fails",
+        }
+    }
+}
+
+/// The row of the model panel. It opens the findings.
+pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
+    let tokens = Tokens::of(ui);
+    let verdicts = session.verdicts();
+    let (rect, response) = pressed_row(ui, false);
+    let words: Vec<String> = newest_first(verdicts)
+        .map(|verdict| format!("{} {}", short_label(verdict), Outcome::of(verdict).word()))
+        .collect();
+    let value = words.join(" · ");
+    // A file is of one book's dialect: that the other fails is no news.
+    let is_shown = verdicts.iter().any(|verdict| Outcome::of(verdict) == Outcome::Shows);
+    let color = if is_shown { tokens.muted } else { tokens.warning };
+    let font = FontId::proportional(13.0);
+    let width = |text: &str| {
+        ui.painter()
+            .layout_no_wrap(text.to_owned(), font.clone(), color)
+            .size()
+            .x
+    };
+    let long = "Books' programs";
+    let label = if width(long) + 8.0 + width(&value) <= rect.width() {
+        long
+    } else {
+        "Books"
+    };
+    let painter = ui.painter();
+    painter.text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        label,
+        font.clone(),
+        tokens.text,
+    );
+    painter.text(rect.right_center(), Align2::RIGHT_CENTER, &value, font, color);
+    let name = format!("{long}: {}", words.join(", "));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &name));
+    let hint: Vec<String> = newest_first(verdicts)
+        .map(|verdict| format!("{}: {}", verdict.book.label(), in_words(verdict)))
+        .collect();
+    if hint_beside(response, None, &hint.join("\n")).clicked() {
+        state.diagnostics_open = !state.diagnostics_open;
+    }
+}
+
+/// A line for each book, and below it what one sees and why while it is unfolded.
+pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut FindingsState) {
+    for (verdict, lines) in session.verdicts().iter().zip(&mut state.books).rev() {
+        let response = line(ui, verdict, lines.is_some());
+        if tell_fold(ui, &response, lines.is_some()) {
+            *lines = lines.is_none().then(|| BookLines::of(open, verdict));
+        }
+        if let Some(lines) = lines {
+            let frame = egui::Frame::new().inner_margin(Margin {
+                left: INDENT as i8,
+                bottom: 8,
+                ..Margin::ZERO
+            });
+            frame.show(ui, |ui| details(ui, verdict, lines));
+        }
+    }
+}
+
+/// `the D3D12 book's program reads it`, for all verdicts.
+pub(super) fn who_reads(verdicts: &[Verdict]) -> String {
+    let all: Vec<_> = newest_first(verdicts).filter(|verdict| verdict.reads()).collect();
+    match all[..] {
+        [] => "neither book's program reads it".to_owned(),
+        [only] => format!("the {}'s program reads it", only.book.label()),
+        _ => "both books' programs read it".to_owned(),
+    }
+}
+
+fn newest_first(verdicts: &[Verdict]) -> impl Iterator<Item = &Verdict> {
+    verdicts.iter().rev()
+}
+
+/// `D3D12`.
+fn short_label(verdict: &Verdict) -> &'static str {
+    let label = verdict.book.label();
+    label.strip_suffix(" book").unwrap_or(label)
+}
+
+/// What a program does with the file, after its book and a colon.
+fn in_words(verdict: &Verdict) -> String {
+    let Some(trouble) = &verdict.trouble else {
+        return match verdict.limits.len() {
+            _ if verdict.ends => "reads it, then ends".to_owned(),
+            0 => "reads it".to_owned(),
+            1 => "reads it, with 1 limit".to_owned(),
+            limits => format!("reads it, with {limits} limits"),
+        };
+    };
+    // The first sentence: what comes of it stands below the line.
+    let why = trouble
+        .why
+        .split_once(". In line ")
+        .map_or(&*trouble.why, |(first, _)| first);
+    let why = why.strip_suffix('.').unwrap_or(why);
+    let why = why
+        .strip_prefix("It ")
+        .map_or_else(|| without_capital(why), str::to_owned);
+    format!("goes wrong at line {}, {why}", trouble.position.line)
+}
+
+fn without_capital(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|first| first.to_ascii_lowercase());
+    first.into_iter().chain(letters).collect()
+}
+
+/// The colour of the worst that there is to tell.
+fn color_of(ui: &Ui, verdict: &Verdict) -> Color32 {
+    match Outcome::of(verdict) {
+        Outcome::Fails | Outcome::Ends => color(ui, Severity::Warning),
+        Outcome::Shows if verdict.limits.is_empty() => Tokens::of(ui).muted,
+        Outcome::Shows => {
+            let of_limit = |limit: &Limit| codes::named(limit.code).map(|code| code.severity);
+            let worst = verdict.limits.iter().filter_map(of_limit).max();
+            color(ui, worst.unwrap_or(Severity::Note))
+        }
+    }
+}
+
+fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = pressed_row(ui, false);
+    let (book, words) = (verdict.book.label(), in_words(verdict));
+    let at = rect.left_center();
+    ui.painter()
+        .circle_filled(at + vec2(4.0, 0.0), 3.0, color_of(ui, verdict));
+    let plain = |color| TextFormat {
+        font_id: FontId::proportional(13.0),
+        color,
+        ..Default::default()
+    };
+    let mut job = LayoutJob::default();
+    job.append(&format!("{book}: "), 0.0, plain(tokens.text));
+    job.append(&words, 0.0, plain(tokens.muted));
+    job.wrap = TextWrapping::truncate_at_width(rect.width() - 2.0 * INDENT);
+    let galley = ui.painter().layout_job(job);
+    let at = at + vec2(INDENT, -0.5 * galley.size().y);
+    ui.painter().galley(at, galley, tokens.text);
+    paint_fold_mark(
+        ui.painter(),
+        rect.right_center() - vec2(6.0, 0.0),
+        !is_open,
+        tokens.muted,
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{book}: {words}")));
+    response
+}
+
+/// What happens, what one sees, the lines of the file, and the limits.
+fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines) {
+    let tokens = Tokens::of(ui);
+    let words = |words: &str, color| RichText::new(words).size(12.5).color(color);
+    if let Some(trouble) = &verdict.trouble {
+        ui.label(words(&trouble.why, tokens.text));
+        if let Some(excerpt) = &lines.excerpt {
+            ui.add_space(4.0);
+            show_excerpt(ui, excerpt, None, tokens.warning);
+            ui.add_space(4.0);
+        }
+    }
+    let color = if verdict.ends { tokens.warning } else { tokens.text };
+    ui.add_space(2.0);
+    ui.label(words(&format!("One sees: {}", verdict.shows), color));
+    if verdict.trouble.is_some() {
+        ui.add_space(2.0);
+        explanation(ui, codes::BOOK_STOPS.name);
+    }
+    for limit in &verdict.limits {
+        ui.add_space(8.0);
+        ui.label(words(&limit.message, tokens.text));
+        explanation(ui, limit.code);
+        code_line(ui, limit.code);
+    }
+}
+
+fn code_line(ui: &mut Ui, code: &str) {
+    let size = vec2(ui.available_width(), 15.0);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let (at, color) = (rect.left_center(), Tokens::of(ui).muted);
+    paint_elided(ui.painter(), at, code, theme::mono(11.0), color, rect.width());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, code));
+}

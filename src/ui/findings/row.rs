@@ -1,0 +1,233 @@
+//! The row of a finding: a click unfolds the lines of the file, how to mend it and all its places, and goes to what it is about.
+
+use egui::accesskit::Action;
+use egui::text::{LayoutJob, TextFormat};
+use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+
+use super::filter::color;
+use super::goal::Goal;
+use super::state::ShownDiagnostic;
+use crate::diagnostic::{Diagnostic, codes};
+use crate::session::{Command, OpenModel, Session};
+use crate::ui::error_card::show_excerpt;
+use crate::ui::state::UiState;
+use crate::ui::theme::{self, Tokens};
+use crate::ui::widgets::{RowList, paint_elided, paint_row_ground, pressed_row};
+use crate::ui::wording::grouped;
+
+/// Where the words of a line begin, behind its dot.
+pub(super) const INDENT: f32 = 16.0;
+/// Room above and below the words.
+const AROUND: f32 = 12.0;
+
+/// A row of the list.
+pub(super) struct FindingRow<'a> {
+    pub(super) diagnostic: &'a Diagnostic,
+    /// Its index, and how many there are.
+    pub(super) place: (usize, usize),
+    /// Its height while it is folded.
+    pub(super) height: f32,
+}
+
+/// The height of a row while it is folded.
+pub(super) fn row_height(ui: &Ui, session: &Session, open: &OpenModel, diagnostic: &Diagnostic) -> f32 {
+    let goal = goal_of(session, open, diagnostic);
+    let galley = ui.painter().layout_job(words(ui, diagnostic, goal.as_ref()));
+    galley.size().y + AROUND
+}
+
+fn goal_of(session: &Session, open: &OpenModel, diagnostic: &Diagnostic) -> Option<Goal> {
+    Goal::of(session, open, diagnostic.subject?)
+}
+
+/// The sentence, and below it what it is about, place and code.
+fn words(ui: &Ui, diagnostic: &Diagnostic, goal: Option<&Goal>) -> LayoutJob {
+    let tokens = Tokens::of(ui);
+    let format = |font_id, color| TextFormat {
+        font_id,
+        color,
+        ..Default::default()
+    };
+    let small = |color| format(FontId::proportional(11.5), color);
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = ui.available_width() - INDENT;
+    let text = format(FontId::proportional(13.0), tokens.text);
+    job.append(&diagnostic.message, 0.0, text);
+    job.append("\n", 0.0, small(tokens.muted));
+    if let Some(goal) = goal {
+        job.append(&goal.words, 0.0, small(tokens.accent));
+        job.append(" · ", 0.0, small(tokens.muted));
+    }
+    if let Some(at) = diagnostic.position {
+        let place = format!("line {}, column {} · ", at.line, at.column);
+        job.append(&place, 0.0, small(tokens.muted));
+    }
+    job.append(diagnostic.code, 0.0, format(theme::mono(11.0), tokens.muted));
+    job
+}
+
+impl FindingRow<'_> {
+    /// Shows it, and what is unfolded below it.
+    pub(super) fn show(
+        &self,
+        ui: &mut Ui,
+        list: &mut RowList,
+        session: &Session,
+        open: &OpenModel,
+        state: &mut UiState,
+        commands: &mut Vec<Command>,
+    ) {
+        let diagnostic = self.diagnostic;
+        let goal = goal_of(session, open, diagnostic);
+        let is_shown = state.findings.is_shown(diagnostic);
+        let response = self.line(ui, goal.as_ref(), is_shown);
+        list.row(&response, is_shown);
+        let (index, count) = self.place;
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_position_in_set(index);
+            node.set_size_of_set(count);
+        });
+        if tell_fold(ui, &response, is_shown) {
+            state.findings.shown = (!is_shown).then(|| ShownDiagnostic {
+                diagnostic: diagnostic.clone(),
+                occurrence: 0,
+                excerpt: open.excerpt(diagnostic),
+                height: 0.0,
+            });
+            if let Some(goal) = goal.filter(|_| !is_shown) {
+                goal.go(session, state, commands);
+            }
+        }
+        if !is_shown {
+            return;
+        }
+        // Rows before it come and go while the list scrolls; what is in here is the same all the time.
+        let scope = UiBuilder::new().scope_id(response.id.with("unfolded"));
+        let unfolded = ui.scope_builder(scope, |ui| {
+            self.occurrences(ui, list, session, open, state, commands);
+            self.details(ui, state);
+        });
+        let height = unfolded.response.rect.height();
+        if let Some(shown) = &mut state.findings.shown {
+            shown.height = height;
+        }
+    }
+
+    /// Dot, sentence, place and code.
+    fn line(&self, ui: &mut Ui, goal: Option<&Goal>, is_shown: bool) -> Response {
+        let diagnostic = self.diagnostic;
+        let galley = ui.painter().layout_job(words(ui, diagnostic, goal));
+        let (_, rect) = ui.allocate_space(vec2(ui.available_width(), self.height));
+        let id = ui.scope_id().with(("finding", self.place.0));
+        let response = ui.interact(rect, id, Sense::click());
+        paint_row_ground(ui, rect, &response, false, response.contains_pointer() || is_shown);
+        let dot = rect.min + vec2(4.0, 14.0);
+        ui.painter().circle_filled(dot, 3.0, color(ui, diagnostic.severity));
+        let at = rect.min + vec2(INDENT, 0.5 * AROUND);
+        ui.painter().galley(at, galley, Tokens::of(ui).text);
+        let about = goal.map(|goal| format!("\nGo to {}", goal.words)).unwrap_or_default();
+        let label = format!(
+            "{} {}: {}{about}",
+            diagnostic.severity, diagnostic.code, diagnostic.message
+        );
+        response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, &label));
+        response.on_hover_cursor(CursorIcon::PointingHand)
+    }
+
+    /// The lines of the file, what belonged there, and how to mend it for good.
+    fn details(&self, ui: &mut Ui, state: &UiState) {
+        let diagnostic = self.diagnostic;
+        if let Some(lines) = state.findings.shown.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
+            ui.add_space(4.0);
+            show_excerpt(ui, lines, None, color(ui, diagnostic.severity));
+        }
+        ui.add_space(4.0);
+        let expected = match (&diagnostic.expected, &diagnostic.found) {
+            (Some(expected), Some(found)) => Some(format!("Expected {expected}, found {found}.")),
+            (Some(expected), None) => Some(format!("Expected {expected}.")),
+            (None, Some(found)) => Some(format!("Found {found}.")),
+            (None, None) => None,
+        };
+        if let Some(expected) = expected {
+            ui.label(RichText::new(expected).size(12.5).color(Tokens::of(ui).text));
+        }
+        explanation(ui, diagnostic.code);
+        ui.add_space(8.0);
+    }
+
+    /// The occurrences, if there are several. A click shows the lines of one, and goes to its part.
+    fn occurrences(
+        &self,
+        ui: &mut Ui,
+        list: &mut RowList,
+        session: &Session,
+        open: &OpenModel,
+        state: &mut UiState,
+        commands: &mut Vec<Command>,
+    ) {
+        let tokens = Tokens::of(ui);
+        let diagnostic = self.diagnostic;
+        let known = diagnostic.occurrences();
+        let listed = known.len();
+        if listed < 2 {
+            return;
+        }
+        let chosen = state.findings.shown.as_ref().map(|shown| shown.occurrence);
+        for (index, (subject, position)) in known.enumerate() {
+            let goal = subject.and_then(|subject| Goal::of(session, open, subject));
+            let line = position.map(|position| format!("line {}", position.line));
+            let words: Vec<&str> = goal
+                .iter()
+                .map(|goal| goal.words.as_str())
+                .chain(line.as_deref())
+                .collect();
+            let words = words.join(" · ");
+            let is_chosen = chosen == Some(index);
+            let (rect, response) = pressed_row(ui, is_chosen);
+            let (at, font) = (rect.left_center() + vec2(INDENT, 0.0), FontId::proportional(12.0));
+            paint_elided(ui.painter(), at, &words, font, tokens.accent, rect.width() - INDENT);
+            response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, format!("Go to {words}")));
+            list.row(&response, is_chosen);
+            if response.on_hover_cursor(CursorIcon::PointingHand).clicked() {
+                let at_this = Diagnostic {
+                    position,
+                    ..diagnostic.clone()
+                };
+                if let Some(shown) = &mut state.findings.shown {
+                    shown.occurrence = index;
+                    shown.excerpt = open.excerpt(&at_this);
+                }
+                if let Some(goal) = goal {
+                    goal.go(session, state, commands);
+                }
+            }
+        }
+        let more = (diagnostic.count as usize).saturating_sub(listed);
+        if listed == Diagnostic::MOST_PLACES && more > 0 {
+            ui.add_space(2.0);
+            let words = RichText::new(format!("and {} more", grouped(more)));
+            ui.horizontal(|ui| {
+                ui.add_space(INDENT);
+                ui.label(words.size(12.0).color(tokens.muted));
+            });
+        }
+    }
+}
+
+/// What findings of a code mean, and how to mend them for good.
+pub(super) fn explanation(ui: &mut Ui, code: &str) {
+    if let Some(code) = codes::named(code) {
+        let words = RichText::new(code.explanation).size(12.5);
+        ui.label(words.color(Tokens::of(ui).muted));
+    }
+}
+
+/// Tells programs that read the screen whether something is unfolded. Returns whether the person wants it to be otherwise.
+pub(super) fn tell_fold(ui: &Ui, response: &Response, is_open: bool) -> bool {
+    let action = if is_open { Action::Collapse } else { Action::Expand };
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_expanded(is_open);
+        node.add_action(action);
+    });
+    response.clicked() || ui.input(|input| input.has_accesskit_action_request(response.id, action))
+}

@@ -1,0 +1,74 @@
+//! What the books' programs make of the open file, and the report.
+
+use bindpose::check::book::Book;
+use bindpose::session::{FileCommand, Session};
+
+use super::maps::{mapped, picture};
+use super::{models, opened};
+
+/// Codes of the limits of the D3D12 book.
+fn limits(session: &Session) -> Vec<&'static str> {
+    let verdict = session.verdicts().iter().find(|verdict| verdict.book == Book::D3d12);
+    let limits = &verdict.expect("each book has one").limits;
+    limits.iter().map(|limit| limit.code).collect()
+}
+
+#[test]
+fn without_a_model_there_is_no_verdict_and_no_report() {
+    let session = Session::new(false);
+    assert!(session.verdicts().is_empty() && session.report().is_empty() && session.sarif().is_none());
+}
+
+#[test]
+fn each_book_has_a_verdict_that_is_worked_out_once() {
+    let session = opened(models::file("a.m3d", &models::skinned(&models::CLIPS)));
+    let first = session.verdicts();
+    let reads: Vec<_> = first.iter().map(|verdict| (verdict.book, verdict.reads())).collect();
+    assert_eq!(reads, [(Book::D3d11, false), (Book::D3d12, true)]);
+    assert!(std::ptr::eq(first, session.verdicts()));
+}
+
+#[test]
+fn maps_are_missing_once_a_picture_came_and_no_longer_when_they_come() {
+    let mut session = opened(mapped("box.m3d", "skin_diff.dds", "skin_norm.dds"));
+    let before = limits(&session);
+    session.apply(FileCommand::Add(vec![picture("other.png", [0; 4])]));
+    let with_missing = limits(&session);
+    assert_eq!(with_missing.len(), before.len() + 1, "{before:?} {with_missing:?}");
+    let maps = ["skin_diff.png", "skin_norm.png"].map(|name| picture(name, [0; 4]));
+    session.apply(FileCommand::Add(maps.into()));
+    assert_eq!(limits(&session), before);
+}
+
+#[test]
+fn another_model_has_verdicts_of_its_own() {
+    let mut session = opened(models::file("a.m3d", &models::skinned(&models::CLIPS)));
+    assert!(session.verdicts().iter().any(|verdict| verdict.reads() && verdict.ends));
+    session.apply(FileCommand::Add(vec![models::file("b.m3d", &models::document())]));
+    assert!(
+        session
+            .verdicts()
+            .iter()
+            .any(|verdict| verdict.reads() && !verdict.ends)
+    );
+}
+
+#[test]
+fn the_report_names_the_file_and_has_a_line_for_each_book() {
+    let session = opened(models::file("folder/a.m3d", &models::skinned(&models::CLIPS)));
+    let report = session.report();
+    let lines: Vec<&str> = report.lines().filter(|line| line.starts_with("a.m3d")).collect();
+    assert_eq!(lines.len(), 2 + session.diagnostics().count(), "{report}");
+    assert!(
+        lines
+            .iter()
+            .any(|line| line.starts_with("a.m3d:9:1: D3D11 book: It takes `Name:`")),
+        "{report}"
+    );
+    assert!(
+        lines
+            .iter()
+            .any(|line| line.starts_with("a.m3d: D3D12 book: It reads the file. One sees: ")),
+        "{report}"
+    );
+}
