@@ -241,7 +241,8 @@ function addressedQuality() {
 
 /** The crowd that the address asks for: how many instances of the model, and what their clips, times and places come from. */
 function addressedCrowd() {
-  const [count, seed] = ["crowd", "seed"].map((key) => (/^\d{1,9}$/.test(options.get(key)) ? Number(options.get(key)) : undefined));
+  const whole = (text) => (/^\d{1,10}$/.test(text) && Number(text) < 2 ** 32 ? Number(text) : undefined);
+  const [count, seed] = ["crowd", "seed"].map((key) => whole(options.get(key)));
   return { count, seed };
 }
 

@@ -14,12 +14,21 @@ export function printView(bindpose, canvas) {
   sheet.append(picture, copy, line);
   document.body.append(sheet);
 
+  let drawing = false;
   addEventListener("keydown", (event) => {
     const { key, ctrlKey, metaKey, shiftKey, altKey } = event;
     if (key.toLowerCase() !== "p" || !(ctrlKey || metaKey) || shiftKey || altKey || !bindpose.state().model) return;
     event.preventDefault();
     event.stopPropagation();
-    drawPicture(bindpose, picture).then(print, print);
+    if (event.repeat || drawing) return;
+    drawing = true;
+    drawPicture(bindpose, picture)
+      // Without a picture the print gets a copy of the view.
+      .catch(() => forget(picture))
+      .finally(() => {
+        drawing = false;
+        print();
+      });
   }, true);
   addEventListener("beforeprint", () => {
     const state = bindpose.state();
@@ -30,8 +39,7 @@ export function printView(bindpose, canvas) {
   addEventListener("afterprint", () => {
     copy.width = 0; // Its pixels are freed.
     document.body.classList.remove("has-picture");
-    URL.revokeObjectURL(picture.src);
-    picture.removeAttribute("src");
+    forget(picture);
   });
 }
 
@@ -41,6 +49,11 @@ async function drawPicture(bindpose, picture) {
   picture.src = URL.createObjectURL(await bindpose.snapshot({ width, height }));
   await picture.decode();
   document.body.classList.add("has-picture");
+}
+
+function forget(picture) {
+  URL.revokeObjectURL(picture.src);
+  picture.removeAttribute("src");
 }
 
 /** The viewer draws without its panels when its canvas hears of a print. What a canvas shows can be copied until the script ends. */

@@ -4,6 +4,10 @@
 const MOST_FAILURES = 6;
 /** The pause after the first of them; each later one is twice as long. */
 const FIRST_PAUSE_MS = 250;
+/** A GPU that goes away sooner than this after a start gets a pause too, so that the page does not flicker. */
+const SOON_MS = 500;
+
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 /**
  * Keeps `viewer` on a canvas that was never drawn on. `backend` is "webgpu", "webgl2" or "auto". `onStart({backend, adapter})` hears of
@@ -13,6 +17,7 @@ const FIRST_PAUSE_MS = 250;
 export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }) {
   let gpu = null; // {backend, adapter} of the last start that worked.
   let starts = 0;
+  let startedAt = -Infinity; // By `performance.now()`.
   let restarting = false;
   let lostMeanwhile = null; // The reason, when the GPU went away again during a restart.
 
@@ -27,6 +32,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
     }
     if (mine !== starts) return;
     gpu = started;
+    startedAt = performance.now();
     onStart(gpu);
   };
 
@@ -50,6 +56,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
     try {
       for (let failures = 0; !isOver(); ) {
         // The viewer's hidden input and its mirror stand behind its canvas.
+        if (performance.now() - startedAt < SOON_MS) await pause(FIRST_PAUSE_MS);
         hadFocus ||= document.activeElement !== document.body && canvas.parentElement.contains(document.activeElement);
         viewer.stop();
         lostMeanwhile = null;
@@ -70,7 +77,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
         }
         failures += 1;
         if (failures === MOST_FAILURES) throw new Error(`The GPU did not come back in ${failures} starts: ${reason}`);
-        await new Promise((done) => setTimeout(done, FIRST_PAUSE_MS * 2 ** (failures - 1)));
+        await pause(FIRST_PAUSE_MS * 2 ** (failures - 1));
       }
     } catch (error) {
       onEnd(error, gpu);

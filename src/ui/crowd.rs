@@ -59,7 +59,10 @@ fn selected_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
     let number = (crowd.selected + 1).to_string();
     let text = format!("{} of {}", grouped(crowd.selected + 1), grouped(count));
     let read = |typed: &str| {
-        let number = typed.split_whitespace().next().and_then(|word| word.parse().ok());
+        // As the field shows it: `1 000 of 1 000`.
+        let (digits, _) = typed.split_once("of").unwrap_or((typed, ""));
+        let digits: String = digits.chars().filter(|letter| !letter.is_whitespace()).collect();
+        let number = digits.parse().ok();
         let number = number.filter(|number| (1..=count).contains(number));
         number.ok_or_else(|| format!("A number from 1 to {count}"))
     };
@@ -99,19 +102,31 @@ fn cost_rows(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {
     let cost = cost.read(ui, session);
     let gpu_secs = cost.gpu_secs.map(|passes| passes.iter().sum());
     let rows = [
-        ("CPU", cost.cpu_secs.map(milliseconds), "Time to pose and draw"),
-        ("GPU", gpu_secs.map(milliseconds), "Time of all passes"),
+        (
+            "CPU",
+            cost.cpu_secs.map(milliseconds),
+            "Time to pose and draw the last frame",
+        ),
+        (
+            "GPU",
+            gpu_secs.map(milliseconds),
+            "Time of all passes, some frames ago: its answer takes a while",
+        ),
         (
             "Vertices",
             Some(grouped(cost.vertices as usize)),
-            "Vertices transformed in all passes",
+            "Vertices transformed in all passes of the last frame",
         ),
-        ("Uploaded", Some(bytes(cost.uploaded_bytes)), "Bytes sent to the GPU"),
+        (
+            "Uploaded",
+            Some(bytes(cost.uploaded_bytes)),
+            "Bytes sent to the GPU for the last frame",
+        ),
     ];
     for (label, value, words) in rows {
         if let Some(value) = value {
             let row = value_row(ui, &format!("{label} a frame"), &value);
-            hint_beside(row, None, &format!("{words}, in the frame drawn last"));
+            hint_beside(row, None, words);
         }
     }
 }

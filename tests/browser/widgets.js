@@ -8,7 +8,7 @@ export const TURNTABLE_BUTTON = [802, 30];
 /** What hangs from the light's button. */
 export const LIGHT_POPOVER = {
   split: [922, 140],
-  passes: { shadow: [700, 386], reflections: [700, 409], contact: [700, 432], ao: [700, 455] },
+  passes: { shadow: [900, 388], reflections: [900, 416], contact: [900, 444], ao: [900, 472] },
 };
 
 /** Subsets in the panel on the left, once it is scrolled to its end: the eye of the orange parts. */

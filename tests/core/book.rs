@@ -289,6 +289,8 @@ fn each_limit_is_found_and_nothing_else() {
         assert_eq!(codes, [code]);
         assert!(is_sentence(&verdict.limits[0].message), "{}", verdict.limits[0].message);
         assert!(verdict.reads(), "{code}: {:?}", verdict.trouble);
+        let ends = ["many-bones", "book-clip-name", "book-map-format"].contains(&code);
+        assert_eq!(verdict.ends, ends, "{code}: {}", verdict.shows);
     }
 }
 

@@ -24,6 +24,8 @@ pub struct Limit {
     pub code: &'static str,
     /// One sentence.
     pub message: String,
+    /// Whether the demo ends of it before it shows anything.
+    pub ends: bool,
 }
 
 /// Vertices that 16-bit indices name.
@@ -68,6 +70,8 @@ impl Limits {
         self.0.push(Limit {
             code: code.name,
             message,
+            // A picture that is not opened is an error that the demos do not go on after.
+            ends: [&codes::BOOK_MAP_FORMAT, &codes::MAP_MISSING].contains(&code),
         });
     }
 

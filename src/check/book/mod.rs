@@ -63,13 +63,19 @@ impl Verdict {
 pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
     let reading = read(book, bytes);
     let trouble = trouble(&reading);
-    let end = shows::ends(book, &reading);
     let document = known.document.or(trouble.is_none().then_some(&reading.document));
+    let limits = document.map_or_else(Vec::new, |document| limits::limits(book, document, known));
+    // Maps are opened before anything is shown.
+    let by_map = limits
+        .iter()
+        .any(|limit| limit.ends)
+        .then(|| "It ends with an error about a map.".to_owned());
+    let end = shows::ends(book, &reading).or(by_map);
     Verdict {
         book,
         ends: end.is_some(),
         shows: end.unwrap_or_else(|| shows::shows(&reading)),
-        limits: document.map_or_else(Vec::new, |document| limits::limits(book, document, known)),
+        limits,
         trouble,
     }
 }
