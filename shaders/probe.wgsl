@@ -16,7 +16,8 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     var colors = COLORS;
     let triangle = index / 3u;
     // (−1, −1), (1, −1), (−1, 1).
-    let corner = vec2<f32>(f32(index % 3u & 1u), f32(index % 3u >> 1u)) * 2.0 - 1.0;
+    let of_triangle = index % 3u;
+    let corner = vec2<f32>(f32(of_triangle & 1u), f32(of_triangle >> 1u)) * 2.0 - 1.0;
     let unmoved = Skinned(vec3<f32>(corner, 0.0), vec3<f32>(0.0, 0.0, -1.0), vec4<f32>(1.0, 0.0, 0.0, 1.0));
     let moved = skin(unmoved, vec4<u32>(joints[triangle]), vec4<f32>(1.0, 0.0, 0.0, 0.0));
     return Corner(vec4<f32>(moved.position, 1.0), colors[triangle]);

@@ -234,7 +234,9 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu) -> Result<Vec<u
     });
     uploaded?;
     pollster::block_on(answer)?;
-    let pixels = renderer.picture(&session.frame(), arguments.size)?.pixels_blocking()?;
+    let pixels = renderer
+        .picture(&session.frame_at_rest(), arguments.size)?
+        .pixels_blocking()?;
     Ok(encode_png(&pixels, width, height)?)
 }
 

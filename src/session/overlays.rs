@@ -1,6 +1,8 @@
 //! What is drawn over the model and in place of its colours: bones, trails, ghosts, colours of the skin. In buffers that are
 //! filled again only when what they show is different.
 
+use std::f32::consts::TAU;
+
 use glam::{Affine3A, Vec3};
 
 use super::actor::Actor;
@@ -12,7 +14,7 @@ use super::skeleton_cache::{SkeletonCache, SkinColorsKey};
 use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
 use crate::model::{JointIndex, Model};
 use crate::scene::{
-    BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, draw_marked_bones, joint_colors,
+    Aabb, BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, draw_marked_bones, joint_colors,
 };
 
 /// How opaque the nearest ghost is, and the farthest.
@@ -21,6 +23,10 @@ const GHOST_ALPHA: [u8; 2] = [110, 40];
 const PAST_SRGB: [u8; 3] = [90, 169, 255];
 const FUTURE_SRGB: [u8; 3] = [255, 180, 84];
 const BIND_SRGB: [u8; 4] = [160, 170, 190, 110];
+
+/// Sides of the ring around the selected instance, and its width as a fraction of its radius.
+const RING_SEGMENTS: usize = 64;
+const RING_WIDTH: f32 = 0.05;
 
 /// Buffers, and what they were filled for.
 #[derive(Clone, Debug, Default)]
@@ -131,6 +137,22 @@ impl OverlayCache {
                 let [from, to] = [step[0], step[1]].map(|point| world_from_model.transform_point3(point));
                 self.geometry.line(from, to, [red, green, blue, 255]);
             }
+        }
+    }
+
+    /// Draws a ring on the ground around the instance that is selected, whose box is `bounds`. After [`OverlayCache::update_geometry`].
+    pub(super) fn mark_place(&mut self, bounds: &Aabb, ground_height: f32, color_srgb: [u8; 4]) {
+        let (center, size) = (bounds.center(), bounds.size());
+        let radius = 0.5 * size.x.max(size.z);
+        let at = |segment: usize, radius: f32| {
+            let (sin, cos) = (segment as f32 / RING_SEGMENTS as f32 * TAU).sin_cos();
+            Vec3::new(center.x + radius * cos, ground_height, center.z + radius * sin)
+        };
+        for segment in 0..RING_SEGMENTS {
+            let [inner, outer] =
+                [1.0 - RING_WIDTH, 1.0].map(|part| [segment, segment + 1].map(|end| at(end, radius * part)));
+            self.geometry.triangle([inner[0], outer[1], outer[0]], color_srgb);
+            self.geometry.triangle([inner[0], inner[1], outer[1]], color_srgb);
         }
     }
 

@@ -232,6 +232,11 @@ impl Quality {
         })
     }
 
+    /// How long three of four frames took at most when that was last looked at, while the picture moved, seconds; 0 before.
+    pub fn frame_secs(&self) -> f32 {
+        self.pacer.frame_secs()
+    }
+
     /// In how many seconds the picture rests, if nothing moves until then. None when it rests, or when it would be the same.
     pub fn rests_in_secs(&self) -> Option<f32> {
         let is_lowered = (self.in_motion && self.moving_step() != Pacer::FINEST) || !self.poses_all();

@@ -5,27 +5,39 @@ use super::view::View;
 use super::{Caches, Session};
 use crate::anim::{JointReadout, SkinView, VertexExplanation, explain_vertex};
 use crate::model::{JointIndex, Skeleton};
-use crate::scene::{Bones, Crowd, LabelPlace, RenderFrame, Screen, label_places};
+use crate::scene::{BoneColors, Bones, Crowd, Ground, LabelPlace, RenderFrame, Screen, label_places};
 
 impl Session {
     /// All that a renderer needs for the picture of now. The box is empty and the palette too when nothing is open.
     pub fn frame(&mut self) -> RenderFrame<'_> {
-        self.frame_with(self.quality.poses_all())
+        let poses_all = self.quality.poses_all();
+        self.prepare(poses_all);
+        if self.instances.are_many() {
+            let bounds = self.selected_bounds();
+            let ground = Ground::under(&self.world_bounds()).height;
+            let colors = BoneColors::of(self.view.theme);
+            self.caches.overlays.mark_place(&bounds, ground, colors.selected);
+        }
+        self.prepared_frame()
     }
 
-    /// The same for a picture that rests, though this one may move: with all detail.
+    /// The same for a picture that is saved: as at rest, with all detail, and without the mark of the selected instance.
     pub fn frame_at_rest(&mut self) -> RenderFrame<'_> {
         let passes = self.quality.wanted();
-        let mut frame = self.frame_with(true);
+        self.prepare(true);
+        let mut frame = self.prepared_frame();
         frame.options.passes = passes;
         (frame.options.occlusion_detail, frame.options.shadow_detail) = Default::default();
         frame
     }
 
-    fn frame_with(&mut self, poses_all: bool) -> RenderFrame<'_> {
+    fn prepare(&mut self, poses_all: bool) {
         self.pose_now();
         self.pose_crowd(poses_all);
         self.update_overlays();
+    }
+
+    fn prepared_frame(&self) -> RenderFrame<'_> {
         RenderFrame {
             camera: self.view.camera,
             world_from_model: self.world_from_model(),

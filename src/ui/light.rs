@@ -162,13 +162,13 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             PassState::Off => (PassChoice::Auto, "Draw it"),
             PassState::TooSlow => (
                 PassChoice::On,
-                "Too slow here while the picture moves. Draw it however long frames take",
+                "Too slow here while the picture moves, so it is drawn at rest. Draw it always, however long frames take",
             ),
         };
         let too_slow = state == PassState::TooSlow;
-        let note = if too_slow { "at rest" } else { "" };
+        let note = if too_slow { "only at rest" } else { "" };
         let note_style = (note, FontId::proportional(12.0), Tokens::of(ui).warning);
-        let row = noted_switch_row(ui, pass.label(), note_style, state == PassState::Drawn);
+        let row = noted_switch_row(ui, pass.label(), note_style, state != PassState::Off);
         if too_slow {
             ui.ctx()
                 .accesskit_node_builder(row.id, |node| node.set_description("Drawn only at rest"));

@@ -751,3 +751,34 @@ fn a_thousand_soldiers_stand_apart_and_are_posed_exactly() {
     assert_eq!(frame.crowd.in_sight, MAX_CROWD - 1, "the camera frames all of them");
     assert_posed(&mut session);
 }
+
+/// The window marks the place of the selected instance with a ring on the ground; a picture that is saved has none.
+#[test]
+fn the_selected_one_stands_in_a_ring() {
+    let mut session = crowd(5, 3);
+    for instance in [0, 3, 1] {
+        select(&mut session, instance);
+        let frame = session.frame();
+        let (place, ring) = (
+            frame.world_from_model.translation,
+            &frame.over_model.expect("it has a ring").triangles,
+        );
+        let middle = ring.iter().map(|corner| Vec3::from(corner.position)).sum::<Vec3>() / ring.len() as f32;
+        let away = (middle - Vec3::from(place)).with_y(0.0).length();
+        let radius = (Vec3::from(ring[0].position) - middle).length();
+        assert!(away < radius, "{instance}: {away} from the place, {radius} around it");
+        assert!(
+            session
+                .frame_at_rest()
+                .over_model
+                .is_none_or(|shapes| shapes.triangles.is_empty())
+        );
+    }
+    set(&mut session, 1, 3);
+    assert!(
+        session
+            .frame()
+            .over_model
+            .is_none_or(|shapes| shapes.triangles.is_empty())
+    );
+}
