@@ -39,7 +39,7 @@ pub(super) struct Arguments {
     /// The same as --format json.
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// What else than errors makes the exit code 1.
+    /// What, besides errors, makes the exit code 1.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     deny: Vec<Deny>,
     /// Whether the programs of Frank Luna's books read the files, and what they show.
