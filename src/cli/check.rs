@@ -1,6 +1,6 @@
 //! `bindpose check`: all that is wrong with files, or was mended, and what the books' programs make of them.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
 use super::paths;
 use super::text::counted;
-use super::textures::{MapState, Textures, Wanted, missing, without_name};
+use super::textures::{MapState, Textures, Wanted, by_name, missing, without_name};
 use crate::anim::CompiledClip;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::check::report::{self, CheckedFile};
@@ -272,7 +272,7 @@ fn verdicts(
 /// What looking for maps gives.
 struct FoundMaps {
     diagnostics: Vec<Diagnostic>,
-    /// Names without a file.
+    /// Names without a file, each once.
     missing: Vec<String>,
 }
 
@@ -283,17 +283,18 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
     maps.add(materials, std::mem::take(&mut textures.pictures));
     let states = textures.states(materials, &maps);
     let mut diagnostics = Vec::new();
-    // A name that several materials have is told once, with the first.
-    let mut told = BTreeMap::new();
+    let mut absent = Vec::new();
+    let mut indices = HashMap::new();
     for (index, map) in (0..).zip(&states) {
-        let count = told.entry(map.name).or_insert(0);
-        *count += 1;
-        if *count > 1 {
-            continue;
-        }
-        let users = states.iter().filter(|other| other.name == map.name).count();
+        indices.entry(map.name).or_insert(index);
+    }
+    // A name that several materials have is told once, with the first.
+    for (map, users) in by_name(&states) {
         let diagnostic = match &map.state {
-            Some(MapState::Missing) => missing(map, users),
+            Some(MapState::Missing) => {
+                absent.push(map.name.to_owned());
+                missing(map, users)
+            }
             Some(MapState::Unreadable(path, diagnostic)) => Diagnostic {
                 message: format!("{}: {}", path.display(), without_name(diagnostic, path).message),
                 ..diagnostic.clone()
@@ -301,7 +302,7 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
             Some(MapState::Found(_)) | None => continue,
         };
         diagnostics.push(Diagnostic {
-            subject: Some(Subject::Map(index)),
+            subject: indices.get(map.name).copied().map(Subject::Map),
             ..diagnostic
         });
     }
@@ -316,11 +317,9 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
             ..codes::MAP_UNUSED.says(format!("No material names {}{others}.", first.base_name()))
         });
     }
-    let is_missing = |state: &Option<MapState<'_>>| matches!(state, Some(MapState::Missing));
-    let missing = states.iter().filter(|map| is_missing(&map.state));
     Ok(FoundMaps {
         diagnostics,
-        missing: missing.map(|map| map.name.to_owned()).collect(),
+        missing: absent,
     })
 }
 
