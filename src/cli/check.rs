@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -147,33 +148,30 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         When::Always => true,
         When::Never => false,
     });
-    let models = paths::models(&arguments.paths);
+    let models = paths::models(&arguments.paths).into_iter();
+    let models: Vec<_> = models.map(|model| model.map_err(Arc::new)).collect();
     let is_only = models.len() == 1;
     let progress = progress(models.len());
     let mut outcome = Outcome::Fine;
     let mut counts = Counts::default();
     let mut json = Vec::new();
     let mut results = Vec::new();
-    in_order(
+    let done = in_order(
         &models,
-        |path| check_file(path.as_ref().ok()?, arguments, is_only).into(),
-        |checked: Option<Result<Checked, Failure>>| -> Result<(), Failure> {
-            let index = progress.position() as usize;
+        |model| match model {
+            Ok(path) => check_file(path, arguments, is_only).map_err(Arc::new),
+            Err(failure) => Err(Arc::clone(failure)),
+        },
+        |_, checked| -> Result<(), Failure> {
             progress.inc(1);
-            let checked = match (checked, &models[index]) {
-                (Some(Ok(checked)), _) => checked,
-                (Some(Err(failure)), _) => {
+            let checked = match checked {
+                Ok(checked) => checked,
+                Err(failure) => {
                     // Keeps the order of the files where both streams go to one terminal.
                     out.flush()?;
                     outcome = outcome.max(progress.suspend(|| failure.report(err)));
                     return Ok(());
                 }
-                (None, Err(failure)) => {
-                    out.flush()?;
-                    outcome = outcome.max(progress.suspend(|| failure.report(err)));
-                    return Ok(());
-                }
-                (None, Ok(_)) => return Ok(()),
             };
             counts.add(&checked);
             outcome = outcome.max(checked.outcome(&arguments.deny));
@@ -184,8 +182,9 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
             }
             Ok(())
         },
-    )?;
+    );
     progress.finish_and_clear();
+    done?;
     match format {
         Format::Text if models.len() > 1 => writeln!(out, "{counts}")?,
         Format::Text => {}
