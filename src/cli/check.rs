@@ -1,8 +1,9 @@
 //! `bindpose check`: all that is wrong with files, or was mended, and what the books' programs make of them.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,7 +14,7 @@ use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
 use super::paths;
 use super::text::counted;
-use super::textures::{MapState, Textures, Wanted, missing, without_name};
+use super::textures::{MapState, Textures, Wanted, by_name, missing, without_name};
 use crate::anim::CompiledClip;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::check::report::{self, CheckedFile};
@@ -39,7 +40,7 @@ pub(super) struct Arguments {
     /// The same as --format json.
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// What else than errors makes the exit code 1.
+    /// What, besides errors, makes the exit code 1.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     deny: Vec<Deny>,
     /// Whether the programs of Frank Luna's books read the files, and what they show.
@@ -147,33 +148,30 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         When::Always => true,
         When::Never => false,
     });
-    let models = paths::models(&arguments.paths);
+    let models = paths::models(&arguments.paths).into_iter();
+    let models: Vec<_> = models.map(|model| model.map_err(Arc::new)).collect();
     let is_only = models.len() == 1;
     let progress = progress(models.len());
     let mut outcome = Outcome::Fine;
     let mut counts = Counts::default();
     let mut json = Vec::new();
     let mut results = Vec::new();
-    in_order(
+    let done = in_order(
         &models,
-        |path| check_file(path.as_ref().ok()?, arguments, is_only).into(),
-        |checked: Option<Result<Checked, Failure>>| -> Result<(), Failure> {
-            let index = progress.position() as usize;
+        |model| match model {
+            Ok(path) => check_file(path, arguments, is_only).map_err(Arc::new),
+            Err(failure) => Err(Arc::clone(failure)),
+        },
+        |_, checked| -> Result<(), Failure> {
             progress.inc(1);
-            let checked = match (checked, &models[index]) {
-                (Some(Ok(checked)), _) => checked,
-                (Some(Err(failure)), _) => {
+            let checked = match checked {
+                Ok(checked) => checked,
+                Err(failure) => {
                     // Keeps the order of the files where both streams go to one terminal.
                     out.flush()?;
                     outcome = outcome.max(progress.suspend(|| failure.report(err)));
                     return Ok(());
                 }
-                (None, Err(failure)) => {
-                    out.flush()?;
-                    outcome = outcome.max(progress.suspend(|| failure.report(err)));
-                    return Ok(());
-                }
-                (None, Ok(_)) => return Ok(()),
             };
             counts.add(&checked);
             outcome = outcome.max(checked.outcome(&arguments.deny));
@@ -184,8 +182,9 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
             }
             Ok(())
         },
-    )?;
+    );
     progress.finish_and_clear();
+    done?;
     match format {
         Format::Text if models.len() > 1 => writeln!(out, "{counts}")?,
         Format::Text => {}
@@ -272,7 +271,7 @@ fn verdicts(
 /// What looking for maps gives.
 struct FoundMaps {
     diagnostics: Vec<Diagnostic>,
-    /// Names without a file.
+    /// Names without a file, each once.
     missing: Vec<String>,
 }
 
@@ -283,17 +282,18 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
     maps.add(materials, std::mem::take(&mut textures.pictures));
     let states = textures.states(materials, &maps);
     let mut diagnostics = Vec::new();
-    // A name that several materials have is told once, with the first.
-    let mut told = BTreeMap::new();
+    let mut absent = Vec::new();
+    let mut indices = HashMap::new();
     for (index, map) in (0..).zip(&states) {
-        let count = told.entry(map.name).or_insert(0);
-        *count += 1;
-        if *count > 1 {
-            continue;
-        }
-        let users = states.iter().filter(|other| other.name == map.name).count();
+        indices.entry(map.name).or_insert(index);
+    }
+    // A name that several materials have is told once, with the first.
+    for (map, users) in by_name(&states) {
         let diagnostic = match &map.state {
-            Some(MapState::Missing) => missing(map, users),
+            Some(MapState::Missing) => {
+                absent.push(map.name.to_owned());
+                missing(map, users)
+            }
             Some(MapState::Unreadable(path, diagnostic)) => Diagnostic {
                 message: format!("{}: {}", path.display(), without_name(diagnostic, path).message),
                 ..diagnostic.clone()
@@ -301,7 +301,7 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
             Some(MapState::Found(_)) | None => continue,
         };
         diagnostics.push(Diagnostic {
-            subject: Some(Subject::Map(index)),
+            subject: indices.get(map.name).copied().map(Subject::Map),
             ..diagnostic
         });
     }
@@ -316,11 +316,9 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
             ..codes::MAP_UNUSED.says(format!("No material names {}{others}.", first.base_name()))
         });
     }
-    let is_missing = |state: &Option<MapState<'_>>| matches!(state, Some(MapState::Missing));
-    let missing = states.iter().filter(|map| is_missing(&map.state));
     Ok(FoundMaps {
         diagnostics,
-        missing: missing.map(|map| map.name.to_owned()).collect(),
+        missing: absent,
     })
 }
 

@@ -524,6 +524,42 @@ fn maps_are_looked_for_where_a_folder_is_given() {
 }
 
 #[test]
+fn a_map_that_three_materials_name_is_missing_once() {
+    let folder = scratch("map_of_three");
+    std::fs::create_dir_all(&folder).expect("can be made");
+    let text = std::fs::read_to_string(fixture("good/d3d12_skinned.m3d")).expect("can be read");
+    let (before, rest) = text.split_once("Name:").expect("has a material");
+    let (material, after) = rest.split_once("\n\n").expect("ends with an empty line");
+    let others: String = ["Second", "Third"]
+        .into_iter()
+        .map(|name| {
+            let lines = material.split_once('\n').expect("has lines").1;
+            format!("Name: {name}\n{lines}\n\n")
+        })
+        .collect();
+    let before = before.replacen("#Materials 1", "#Materials 3", 1);
+    let after = after.replacen(
+        "\n\n",
+        "\nSubsetID: 1 VertexStart: 0 VertexCount: 0 FaceStart: 1 FaceCount: 0\n\
+         SubsetID: 2 VertexStart: 0 VertexCount: 0 FaceStart: 1 FaceCount: 0\n\n",
+        1,
+    );
+    let file = folder.join("three.m3d");
+    std::fs::write(&file, format!("{before}Name:{material}\n\n{others}{after}")).expect("can be written");
+    let (file, folder) = (file.to_str().expect("UTF-8"), folder.to_str().expect("UTF-8"));
+    std::fs::write(format!("{folder}/skin_norm.dds"), b"DDS no more").expect("can be written");
+    let found = run(["check", "--json", "--book", "d3d12", "--textures", folder, file]).json();
+    let limits = found[0]["book"]["d3d12"]["limits"].as_array().expect("a list");
+    let missing = limits.iter().find(|limit| limit["code"] == "map-missing");
+    assert!(
+        missing
+            .and_then(|limit| limit["message"].as_str())
+            .is_some_and(|message| message.starts_with("1 map is not there")),
+        "{found}"
+    );
+}
+
+#[test]
 fn colours_are_for_terminals_and_for_those_who_ask() {
     let file = fixture("bad/empty.m3d");
     let plain = run(["check", &file]).out;

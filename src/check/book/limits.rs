@@ -105,11 +105,14 @@ impl Limits {
         }
         let before = bones().filter(|&(bone, &parent)| parent >= bone).count();
         if before > 0 {
-            let verb = if before == 1 { "stands" } else { "stand" };
-            let message = format!(
-                "{} {verb} before their parents, whose matrices are still zero: what hangs on them shrinks to a point.",
-                counted(before, "bone", "bones")
-            );
+            let message = if before == 1 {
+                "1 bone stands before its parent, whose matrix is still zero: what hangs on it shrinks to a point."
+                    .to_owned()
+            } else {
+                format!(
+                    "{before} bones stand before their parents, whose matrices are still zero: what hangs on them shrinks to a point."
+                )
+            };
             self.add(&codes::BONES_REORDERED, message);
         }
     }
@@ -126,13 +129,13 @@ impl Limits {
             .filter(|vertex| with_weight(vertex) > 255)
             .count();
         if above > 0 {
+            let (vertices_name, them) = if above == 1 {
+                ("vertex names", "it")
+            } else {
+                ("vertices name", "them")
+            };
             let message = format!(
-                "{} a bone above 255, of which a byte keeps the remainder: another bone moves them.",
-                if above == 1 {
-                    "1 vertex names".to_owned()
-                } else {
-                    format!("{above} vertices name")
-                }
+                "{above} {vertices_name} a bone above 255, of which a byte keeps the remainder: another bone moves {them}."
             );
             self.add(&codes::BONE_INDEX_ABOVE_BYTE, message);
         }
@@ -142,9 +145,9 @@ impl Limits {
         };
         let differing = document.vertices.iter().filter(differs).count();
         if differing > 0 {
+            let vertices_have = if differing == 1 { "vertex has" } else { "vertices have" };
             let message = format!(
-                "The fourth weight of {} is not what is left to 1, but that is what the shader takes.",
-                counted(differing, "vertex", "vertices")
+                "The shader takes what the first three weights leave to 1; in the file {differing} {vertices_have} another fourth weight."
             );
             self.add(&codes::BOOK_FOURTH_WEIGHT, message);
         }
