@@ -12,15 +12,16 @@ use crate::scene::Aabb;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrowdCommand {
     /// Shows this many instances, clamped to 1…[`MAX_CROWD`]; clips, times and places come from a seed. The first stays where it is and as
-    /// it is. With the seed of before the others that were there stay too. The camera frames them. Ignored without a model.
+    /// it is. If the seed is the same as before, the others that are kept stay as
+    /// they are, too. The camera frames them. Ignored without a model.
     Set {
         /// Instances, with the first.
         count: usize,
         /// The same seed, the same crowd.
         seed: u32,
     },
-    /// Makes an instance the one that is selected: timeline, skeleton and read-outs are of it. What fades and what is blended in is of the
-    /// one before, and ends. An instance that is not there is ignored.
+    /// Makes an instance the one that is selected: timeline, skeleton and read-outs are of it. Fades and blends of the instance selected
+    /// before end. An instance that is not there is ignored.
     Select(usize),
 }
 
