@@ -283,16 +283,15 @@ impl Playback {
         before != (self.time_secs, self.playing)
     }
 
-    /// Goes on by some seconds of the clip, or back where they are negative, whether it plays or not: in [`LoopMode::Loop`] round and
-    /// round, in [`LoopMode::PingPong`] there and back, in [`LoopMode::Once`] to the end. What is not finite is ignored.
+    /// Goes on by some seconds of the clip, or back where they are negative, whether it plays or not: in [`LoopMode::PingPong`] there
+    /// and back, else round and round, so that the same way back leads to where it was. What is not finite is ignored.
     pub fn shift(&mut self, secs: f64) {
         if !secs.is_finite() {
             return;
         }
         let played = self.played();
         match self.loop_mode {
-            LoopMode::Once => self.time_secs = played.clamp(self.time_secs + secs),
-            LoopMode::Loop => self.time_secs = played.step_around(self.time_secs, secs),
+            LoopMode::Once | LoopMode::Loop => self.time_secs = played.step_around(self.time_secs, secs),
             LoopMode::PingPong => {
                 (self.time_secs, self.returning) = played.step_to_and_fro(self.time_secs, self.returning, secs);
             }

@@ -270,6 +270,19 @@ fn a_sought_time_moves_all_by_the_same_seconds_and_back() {
 }
 
 #[test]
+fn a_sought_time_and_back_leaves_all_as_they_were_in_clips_that_play_once() {
+    let mut session = crowd(20, 3);
+    session.apply(PlayCommand::SetLoopMode(LoopMode::Once));
+    session.apply(PlayCommand::Seek { time_secs: 0.25 });
+    let before = all(&session);
+    session.apply(PlayCommand::SeekEnd);
+    session.apply(PlayCommand::Seek { time_secs: 0.25 });
+    for (was, is) in before.iter().zip(all(&session)) {
+        assert!((was.2 - is.2).abs() < 1e-6, "{was:?} {is:?}");
+    }
+}
+
+#[test]
 fn played_once_all_stop_with_the_selected_one() {
     let mut session = opened(moving("a.m3d"));
     set(&mut session, 30, 3);
