@@ -90,6 +90,8 @@ test("the keys for bones and skin", SMALL, async (page) => {
     ["k", "bind pose", ({ skeleton }) => skeleton.bindShare === 1],
     ["k", "the clip", ({ skeleton }) => skeleton.bindShare === 0],
   ]);
+  // The view is framed again when a chip went.
+  await atRest(page);
   assert.equal((await picture(page)).digest, before.digest, "each takes away what it brought");
   for (const [key, fraction] of [["b", 0.001], ["w", 0.008], ["k", 0.008]]) {
     await page.keyboard.press(key);
