@@ -424,7 +424,7 @@ impl SessionPainter {
         if self.maps != Some(maps) {
             let images = session.maps().images();
             let images: Vec<_> = images
-                .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+                .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
                 .collect();
             self.renderer.set_maps(&images);
             self.maps = Some(maps);

@@ -1,9 +1,10 @@
 //! A clip made ready for sampling: four tracks side by side, on one time line.
 
-use glam::{DQuat, Vec3};
+use glam::DQuat;
 
 use super::lanes::{ArcLanes, JointLanes, angle_between};
-use crate::model::{Clip, JointIndex, LocalJoint, Track};
+use super::straight::straight;
+use crate::model::{Clip, JointIndex, Track};
 
 /// Probe times of a clip at most.
 const MOST_PROBE_TIMES: usize = 1_000;
@@ -116,7 +117,9 @@ impl CompiledClip {
 impl TrackGroup {
     /// Up to four tracks; the lanes of missing ones are identities.
     fn new(tracks: &[Track]) -> Self {
-        let times_secs = common_times(tracks);
+        let tracks: Vec<_> = tracks.iter().map(straight).collect();
+        let tracks: Vec<&Track> = tracks.iter().map(AsRef::as_ref).collect();
+        let times_secs = common_times(&tracks);
         let still = KeyLanes {
             joints: JointLanes::IDENTITY,
             arc: ArcLanes::NONE,
@@ -140,8 +143,8 @@ impl TrackGroup {
 }
 
 /// Every time at which a track has a key.
-fn common_times(tracks: &[Track]) -> Vec<f32> {
-    let mut times_secs: Vec<f32> = tracks.iter().flat_map(Track::times_secs).copied().collect();
+fn common_times(tracks: &[&Track]) -> Vec<f32> {
+    let mut times_secs: Vec<f32> = tracks.iter().flat_map(|track| track.times_secs()).copied().collect();
     // A stable sort merges runs that are sorted, as these are.
     times_secs.sort_by(f32::total_cmp);
     times_secs.dedup();
@@ -155,35 +158,12 @@ fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLane
         while track.times_secs().get(from + 1).is_some_and(|&next| next <= time_secs) {
             from += 1;
         }
-        let joint = joint_at(track, from, time_secs);
+        let joint = track.between(from, time_secs);
         key.joints.set_joint(lane, joint);
         let rotation = joint.rotation.as_dquat();
         if let Some((key, start)) = before {
             key.arc.set(lane, angle_between(start, rotation));
         }
         before = Some((key, rotation));
-    }
-}
-
-/// A track at a time, in f64, where `from` is the last key at or before that time, or the first.
-fn joint_at(track: &Track, from: usize, time_secs: f32) -> LocalJoint {
-    let start_secs = track.times_secs()[from];
-    let end_secs = match track.times_secs().get(from + 1) {
-        Some(&end_secs) if start_secs < time_secs => end_secs,
-        _ => return track.key(from),
-    };
-    let start_secs = f64::from(start_secs);
-    let part = (f64::from(time_secs) - start_secs) / (f64::from(end_secs) - start_secs);
-    let (from, to) = (track.key(from), track.key(from + 1));
-    let between = |from: Vec3, to: Vec3| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
-    let rotation = from
-        .rotation
-        .as_dquat()
-        .normalize()
-        .slerp(to.rotation.as_dquat().normalize(), part);
-    LocalJoint {
-        rotation: rotation.normalize().as_quat(),
-        translation: between(from.translation, to.translation),
-        scale: between(from.scale, to.scale),
     }
 }

@@ -20,6 +20,7 @@ mod sample;
 mod skin;
 mod skin_view;
 mod span;
+mod straight;
 mod trails;
 
 pub use crate::model::LocalJoint;

@@ -15,7 +15,7 @@ use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::summary::{self, Bounds, Finding};
-use crate::session::{MapSlot, Maps, OpenModel};
+use crate::session::{Maps, OpenModel};
 
 /// Print what is in a model.
 #[derive(Debug, clap::Args)]
@@ -136,10 +136,7 @@ impl<'a> From<&'a NamedMap<'_>> for Map<'a> {
         };
         Self {
             material: map.material,
-            slot: match map.slot {
-                MapSlot::Diffuse => "diffuse",
-                MapSlot::Normal => "normal",
-            },
+            slot: map.slot.name(),
             name: map.name,
             state: map.state.as_ref().map(MapState::as_str),
             path: path.map(|path| path.display().to_string()),

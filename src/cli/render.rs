@@ -226,7 +226,7 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu) -> Result<Vec<u
             .map_or(Ok(()), |open| renderer.set_model(&open.model));
         let images = session.maps().images();
         let images: Vec<_> = images
-            .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+            .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
             .collect();
         renderer.set_maps(&images);
         renderer.set_sky(session.sky().map(|image| &**image));

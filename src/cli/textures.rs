@@ -9,8 +9,8 @@ use super::diagnostic::write_diagnostic;
 use super::failure::Failure;
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
-use crate::model::Material;
-use crate::session::{self, File, MapNames, MapSlot, MapSource, Maps, find_maps};
+use crate::model::{MapSlot, Material};
+use crate::session::{self, File, MapNames, MapSource, Maps, find_maps};
 
 /// The most entries of folders that are looked at, so that a whole disk given by mistake does not take for ever.
 const MOST_ENTRIES: usize = 500_000;

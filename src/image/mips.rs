@@ -12,6 +12,13 @@ pub enum MapKind {
     Diffuse,
     /// Directions of unit length: averaged and normalised. Alpha is averaged by itself.
     Normal,
+    /// Numbers such as roughness: each channel is averaged by itself.
+    Data,
+}
+
+impl MapKind {
+    /// Each of them.
+    pub const ALL: [Self; 3] = [Self::Diffuse, Self::Normal, Self::Data];
 }
 
 /// A value that is averaged: colour times weight and weight, or direction or colour and alpha.
@@ -104,6 +111,8 @@ enum Coding {
     Srgb,
     /// With two channels z follows from x and y, and is written as 0.
     Direction { two_channels: bool },
+    /// Numbers 0…1, each channel by itself.
+    Linear,
     /// Linear half floats.
     Half,
 }
@@ -116,13 +125,14 @@ impl Coding {
             MapKind::Normal => Self::Direction {
                 two_channels: image.channels == Channels::RedGreen,
             },
+            MapKind::Data => Self::Linear,
         }
     }
 
     /// The format in which levels are written.
     fn format(self) -> ImageFormat {
         match self {
-            Self::Srgb | Self::Direction { .. } => ImageFormat::Rgba8,
+            Self::Srgb | Self::Direction { .. } | Self::Linear => ImageFormat::Rgba8,
             Self::Half => ImageFormat::Rgba16Float,
         }
     }
@@ -151,6 +161,7 @@ impl Coding {
         match self {
             Self::Srgb => halve_bytes(&read_colour),
             Self::Direction { two_channels } => halve_bytes(&|texel| read_direction(texel, two_channels)),
+            Self::Linear => halve_bytes(&|texel| texel.map(|value| f32::from(value) / 255.0)),
             Self::Half => {
                 let values = image.to_rgba32f(face, level).unwrap_or_default();
                 let texels = values.as_chunks::<4>().0;
@@ -172,6 +183,7 @@ impl Coding {
                 let [x, y, z] = normalized([x, y, z]).map(|value| unit(value * 0.5 + 0.5));
                 [x, y, if two_channels { 0 } else { z }, unit(alpha)]
             })),
+            Self::Linear => data.extend(texels.as_flattened().iter().map(|&value| unit(value))),
             Self::Half => {
                 let values = texels.as_flattened().iter();
                 data.extend(values.flat_map(|&value| half::from_f32(value).to_le_bytes()));

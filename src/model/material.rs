@@ -1,25 +1,194 @@
 //! Surface parameters, colours linear unless named `_srgb`.
 
+use glam::{Affine2, Vec2};
+
+use crate::modes::modes;
+
 /// A material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name to show, unique in the model.
     pub name: String,
-    /// Diffuse colour as the file has it, linear.
+    /// Diffuse colour as the file has it, linear. Of a metal its reflectance.
     pub diffuse: [f32; 3],
-    /// The part in which the books differ.
+    /// Alpha beside `diffuse`, 0…1, which the map's alpha multiplies.
+    pub opacity: f32,
+    /// How it reflects.
     pub reflectance: Reflectance,
-    /// Cut by alpha and drawn from both sides.
-    pub alpha_clip: bool,
-    /// Name of the diffuse map as the file has it.
-    pub diffuse_map: Option<String>,
-    /// Name of the normal map as the file has it.
-    pub normal_map: Option<String>,
+    /// What alpha does.
+    pub alpha: AlphaMode,
+    /// Drawn from both sides. A cut material of the books is.
+    pub double_sided: bool,
+    /// Shown in its diffuse colour without any light.
+    pub unlit: bool,
+    /// Light that it gives itself, linear, 0 or more; times the emissive map.
+    pub emissive: [f32; 3],
+    /// How far the normal map bends normals: x and y of its texels are multiplied by this.
+    pub normal_scale: f32,
+    /// How much of the occlusion map counts, 0…1.
+    pub occlusion_strength: f32,
+    /// Colours, sRGB, with alpha.
+    pub diffuse_map: Option<MaterialMap>,
+    /// Directions, linear.
+    pub normal_map: Option<MaterialMap>,
+    /// Roughness in green and metalness in blue, linear; multiplied by the numbers of [`Reflectance::MetallicRoughness`].
+    pub metallic_roughness_map: Option<MaterialMap>,
+    /// How much of the surrounding light arrives, in red, linear.
+    pub occlusion_map: Option<MaterialMap>,
+    /// Colours that `emissive` multiplies, sRGB.
+    pub emissive_map: Option<MaterialMap>,
+}
+
+/// Grey, opaque, without maps: what is drawn where a file has no material. The grey reads as no colour of a file.
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            diffuse: [0.8; 3],
+            opacity: 1.0,
+            reflectance: Reflectance::Fresnel {
+                fresnel0: [0.05; 3],
+                roughness: 0.6,
+            },
+            alpha: AlphaMode::Opaque,
+            double_sided: false,
+            unlit: false,
+            emissive: [0.0; 3],
+            normal_scale: 1.0,
+            occlusion_strength: 1.0,
+            diffuse_map: None,
+            normal_map: None,
+            metallic_roughness_map: None,
+            occlusion_map: None,
+            emissive_map: None,
+        }
+    }
 }
 
 impl Material {
     /// The alpha below which the books cut.
     pub const ALPHA_CLIP: f32 = 0.1;
+
+    /// Whether alpha cuts it.
+    pub fn is_cut(&self) -> bool {
+        matches!(self.alpha, AlphaMode::Mask { .. })
+    }
+
+    /// The map of a slot, when it names one.
+    pub fn map(&self, slot: MapSlot) -> Option<&MaterialMap> {
+        let map = match slot {
+            MapSlot::Diffuse => &self.diffuse_map,
+            MapSlot::Normal => &self.normal_map,
+            MapSlot::MetallicRoughness => &self.metallic_roughness_map,
+            MapSlot::Occlusion => &self.occlusion_map,
+            MapSlot::Emissive => &self.emissive_map,
+        };
+        map.as_ref()
+    }
+
+    /// The name that it gives for a map of this slot; `None` for a blank one.
+    pub fn map_name(&self, slot: MapSlot) -> Option<&str> {
+        self.map(slot)
+            .map(|map| map.name.trim())
+            .filter(|name| !name.is_empty())
+    }
+}
+
+/// What alpha, the material's times its map's, does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum AlphaMode {
+    /// Nothing.
+    #[default]
+    Opaque,
+    /// What is below `cutoff` is not drawn; the rest is opaque.
+    Mask {
+        /// 0…1; the books have [`Material::ALPHA_CLIP`].
+        cutoff: f32,
+    },
+    /// It is how much of the surface is seen.
+    Blend,
+}
+
+modes! {
+    /// What a material uses a map for.
+    #[derive(PartialOrd, Ord)]
+    pub enum MapSlot {
+        /// Colours, sRGB.
+        Diffuse = "diffuse", "diffuse map";
+        /// Directions, linear.
+        Normal = "normal", "normal map";
+        /// Roughness and metalness, linear.
+        MetallicRoughness = "metallic-roughness", "metallic-roughness map";
+        /// Occlusion, linear.
+        Occlusion = "occlusion", "occlusion map";
+        /// Colours, sRGB.
+        Emissive = "emissive", "emissive map";
+    }
+}
+
+/// A map that a material names, and how it is sampled.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MaterialMap {
+    /// Name as the file has it.
+    pub name: String,
+    /// Which texture coordinates it takes, and what becomes of them.
+    pub sampling: Sampling,
+}
+
+/// A map sampled as the books do.
+impl<T: Into<String>> From<T> for MaterialMap {
+    fn from(name: T) -> Self {
+        Self {
+            name: name.into(),
+            sampling: Sampling::default(),
+        }
+    }
+}
+
+/// How a map is sampled. By default with the first texture coordinates as they are, repeating.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Takes the mesh's second texture coordinates.
+    pub second_tex_coords: bool,
+    /// Texture coordinates of the mesh -> those that are looked up.
+    pub map_from_mesh: Affine2,
+    /// What is beyond 0…1 along u and v.
+    pub wrap: [Wrap; 2],
+    /// Texels have hard edges when seen near.
+    pub nearest: bool,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self {
+            second_tex_coords: false,
+            map_from_mesh: Affine2::IDENTITY,
+            wrap: [Wrap::Repeat; 2],
+            nearest: false,
+        }
+    }
+}
+
+impl Sampling {
+    /// What is looked up for texture coordinates of the mesh.
+    pub fn tex_coords(&self, first: Vec2, second: Vec2) -> Vec2 {
+        let of_mesh = if self.second_tex_coords { second } else { first };
+        self.map_from_mesh.transform_point2(of_mesh)
+    }
+}
+
+modes! {
+    /// What a map shows beyond 0…1.
+    #[derive(Default)]
+    pub enum Wrap {
+        /// Itself, again and again.
+        #[default]
+        Repeat = "repeat", "Repeat";
+        /// Itself, every other time mirrored.
+        Mirror = "mirror", "Mirrored repeat";
+        /// Its edge.
+        Clamp = "clamp", "Clamp to edge";
+    }
 }
 
 /// How a material reflects.
@@ -42,5 +211,12 @@ pub enum Reflectance {
         spec_power: f32,
         /// Scale of the mirrored sky.
         reflectivity: [f32; 3],
+    },
+    /// glTF: what is no metal reflects 4 % at normal incidence, a metal its diffuse colour.
+    MetallicRoughness {
+        /// 0 none … 1 a metal.
+        metallic: f32,
+        /// 0 smooth … 1 rough.
+        roughness: f32,
     },
 }

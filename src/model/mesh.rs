@@ -15,8 +15,8 @@ pub struct Influences {
     pub weights: [f32; 4],
 }
 
-/// Vertex streams in bind space, in the file's order. All streams have one length, but `influences`, which is empty when
-/// the model has no joints.
+/// Vertex streams in bind space, in the file's order. All streams have one length, or are empty where their doc says so;
+/// `influences` are when the model has no joints.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Positions in bind space; finite.
@@ -27,6 +27,10 @@ pub struct Mesh {
     pub tangents: Vec<Vec4>,
     /// Texture coordinates, origin top left, repeating.
     pub tex_coords: Vec<Vec2>,
+    /// A second set of texture coordinates; empty where no map takes them.
+    pub second_tex_coords: Vec<Vec2>,
+    /// Linear colours with alpha that multiply the diffuse colour and opacity of materials; empty where all are white.
+    pub colors: Vec<Vec4>,
     /// Which joints move each vertex; empty for a static model.
     pub influences: Vec<Influences>,
     /// Three vertex indices a triangle, each below `positions.len()`; the file's winding.
@@ -64,10 +68,13 @@ impl Mesh {
     /// When one of them does not hold.
     pub fn check(&self) -> Result<(), ModelError> {
         let vertex_count = self.vertex_count();
+        let or_none = |length: usize| if length == 0 { vertex_count } else { length };
         let streams = [
             ("normals", self.normals.len()),
             ("tangents", self.tangents.len()),
             ("texture coordinates", self.tex_coords.len()),
+            ("second texture coordinates", or_none(self.second_tex_coords.len())),
+            ("colors", or_none(self.colors.len())),
         ];
         for (stream, length) in streams {
             if length != vertex_count {

@@ -5,6 +5,7 @@
 
 mod bounds;
 mod clip;
+mod curve;
 mod error;
 mod joint_names;
 mod local_joint;
@@ -19,15 +20,16 @@ mod tree;
 
 pub use bounds::Aabb;
 pub use clip::Clip;
+pub use curve::{Curve, CurveValue, Curves};
 pub use error::ModelError;
 pub use joint_names::{JointNames, SavedNames, hierarchy_fingerprint};
 pub use local_joint::LocalJoint;
-pub use material::{Material, Reflectance};
+pub use material::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap};
 pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
 pub(crate) use names::unique as unique_names;
 pub use skeleton::{JointIndex, Skeleton};
-pub use space::{Handedness, UpAxis, world_from_model};
+pub use space::{Front, Handedness, UpAxis, world_from_model};
 pub use track::Track;
 pub(crate) use track::unit as unit_rotation;
 pub use tree::{JointTree, VertexCounts};
@@ -47,6 +49,8 @@ pub struct Model {
     pub handedness: Handedness,
     /// The up axis of the file's space.
     pub up_axis: UpAxis,
+    /// Which way characters of the file's format face.
+    pub front: Front,
 }
 
 impl Model {

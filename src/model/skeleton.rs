@@ -24,6 +24,7 @@ pub struct Skeleton {
     rest: Vec<LocalJoint>,
     file_bones: Vec<u32>,
     joint_of_bone: Vec<JointIndex>,
+    names: Vec<String>,
 }
 
 impl Skeleton {
@@ -65,7 +66,30 @@ impl Skeleton {
             rest,
             file_bones,
             joint_of_bone,
+            names: Vec::new(),
         })
+    }
+
+    /// The same skeleton at rest elsewhere than in its bind pose: each joint relative to its parent. Joints beyond the list stay.
+    #[must_use]
+    pub fn with_rest(mut self, rest: &[LocalJoint]) -> Self {
+        for (joint, &rest) in self.rest.iter_mut().zip(rest) {
+            *joint = rest;
+        }
+        self
+    }
+
+    /// The same skeleton with the file's names of its joints; an empty one stands for none.
+    #[must_use]
+    pub fn with_names(mut self, names: Vec<String>) -> Self {
+        self.names = names;
+        self
+    }
+
+    /// The file's name of a joint, when it has one.
+    pub fn name(&self, joint: JointIndex) -> Option<&str> {
+        let name = self.names.get(joint.index())?;
+        (!name.is_empty()).then_some(name)
     }
 
     /// Number of joints.
@@ -88,7 +112,8 @@ impl Skeleton {
         &self.model_from_joint
     }
 
-    /// Each joint of the bind pose relative to its parent. Shear, which has no part of its own, is dropped.
+    /// Each joint at rest relative to its parent, where no clip says otherwise: in the bind pose, unless the file has a pose for
+    /// that ([`Skeleton::with_rest`]). Shear, which has no part of its own, is dropped.
     pub fn rest(&self) -> &[LocalJoint] {
         &self.rest
     }

@@ -28,12 +28,25 @@ modes! {
     }
 }
 
+modes! {
+    /// Which way characters of the file face, along the axis that is neither up nor sideways: z with y up, y with z up.
+    #[derive(Default)]
+    pub enum Front {
+        /// As in the books and in Blender.
+        #[default]
+        Negative = "negative", "Negative";
+        /// As in glTF.
+        Positive = "positive", "Positive";
+    }
+}
+
 /// The matrix from the file's space into the world, which is left-handed with y up. Scale is kept.
 ///
 /// A model that faces −z (y up) or −y (z up), as characters do in the books and in Blender, faces −z in the world, towards
 /// the default camera. So a right-handed y-up file mirrors x, which is what the books' demo comes to (it mirrors z and
-/// turns by π about y), and a right-handed z-up file swaps y and z.
-pub fn world_from_model(handedness: Handedness, up_axis: UpAxis) -> Affine3A {
+/// turns by π about y), and a right-handed z-up file swaps y and z. A file whose characters face the other way is turned by π about
+/// the world's y.
+pub fn world_from_model(handedness: Handedness, up_axis: UpAxis, front: Front) -> Affine3A {
     let upright = match up_axis {
         UpAxis::Y => Mat3A::IDENTITY,
         // A reflection: it changes handedness by itself.
@@ -41,7 +54,11 @@ pub fn world_from_model(handedness: Handedness, up_axis: UpAxis) -> Affine3A {
     };
     let mirrors = (handedness == Handedness::Right) != (up_axis == UpAxis::Z);
     let mirror = Mat3A::from_diagonal(Vec3::new(if mirrors { -1.0 } else { 1.0 }, 1.0, 1.0));
-    Affine3A::from_mat3(glam::Mat3::from(mirror * upright))
+    let turn = match front {
+        Front::Negative => Mat3A::IDENTITY,
+        Front::Positive => Mat3A::from_diagonal(Vec3::new(-1.0, 1.0, -1.0)),
+    };
+    Affine3A::from_mat3(glam::Mat3::from(turn * mirror * upright))
 }
 
 #[cfg(test)]
@@ -52,7 +69,7 @@ mod tests {
     fn every_space_comes_out_left_handed_and_upright() {
         for handedness in [Handedness::Left, Handedness::Right] {
             for (up_axis, up) in [(UpAxis::Y, Vec3::Y), (UpAxis::Z, Vec3::Z)] {
-                let world_from_model = world_from_model(handedness, up_axis);
+                let world_from_model = world_from_model(handedness, up_axis, Front::default());
                 assert_eq!(
                     world_from_model.transform_vector3(up),
                     Vec3::Y,
@@ -68,8 +85,10 @@ mod tests {
     fn fronts_face_the_default_camera() {
         for handedness in [Handedness::Left, Handedness::Right] {
             for (up_axis, front) in [(UpAxis::Y, Vec3::NEG_Z), (UpAxis::Z, Vec3::NEG_Y)] {
-                let world_front = world_from_model(handedness, up_axis).transform_vector3(front);
-                assert_eq!(world_front, Vec3::NEG_Z, "{handedness:?} {up_axis:?}");
+                for (facing, front) in [(Front::Negative, front), (Front::Positive, -front)] {
+                    let world_front = world_from_model(handedness, up_axis, facing).transform_vector3(front);
+                    assert_eq!(world_front, Vec3::NEG_Z, "{handedness:?} {up_axis:?} {facing:?}");
+                }
             }
         }
     }

@@ -2,11 +2,14 @@
 
 use glam::{Quat, Vec3};
 
+use super::curve::{Curves, rotation_of};
 use super::{LocalJoint, ModelError};
 
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
 /// all streams have one length. Outside its range a track holds its first or last value, since the tracks of a clip may
 /// end at different times. Rotations are unit quaternions, neighbours on the same side.
+///
+/// Between keys translation and scale go straight, and rotations along the shorter arc, but where the track has [`Curves`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     times_secs: Vec<f32>,
@@ -14,6 +17,7 @@ pub struct Track {
     rotations: Vec<Quat>,
     scales: Vec<Vec3>,
     at_rest: bool,
+    curves: Option<Box<Curves>>,
 }
 
 /// One key at rest on its parent at time 0.
@@ -64,6 +68,69 @@ impl Track {
             rotations: Vec::with_capacity(keys),
             scales: Vec::with_capacity(keys),
             at_rest: false,
+            curves: None,
+        }
+    }
+
+    /// The same keys with other ways between them. The keys of the curves are to be among the track's, with the same values.
+    #[must_use]
+    pub fn with_curves(mut self, curves: Curves) -> Self {
+        self.curves = (!curves.is_empty()).then(|| Box::new(curves));
+        self
+    }
+
+    /// The ways between keys that are not straight; `None` where all are.
+    pub fn curves(&self) -> Option<&Curves> {
+        self.curves.as_deref()
+    }
+
+    /// The joint at a time, relative to its parent. Blends are made in f64.
+    pub fn at(&self, time_secs: f32) -> LocalJoint {
+        let next = self.times_secs.partition_point(|&key_secs| key_secs <= time_secs);
+        self.between(next.saturating_sub(1), time_secs)
+    }
+
+    /// [`Track::at`], where `from` is the last key at or before the time, or the first.
+    pub(crate) fn between(&self, from: usize, time_secs: f32) -> LocalJoint {
+        let mut joint = self.straight_between(from, time_secs);
+        if let Some(curves) = &self.curves {
+            if let Some(curve) = &curves.translation {
+                joint.translation = curve.value_at(time_secs);
+            }
+            if let Some(curve) = &curves.rotation {
+                let rotation = rotation_of(curve.value_at(time_secs)).unwrap_or(joint.rotation);
+                joint.rotation = if rotation.dot(joint.rotation) < 0.0 {
+                    -rotation
+                } else {
+                    rotation
+                };
+            }
+            if let Some(curve) = &curves.scale {
+                joint.scale = curve.value_at(time_secs);
+            }
+        }
+        joint
+    }
+
+    fn straight_between(&self, from: usize, time_secs: f32) -> LocalJoint {
+        let start_secs = self.times_secs[from];
+        let end_secs = match self.times_secs.get(from + 1) {
+            Some(&end_secs) if start_secs < time_secs => end_secs,
+            _ => return self.key(from),
+        };
+        let start_secs = f64::from(start_secs);
+        let part = (f64::from(time_secs) - start_secs) / (f64::from(end_secs) - start_secs);
+        let (from, to) = (self.key(from), self.key(from + 1));
+        let between = |from: Vec3, to: Vec3| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
+        let rotation = from
+            .rotation
+            .as_dquat()
+            .normalize()
+            .slerp(to.rotation.as_dquat().normalize(), part);
+        LocalJoint {
+            rotation: rotation.normalize().as_quat(),
+            translation: between(from.translation, to.translation),
+            scale: between(from.scale, to.scale),
         }
     }
 

@@ -119,7 +119,7 @@ fn upload(device: &wgpu::Device, queue: &Queue, image: &Image, kind: MapKind) ->
     let compressed = compressed_format(image.format(), kind).filter(|_| whole_blocks && takes_blocks);
     let format = compressed.unwrap_or(match kind {
         MapKind::Diffuse => wgpu::TextureFormat::Rgba8UnormSrgb,
-        MapKind::Normal => wgpu::TextureFormat::Rgba8Unorm,
+        MapKind::Normal | MapKind::Data => wgpu::TextureFormat::Rgba8Unorm,
     });
     let size = |level| {
         let (width, height) = image.level_size(level);
@@ -179,10 +179,10 @@ fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::Texture
         (ImageFormat::Bc2, MapKind::Diffuse) => Some(Gpu::Bc2RgbaUnormSrgb),
         (ImageFormat::Bc3, MapKind::Diffuse) => Some(Gpu::Bc3RgbaUnormSrgb),
         (ImageFormat::Bc7, MapKind::Diffuse) => Some(Gpu::Bc7RgbaUnormSrgb),
-        (ImageFormat::Bc1, MapKind::Normal) => Some(Gpu::Bc1RgbaUnorm),
-        (ImageFormat::Bc2, MapKind::Normal) => Some(Gpu::Bc2RgbaUnorm),
-        (ImageFormat::Bc3, MapKind::Normal) => Some(Gpu::Bc3RgbaUnorm),
-        (ImageFormat::Bc7, MapKind::Normal) => Some(Gpu::Bc7RgbaUnorm),
+        (ImageFormat::Bc1, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc1RgbaUnorm),
+        (ImageFormat::Bc2, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc2RgbaUnorm),
+        (ImageFormat::Bc3, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc3RgbaUnorm),
+        (ImageFormat::Bc7, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc7RgbaUnorm),
         (ImageFormat::Bc5, MapKind::Normal) => Some(Gpu::Bc5RgUnorm),
         _ => None,
     }

@@ -6,7 +6,7 @@ use super::device::is_software;
 use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
 use crate::image::{Channels, MapKind};
-use crate::model::{Material, Reflectance};
+use crate::model::{AlphaMode, Material, Reflectance};
 use crate::{scene, shaders};
 
 /// Samples along the longer side of a pixel's footprint, where the device supports it: floors stay sharp far away.
@@ -187,10 +187,9 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
     let stand_in = scene::stand_in_color(index, material).filter(|_| !maps.has_diffuse);
     let common = shaders::Material {
         albedo: stand_in.unwrap_or(unit(material.diffuse)),
-        alpha_clip: if material.alpha_clip && maps.has_alpha {
-            Material::ALPHA_CLIP
-        } else {
-            0.0
+        alpha_clip: match material.alpha {
+            AlphaMode::Mask { cutoff } if maps.has_alpha => cutoff,
+            _ => 0.0,
         },
         book_albedo: stand_in.map_or(unit(material.diffuse), |color| color.map(srgb_from_linear)),
         normal_channels: maps.normal_channels,
@@ -200,6 +199,11 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
     match material.reflectance {
         Reflectance::Fresnel { fresnel0, roughness } => shaders::Material {
             fresnel0: unit(fresnel0),
+            roughness: roughness.clamp(0.0, 1.0),
+            ..common
+        },
+        Reflectance::MetallicRoughness { metallic, roughness } => shaders::Material {
+            fresnel0: unit(material.diffuse).map(|channel| 0.04 + (channel - 0.04) * metallic.clamp(0.0, 1.0)),
             roughness: roughness.clamp(0.0, 1.0),
             ..common
         },

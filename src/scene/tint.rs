@@ -60,7 +60,7 @@ pub fn stand_in_color(material_index: usize, material: &Material) -> Option<[f32
 }
 
 fn tint_srgb(material_index: usize, material: &Material) -> [u8; 3] {
-    let names = [Some(&material.name), material.diffuse_map.as_ref()];
+    let names = [Some(&material.name), material.diffuse_map.as_ref().map(|map| &map.name)];
     let names: Vec<_> = names.into_iter().flatten().map(|name| name.to_lowercase()).collect();
     let hinted = HINTS
         .iter()
@@ -91,9 +91,8 @@ mod tests {
                 fresnel0: [0.05; 3],
                 roughness: 0.5,
             },
-            alpha_clip: false,
             diffuse_map: diffuse_map.map(Into::into),
-            normal_map: None,
+            ..Material::default()
         }
     }
 

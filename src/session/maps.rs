@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::image::{self, Image, MapKind};
-use crate::model::Material;
+use crate::model::{MapSlot, Material};
 
 use super::files::File;
-use super::textures::{Checklist, MapSlot, MaterialMaps, find_maps, map_diagnostics, unused_diagnostic};
+use super::textures::{Checklist, MaterialMaps, find_maps, map_diagnostics, unused_diagnostic};
 
 /// Pictures, and what the materials make of them. Only pictures that a material names are decoded; of the others it is known
 /// whether they could be.
@@ -198,12 +198,19 @@ impl Maps {
             let mipped = if self.without_mips { None } else { image.mipped(kind) };
             mipped.map_or_else(|| Arc::clone(&image), Arc::new)
         };
-        let [diffuse, normal] = before;
-        let is_used = |slot| self.is_used_as(index, slot);
-        [
-            diffuse.or_else(|| is_used(MapSlot::Diffuse).then(|| with_mips(MapKind::Diffuse))),
-            normal.or_else(|| is_used(MapSlot::Normal).then(|| with_mips(MapKind::Normal))),
-        ]
+        // Slots of one kind share one chain of mips.
+        let mut of_kinds: [Option<Arc<Image>>; MapKind::ALL.len()] = Default::default();
+        for (slot, image) in MapSlot::ALL.into_iter().zip(&before) {
+            if let Some(image) = image {
+                of_kinds[kind_of(slot) as usize] = Some(Arc::clone(image));
+            }
+        }
+        MapSlot::ALL.map(|slot| {
+            let of_kind = &mut of_kinds[kind_of(slot) as usize];
+            self.is_used_as(index, slot)
+                .then(|| Arc::clone(of_kind.get_or_insert_with(|| with_mips(kind_of(slot)))))
+                .or_else(|| before[slot as usize].clone())
+        })
     }
 
     /// Says what is missing and what could not be read, when all are decoded.
@@ -278,8 +285,8 @@ impl Maps {
         }
     }
 
-    /// The decoded diffuse and normal map of each material, in the order of the materials. One that stays is the same `Arc`.
-    pub fn images(&self) -> impl Iterator<Item = [Option<&Arc<Image>>; 2]> {
+    /// The decoded maps of each material, in the order of the materials and of [`MapSlot::ALL`]. One that stays is the same `Arc`.
+    pub fn images(&self) -> impl Iterator<Item = [Option<&Arc<Image>>; MapSlot::ALL.len()]> {
         (0..self.of_materials.len()).map(|material| MapSlot::ALL.map(|slot| self.image(material, slot)))
     }
 
@@ -319,6 +326,15 @@ impl Maps {
     /// Pictures that could not be read, names that fit several files, and pictures of the last drop that fit none.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
+    }
+}
+
+/// What the texels of a map are.
+fn kind_of(slot: MapSlot) -> MapKind {
+    match slot {
+        MapSlot::Diffuse | MapSlot::Emissive => MapKind::Diffuse,
+        MapSlot::Normal => MapKind::Normal,
+        MapSlot::MetallicRoughness | MapSlot::Occlusion => MapKind::Data,
     }
 }
 

@@ -117,9 +117,19 @@ fn with_values(material: &Material, wanted: &Material) -> Material {
                 spec_power: number(spec_power, wanted_spec_power, MAX_SPEC_POWER),
                 reflectivity: color(reflectivity, wanted_reflectivity),
             },
+            (
+                Reflectance::MetallicRoughness { metallic, roughness },
+                Reflectance::MetallicRoughness {
+                    metallic: wanted_metallic,
+                    roughness: wanted_roughness,
+                },
+            ) => Reflectance::MetallicRoughness {
+                metallic: number(metallic, wanted_metallic, 1.0),
+                roughness: number(roughness, wanted_roughness, 1.0),
+            },
             (of_one_book, _of_the_other) => of_one_book,
         },
-        alpha_clip: wanted.alpha_clip,
+        alpha: wanted.alpha,
         ..material.clone()
     }
 }
@@ -139,6 +149,9 @@ fn number(current: f32, wanted: f32, greatest: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::AlphaMode;
+
+    const CUT: AlphaMode = AlphaMode::Mask { cutoff: 0.1 };
 
     fn phong(ambient: f32, spec_power: f32) -> Material {
         Material {
@@ -150,9 +163,8 @@ mod tests {
                 spec_power,
                 reflectivity: [0.0; 3],
             },
-            alpha_clip: false,
-            diffuse_map: Some("coat.dds".to_owned()),
-            normal_map: None,
+            diffuse_map: Some("coat.dds".into()),
+            ..Material::default()
         }
     }
 
@@ -161,13 +173,13 @@ mod tests {
         let wanted = Material {
             name: "other".to_owned(),
             diffuse: [f32::NAN, -3.0, 7.0],
-            alpha_clip: true,
+            alpha: CUT,
             diffuse_map: None,
             ..phong(0.25, 1e9)
         };
         let expected = Material {
             diffuse: [0.5, 0.0, 1.0],
-            alpha_clip: true,
+            alpha: CUT,
             ..phong(0.25, MAX_SPEC_POWER)
         };
         assert_eq!(with_values(&phong(0.1, 16.0), &wanted), expected);

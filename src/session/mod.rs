@@ -72,7 +72,7 @@ pub use selecting::{JointCommand, SubmeshCommand};
 pub use skeleton_cache::SkinColorsKey;
 pub use submeshes::Submeshes;
 pub use textures::{
-    Checklist, FoundMap, MapNames, MapSlot, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics, named_maps,
+    Checklist, FoundMap, MapNames, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics, named_maps,
 };
 pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 

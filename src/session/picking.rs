@@ -7,10 +7,9 @@ use glam::{Affine3A, Vec2, Vec3};
 use super::content::Content;
 use super::maps::Maps;
 use super::submeshes::Submeshes;
-use super::textures::MapSlot;
 use crate::anim::{self, Palette};
 use crate::image::Image;
-use crate::model::{Material, Mesh};
+use crate::model::{MapSlot, Material, Mesh};
 use crate::scene::{Hit, Ray, pick, tex_coord_at};
 
 /// Buffers that are kept from pick to pick.
@@ -51,7 +50,7 @@ impl Picker {
         // Before the search, which asks them in the midst of its triangles.
         for submesh in open.iter().flat_map(|open| &open.model.mesh.submeshes) {
             let material = submesh.material as usize;
-            if materials.get(material).is_some_and(|material| material.alpha_clip) {
+            if materials.get(material).is_some_and(Material::is_cut) {
                 self.cutouts.decode(material, maps);
             }
         }
@@ -109,7 +108,7 @@ impl Picker {
     ) -> Option<Hit> {
         let mesh = &content.open.as_ref()?.model.mesh;
         let materials = &content.materials;
-        let alpha_clips = |material: usize| materials.get(material).is_some_and(|material| material.alpha_clip);
+        let alpha_clips = |material: usize| materials.get(material).is_some_and(Material::is_cut);
         let cutouts = &self.cutouts;
         let is_solid = |hit: &Hit| {
             let material = mesh.submeshes[hit.submesh].material as usize;

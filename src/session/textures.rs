@@ -5,40 +5,9 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::diagnostic::{Code, Diagnostic, Subject, codes};
-use crate::model::Material;
+use crate::model::{MapSlot, Material};
 
 use super::files::File;
-
-/// What a material uses a map for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum MapSlot {
-    /// Colours, sRGB.
-    Diffuse,
-    /// Directions, linear.
-    Normal,
-}
-
-impl MapSlot {
-    /// Both, in the order in which panels list them.
-    pub const ALL: [Self; 2] = [Self::Diffuse, Self::Normal];
-
-    /// The word for people: `diffuse map`.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Diffuse => "diffuse map",
-            Self::Normal => "normal map",
-        }
-    }
-
-    /// The name that a material gives, when it gives one.
-    pub fn name_in(self, material: &Material) -> Option<&str> {
-        let name = match self {
-            Self::Diffuse => &material.diffuse_map,
-            Self::Normal => &material.normal_map,
-        };
-        name.as_deref().map(str::trim).filter(|name| !name.is_empty())
-    }
-}
 
 /// What became of one map of one material.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,20 +41,12 @@ pub struct FoundMap {
 
 /// The maps of one material.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MaterialMaps {
-    /// Colours.
-    pub diffuse: MapSource,
-    /// Directions.
-    pub normal: MapSource,
-}
+pub struct MaterialMaps([MapSource; MapSlot::ALL.len()]);
 
 impl MaterialMaps {
     /// What became of a slot.
     pub fn slot(&self, slot: MapSlot) -> &MapSource {
-        match slot {
-            MapSlot::Diffuse => &self.diffuse,
-            MapSlot::Normal => &self.normal,
-        }
+        &self.0[slot as usize]
     }
 }
 
@@ -95,7 +56,7 @@ pub fn find_maps(materials: &[Material], files: &[File], drops: &[u32]) -> Vec<M
     let mut known: HashMap<&str, MapSource> = HashMap::new();
     let mut maps = Vec::with_capacity(materials.len());
     for material in materials {
-        let mut source = |slot: MapSlot| match slot.name_in(material) {
+        let source = |slot: MapSlot| match material.map_name(slot) {
             None => MapSource::NoneNamed,
             Some(name) => {
                 let find = || match names.find(name) {
@@ -105,10 +66,7 @@ pub fn find_maps(materials: &[Material], files: &[File], drops: &[u32]) -> Vec<M
                 known.entry(name).or_insert_with(find).clone()
             }
         };
-        maps.push(MaterialMaps {
-            diffuse: source(MapSlot::Diffuse),
-            normal: source(MapSlot::Normal),
-        });
+        maps.push(MaterialMaps(MapSlot::ALL.map(source)));
     }
     maps
 }
@@ -190,7 +148,7 @@ impl MapNames {
     pub fn new(materials: &[Material]) -> Self {
         let mut all = Self::default();
         for material in materials {
-            for name in MapSlot::ALL.into_iter().filter_map(|slot| slot.name_in(material)) {
+            for name in MapSlot::ALL.into_iter().filter_map(|slot| material.map_name(slot)) {
                 let base_name = base_name(name);
                 if !base_name.is_empty() {
                     all.stems.insert(stem(&base_name).to_owned());
@@ -215,7 +173,7 @@ impl MapNames {
 pub fn named_maps(materials: &[Material]) -> impl Iterator<Item = (usize, MapSlot, &str)> {
     materials.iter().enumerate().flat_map(|(index, material)| {
         let slots = MapSlot::ALL.into_iter();
-        slots.filter_map(move |slot| Some((index, slot, slot.name_in(material)?)))
+        slots.filter_map(move |slot| Some((index, slot, material.map_name(slot)?)))
     })
 }
 
@@ -238,7 +196,7 @@ impl Checklist {
         let mut unreadable = BTreeSet::new();
         for (material, maps) in materials.iter().zip(maps) {
             for slot in MapSlot::ALL {
-                let Some(name) = slot.name_in(material) else { continue };
+                let Some(name) = material.map_name(slot) else { continue };
                 named.insert(name);
                 match maps.slot(slot).file() {
                     None => missing.extend([name]),
@@ -312,7 +270,7 @@ fn spelt(mut names: impl ExactSizeIterator<Item = String>) -> Vec<String> {
 pub(super) fn unused_diagnostic(materials: &[Material], pictures: &[&File]) -> Option<Diagnostic> {
     let names = materials
         .iter()
-        .flat_map(|material| MapSlot::ALL.map(|slot| slot.name_in(material)));
+        .flat_map(|material| MapSlot::ALL.map(|slot| material.map_name(slot)));
     let base_names: Vec<String> = names
         .flatten()
         .filter_map(|name| parts(name).into_iter().next())

@@ -74,7 +74,8 @@ impl View {
 
     /// The file's space -> the world.
     pub(super) fn world_from_model(&self, open: Option<&OpenModel>) -> Affine3A {
-        model::world_from_model(self.handedness(open), self.up_axis(open))
+        let front = open.map(|open| open.model.front).unwrap_or_default();
+        model::world_from_model(self.handedness(open), self.up_axis(open), front)
     }
 
     /// The part of it that a renderer needs, with the detail of now.

@@ -10,10 +10,10 @@ use super::widgets::{
     Slider, color_button, control_size, hint_beside, is_touch, number_field, paint_elided, rule, section_name,
     section_with_action, selected_heading, switch_row, value_row,
 };
-use super::wording::grouped;
-use crate::model::{Material, Reflectance};
+use super::wording::{capital, grouped};
+use crate::model::{AlphaMode, MapSlot, Material, Reflectance};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
-use crate::session::{Command, MAX_SPEC_POWER, MapSlot, MaterialCommand, OpenModel, Session, SubmeshCommand};
+use crate::session::{Command, MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
 
 /// Width of the labels of values.
 const LABEL_WIDTH: f32 = 90.0;
@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
             material: edited,
         }));
     }
-    if MapSlot::ALL.iter().any(|slot| slot.name_in(values).is_some()) {
+    if MapSlot::ALL.into_iter().any(|slot| values.map_name(slot).is_some()) {
         rule(ui, MARGIN);
         section_name(ui, "Maps");
         for slot in MapSlot::ALL {
@@ -66,17 +66,14 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 /// A map that the material names: its thumbnail, or that it is missing.
 fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, material: usize, slot: MapSlot) {
     let of_file = open.model.materials.get(material);
-    let Some(name) = of_file.and_then(|material| slot.name_in(material)) else {
+    let Some(name) = of_file.and_then(|material| material.map_name(slot)) else {
         return;
     };
-    let what = match slot {
-        MapSlot::Diffuse => "Diffuse",
-        MapSlot::Normal => "Normal",
-    };
+    let what = capital(slot.label());
     let used = session.maps().used().find(|map| map.users.contains(&(material, slot)));
     if let Some(map) = used {
         let thumbnail = state.thumbnails.of(ui.ctx(), session, &map);
-        let details = format!("{what} map: {}\n{}", map.file.path, holds(map.image));
+        let details = format!("{what}: {}\n{}", map.file.path, holds(map.image));
         picture_row(ui, thumbnail, map.file.base_name(), map.image, &details);
         return;
     }
@@ -96,10 +93,10 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
     let room = drawn.min.x - 8.0 - rect.min.x;
     paint_elided(ui.painter(), rect.left_center(), name, font, tokens.muted, room);
     response.widget_info(|| {
-        let label = format!("{what} map: {name}, {words}");
+        let label = format!("{what}: {name}, {words}");
         WidgetInfo::labeled(Role::Label, true, label)
     });
-    hint_beside(response, None, &format!("{what} map: {name}\n{hint}"));
+    hint_beside(response, None, &format!("{what}: {name}\n{hint}"));
 }
 
 /// The values of a material. Returns the edited material if a value changed.
@@ -109,10 +106,12 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
         Reflectance::Fresnel { fresnel0, roughness } => {
             color_row(ui, "Diffuse", &mut edited.diffuse);
             color_row(ui, "Fresnel R0", fresnel0);
-            let text = format!("{roughness:.2}");
-            if let Some(rougher) = Slider::new("Roughness", *roughness, 0.0..=1.0, &text).show(ui) {
-                *roughness = rougher;
-            }
+            part_row(ui, "Roughness", roughness);
+        }
+        Reflectance::MetallicRoughness { metallic, roughness } => {
+            color_row(ui, "Diffuse", &mut edited.diffuse);
+            part_row(ui, "Metallic", metallic);
+            part_row(ui, "Roughness", roughness);
         }
         Reflectance::Phong {
             ambient,
@@ -127,10 +126,24 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
             color_row(ui, "Reflectivity", reflectivity);
         }
     }
-    if switch_row(ui, "Alpha clip", "", material.alpha_clip).clicked() {
-        edited.alpha_clip = !material.alpha_clip;
+    if switch_row(ui, "Alpha clip", "", material.is_cut()).clicked() {
+        edited.alpha = if material.is_cut() {
+            AlphaMode::Opaque
+        } else {
+            AlphaMode::Mask {
+                cutoff: Material::ALPHA_CLIP,
+            }
+        };
     }
     (edited != *material).then_some(edited)
+}
+
+/// A number 0…1.
+fn part_row(ui: &mut Ui, label: &str, part: &mut f32) {
+    let text = format!("{part:.2}");
+    if let Some(chosen) = Slider::new(label, *part, 0.0..=1.0, &text).show(ui) {
+        *part = chosen;
+    }
 }
 
 /// A linear colour: a button with a picker, and three numbers.

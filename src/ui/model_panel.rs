@@ -16,9 +16,9 @@ use super::widgets::{
 };
 use super::wording::{counted, dialect_name, grouped, measured};
 use crate::diagnostic::Severity;
-use crate::model::{Handedness, Submesh, UpAxis};
+use crate::model::{Handedness, MapSlot, Submesh, UpAxis};
 use crate::scene::display_color;
-use crate::session::{Command, MapSlot, OpenModel, Session, SubmeshCommand};
+use crate::session::{Command, OpenModel, Session, SubmeshCommand};
 
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
@@ -215,7 +215,7 @@ impl<'a> SubmeshRow<'a> {
         let submeshes = session.submeshes();
         let has_map = session.maps().image(material, MapSlot::Diffuse).is_some();
         let of_file = session.open_model().and_then(|open| open.model.materials.get(material));
-        let map = of_file.and_then(|material| MapSlot::Diffuse.name_in(material));
+        let map = of_file.and_then(|material| material.map_name(MapSlot::Diffuse));
         Self {
             index,
             name: session.materials().get(material).map_or("", |values| &values.name),

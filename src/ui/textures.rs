@@ -12,7 +12,8 @@ use super::thumbnails::Thumbnails;
 use super::widgets::{RowList, hint_beside, paint_elided, paint_ends, paint_fold_mark, pressed_row};
 use super::wording::{counted, grouped};
 use crate::image::{Channels, Image, ImageKind};
-use crate::session::{Checklist, MapSlot, OpenModel, Session, UnreadableMap, UsedMap};
+use crate::model::MapSlot;
+use crate::session::{Checklist, OpenModel, Session, UnreadableMap, UsedMap};
 
 /// Side of a thumbnail, in points.
 const THUMBNAIL: f32 = 30.0;
@@ -212,7 +213,7 @@ fn users_of_name(open: &OpenModel, name: &str) -> Vec<String> {
     let materials = open.model.materials.iter().enumerate();
     let users = materials.flat_map(|(index, material)| {
         let slots = MapSlot::ALL.into_iter();
-        let naming = slots.filter(move |slot| slot.name_in(material) == Some(name));
+        let naming = slots.filter(move |&slot| material.map_name(slot) == Some(name));
         naming.map(move |slot| (index, slot))
     });
     words_for(open, &users.collect::<Vec<_>>())

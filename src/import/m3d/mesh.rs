@@ -36,9 +36,8 @@ pub(super) fn mesh_from_document(
         normals: vertices.iter().map(|vertex| Vec3::from_array(vertex.normal)).collect(),
         tangents: vertices.iter().map(|vertex| Vec4::from_array(vertex.tangent)).collect(),
         tex_coords: tex_coords.into_iter().map(Vec2::from_array).collect(),
-        influences: Vec::new(),
         indices: document.triangles.as_flattened().to_vec(),
-        submeshes: Vec::new(),
+        ..Mesh::default()
     };
     mesh.check().map_err(|rule| {
         let line = match rule {

@@ -16,7 +16,7 @@ use super::{ImportError, Imported, Refused};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::collect::Diagnostics;
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
-use crate::model::{Model, UpAxis};
+use crate::model::{Front, Model, UpAxis};
 
 pub(super) use crate::format::begins_like_model;
 
@@ -67,6 +67,7 @@ pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec
         clips,
         handedness,
         up_axis,
+        front: Front::Negative,
     };
     Ok((model.checked()?, diagnostics.into_vec()))
 }

@@ -3,7 +3,7 @@
 use crate::diagnostic::collect::{Diagnostics, Place, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{self, Document, LineMap, Subset};
-use crate::model::{Material, Reflectance, Submesh, unique_names};
+use crate::model::{AlphaMode, Material, Reflectance, Submesh, unique_names};
 
 /// The ranges to draw. May add one default material for subsets that have none.
 pub(super) fn submeshes_from_document(
@@ -191,20 +191,13 @@ impl HighestIndices {
     }
 }
 
-/// What a subset without a material is drawn with: a mid grey that reads as no colour of the file.
+/// What a subset without a material is drawn with.
 pub(super) fn default_material(others: &[Material]) -> Material {
     let names = others.iter().map(|material| material.name.as_str()).chain(["default"]);
     let name = unique_names(names, "material", |_, _| ()).pop().unwrap_or_default();
     Material {
         name,
-        diffuse: [0.8; 3],
-        reflectance: Reflectance::Fresnel {
-            fresnel0: [0.05; 3],
-            roughness: 0.6,
-        },
-        alpha_clip: false,
-        diffuse_map: None,
-        normal_map: None,
+        ..Material::default()
     }
 }
 
@@ -233,9 +226,17 @@ pub(super) fn materials_from_document(
             name,
             diffuse: finite(material.diffuse),
             reflectance: reflectance(material.reflectance),
-            alpha_clip: material.alpha_clip,
-            diffuse_map: material.diffuse_map.clone(),
-            normal_map: material.normal_map.clone(),
+            alpha: if material.alpha_clip {
+                AlphaMode::Mask {
+                    cutoff: Material::ALPHA_CLIP,
+                }
+            } else {
+                AlphaMode::Opaque
+            },
+            double_sided: material.alpha_clip,
+            diffuse_map: material.diffuse_map.clone().map(Into::into),
+            normal_map: material.normal_map.clone().map(Into::into),
+            ..Material::default()
         })
         .collect()
 }

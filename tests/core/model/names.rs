@@ -38,7 +38,13 @@ fn mirrored_chains_of_every_size_are_paired_left_with_right() {
 fn in_a_file_that_is_mirrored_into_the_world_left_is_left_there() {
     let model = mirrored_model(3);
     let tree = JointTree::new(&model.skeleton);
-    let in_world = |handedness| mirror_pairs(&model.skeleton, &tree, world_from_model(handedness, UpAxis::Y));
+    let in_world = |handedness| {
+        mirror_pairs(
+            &model.skeleton,
+            &tree,
+            world_from_model(handedness, UpAxis::Y, Front::Negative),
+        )
+    };
     assert_eq!(bones(&model, &in_world(Handedness::Left)), [(1, 2)]);
     assert_eq!(bones(&model, &in_world(Handedness::Right)), [(2, 1)]);
 }

@@ -20,7 +20,7 @@ fn placed(model: &Model) -> Bones {
     bones.place(
         &model.skeleton,
         &pose.model,
-        world_from_model(Handedness::Right, UpAxis::Y),
+        world_from_model(Handedness::Right, UpAxis::Y, Front::Negative),
         radius(model),
     );
     bones

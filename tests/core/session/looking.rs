@@ -275,12 +275,18 @@ fn handedness_and_up_axis_change_the_world_and_back() {
 
     session.apply(Command::SetHandedness(Some(Handedness::Right)));
     assert_eq!(session.handedness_override(), Some(Handedness::Right));
-    assert_eq!(world(&mut session), world_from_model(Handedness::Right, UpAxis::Y));
+    assert_eq!(
+        world(&mut session),
+        world_from_model(Handedness::Right, UpAxis::Y, Front::Negative)
+    );
     // x is mirrored: the box stands on the other side.
     assert!(session.world_bounds().center().x < 0.0);
 
     session.apply(Command::SetUpAxis(Some(UpAxis::Z)));
-    assert_eq!(world(&mut session), world_from_model(Handedness::Right, UpAxis::Z));
+    assert_eq!(
+        world(&mut session),
+        world_from_model(Handedness::Right, UpAxis::Z, Front::Negative)
+    );
     // The file's z, from −1 to 0, is up now.
     assert!(session.world_bounds().center().y < 0.0);
 
