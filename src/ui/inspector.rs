@@ -127,13 +127,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
         }
     }
     if switch_row(ui, "Alpha clip", "", material.is_cut()).clicked() {
-        edited.alpha = if material.is_cut() {
-            AlphaMode::Opaque
-        } else {
-            AlphaMode::Mask {
-                cutoff: Material::ALPHA_CLIP,
-            }
-        };
+        edited.alpha = AlphaMode::clipped(!material.is_cut());
     }
     (edited != *material).then_some(edited)
 }

@@ -28,7 +28,7 @@ fn an_edited_material_is_drawn_and_the_files_stays_known() {
     edit(&mut session, 1, |material| {
         material.diffuse = [0.1, 0.2, 0.3];
         material.name = "renamed".to_owned();
-        material.normal_map = Some("other.dds".to_owned());
+        material.normal_map = Some("other.dds".into());
         material.reflectance = Reflectance::Fresnel {
             fresnel0: [2.0, f32::NAN, 0.5],
             roughness: -1.0,

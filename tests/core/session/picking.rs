@@ -225,7 +225,7 @@ fn what_alpha_cuts_is_looked_through_only_where_the_material_cuts() {
         assert_eq!(below == Some(true), !alpha_clip, "{below:?}");
 
         let material = bindpose::model::Material {
-            alpha_clip: true,
+            alpha: bindpose::model::AlphaMode::clipped(true),
             ..session.materials()[0].clone()
         };
         session.apply(MaterialCommand::Edit { index: 0, material });
