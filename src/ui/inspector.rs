@@ -51,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     if let Some(edited) = material_fields(ui, values) {
         commands.push(Command::Material(MaterialCommand::Edit {
             index: material,
-            material: edited,
+            material: Box::new(edited),
         }));
     }
     if MapSlot::ALL.into_iter().any(|slot| values.map_name(slot).is_some()) {

@@ -13,7 +13,7 @@ fn three_materials(path: &str) -> File {
 }
 
 fn edit(session: &mut Session, index: usize, change: impl FnOnce(&mut Material)) {
-    let mut material = session.materials()[index].clone();
+    let mut material = Box::new(session.materials()[index].clone());
     change(&mut material);
     session.apply(MaterialCommand::Edit { index, material });
 }
@@ -63,7 +63,7 @@ fn nothing_is_drawn_anew_for_what_changes_nothing() {
     edit(&mut session, 0, |material| material.diffuse[0] = f32::INFINITY);
     session.apply(MaterialCommand::Reset(0));
     session.apply(MaterialCommand::Reset(7));
-    let material = session.materials()[0].clone();
+    let material = Box::new(session.materials()[0].clone());
     session.apply(MaterialCommand::Edit { index: 7, material });
     assert_eq!(
         (session.materials_revision(), session.picture_revision()),

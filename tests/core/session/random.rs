@@ -145,7 +145,7 @@ fn material_command() -> impl Strategy<Value = MaterialCommand> {
         ..Material::default()
     });
     prop_oneof![
-        2 => (0usize..4, material).prop_map(|(index, material)| MaterialCommand::Edit { index, material }),
+        2 => (0usize..4, material).prop_map(|(index, material)| MaterialCommand::Edit { index, material: Box::new(material) }),
         1 => (0usize..4).prop_map(MaterialCommand::Reset),
     ]
 }
