@@ -65,6 +65,8 @@ JSON: an object
     code            stable name of the kind of finding
     message         one sentence
     line, column    place, both from 1; null when it is about the whole file
+    json_pointer    what of a glTF file's JSON it is about, or null
+    byte_offset     place in a .glb file, in bytes from its start, or null
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0

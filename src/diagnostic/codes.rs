@@ -51,7 +51,7 @@ table! {
             "It holds nothing but blanks. Perhaps it was not written or copied to its end.";
         OTHER_FORMAT = "other-format", Error,
             "This is a file of another format.",
-            "The message names the format. Export the model as `.m3d` text.";
+            "The message names the format. Export the model as `.m3d` text or as glTF.";
         RELATIVE_FORMAT = "relative-format", Error,
             "This file is a variant of the format that is laid out differently.",
             "The books' loaders do not read it either.";
@@ -527,7 +527,7 @@ table! {
     /// What putting files together gives: models, maps, clips, and the GPU that is to draw them.
     OF_SESSION {
         NO_MODEL = "no-model", Error,
-            "No .m3d model was dropped.",
+            "No model was dropped.",
             "Pictures alone show nothing: drop them together with their model.";
         MAP_MISSING = "map-missing", Note,
             "No file fits a map that a material names.",

@@ -8,6 +8,7 @@ mod buffers;
 mod container;
 mod json;
 mod parse;
+mod places;
 mod rules;
 mod uri;
 
@@ -20,7 +21,8 @@ pub use json::{
     Path, PbrMetallicRoughness, Primitive, Root, Sampler, Scene, Skin, Texture, TextureInfo, TextureTransform,
 };
 pub use parse::{check_asset, parse};
-pub use rules::note_broken_rules;
+pub use places::position_of;
+pub(crate) use rules::note_broken_rules;
 pub use uri::{Uri, UriError};
 
 use crate::diagnostic::{Code, Diagnostic};

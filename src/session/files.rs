@@ -93,10 +93,12 @@ impl FileSet {
         self.models.iter().map(|&index| &self.files[index]).collect()
     }
 
-    /// One of its files and all pictures: what is needed to open that model again.
+    /// One of its files, what that one names, and all pictures: what is needed to open that model again.
     pub(super) fn with_one_model(&self, model: &File) -> Self {
         let pictures = self.files.iter().filter(|file| file.is_image());
-        Self::new(pictures.chain([model]).cloned())
+        let named = import::files_beside(&model.bytes);
+        let named = named.iter().filter_map(|path| self.beside(model, path));
+        Self::new(pictures.chain(named).chain([model]).cloned())
     }
 
     /// Flat pictures: those that a model can name.

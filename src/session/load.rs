@@ -27,12 +27,12 @@ impl LoadError {
         let files = files.files();
         let message = match files.len() {
             0 => "No file was dropped.",
-            1 => "No .m3d model was dropped: the file is a picture. Drop it together with its model.",
+            1 => "No model was dropped: the file is a picture. Drop it together with its model.",
             _ if files.iter().all(File::is_image) => {
-                "No .m3d model was dropped: the files are all pictures. Drop them together with their model."
+                "No model was dropped: the files are all pictures. Drop them together with their model."
             }
             _ => {
-                "No .m3d model was dropped: there are pictures, and no other file begins like a model. Drop them together \
+                "No model was dropped: there are pictures, and no other file begins like a model. Drop them together \
                  with their model."
             }
         }

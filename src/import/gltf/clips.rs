@@ -125,13 +125,9 @@ impl ClipReader<'_> {
                     continue;
                 }
             };
-            if self.root.nodes()[index].matrix.is_some() {
-                let message = format!("Node {index} has a matrix, which clips cannot move; its parts are moved.");
-                self.broken(format!("{pointer}/target"), message);
-            }
             let parts = parts.entry(joint).or_default();
             let sampler = of_file.sampler.0;
-            let is_first = match of_file.target.path {
+            match of_file.target.path {
                 Path::Translation => set(
                     &mut parts.translation,
                     || self.keys(animation, sampler, &pointer, false),
@@ -148,10 +144,6 @@ impl ClipReader<'_> {
                     Vec4::from_array,
                 )?,
             };
-            if !is_first {
-                let message = format!("Another channel moves the same of node {index}; this one is left out.");
-                self.broken(format!("{pointer}/target"), message);
-            }
         }
         self.note();
         if parts.values().all(Parts::is_empty) {
@@ -167,11 +159,6 @@ impl ClipReader<'_> {
         tracks
             .map(Some)
             .map_err(|rule| Box::new(rule.diagnostic().pointing_at(pointer)))
-    }
-
-    fn broken(&mut self, pointer: String, message: String) {
-        let place = Place::pointer(pointer).about(Subject::Clip(self.clip));
-        self.diagnostics.add(&codes::GLTF_RULE_BROKEN, place, message);
     }
 
     /// The keys of a sampler: finite, in strictly increasing time. `pointer` is its channel.
@@ -200,25 +187,11 @@ impl ClipReader<'_> {
             .floats::<1>(of_file.input, &format!("{at}/input"))?
             .into_flattened();
         let values: Vec<[f32; N]> = self.reader.floats(of_file.output, &format!("{at}/output"))?;
-        if of_file.interpolation == Interpolation::Unknown {
-            self.broken(
-                format!("{at}/interpolation"),
-                "There is no such interpolation; taken as LINEAR.".to_owned(),
-            );
-        }
         let each = if of_file.interpolation == Interpolation::CubicSpline {
             3
         } else {
             1
         };
-        if values.len() != times.len() * each {
-            let message = format!(
-                "{} times have {} values, where {each} belong to each.",
-                times.len(),
-                values.len()
-            );
-            self.broken(format!("{at}/output"), message);
-        }
         let slopes = |group: &[[f32; N]]| match *group {
             [into, value, out] => (value, [into, out]),
             _ => (group[0], [[0.0; N]; 2]),
@@ -320,18 +293,18 @@ struct Keys<const N: usize> {
 
 type Row<const N: usize> = (f32, [f32; N], [[f32; N]; 2]);
 
-/// Sets a part of a joint that has none yet. Whether it had none.
+/// Sets a part of a joint that has none yet.
 fn set<T: CurveValue, const N: usize>(
     part: &mut Option<Part<T>>,
     keys: impl FnOnce() -> Result<Keys<N>, Fault>,
     value: impl Fn([f32; N]) -> T,
-) -> Result<bool, Fault> {
+) -> Result<(), Fault> {
     if part.is_some() {
-        return Ok(false);
+        return Ok(());
     }
     let Keys { interpolation, rows } = keys()?;
     if rows.is_empty() {
-        return Ok(true);
+        return Ok(());
     }
     let rows = rows.into_iter();
     let curve = match interpolation {
@@ -339,7 +312,7 @@ fn set<T: CurveValue, const N: usize>(
             *part = Some(Part::Straight(
                 rows.map(|(time_secs, stored, _)| (time_secs, value(stored))).collect(),
             ));
-            return Ok(true);
+            return Ok(());
         }
         Interpolation::Step => Curve::step(rows.map(|(time_secs, stored, _)| (time_secs, value(stored)))),
         Interpolation::CubicSpline => {
@@ -348,7 +321,7 @@ fn set<T: CurveValue, const N: usize>(
     };
     // The keys were mended before.
     *part = Some(Part::Curved(curve.map_err(|rule| Box::new(rule.diagnostic()))?));
-    Ok(true)
+    Ok(())
 }
 
 impl Mended {

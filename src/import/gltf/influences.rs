@@ -37,13 +37,8 @@ impl Weighted<'_> {
     ///
     /// # Errors
     /// When the numbers are of the wrong kind, or a vertex gives weight to a joint that the skin does not have.
-    pub(super) fn read(
-        &self,
-        count: usize,
-        noted: &mut Noted,
-        diagnostics: &mut Diagnostics,
-    ) -> Result<Vec<Influences>, Fault> {
-        let sets = self.sets(count, diagnostics)?;
+    pub(super) fn read(&self, count: usize, noted: &mut Noted) -> Result<Vec<Influences>, Fault> {
+        let sets = self.sets(count)?;
         let mut pairs = Vec::with_capacity(4 * sets.len());
         (0..count)
             .map(|vertex| self.influences(vertex, &sets, &mut pairs, noted))
@@ -51,30 +46,18 @@ impl Weighted<'_> {
     }
 
     /// `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1` and so on.
-    fn sets(&self, count: usize, diagnostics: &mut Diagnostics) -> Result<Vec<Set>, Fault> {
+    fn sets(&self, count: usize) -> Result<Vec<Set>, Fault> {
         let mut sets = Vec::new();
         for number in 0.. {
             let keys = [format!("JOINTS_{number}"), format!("WEIGHTS_{number}")];
             let [joints, weights] = keys.each_ref().map(|key| self.part.attributes.get(key));
-            let mut broken = |key: &str, message: String| {
-                let place = Place::pointer(format!("{}/attributes/{key}", self.pointer));
-                diagnostics.add(&codes::GLTF_RULE_BROKEN, place, message);
-            };
             let (Some(&joints), Some(&weights)) = (joints, weights) else {
-                if joints.is_some() || weights.is_some() {
-                    let [here, other] = if joints.is_some() { [0, 1] } else { [1, 0] };
-                    broken(&keys[here], format!("{} has no {}; left out.", keys[here], keys[other]));
-                }
                 break;
             };
             let at = |key: &str| format!("{}/attributes/{key}", self.pointer);
             let joints = self.reader.whole::<4>(joints, &at(&keys[0]))?;
             let weights = self.reader.floats::<4>(weights, &at(&keys[1]))?;
             if joints.len() < count || weights.len() < count {
-                broken(
-                    &keys[0],
-                    format!("There are fewer {} or {} than vertices; left out.", keys[0], keys[1]),
-                );
                 break;
             }
             sets.push((joints, weights));

@@ -130,7 +130,7 @@ impl Builder<'_> {
     }
 
     fn add_vertices(&mut self, mesh: &MeshUse, part: &Primitive, pointer: &str) -> Result<(), Fault> {
-        let weights = self.morph_weights(mesh, part, pointer);
+        let weights = self.morph_weights(mesh);
         let vertices = self.read(part, &weights, pointer)?;
         let count = vertices.positions.len();
         let start = self.mesh.vertex_count();
@@ -159,23 +159,11 @@ impl Builder<'_> {
     }
 
     /// The weights that the morph targets of a primitive have outside of clips.
-    fn morph_weights(&mut self, mesh: &MeshUse, part: &Primitive, pointer: &str) -> Vec<f32> {
+    fn morph_weights(&self, mesh: &MeshUse) -> Vec<f32> {
         let root = self.source.root;
         let of_node = root.nodes()[mesh.node as usize].weights.as_ref();
         let of_mesh = root.meshes()[mesh.mesh].weights.as_ref();
         let weights = of_node.or(of_mesh).map_or(&[][..], Vec::as_slice);
-        if !weights.is_empty() && weights.len() != part.targets.len() {
-            let message = format!(
-                "There are {} weights for {} morph targets.",
-                weights.len(),
-                part.targets.len()
-            );
-            self.diagnostics.add(
-                &codes::GLTF_RULE_BROKEN,
-                Place::pointer(format!("{pointer}/targets")),
-                message,
-            );
-        }
         weights.to_vec()
     }
 
@@ -250,18 +238,8 @@ impl Builder<'_> {
         };
         let pointer = format!("{pointer}/attributes/{key}");
         let mut elements: Vec<[f32; N]> = self.source.reader.floats(accessor, &pointer)?;
-        if elements.len() != count {
-            let have = elements.len();
-            let (then, kept) = if have > count {
-                ("the rest is left out", count)
-            } else {
-                ("left out", 0)
-            };
-            let message = format!("{key} has {have} elements for {count} vertices; {then}.");
-            self.diagnostics
-                .add(&codes::GLTF_RULE_BROKEN, Place::pointer(pointer), message);
-            elements.truncate(kept);
-        }
+        // More are left out, fewer are none.
+        elements.truncate(if elements.len() < count { 0 } else { count });
         Ok(elements)
     }
 
@@ -281,7 +259,7 @@ impl Builder<'_> {
                 first_vertex: self.mesh.vertex_count() as u32,
                 pointer,
             };
-            return weighted.read(count, &mut self.noted.weights, self.diagnostics);
+            return weighted.read(count, &mut self.noted.weights);
         }
         Ok(match source.rig.on_node(mesh.node, source.nodes).0 {
             None => Vec::new(),

@@ -17,7 +17,7 @@ use self::meshes::Source;
 use self::nodes::Nodes;
 use super::{FileFormat, Imported, Refused};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::LineMap;
 use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
 use crate::model::{Front, Handedness, Model, UpAxis};
@@ -26,15 +26,34 @@ pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
 
 pub(super) fn import(bytes: &[u8], find: FindFile<'_>) -> Result<Imported, Box<Refused>> {
     let mut diagnostics = Vec::new();
-    match read(bytes, find, &mut diagnostics) {
+    let read = read(bytes, find, &mut diagnostics);
+    let placed = |diagnostic: Diagnostic| placed(diagnostic, bytes);
+    let diagnostics = diagnostics.into_iter().map(placed).collect();
+    match read {
         Ok(imported) => Ok(Imported {
             diagnostics,
             ..imported
         }),
         Err(error) => Err(Box::new(Refused {
-            error: *error,
+            error: placed(*error),
             diagnostics,
         })),
+    }
+}
+
+/// The same with line and column, where the file is text and only a pointer is known.
+fn placed(diagnostic: Diagnostic, bytes: &[u8]) -> Diagnostic {
+    let pointer = diagnostic.pointer.as_deref().filter(|_| diagnostic.position.is_none());
+    let position = match gltf::open(bytes, &mut Vec::new()) {
+        Ok(container) if !container.is_binary && container.json_offset == 0 => {
+            pointer.and_then(|pointer| gltf::position_of(container.json, pointer))
+        }
+        _ => None,
+    };
+    Diagnostic {
+        places: position.into_iter().chain(diagnostic.places).collect(),
+        position: position.or(diagnostic.position),
+        ..diagnostic
     }
 }
 
@@ -62,11 +81,16 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     let root = gltf::parse(&container)?;
     gltf::check_asset(&root, diagnostics)?;
     let buffers = Buffers::new(&root, &container, find);
-    gltf::note_broken_rules(&root, diagnostics);
     let mut noted = Diagnostics::default();
+    gltf::note_broken_rules(&root, &mut noted);
     let read = model(&root, &buffers, &container, find, &mut noted);
     diagnostics.extend(noted.into_vec());
     let (model, images) = read?;
+    // What the model needs of them was there.
+    diagnostics.extend(buffers.faults().map(|fault| Diagnostic {
+        severity: Severity::Warning,
+        ..Diagnostic::clone(fault)
+    }));
     Ok(Imported {
         format: if container.is_binary {
             FileFormat::Glb
