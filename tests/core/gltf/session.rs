@@ -9,7 +9,7 @@ use super::triangle;
 use crate::gltf_files::Gltf;
 
 /// A PNG of one pixel.
-const PIXEL: &[u8] = include_bytes!("../../../web/sample/figure_skin.png");
+const PIXEL: &[u8] = include_bytes!("../../../web/sample/visor_norm.png");
 
 fn textured(image: serde_json::Value) -> Gltf {
     let material = json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } });
@@ -100,7 +100,7 @@ fn without_a_clip_joints_are_at_rest_and_have_the_files_names() {
     let mut session = opened(vec![File::new("fox.glb", file.glb())]);
     assert_eq!(session.joint_label(JointIndex(1)), "Head");
     let frame = session.frame();
-    let palette = frame.palette.to_vec();
+    let palette = frame.palette.0.to_vec();
     // The head is turned by half a turn, and 3 above.
     let posed = palette[1].transform_point3(glam::Vec3::new(1.0, 2.0, 0.0));
     assert!(posed.abs_diff_eq(glam::Vec3::new(-1.0, 1.0, 0.0), 1e-5), "{posed}");
