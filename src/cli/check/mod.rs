@@ -1,6 +1,9 @@
 //! `bindpose check`: all that is wrong with files, or was mended, and what the books' programs make of them.
 
-use std::collections::HashMap;
+mod counts;
+mod explain;
+mod maps;
+
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,17 +16,16 @@ use super::diagnostic::Colors;
 use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
 use super::paths;
-use super::text::counted;
-use super::textures::{MapState, Textures, Wanted, by_name, missing, without_name};
+use super::textures::Folders;
 use crate::anim::CompiledClip;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::check::report::{self, CheckedFile};
 use crate::check::{self, sarif};
-use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
+use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format;
 use crate::import::{self, Imported};
 use crate::session::summary::{self, Finding};
-use crate::session::{File, Maps};
+use counts::Counts;
 
 /// List what is wrong with files, or was mended while reading them.
 ///
@@ -139,7 +141,7 @@ struct Checked {
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     if let Some(name) = &arguments.explain {
-        explain(name, out)?;
+        explain::explain(name, out)?;
         return Ok(Outcome::Fine);
     }
     let format = if arguments.json { Format::Json } else { arguments.format };
@@ -148,6 +150,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         When::Always => true,
         When::Never => false,
     });
+    let with_textures = !arguments.textures.is_empty();
+    let textures = with_textures
+        .then(|| Folders::walk(&arguments.textures, err))
+        .transpose()?;
     let models = paths::models(&arguments.paths).into_iter();
     let models: Vec<_> = models.map(|model| model.map_err(Arc::new)).collect();
     let is_only = models.len() == 1;
@@ -159,10 +165,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let done = in_order(
         &models,
         |model| match model {
-            Ok(path) => check_file(path, arguments, is_only).map_err(Arc::new),
+            Ok(path) => check_file(path, arguments, textures.as_ref(), is_only).map_err(Arc::new),
             Err(failure) => Err(Arc::clone(failure)),
         },
-        |_, checked| -> Result<(), Failure> {
+        |checked| -> Result<(), Failure> {
             progress.inc(1);
             let checked = match checked {
                 Ok(checked) => checked,
@@ -173,7 +179,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
                     return Ok(());
                 }
             };
-            counts.add(&checked);
+            counts.add(&checked.diagnostics);
             outcome = outcome.max(checked.outcome(&arguments.deny));
             match format {
                 Format::Text => progress.suspend(|| checked.write(out, colors))?,
@@ -212,15 +218,20 @@ fn progress(files: usize) -> ProgressBar {
     bar
 }
 
-fn check_file(path: &Path, arguments: &Arguments, is_only: bool) -> Result<Checked, Failure> {
+fn check_file(
+    path: &Path,
+    arguments: &Arguments,
+    textures: Option<&Folders>,
+    is_only: bool,
+) -> Result<Checked, Failure> {
     let bytes = paths::read(path)?;
     let imported = import::import(&bytes);
     let mut diagnostics = Vec::new();
     let mut missing_maps = None;
     if let Ok(imported) = &imported
-        && !arguments.textures.is_empty()
+        && let Some(textures) = textures
     {
-        let found = findings_of_maps(imported, &arguments.textures, is_only)?;
+        let found = maps::find(&imported.model.materials, textures, is_only);
         missing_maps = Some(found.missing);
         diagnostics = found.diagnostics;
     }
@@ -266,60 +277,6 @@ fn verdicts(
         missing_maps,
     };
     books.iter().map(|&book| book::verdict(book, bytes, &known)).collect()
-}
-
-/// What looking for maps gives.
-struct FoundMaps {
-    diagnostics: Vec<Diagnostic>,
-    /// Names without a file, each once.
-    missing: Vec<String>,
-}
-
-fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> Result<FoundMaps, Failure> {
-    let materials = &imported.model.materials;
-    let mut textures = Textures::read(folders, materials, Wanted::Maps)?;
-    let mut maps = Maps::without_mips();
-    maps.add(materials, std::mem::take(&mut textures.pictures));
-    let states = textures.states(materials, &maps);
-    let mut diagnostics = Vec::new();
-    let mut absent = Vec::new();
-    let mut indices = HashMap::new();
-    for (index, map) in (0..).zip(&states) {
-        indices.entry(map.name).or_insert(index);
-    }
-    // A name that several materials have is told once, with the first.
-    for (map, users) in by_name(&states) {
-        let diagnostic = match &map.state {
-            Some(MapState::Missing) => {
-                absent.push(map.name.to_owned());
-                missing(map, users)
-            }
-            Some(MapState::Unreadable(path, diagnostic)) => Diagnostic {
-                message: format!("{}: {}", path.display(), without_name(diagnostic, path).message),
-                ..diagnostic.clone()
-            },
-            Some(MapState::Found(_)) | None => continue,
-        };
-        diagnostics.push(Diagnostic {
-            subject: indices.get(map.name).copied().map(Subject::Map),
-            ..diagnostic
-        });
-    }
-    if is_only && let Some(first) = textures.unnamed.first() {
-        let first = File::new(&first.to_string_lossy(), []);
-        let others = match textures.unnamed.len() - 1 {
-            0 => String::new(),
-            others => format!(" and {}", counted(others, "other picture")),
-        };
-        diagnostics.push(Diagnostic {
-            count: u32::try_from(textures.unnamed.len()).unwrap_or(u32::MAX),
-            ..codes::MAP_UNUSED.says(format!("No material names {}{others}.", first.base_name()))
-        });
-    }
-    Ok(FoundMaps {
-        diagnostics,
-        missing: absent,
-    })
 }
 
 /// What --json prints of a file.
@@ -387,96 +344,5 @@ impl Checked {
 
     fn sarif_results(&self) -> sarif::Results {
         sarif::Results::of(&self.file(&self.path.to_string_lossy()))
-    }
-}
-
-/// How much was found in all files.
-#[derive(Default)]
-struct Counts {
-    files: usize,
-    errors: usize,
-    warnings: usize,
-    notes: usize,
-}
-
-impl Counts {
-    fn add(&mut self, checked: &Checked) {
-        self.files += 1;
-        for diagnostic in &checked.diagnostics {
-            *match diagnostic.severity {
-                Severity::Error => &mut self.errors,
-                Severity::Warning => &mut self.warnings,
-                Severity::Note => &mut self.notes,
-            } += 1;
-        }
-    }
-}
-
-impl std::fmt::Display for Counts {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self {
-            files,
-            errors,
-            warnings,
-            notes,
-        } = *self;
-        write!(
-            f,
-            "{}: {}, {}, {}",
-            counted(files, "file"),
-            counted(errors, "error"),
-            counted(warnings, "warning"),
-            counted(notes, "note")
-        )
-    }
-}
-
-/// Prints the row of the table of codes.
-fn explain(name: &str, out: &mut dyn Write) -> Result<(), Failure> {
-    let code = codes::named(name).ok_or_else(|| Failure::UnknownCode {
-        asked: name.to_owned(),
-        nearest: codes::all()
-            .map(|code| code.name)
-            .min_by_key(|known| edits(name, known))
-            .unwrap_or_default(),
-    })?;
-    writeln!(out, "{}[{}]: {}", code.severity, code.name, code.sentence)?;
-    writeln!(out, "{}", code.explanation)?;
-    Ok(())
-}
-
-/// How many letters must be put in, left out or changed to make one word of another (Levenshtein's distance).
-fn edits(from: &str, to: &str) -> usize {
-    let to: Vec<char> = to.chars().collect();
-    // Of each beginning of `to`, from as much of `from` as was read.
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (read, letter) in from.chars().enumerate() {
-        let mut before = std::mem::replace(&mut row[0], read + 1);
-        for (place, &other) in to.iter().enumerate() {
-            let changed = before + usize::from(letter != other);
-            before = row[place + 1];
-            row[place + 1] = changed.min(before + 1).min(row[place] + 1);
-        }
-    }
-    row[to.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn edits_are_counted_one_by_one() {
-        for (from, to, count) in [
-            ("", "", 0),
-            ("", "abc", 3),
-            ("abc", "", 3),
-            ("same", "same", 0),
-            ("weights-not-normalised", "weights-not-normalized", 1),
-            ("empy-file", "empty-file", 1),
-            ("kitten", "sitting", 3),
-        ] {
-            assert_eq!(edits(from, to), count, "{from} {to}");
-        }
     }
 }
