@@ -95,7 +95,10 @@ impl Folders {
     /// # Errors
     /// When one of them cannot be read. All else that cannot be read is a warning.
     pub(super) fn walk(folders: &[PathBuf], err: &mut dyn Write) -> Result<Self, Failure> {
-        let mut walk = Walk::default();
+        let mut walk = Walk {
+            most_entries: MOST_ENTRIES,
+            ..Walk::default()
+        };
         for folder in folders {
             walk.through(folder)?;
         }
@@ -298,6 +301,7 @@ struct Walk {
     /// Folders that were met, without links in their paths.
     met: HashSet<PathBuf>,
     entries_met: usize,
+    most_entries: usize,
     warnings: Vec<(PathBuf, Diagnostic)>,
 }
 
@@ -331,8 +335,9 @@ impl Walk {
                 break;
             }
         }
-        if self.entries_met > MOST_ENTRIES {
-            let message = format!("More than {MOST_ENTRIES} files and folders were met; the others are skipped.");
+        if self.entries_met > self.most_entries {
+            let most = self.most_entries;
+            let message = format!("More than {most} files and folders were met; the others are skipped.");
             self.warn(folder.to_owned(), &codes::FOLDER_TOO_LARGE, message);
         }
         Ok(())
@@ -386,7 +391,7 @@ impl Walk {
         for entry in fs::read_dir(folder)? {
             let entry = entry?;
             self.entries_met += 1;
-            if self.entries_met > MOST_ENTRIES {
+            if self.entries_met > self.most_entries {
                 break;
             }
             entries.push(Entry {
@@ -401,5 +406,26 @@ impl Walk {
 
     fn warn(&mut self, path: PathBuf, code: &Code, message: String) {
         self.warnings.push((path, warning(code, message)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// No test makes as many files as a real walk takes.
+    #[test]
+    fn a_walk_ends_at_its_limit_and_says_so() {
+        let mut walk = Walk {
+            most_entries: 3,
+            ..Walk::default()
+        };
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        walk.through(&folder).expect("the sources are there");
+        let [(path, warning)] = walk.warnings.as_slice() else {
+            panic!("{:?}", walk.warnings)
+        };
+        assert_eq!((path, warning.code), (&folder, codes::FOLDER_TOO_LARGE.name));
+        assert!(warning.message.starts_with("More than 3 files and folders were met;"));
     }
 }

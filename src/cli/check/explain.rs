@@ -16,6 +16,8 @@ pub(super) fn explain(name: &str, out: &mut dyn Write) -> Result<(), Failure> {
     })?;
     writeln!(out, "{}[{}]: {}", code.severity, code.name, code.sentence)?;
     writeln!(out, "{}", code.explanation)?;
+    writeln!(out, "Here: {}", code.handling)?;
+    writeln!(out, "To mend it: {}", code.mending)?;
     Ok(())
 }
 

@@ -43,6 +43,8 @@ pub(super) fn find(materials: &[Material], folders: &Folders, is_only: bool) -> 
             ..diagnostic
         });
     }
+    let is_ambiguous = |diagnostic: &&Diagnostic| diagnostic.code == codes::MAP_AMBIGUOUS.name;
+    diagnostics.extend(maps.diagnostics().iter().filter(is_ambiguous).cloned());
     diagnostics.extend(textures.not_files.iter().map(|path| named(path, &not_a_file())));
     if is_only && let Some(first) = textures.unnamed.first() {
         let first = File::new(&first.to_string_lossy(), []);

@@ -21,7 +21,7 @@ use crate::anim::CompiledClip;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::check::report::{self, CheckedFile};
 use crate::check::{self, sarif};
-use crate::diagnostic::{Diagnostic, Severity, codes};
+use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::format;
 use crate::import::{self, Imported};
 use crate::session::summary::{self, Finding};
@@ -94,7 +94,8 @@ Text:
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
   Of a folder every .m3d file below it is read, by path. After several files comes a line with counts.
-  --explain CODE tells what a finding of this code means for the model, or what can be done.
+  --explain CODE tells what a finding of this code means, what is done about it, and how to mend it in the exporter.
+  The viewer has the same of all codes, with an example of each, as the page web/codes.html.
 
 JSON: an array with one object for each file that could be read
   file                the path as given
@@ -109,7 +110,7 @@ JSON: an array with one object for each file that could be read
                       are counted as `info --json` lists them
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
-    help              what --explain tells of the code
+    help              what the code means, and how to mend it
   book                what the books' programs make of it, or null without --book
     d3d11, d3d12      null when not asked for
       reads           whether its loader reads the file as it is meant
@@ -292,14 +293,14 @@ struct Report<'a> {
 struct Explained<'a> {
     #[serde(flatten)]
     finding: Finding<'a>,
-    help: Option<&'static str>,
+    help: Option<String>,
 }
 
 impl<'a> From<&'a Diagnostic> for Explained<'a> {
     fn from(diagnostic: &'a Diagnostic) -> Self {
         Self {
             finding: diagnostic.into(),
-            help: codes::named(diagnostic.code).map(|code| code.explanation),
+            help: codes::named(diagnostic.code).map(Code::help),
         }
     }
 }
