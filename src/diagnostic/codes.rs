@@ -55,7 +55,7 @@ table! {
             "Export again, and look whether the disk is full or the exporter ended early.";
         OTHER_FORMAT = "other-format", Error,
             "This is a file of another format.",
-            "The message names the format. Export the model as `.m3d` text.",
+            "The message names the format.",
             "The file is not opened.",
             "Choose `.m3d` text as the exporter's output; renaming a file does not convert it.";
         RELATIVE_FORMAT = "relative-format", Error,
@@ -97,7 +97,7 @@ table! {
             "A label is not the one that belongs there.",
             "The rows of a section have the same labels in the same order.",
             "The file is not opened.",
-            "Write the labels of a row as the book's exporter does, in its order.";
+            "Write the labels of a row in the order of the book's exporter, spelt as there.";
         NOT_A_NUMBER = "not-a-number", Error,
             "A word stands where a number belongs.",
             "Often a value before it is missing, or a section is longer than announced.",
@@ -120,12 +120,12 @@ table! {
             "Copy or export the file again.";
         RULER_MISSING = "ruler-missing", Warning,
             "A section begins without its ruler line.",
-            "It was read by its place. The books' loaders skip one word there and would be out of step.",
+            "The books' loaders skip one word there and would be out of step.",
             "The section is read by its place.",
             "Write a ruler line before each section, the empty ones too.";
         RULER_UNKNOWN = "ruler-unknown", Note,
             "A ruler does not name the section that begins there.",
-            "It was read by its place.",
+            "The books' loaders do not look at its words.",
             "The section is read by its place.",
             "Name the section in its ruler as the book's exporter does.";
         COMMENT = "comment", Note,
@@ -175,7 +175,7 @@ table! {
             "Write as many values as the row has, and no blanks in names.";
         ROW_SPLIT = "row-split", Note,
             "A row goes on in the next line.",
-            "It was read as one row, as the books' loaders do.",
+            "The books' loaders read words, whatever line they stand in.",
             "It is read as one row.",
             "Write each row on a line of its own.";
         NUMBER_MENDED = "number-mended", Warning,
@@ -220,12 +220,12 @@ table! {
             "Number the bones from 0 in the order in which they are written.";
         BONE_OFFSET_LABEL = "bone-offset-label", Note,
             "A bone offset has its bone's number before the sixteen numbers.",
-            "It is taken as a part of the label.",
+            "The books' loaders would take it for the first of the sixteen.",
             "It is taken as part of the label.",
             "Write `BoneOffset0` with the number joined to the word.";
         BRACE_MISSING = "brace-missing", Warning,
             "A brace is missing.",
-            "The clip was read as if it stood there.",
+            "The books' loaders skip a word there and would be out of step.",
             "The clip is read as if it stood there.",
             "Write a brace before and after the keys of each bone, and around all bones of a clip.";
         BRACE_SURPLUS = "brace-surplus", Warning,
@@ -478,9 +478,9 @@ table! {
             "Write one key for a bone that keeps still.";
         LOOP_JUMPS = "loop-jumps", Note,
             "A clip ends near its first pose, but not near enough to loop without a jump.",
-            "Give the last keys the values of the first. The timeline shows the gap bone by bone.",
+            "The timeline shows the gap bone by bone.",
             "The clip is played as it is.",
-            "Export the last frame as a copy of the first, or one frame more.";
+            "Give the last keys the values of the first.";
         SCALE_SHEARS = "scale-shears", Note,
             "A clip turns a bone while one above it is scaled by different factors, which shears it.",
             "It is shown as the books' demos do. Programs that keep scale and rotation apart show it otherwise.",
@@ -506,14 +506,14 @@ table! {
     OF_BOOKS {
         BOOK_STOPS = "book-stops", Warning,
             "A book's loader does not read the file as it is meant.",
-            "The loaders read words in order and look at no label. Write the file as the book's own exporter does.",
-            "It does not matter here.",
+            "The loaders read words in order and look at no label.",
+            "The file is read by its labels.",
             "Write the labels and values of a row as the book's exporter does, with one word for each name.";
         BOOK_CLIP_NAME = "book-clip-name", Note,
             "There is no clip of the name that the books' demos ask for.",
-            "Name a clip `Take1`, or change `ClipName` in the demo.",
+            "They look for it in their first frame, and crash.",
             "Any clip can be played.",
-            "Name the clip to be shown `Take1`.";
+            "Name the clip to be shown `Take1`, or change `ClipName` in the demo.";
         BOOK_ROOTS = "book-roots", Note,
             "Bone 0 is not the only root.",
             "The books' demos take bone 0 as the root of all others.",
@@ -531,14 +531,14 @@ table! {
             "Cut the holes out of the mesh, or add the clip to the demo's shader.";
         BOOK_HANDEDNESS = "book-handedness", Note,
             "The model is left-handed; the books' demos mirror their character.",
-            "Take the minus from the demo's scale, or turn the model.",
+            "The model is shown inside out there.",
             "Handedness is found from the triangles.",
-            "Export right-handed coordinates for the demo as it is.";
+            "Export right-handed coordinates, or take the minus from the demo's scale.";
         BOOK_SIZE = "book-size", Note,
             "The books' demos show the model too small or too large.",
-            "Change the demo's scale of 0.05, or scale the model to about 72 units.",
+            "They scale by 0.05, for a soldier that is 72 units high.",
             "The model is framed whatever its size.",
-            "Scale the scene so that the character is about 72 units high.";
+            "Scale the scene so that the character is about 72 units high, or change the demo's scale.";
         BOOK_TANGENT_SIGN = "book-tangent-sign", Note,
             "The D3D12 book's loader leaves the sign of tangents unread.",
             "Where textures are mirrored, bumps look like dents.",
@@ -586,7 +586,7 @@ table! {
             "Give one track for each joint, in their order.";
         PARENT_NOT_BEFORE = "parent-not-before", Error,
             "A joint stands before its parent.",
-            "Sort the joints so that parents come first.",
+            "Poses are multiplied from the first joint to the last.",
             "The part is refused.",
             "Sort the joints, and all that names them.";
         JOINT_COUNT_MISMATCH = "joint-count-mismatch", Error,
@@ -601,7 +601,7 @@ table! {
             "Give each joint another number below their count.";
         MATRIX_NOT_FINITE = "matrix-not-finite", Error,
             "An inverse bind matrix holds a number that is not finite.",
-            "Put a finite matrix in its place.",
+            "It takes the vertices of its joint out of the bind pose.",
             "The part is refused.",
             "Use the identity where nothing better is known.";
         NO_KEYS = "no-keys", Error,
@@ -616,9 +616,9 @@ table! {
             "Sort the keys, and keep one for each time.";
         KEY_NOT_FINITE = "key-not-finite", Error,
             "A key holds a number that is not finite, or a rotation without a direction.",
-            "Leave the key out, or give it numbers.",
+            "A pose is made of numbers.",
             "The part is refused.",
-            "Use a quaternion of length 1 and finite numbers.";
+            "Leave the key out, or give it numbers and a quaternion of length 1.";
     }
 
     /// What reading a picture gives ([`ImageError`](crate::image::ImageError)). A model shows without its maps.
@@ -709,7 +709,7 @@ table! {
     OF_SESSION {
         NO_MODEL = "no-model", Error,
             "No .m3d model was dropped.",
-            "Pictures alone show nothing: drop them together with their model.",
+            "Pictures alone show nothing.",
             "What is open stays.",
             "Drop the `.m3d` file too, or the folder that has both.";
         MAP_MISSING = "map-missing", Note,
@@ -719,9 +719,9 @@ table! {
             "Put the picture beside the model, or write the name that it has.";
         MAP_AMBIGUOUS = "map-ambiguous", Note,
             "A map could be several files; the first is taken.",
-            "Rename or leave out the files that are not meant.",
+            "They have one name, in several folders or formats.",
             "The first of them is taken.",
-            "Write names that are unique among all folders.";
+            "Rename or leave out the files that are not meant.";
         MAP_UNUSED = "map-unused", Note,
             "A picture fits no name of the model's maps, or a better one was there; not used.",
             "Maps are found by base name, without case and extension.",
@@ -758,7 +758,7 @@ table! {
     OF_PAGE {
         VIEWER_STOPPED = "viewer-stopped", Error,
             "The viewer stopped.",
-            "It cannot go on; load the page again.",
+            "It cannot go on.",
             "The page says so.",
             "Load the page again; if it happens again, try the other backend.";
     }
@@ -787,7 +787,7 @@ table! {
             "Change the rights of the folder.";
         FOLDER_TOO_LARGE = "folder-too-large", Warning,
             "The folder holds more files than are looked at; the others are skipped.",
-            "Name a folder nearer to the maps.",
+            "Perhaps a whole disk was named.",
             "What comes later is skipped.",
             "Name a folder that holds the maps alone.";
     }

@@ -323,10 +323,7 @@ fn example(code: &str) -> String {
         return format!("<p class=\"none\">{}</p>\n", html(why));
     }
     let text = check(code, "text");
-    format!(
-        "<pre tabindex=\"0\">{}</pre>\n",
-        escaped(text.trim_end())
-    )
+    format!("<pre>{}</pre>\n", escaped(text.trim_end()))
 }
 
 /// Text of the table: what stands between backticks is code.
