@@ -4,7 +4,7 @@ use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::filter::color;
-use super::row::{INDENT, explanation, tell_fold};
+use super::row::{INDENT, explanation, mending, tell_fold};
 use super::state::BookLines;
 use crate::check::book::{Limit, Verdict};
 use crate::diagnostic::{Severity, codes};
@@ -218,6 +218,6 @@ fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines, requests: &mut Vec
     for limit in &verdict.limits {
         ui.add_space(8.0);
         ui.label(words(&limit.message, tokens.text));
-        explanation(ui, limit.code, requests);
+        mending(ui, limit.code, requests);
     }
 }

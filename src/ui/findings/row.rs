@@ -7,7 +7,7 @@ use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, W
 use super::filter::color;
 use super::goal::Goal;
 use super::state::ShownDiagnostic;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::session::{Command, OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
 use crate::ui::state::{Request, UiState};
@@ -214,13 +214,22 @@ impl FindingRow<'_> {
     }
 }
 
-/// What findings of a code mean, how to mend them for good, and the code, which leads to its place on the page of codes.
+/// What findings of a code mean, and how to mend them for good.
 pub(super) fn explanation(ui: &mut Ui, code: &'static str, requests: &mut Vec<Request>) {
-    if let Some(row) = codes::named(code) {
-        for words in [row.explanation, row.mending] {
-            let words = RichText::new(words.replace('`', "")).size(12.5);
-            ui.label(words.color(Tokens::of(ui).muted));
-        }
+    let words = codes::named(code).map(Code::help);
+    about(ui, words.as_deref(), code, requests);
+}
+
+/// How to mend findings of a code for good.
+pub(super) fn mending(ui: &mut Ui, code: &'static str, requests: &mut Vec<Request>) {
+    about(ui, codes::named(code).map(|code| code.mending), code, requests);
+}
+
+/// Words about a code, and the code, which leads to its place on the page of codes.
+fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Vec<Request>) {
+    if let Some(words) = words {
+        let words = RichText::new(words.replace('`', "")).size(12.5);
+        ui.label(words.color(Tokens::of(ui).muted));
     }
     let link = ui.link(RichText::new(code).font(theme::mono(11.0)));
     if link.on_hover_text("What it means, with an example").clicked() {
