@@ -2,29 +2,22 @@
 
 mod counts;
 mod explain;
+mod file;
 mod maps;
 
 use std::io::{self, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
 
 use super::diagnostic::Colors;
 use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
 use super::paths;
 use super::textures::Folders;
-use crate::anim::CompiledClip;
-use crate::check::book::{self, Book, Known, Verdict};
-use crate::check::report::{self, CheckedFile};
-use crate::check::{self, sarif};
-use crate::diagnostic::{Code, Diagnostic, Severity, codes};
-use crate::format;
-use crate::import::{self, Imported};
-use crate::session::summary::{self, Finding};
+use crate::check::sarif;
 use counts::Counts;
 
 /// List what is wrong with files, or was mended while reading them.
@@ -132,14 +125,6 @@ Exit codes:
   1  a file has errors, or what --deny names: warnings; a book that does not read a file, or whose demo ends
   2  wrong use, an unknown code, or a file cannot be read";
 
-/// What is known of one file.
-struct Checked {
-    path: PathBuf,
-    bytes: Vec<u8>,
-    diagnostics: Vec<Diagnostic>,
-    verdicts: Vec<Verdict>,
-}
-
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     if let Some(name) = &arguments.explain {
         explain::explain(name, out)?;
@@ -166,7 +151,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let done = in_order(
         &models,
         |model| match model {
-            Ok(path) => check_file(path, arguments, textures.as_ref(), is_only).map_err(Arc::new),
+            Ok(path) => file::check(path, arguments.book, textures.as_ref(), is_only).map_err(Arc::new),
             Err(failure) => Err(Arc::clone(failure)),
         },
         |checked| -> Result<(), Failure> {
@@ -217,133 +202,4 @@ fn progress(files: usize) -> ProgressBar {
         bar.set_style(style);
     }
     bar
-}
-
-fn check_file(
-    path: &Path,
-    arguments: &Arguments,
-    textures: Option<&Folders>,
-    is_only: bool,
-) -> Result<Checked, Failure> {
-    let bytes = paths::read(path)?;
-    let imported = import::import(&bytes);
-    let mut diagnostics = Vec::new();
-    let mut missing_maps = None;
-    if let Ok(imported) = &imported
-        && let Some(textures) = textures
-    {
-        let found = maps::find(&imported.model.materials, textures, is_only);
-        missing_maps = Some(found.missing);
-        diagnostics = found.diagnostics;
-    }
-    let verdicts = verdicts(arguments.book, &bytes, imported.as_ref().ok(), missing_maps.as_deref());
-    diagnostics.extend(diagnostics_of(imported));
-    diagnostics.sort_by_key(|diagnostic| diagnostic.position);
-    Ok(Checked {
-        path: path.to_owned(),
-        bytes,
-        diagnostics,
-        verdicts,
-    })
-}
-
-/// All diagnostics of a file and of its model.
-fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>) -> Vec<Diagnostic> {
-    match imported {
-        Ok(imported) => {
-            let compiled = CompiledClip::all(&imported.model.clips);
-            let checked = check::model(&imported.model, &compiled, &imported.lines);
-            imported.diagnostics.into_iter().chain(checked).collect()
-        }
-        Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),
-    }
-}
-
-fn verdicts(
-    books: Option<WhichBooks>,
-    bytes: &[u8],
-    imported: Option<&Imported>,
-    missing_maps: Option<&[String]>,
-) -> Vec<Verdict> {
-    let books: &[Book] = match books {
-        None => return Vec::new(),
-        Some(WhichBooks::D3d11) => &[Book::D3d11],
-        Some(WhichBooks::D3d12) => &[Book::D3d12],
-        Some(WhichBooks::All) => &Book::ALL,
-    };
-    let parsed = imported.and_then(|_| format::parse(bytes).ok());
-    let known = Known {
-        document: parsed.as_ref().map(|parsed| &parsed.document),
-        handedness: imported.map(|imported| imported.model.handedness),
-        missing_maps,
-    };
-    books.iter().map(|&book| book::verdict(book, bytes, &known)).collect()
-}
-
-/// What --json prints of a file.
-#[derive(Serialize)]
-struct Report<'a> {
-    file: String,
-    findings: Vec<Explained<'a>>,
-    book: Option<summary::Books<'a>>,
-}
-
-/// A finding and what its code means.
-#[derive(Serialize)]
-struct Explained<'a> {
-    #[serde(flatten)]
-    finding: Finding<'a>,
-    help: Option<String>,
-}
-
-impl<'a> From<&'a Diagnostic> for Explained<'a> {
-    fn from(diagnostic: &'a Diagnostic) -> Self {
-        Self {
-            finding: diagnostic.into(),
-            help: codes::named(diagnostic.code).map(Code::help),
-        }
-    }
-}
-
-impl Checked {
-    fn outcome(&self, deny: &[Deny]) -> Outcome {
-        let worst = self.diagnostics.iter().map(|diagnostic| diagnostic.severity).max();
-        let is_denied =
-            |severity| severity == Severity::Error || (severity == Severity::Warning && deny.contains(&Deny::Warnings));
-        let book_fails =
-            deny.contains(&Deny::Book) && self.verdicts.iter().any(|verdict| !verdict.reads() || verdict.ends);
-        if book_fails || worst.is_some_and(is_denied) {
-            Outcome::FileHasErrors
-        } else {
-            Outcome::Fine
-        }
-    }
-
-    fn write(&self, out: &mut dyn Write, colors: Colors) -> io::Result<()> {
-        let text = report::text(&self.file(&self.path.to_string_lossy()), &|ink, text| {
-            colors.paint(ink, text)
-        });
-        out.write_all(text.as_bytes())
-    }
-
-    fn file<'a>(&'a self, path: &'a str) -> CheckedFile<'a> {
-        CheckedFile {
-            path,
-            bytes: &self.bytes,
-            diagnostics: &self.diagnostics,
-            verdicts: &self.verdicts,
-        }
-    }
-
-    fn report(&self, books: Option<WhichBooks>) -> Report<'_> {
-        Report {
-            file: self.path.display().to_string(),
-            findings: self.diagnostics.iter().map(Explained::from).collect(),
-            book: books.map(|_| summary::Books::of(&self.verdicts)),
-        }
-    }
-
-    fn sarif_results(&self) -> sarif::Results {
-        sarif::Results::of(&self.file(&self.path.to_string_lossy()))
-    }
 }
