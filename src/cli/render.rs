@@ -11,7 +11,7 @@ use super::failure::{Failure, Outcome};
 use super::input;
 use super::quiet::quietly;
 use super::text::Plain;
-use super::textures::{Textures, Wanted, read_sky, write_missing};
+use super::textures::{Folders, Textures, Wanted, read_sky, write_missing};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, Renderer, watched};
@@ -179,7 +179,8 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
         Some(open) if !folders.is_empty() => open.model.materials.clone(),
         _ => return Ok(false),
     };
-    let mut textures = Textures::read(folders, &materials, Wanted::MapsAndSky)?;
+    let folders = Folders::walk(folders, err)?;
+    let mut textures = Textures::of(&folders, &materials, Wanted::MapsAndSky);
     textures.write_warnings(err)?;
     let pictures = std::mem::take(&mut textures.pictures);
     if !pictures.is_empty() {

@@ -84,7 +84,6 @@ use instances::Instances;
 use overlays::OverlayCache;
 use picking::Picker;
 use skeleton_cache::SkeletonCache;
-use verdicts::Verdicts;
 use view::View;
 
 use std::sync::Arc;
@@ -136,7 +135,6 @@ struct Caches {
     skeleton: SkeletonCache,
     overlays: OverlayCache,
     crowd: CrowdCache,
-    verdicts: Verdicts,
 }
 
 impl Session {

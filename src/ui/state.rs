@@ -43,6 +43,8 @@ pub enum Request {
     },
     /// Save the report of all that was found in the open file; [`report_name`](crate::ui::report_name) says how the file is called.
     SaveReport,
+    /// Show the page of codes at this one.
+    ExplainCode(&'static str),
     /// Have a screen reader speak.
     Announce(Announcement),
 }

@@ -366,6 +366,7 @@ impl eframe::App for Shell {
                 Request::SavePicture { size, transparent } => self.save_picture(ui.ctx(), size, transparent),
                 Request::SavePictureAs => self.save_picture_as(),
                 Request::SaveReport => self.save_report(),
+                Request::ExplainCode(code) => self.shared.emit("explain", &object([("code", code.into())])),
                 Request::Announce(Announcement { text, assertive }) => {
                     let detail = object([("text", text.into()), ("assertive", assertive.into())]);
                     self.shared.emit("announce", &detail);

@@ -2,6 +2,8 @@
 
 mod appearance;
 mod check;
+mod codes;
+mod folders;
 mod info;
 mod pipe;
 mod pose;
