@@ -36,6 +36,7 @@ mod quality;
 mod reporting;
 mod restoring;
 mod selecting;
+mod series;
 mod showing;
 mod skeleton_cache;
 mod sky;
@@ -69,6 +70,7 @@ pub use opening::FileCommand;
 pub use playing::PlayCommand;
 pub use quality::{Lowered, PassChoice, PassState, Quality, QualityCommand, QualityMode, RenderScale};
 pub use selecting::{JointCommand, SubmeshCommand};
+pub use series::Series;
 pub use skeleton_cache::SkinColorsKey;
 pub use submeshes::Submeshes;
 pub use textures::{

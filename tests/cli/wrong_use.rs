@@ -12,7 +12,7 @@ fn wrong_use_is_told_apart_from_bad_files() {
         (vec!["animate", &file], "unrecognized subcommand 'animate'"),
         (vec!["info"], "<FILE>"),
         (vec!["check"], "<PATH>..."),
-        (vec!["render", &file], "--output <PNG>"),
+        (vec!["render", &file], "--output <PATH>"),
         (vec!["info", &file, "--yaml"], "unexpected argument '--yaml'"),
         (vec!["pose", &file, "--time", "soon"], "a time is a number of seconds"),
         (vec!["pose", &file, "--time", "inf"], "a time is a number of seconds"),
