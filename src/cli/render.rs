@@ -19,7 +19,7 @@ use crate::contact_sheet::ContactSheet;
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
 use crate::render::{MaterialImages, PictureTarget, Renderer, watched};
-use crate::scene::{Background, Insets, Shot, Theme, ViewPreset};
+use crate::scene::{Background, Shot, Theme, ViewPreset};
 use crate::session::{
     CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Series, Session,
 };
@@ -139,10 +139,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         })?;
     }
     let progress = progress(series.count(), "drawing {pos} of {len} pictures, {eta} left");
-    let drawn = (0..series.count()).try_for_each(|index| {
+    let drawn = (0..series.count()).try_for_each(|index| -> Result<(), Failure> {
         let pixels = painter.draw(&mut series, index)?;
         match (&mut sheet, folder) {
-            (Some(sheet), _) => sheet.place(index, &pixels, &series.caption(index)),
+            (Some(sheet), _) => sheet.place(index, &pixels, series.caption(index)),
             (None, Some(folder)) => write_picture(&folder.join(format!("frame-{index:04}.png")), &pixels, size)?,
             (None, None) => write_picture(&arguments.output, &pixels, size)?,
         }
@@ -150,10 +150,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         Ok(())
     });
     progress.finish_and_clear();
-    drawn.and_then(|()| match &sheet {
-        Some(sheet) => paths::write(&arguments.output, &sheet.png()?),
-        None => Ok(()),
-    })?;
+    drawn?;
+    if let Some(sheet) = sheet {
+        paths::write(&arguments.output, &sheet.into_png()?)?;
+    }
 
     let line = format!("{said}, drawn by {} ({backend})", gpu.info.name);
     writeln!(out, "{}", Plain(&line))?;
@@ -186,7 +186,9 @@ fn in_words(arguments: &Arguments, session: &Session, shots: &[Shot], [width, he
         let times_secs = || shots.iter().filter_map(|shot| shot.time_secs);
         let last_secs = times_secs().reduce(f32::max);
         parts.push(match (times_secs().next(), last_secs) {
-            (Some(first_secs), Some(last_secs)) => format!("{} from {first_secs} s to {last_secs} s", clip.name),
+            (Some(first_secs), Some(last_secs)) => {
+                format!("{} from {first_secs:.3} s to {last_secs:.3} s", clip.name)
+            }
             _ => format!("{} at {} s", clip.name, session.playback().time_secs()),
         });
     }
@@ -220,11 +222,6 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     session.apply(CrowdCommand::Set {
         count: usize::from(arguments.crowd),
         seed: arguments.seed,
-    });
-    let [width, height] = arguments.size;
-    session.apply(CameraCommand::SetViewport {
-        aspect: width as f32 / height as f32,
-        insets: Insets::default(),
     });
     session.apply(Command::SetTheme(arguments.theme));
     arguments.appearance.apply(&mut session);

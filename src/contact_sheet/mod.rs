@@ -45,6 +45,8 @@ pub struct ContactSheet {
     labels: Labels,
     /// RGBA, sRGB, straight alpha, rows from the top.
     pixels: Vec<u8>,
+    /// With the places that they are for.
+    captions: Vec<(usize, Vec<String>)>,
 }
 
 impl ContactSheet {
@@ -56,12 +58,13 @@ impl ContactSheet {
         let layout = Layout::new(size, cells)?;
         let inks = Inks::of(theme);
         let [red, green, blue] = inks.ground;
-        let ground = [red, green, blue, if transparent { 0 } else { 255 }];
+        let ground = if transparent { [0; 4] } else { [red, green, blue, 255] };
         Ok(Self {
             pixels: ground.repeat(layout.pixel_count()),
             labels: Labels::new(layout.text_size()),
             layout,
             inks,
+            captions: Vec::new(),
         })
     }
 
@@ -70,12 +73,12 @@ impl ContactSheet {
         self.layout.cell_size()
     }
 
-    /// Sets a picture of [`ContactSheet::cell_size`] into the next place, counted from 0 along the rows, with a label under it: the first
-    /// part at its left end, the others at its right end as far as there is room. A place that is not there is ignored.
+    /// Sets a picture of [`ContactSheet::cell_size`] into a place, counted from 0 along the rows, with a label for it. A place that is not
+    /// there is ignored.
     ///
     /// `pixels` are RGBA, sRGB, straight alpha, rows from the top without padding.
-    pub fn place(&mut self, index: usize, pixels: &[u8], caption: &[String]) {
-        let Some((picture, label)) = self.layout.places(index) else {
+    pub fn place(&mut self, index: usize, pixels: &[u8], caption: Vec<String>) {
+        let Some((picture, _)) = self.layout.places(index) else {
             return;
         };
         let row_bytes = picture.size[0] as usize * 4;
@@ -86,24 +89,39 @@ impl ContactSheet {
             let start = self.layout.pixel_index([picture.at[0], row]) * 4;
             self.pixels[start..start + row_bytes].copy_from_slice(from);
         }
-        let Some((first, others)) = caption.split_first() else {
+        self.captions.push((index, caption));
+    }
+
+    /// Writes the labels: the first part at the left end, the others at the right end. Where one label lacks room for them, all go without
+    /// their last parts.
+    fn write_captions(&mut self) {
+        let captions = std::mem::take(&mut self.captions);
+        let most = captions.iter().map(|(_, caption)| caption.len()).max().unwrap_or(0);
+        let fits = |parts: &usize| captions.iter().all(|(_, caption)| self.fits(caption, *parts));
+        let Some(parts) = (1..=most).rev().find(fits) else {
             return;
         };
-        let gap = 2.0 * self.labels.size();
-        let room = label.size[0] as f32;
-        let first_width = self.labels.width(first);
-        if first_width > room {
-            return;
+        for (index, caption) in &captions {
+            let (Some((_, label)), Some((first, others))) = (self.layout.places(*index), ends(caption, parts)) else {
+                continue;
+            };
+            self.write(label, 0.0, first, self.inks.text);
+            let left = label.size[0] as f32 - self.labels.width(&others);
+            self.write(label, left, &others, self.inks.muted);
         }
-        self.write(label, 0.0, first, self.inks.text);
-        for count in (1..=others.len()).rev() {
-            let text = others[..count].join(" · ");
-            let width = self.labels.width(&text);
-            if first_width + gap + width <= room {
-                self.write(label, room - width, &text, self.inks.muted);
-                break;
-            }
-        }
+    }
+
+    /// Whether a label has room for so many parts.
+    fn fits(&self, caption: &[String], parts: usize) -> bool {
+        let Some((first, others)) = ends(caption, parts) else {
+            return true;
+        };
+        let gap = if others.is_empty() {
+            0.0
+        } else {
+            2.0 * self.labels.size()
+        };
+        self.labels.width(first) + gap + self.labels.width(&others) <= self.layout.cell_size()[0] as f32
     }
 
     /// Writes text into a place, beginning so far from its left end.
@@ -123,10 +141,17 @@ impl ContactSheet {
     ///
     /// # Errors
     /// When it cannot be encoded.
-    pub fn png(&self) -> Result<Vec<u8>, EncodeError> {
+    pub fn into_png(mut self) -> Result<Vec<u8>, EncodeError> {
+        self.write_captions();
         let [width, height] = self.layout.size();
         encode_png(&self.pixels, width, height)
     }
+}
+
+/// What stands at both ends of a label of at most so many parts.
+fn ends(caption: &[String], parts: usize) -> Option<(&String, String)> {
+    let (first, others) = caption[..parts.min(caption.len())].split_first()?;
+    Some((first, others.join(" · ")))
 }
 
 /// Puts an ink over a pixel with straight alpha, as sRGB values like all text of the interface.
@@ -168,8 +193,9 @@ mod tests {
     #[test]
     fn a_picture_fills_its_place_and_its_label_stands_under_it() {
         let mut sheet = sheet(false);
-        let caption = ["0.500 s".to_owned(), "frame 15".to_owned()];
-        sheet.place(3, &red(sheet.cell_size()), &caption);
+        let caption = ["0.500 s", "frame 15"].map(str::to_owned);
+        sheet.place(3, &red(sheet.cell_size()), caption.to_vec());
+        sheet.write_captions();
         let (picture, label) = sheet.layout.places(3).expect("the last of four");
         let reds = sheet.pixels.chunks_exact(4).filter(|pixel| pixel[..3] == [255, 0, 0]);
         assert_eq!(reds.count() as u32, picture.size[0] * picture.size[1]);
@@ -185,26 +211,39 @@ mod tests {
     }
 
     #[test]
-    fn a_label_without_room_loses_its_last_parts_first_and_then_all() {
-        let caption = ["0.500 s", "frame 15", "a word that is too long"].map(str::to_owned);
+    fn labels_without_room_lose_their_last_parts_together() {
+        let captions = [&["0.500 s", "frame 1"][..], &["0.500 s", "frame 1", "a turn"]];
+        let captions = captions.map(|parts| parts.iter().map(|&part| part.to_owned()).collect::<Vec<_>>());
+        // How many pixels of text are in the right half of each label, and in all of it.
         let written = |size: [u32; 2]| {
-            let mut sheet = ContactSheet::new(size, [1, 1], Theme::Dark, false).expect("has room");
-            sheet.place(0, &red(sheet.cell_size()), &caption);
-            let (_, label) = sheet.layout.places(0).expect("one");
-            let ([left, top], [width, height]) = (label.at, label.size);
-            let ends = [left..left + width / 3, left + 2 * width / 3..left + width];
-            ends.map(|columns| bright(&sheet, columns, top..top + height) > 0)
+            let mut sheet = ContactSheet::new(size, [2, 1], Theme::Dark, false).expect("has room");
+            let black = vec![0; red(sheet.cell_size()).len()];
+            for (index, caption) in captions.iter().enumerate() {
+                sheet.place(index, &black, caption.clone());
+            }
+            sheet.write_captions();
+            [0, 1].map(|index| {
+                let (_, label) = sheet.layout.places(index).expect("is there");
+                let ([left, top], [width, height]) = (label.at, label.size);
+                let count = |columns| bright(&sheet, columns, top..top + height);
+                [count(left + width / 2..left + width), count(left..left + width)]
+            })
         };
-        assert_eq!(written([160, 120]), [true, true]);
-        assert_eq!(written([70, 120]), [true, false]);
-        assert_eq!(written([32, 60]), [false, false]);
+        let [one, other] = written([400, 150]);
+        assert!(other[0] > one[0], "room for all: {one:?} {other:?}");
+        let [one, other] = written([220, 100]);
+        assert!(one[0] > 0 && one == other, "without the turn: {one:?} {other:?}");
+        let [one, other] = written([120, 100]);
+        assert!(one[0] < one[1] && one == other, "the time alone: {one:?} {other:?}");
+        assert_eq!(written([60, 100]), [[0, 0]; 2], "nothing");
     }
 
     #[test]
     fn without_ground_there_is_nothing_but_pictures_and_labels() {
         let mut sheet = sheet(true);
         assert!(sheet.pixels.chunks_exact(4).all(|pixel| pixel[3] == 0));
-        sheet.place(0, &vec![0; red(sheet.cell_size()).len()], &["1.000 s".to_owned()]);
+        sheet.place(0, &vec![0; red(sheet.cell_size()).len()], vec!["1.000 s".to_owned()]);
+        sheet.write_captions();
         let opaque = sheet.pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0);
         let inks: Vec<_> = opaque.map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         assert!(inks.len() > 30 && inks.iter().all(|&ink| ink == sheet.inks.text));
@@ -227,7 +266,7 @@ mod tests {
 
     #[test]
     fn the_file_has_the_size_of_the_sheet() -> Result<(), Box<dyn std::error::Error>> {
-        let read = image::load_from_memory(&sheet(false).png()?)?;
+        let read = image::load_from_memory(&sheet(false).into_png()?)?;
         assert_eq!([read.width(), read.height()], SIZE);
         Ok(())
     }
