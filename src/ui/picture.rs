@@ -117,7 +117,7 @@ fn pair_fields(
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 8.0;
         let unit_width = if unit.is_empty() { 0.0 } else { 26.0 };
-        let field = vec2((ui.available_width() - 34.0 - unit_width) * 0.5, control_size(ui));
+        let field = vec2((ui.available_width() - 26.0 - unit_width) * 0.5, control_size(ui));
         for (index, label) in labels.into_iter().enumerate() {
             if index == 1 {
                 words(ui, "×", 10.0);
