@@ -11,6 +11,7 @@ use web_sys::HtmlCanvasElement;
 use super::arguments::{checked, given};
 use super::backend::Preference;
 use super::mirror::MirrorLink;
+use super::picture::AppSlot;
 use super::run::{self, Shared};
 use super::{field, picture, promise, reduced_motion, state};
 use crate::script;
@@ -104,13 +105,24 @@ impl Viewer {
     ///
     /// Rejects when the viewer is not running, the size is not possible, a name is none, or the GPU fails.
     pub fn snapshot(&self, options: JsValue) -> Promise {
-        let running = self.shared.running.borrow().as_ref().map(|running| {
-            let canvas = &running.canvas;
-            (Rc::clone(&running.app), [canvas.width(), canvas.height()])
-        });
+        let running = self.shared.app_and_size();
         promise(async {
             let (app, canvas_size) = running.ok_or_else(picture::not_running)?;
             picture::snapshot(app, canvas_size, options).await
+        })
+    }
+
+    /// Many pictures on one, as the bytes of a PNG: of the clip or the range that plays, or with `turntable` from all sides, each with a label.
+    /// `columns` and `rows` are 4 and 3 where they are absent, `width` and `height`, of the whole sheet, those of the canvas; `transparent`
+    /// leaves out all grounds. What is open plays on meanwhile. An `AbortSignal` as `signal` ends it.
+    ///
+    /// Rejects as [`Viewer::snapshot`] does, when another model is opened meanwhile, and with an `AbortError` after the signal.
+    #[wasm_bindgen(js_name = contactSheet)]
+    pub fn contact_sheet(&self, options: JsValue) -> Promise {
+        let running = self.shared.app_and_size();
+        promise(async {
+            let (app, canvas_size) = running.ok_or_else(picture::not_running)?;
+            picture::contact_sheet(app, canvas_size, options).await
         })
     }
 
@@ -133,6 +145,14 @@ impl Drop for Viewer {
 }
 
 impl Shared {
+    /// The app while it runs, and the size of its canvas in pixels.
+    fn app_and_size(&self) -> Option<(AppSlot, [u32; 2])> {
+        let running = self.running.borrow();
+        let running = running.as_ref()?;
+        let canvas = &running.canvas;
+        Some((Rc::clone(&running.app), [canvas.width(), canvas.height()]))
+    }
+
     /// See [`Viewer::state`].
     pub(super) fn state(&self) -> JsValue {
         let running = self.running.borrow();

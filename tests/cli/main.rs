@@ -9,6 +9,7 @@ mod pipe;
 mod pose;
 mod program;
 mod render;
+mod series;
 #[path = "../common/shared.rs"]
 mod shared;
 #[path = "../core/textbook.rs"]

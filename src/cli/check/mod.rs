@@ -10,12 +10,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::diagnostic::Colors;
 use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
 use super::paths;
+use super::progress::progress;
 use super::textures::Folders;
 use crate::check::sarif;
 use counts::Counts;
@@ -143,7 +143,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let models = paths::models(&arguments.paths).into_iter();
     let models: Vec<_> = models.map(|model| model.map_err(Arc::new)).collect();
     let is_only = models.len() == 1;
-    let progress = progress(models.len());
+    let progress = progress(models.len(), "checking {pos} of {len} files, {eta} left");
     let mut outcome = Outcome::Fine;
     let mut counts = Counts::default();
     let mut json = Vec::new();
@@ -190,16 +190,4 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         }
     }
     Ok(outcome)
-}
-
-/// A line on standard error that tells how far it is, where that is a terminal and there is more than one file.
-fn progress(files: usize) -> ProgressBar {
-    if files < 2 {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(files as u64);
-    if let Ok(style) = ProgressStyle::with_template("checking {pos} of {len} files, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }
