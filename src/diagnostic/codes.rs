@@ -434,7 +434,7 @@ table! {
             "Write 0 0 0 1 where there is no rotation.";
         ROTATION_SIDE = "rotation-side", Note,
             "A rotation has all its signs turned against the key before it; turned back.",
-            "q and −q are one rotation. The books' demos take the nearer one too; programs that blend the four numbers spin the long way.",
+            "The quaternions q and −q are one rotation. The books' demos take the nearer one too; programs that blend the four numbers spin the long way.",
             "The signs are turned back.",
             "Turn the signs of a quaternion where its dot product with the one before is negative.";
     }

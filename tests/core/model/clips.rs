@@ -140,7 +140,7 @@ fn rotations_are_made_unit_and_put_on_one_side() {
         "{}",
         rotations[1]
     );
-    assert_eq!(codes, ["rotation-not-unit", "rotation-zero"]);
+    assert_eq!(codes, ["rotation-not-unit", "rotation-zero", "rotation-side"]);
     for (code, words) in [
         (
             "rotation-not-unit",
