@@ -432,6 +432,11 @@ table! {
             "Such a quaternion has no direction.",
             "It is taken as no rotation.",
             "Write 0 0 0 1 where there is no rotation.";
+        ROTATION_SIDE = "rotation-side", Note,
+            "A rotation has all its signs turned against the key before it; turned back.",
+            "The quaternions q and −q are one rotation. The books' demos take the nearer one too; programs that blend the four numbers spin the long way.",
+            "The signs are turned back.",
+            "Turn the signs of a quaternion where its dot product with the one before is negative.";
     }
 
     /// What the checks of a mesh and its rig give ([`check::model`](crate::check::model)).

@@ -3,9 +3,10 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use serde::Serialize;
 
-use super::{Deny, WhichBooks, maps};
+use super::maps;
 use crate::anim::CompiledClip;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::check::report::{self, CheckedFile};
@@ -18,6 +19,23 @@ use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::format;
 use crate::import::{self, Imported};
 use crate::session::summary::{self, Finding};
+
+/// What, besides errors, fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Deny {
+    /// Warnings too.
+    Warnings,
+    /// A book that does not read a file, or whose demo ends before it shows anything.
+    Book,
+}
+
+/// Whose programs are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum WhichBooks {
+    D3d11,
+    D3d12,
+    All,
+}
 
 /// What is known of one file.
 pub(super) struct Checked {

@@ -19,6 +19,7 @@ use super::progress::progress;
 use super::textures::Folders;
 use crate::check::sarif;
 use counts::Counts;
+use file::{Deny, WhichBooks};
 
 /// List what is wrong with files, or was mended while reading them.
 ///
@@ -57,21 +58,6 @@ enum Format {
     Text,
     Json,
     Sarif,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Deny {
-    /// Warnings too.
-    Warnings,
-    /// A book that does not read a file, or whose demo ends before it shows anything.
-    Book,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum WhichBooks {
-    D3d11,
-    D3d12,
-    All,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
