@@ -1,9 +1,9 @@
 //! Saves the view as a picture: its size, its background, its name; and contact sheets.
 
-use egui::{Rangef, Ui, vec2};
+use egui::{Id, Rangef, Ui, UiBuilder, vec2};
 
 use super::panel::popover_gap;
-use super::state::{DrawnSheet, MAX_PICTURE_SIDE, UiState};
+use super::state::{MAX_PICTURE_SIDE, UiState};
 use super::theme::Tokens;
 use super::widgets::{
     MenuLine, TextButton, control_size, menu_item, number_field, progress_bar, section_name, segmented, switch_row,
@@ -80,26 +80,23 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
         state.picture.cells = typed;
     }
     ui.add_space(8.0);
-    if let Some(drawn) = &mut state.drawn_sheet {
-        show_progress(ui, drawn);
+    // One button in two shapes: the focus stays on it.
+    let button = || UiBuilder::new().scope_id(Id::unique("contact sheet"));
+    let Some(drawn) = &mut state.drawn_sheet else {
+        let width = Rangef::point(ui.available_width());
+        let label = "Save contact sheet";
+        let save = TextButton::new(label, label).width(width);
+        if ui.scope_builder(button(), |ui| save.show(ui)).inner.clicked() {
+            state.save_sheet(ui);
+        }
         return;
-    }
-    let width = Rangef::point(ui.available_width());
-    let label = "Save contact sheet";
-    if TextButton::new(label, label).width(width).show(ui).clicked() {
-        state.save_sheet(ui);
-    }
-}
-
-/// How far it is, and a button that cancels it.
-fn show_progress(ui: &mut Ui, drawn: &mut DrawnSheet) {
+    };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 8.0;
-        let DrawnSheet { done, count, .. } = *drawn;
         let size = vec2(ui.available_width() - CANCEL_WIDTH - 8.0, control_size(ui));
-        progress_bar(ui, "Pictures drawn", size, [done, count]);
+        progress_bar(ui, "Pictures drawn", size, [drawn.done, drawn.count]);
         let cancel = TextButton::new("Cancel", "Cancel the contact sheet").width(Rangef::point(CANCEL_WIDTH));
-        if cancel.show(ui).clicked() {
+        if ui.scope_builder(button(), |ui| cancel.show(ui)).inner.clicked() {
             drawn.cancelled = true;
         }
     });

@@ -112,14 +112,14 @@ test("P saves a picture, named after what it shows", { fine: true }, async (page
   assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [width, height]);
 });
 
-test("a contact sheet has pictures of the clip while the page goes on", { fine: true }, async (page) => {
+test("a contact sheet has pictures of the clip while the page goes on", {}, async (page) => {
   await call(page, "pause");
-  const sheet = await contactSheet(page, { width: 600, height: 400, columns: 3, rows: 2 });
+  const sheet = await contactSheet(page, { width: 300, height: 200, columns: 2, rows: 2 });
   writeFileSync(`${OUT}${BACKEND}-contact-sheet.png`, sheet.png);
-  assert.deepEqual([sheet.width, sheet.height], [600, 400]);
+  assert.deepEqual([sheet.width, sheet.height], [300, 200]);
   assertDrawn(sheet);
-  assert.equal((await contactSheet(page, { width: 600, height: 400, columns: 3, rows: 2 })).digest, sheet.digest, "the same again");
-  const round = await contactSheet(page, { width: 600, height: 400, columns: 3, rows: 2, turntable: true, transparent: true });
+  assert.equal((await contactSheet(page, { width: 300, height: 200, columns: 2, rows: 2 })).digest, sheet.digest, "the same again");
+  const round = await contactSheet(page, { width: 300, height: 200, columns: 2, rows: 2, turntable: true, transparent: true });
   assert.ok(round.clear > 0.3 && round.clear < 0.99, `${round.clear} of the pixels are transparent`);
   assert.ok(difference(sheet, round) > 0.2);
 
@@ -127,7 +127,7 @@ test("a contact sheet has pictures of the clip while the page goes on", { fine: 
     const failed = (promise) => promise.then(() => null, ({ name, message }) => ({ name, message }));
     bindpose.play();
     const before = bindpose.state().framesRendered;
-    await bindpose.contactSheet({ width: 400, height: 300, columns: 4, rows: 4 });
+    await bindpose.contactSheet({ width: 300, height: 200, columns: 3, rows: 2 });
     const moved = bindpose.state().framesRendered - before;
     bindpose.pause();
     const refused = await failed(bindpose.contactSheet({ width: 100, height: 50, columns: 8, rows: 8 }));
@@ -136,7 +136,7 @@ test("a contact sheet has pictures of the clip while the page goes on", { fine: 
     abort.abort();
     return { moved, refused, cancelled: await cancelled };
   });
-  assert.ok(moved >= 4, `${moved} frames of the window meanwhile`);
+  assert.ok(moved >= 2, `${moved} frames of the window meanwhile`);
   assert.match(refused.message, /no room for 8 × 8 pictures/);
   assert.equal(cancelled.name, "AbortError");
 });
@@ -152,6 +152,8 @@ test("a contact sheet is saved from the panel, which says how far it is, and is 
   await save.waitFor({ state: "attached" });
   const saving = page.waitForEvent("download");
   await press("Save contact sheet");
+  // The same element with another name: the focus stays.
+  assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.textContent), /Cancel|Save/);
   const progress = page.getByRole("progressbar", { name: "Pictures drawn" });
   await progress.waitFor({ state: "attached" });
   await keep(page, "contact-sheet-progress");

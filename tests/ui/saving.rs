@@ -2,7 +2,7 @@
 
 use bindpose::session::{FileCommand, PlayCommand, Session};
 use bindpose::ui::{Request, SheetRequest, picture_name, sheet_name};
-use egui::accesskit::Role;
+use egui::accesskit::{Action, Role};
 use egui::{Event, Key, Modifiers};
 
 use crate::models::{self, moving, still};
@@ -147,6 +147,17 @@ fn a_contact_sheet_tells_how_far_it_is_and_is_cancelled() {
     window.pass_on();
     assert!(window.shows("Save contact sheet"));
     assert_eq!(pictures(&window).len(), 1);
+}
+
+#[test]
+fn the_keyboard_stays_on_the_button_while_it_changes() {
+    let mut window = open();
+    window.ask("Save contact sheet", Action::Focus, None);
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(window.focused().as_deref(), Some("Cancel the contact sheet"));
+    window.harness.state_mut().state.end_sheet();
+    window.pass_on();
+    assert_eq!(window.focused().as_deref(), Some("Save contact sheet"));
 }
 
 #[test]
