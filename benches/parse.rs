@@ -5,6 +5,7 @@
 
 use std::hint::black_box;
 use std::str::{FromStr, SplitAsciiWhitespace};
+use std::sync::Arc;
 use std::time::Duration;
 
 use bindpose::anim::CompiledClip;
@@ -13,6 +14,7 @@ use bindpose::format::{
     AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex, parse, write,
 };
 use bindpose::import;
+use bindpose::session::{File, FileSet, LoadJob, load};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 fn parsing(criterion: &mut Criterion) {
@@ -45,6 +47,13 @@ fn parsing(criterion: &mut Criterion) {
             let compiled = CompiledClip::all(&imported.model.clips);
             drop(black_box(check::model(&imported.model, &compiled, &imported.lines)));
         },
+    );
+    let file = File::new("model.m3d", bytes.as_slice());
+    let files = Arc::new(FileSet::new(vec![file.clone()]));
+    report_ratio(
+        "loading with the books' verdicts / without",
+        || drop(black_box(load(&file))),
+        || drop(black_box(LoadJob::new(Arc::clone(&files), file.clone()).run())),
     );
 }
 

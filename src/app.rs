@@ -1,5 +1,9 @@
 //! Order of calls in one pass of the window: time, interface, commands, picture.
 
+mod sheet_job;
+
+pub use sheet_job::{SheetFailure, SheetJob};
+
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -13,7 +17,7 @@ use crate::render::{
 };
 use crate::scene::{FrameCost, FrameOptions, Theme};
 use crate::session::{Quality, Session};
-use crate::ui::{self, Contrast, Request, UiState};
+use crate::ui::{self, Contrast, Request, SheetRequest, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
 const MAX_STEP_SECS: f32 = 0.25;
@@ -189,6 +193,37 @@ impl App {
     ) -> Result<Picture, PictureError> {
         let mut session = self.session.borrow_mut();
         self.painter.draw_snapshot(&mut session, size, adjust)
+    }
+
+    /// Begins a contact sheet of what the session shows.
+    ///
+    /// # Errors
+    /// When there is no room for so many pictures.
+    pub fn begin_sheet(&self, wanted: &SheetRequest) -> Result<SheetJob, SheetFailure> {
+        SheetJob::new(&self.session.borrow(), wanted)
+    }
+
+    /// Draws the next picture of a contact sheet. What its session shows must be what the window's shows, but for the view.
+    ///
+    /// # Errors
+    /// When another model or other maps are open now, or the device draws no picture of this size.
+    pub fn draw_next(&mut self, job: &mut SheetJob) -> Result<Picture, SheetFailure> {
+        self.painter.update(&mut self.session.borrow_mut());
+        if self.painter.is_behind(job.session()) {
+            return Err(SheetFailure::Changed);
+        }
+        let (frame, target) = job.next();
+        Ok(self.painter.renderer.picture_into(&frame, target)?)
+    }
+
+    /// Shows how far the contact sheet is that a person asked for, as [`SheetJob::progress`] says. False when it was cancelled.
+    pub fn show_sheet_progress(&mut self, progress: [usize; 2]) -> bool {
+        self.state.show_sheet_progress(progress)
+    }
+
+    /// The contact sheet has come to its end, or never will.
+    pub fn end_sheet(&mut self) {
+        self.state.end_sheet();
     }
 }
 

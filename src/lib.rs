@@ -39,6 +39,8 @@ pub mod app;
 pub mod check;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod cli;
+#[cfg(feature = "render")]
+pub mod contact_sheet;
 pub mod diagnostic;
 pub mod format;
 pub mod gltf;

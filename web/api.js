@@ -42,6 +42,12 @@ export function createApi() {
       work.then(done, fail).finally(() => pending.delete(fail));
     });
 
+  /** The bytes of a picture that the viewer draws, as a `Blob`. */
+  const png = async (how, options) => {
+    const running = await unlessStopped(ready);
+    return new Blob([await unlessStopped(running[how](options))], { type: "image/png" });
+  };
+
   /** Opens files, or adds their clips, one call after the other. `then(before, after)` hears of the states around it. */
   const give = (files, how, then = () => {}) => {
     // A FileList empties itself when its input is used again, so it is copied before anything waits.
@@ -82,10 +88,10 @@ export function createApi() {
     addClips: asked("addClips"),
 
     /** A picture of the current view: a PNG `Blob`, as large as the canvas unless told otherwise. */
-    async snapshot(options = {}) {
-      const running = await unlessStopped(ready);
-      return new Blob([await unlessStopped(running.snapshot(options))], { type: "image/png" });
-    },
+    snapshot: (options = {}) => png("snapshot", options),
+
+    /** Many pictures on one, through the clip or around the model, likewise. */
+    contactSheet: (options = {}) => png("contactSheet", options),
   });
 
   return {

@@ -83,7 +83,9 @@ impl Default for GhostPlan {
 }
 
 /// The most ghosts on either side.
-const MOST_GHOSTS: u32 = 32;
+pub const MOST_GHOSTS: u32 = 32;
+/// Frames from one ghost to the next where nothing else is chosen: nearer ones hide each other.
+pub const GHOST_STEP_FRAMES: u32 = 5;
 
 /// Times of ghosts, in order: those before `time_secs` and those after, without `time_secs` itself and without what lies
 /// outside the clip. At most 32 on either side.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::book::Verdict;
 use super::report::CheckedFile;
-use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
+use crate::diagnostic::{Code, Diagnostic, Position, Severity, Subject, codes};
 use crate::format::LineIndex;
 
 /// The results of one file. They need nothing of its bytes any more.
@@ -184,13 +184,13 @@ struct LogicalLocation {
 
 fn rule(code: &'static str) -> Rule {
     let row = codes::named(code);
-    let text = |text: Option<&str>| Text {
-        text: text.unwrap_or(code).to_owned(),
+    let text = |text: Option<String>| Text {
+        text: text.unwrap_or_else(|| code.to_owned()),
     };
     Rule {
         id: code,
-        short_description: text(row.map(|row| row.sentence)),
-        help: text(row.map(|row| row.explanation)),
+        short_description: text(row.map(|row| row.sentence.to_owned())),
+        help: text(row.map(Code::help)),
         default_configuration: Configuration {
             level: level(row.map_or(Severity::Note, |row| row.severity)),
         },

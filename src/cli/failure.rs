@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use super::diagnostic::write_diagnostic;
 use super::text::Plain;
 use crate::check::report::OneLine;
+use crate::contact_sheet::SheetError;
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
 use crate::render::{GpuError, PictureError, UploadError};
@@ -65,6 +66,13 @@ pub(super) enum Failure {
     },
     #[error("{} has several clips; say which one with --clip; {}", named(path), listed(known))]
     ClipNotNamed { path: PathBuf, known: Vec<String> },
+    #[error("{what} needs a clip, and {} has none", named(path))]
+    NoClip { path: PathBuf, what: &'static str },
+    /// Arguments that make no sense together.
+    #[error("{0}")]
+    WrongUse(String),
+    #[error("{0}")]
+    Sheet(#[from] SheetError),
     #[error("{0}")]
     NoDevice(#[from] DeviceError),
     #[error("{vulkan}\n       {gl}")]

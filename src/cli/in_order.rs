@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError, mpsc};
 use std::thread;
 
-/// Runs `work` on each item, on as many threads as the machine has cores, and gives `take` each item with its result in the order of the
-/// items, each as soon as those before it are there. No work begins twice as many items as cores ahead of the one that is due, so that
+/// Runs `work` on each item, on as many threads as the machine has cores, and gives `take` their results in the order of the items,
+/// each as soon as those before it are there. No work begins twice as many items as cores ahead of the one that is due, so that
 /// results do not pile up.
 ///
 /// # Errors
@@ -14,7 +14,7 @@ use std::thread;
 pub(super) fn in_order<T: Sync, R: Send, E>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
-    mut take: impl FnMut(&T, R) -> Result<(), E>,
+    mut take: impl FnMut(R) -> Result<(), E>,
 ) -> Result<(), E> {
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);
@@ -41,7 +41,7 @@ pub(super) fn in_order<T: Sync, R: Send, E>(
         for (index, result) in &receive {
             early.insert(index, result);
             while let Some(result) = early.remove(&taken) {
-                if let Err(error) = take(&items[taken], result) {
+                if let Err(error) = take(result) {
                     due.set(None);
                     return Err(error);
                 }
@@ -109,7 +109,7 @@ mod tests {
                 thread::sleep(std::time::Duration::from_micros(if item % 10 == 0 { 500 } else { 10 }));
                 item * 2
             },
-            |_, result| {
+            |result| {
                 taken.push(result);
                 Ok(())
             },
@@ -123,7 +123,7 @@ mod tests {
         let done = in_order(
             &[0; 100],
             |_| (),
-            |_, ()| {
+            |()| {
                 taken += 1;
                 if taken == 3 { Err("full") } else { Ok(()) }
             },
@@ -143,14 +143,11 @@ mod tests {
                 if item == 0 {
                     // Time enough to begin all others.
                     thread::sleep(std::time::Duration::from_millis(100));
-                    return begun.load(Ordering::Relaxed);
+                    let begun = begun.load(Ordering::Relaxed);
+                    assert!(begun <= 2 * cores, "{begun} were begun on {cores} cores");
                 }
-                0
             },
-            |&item, begun| {
-                assert!(item > 0 || begun <= 2 * cores, "{begun} were begun on {cores} cores");
-                Ok(())
-            },
+            |()| Ok(()),
         );
         assert_eq!((done, begun.into_inner()), (Ok(()), items.len()));
     }

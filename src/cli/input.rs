@@ -64,6 +64,13 @@ pub(super) fn choose_clip(model: &Model, path: &Path, asked: Option<&str>) -> Re
     }
 }
 
+/// Two whole numbers above 0: `1280x720`.
+pub(super) fn sides(text: &str) -> Option<[u32; 2]> {
+    let (width, height) = text.split_once(['x', 'X', '×'])?;
+    let sides = [width.parse().ok()?, height.parse().ok()?];
+    (!sides.contains(&0)).then_some(sides)
+}
+
 /// Seconds of a clip, as an argument.
 pub(super) fn seconds(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {

@@ -13,8 +13,10 @@ mod input;
 mod output;
 mod paths;
 mod pose;
+mod progress;
 mod quiet;
 mod render;
+mod series;
 mod text;
 mod textures;
 

@@ -1,4 +1,4 @@
-//! The models that arguments name: files, all of a folder, standard input.
+//! The models that arguments name: files, all of a folder, standard input; and files that are written.
 
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -54,5 +54,27 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     bytes.map_err(|reason| Failure::Unreadable {
         path: path.to_owned(),
         reason,
+    })
+}
+
+/// Writes a file whole: beside its place first, then renamed. Nobody reads half of it, and a failure leaves what was there.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let unwritable = |reason| Failure::Unwritable {
+        path: path.to_owned(),
+        reason,
+    };
+    // A link stays one: what it leads to is written.
+    let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let is_special = place.metadata().is_ok_and(|metadata| !metadata.is_file());
+    let (Some(name), false) = (place.file_name(), is_special) else {
+        // A pipe or a device, or nothing that a file can be.
+        return std::fs::write(path, bytes).map_err(unwritable);
+    };
+    let beside = place.with_file_name(format!(".{}.{}.part", name.to_string_lossy(), std::process::id()));
+    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, &place));
+    written.map_err(|reason| {
+        // It may not be there.
+        let _ = std::fs::remove_file(&beside);
+        unwritable(reason)
     })
 }

@@ -1,7 +1,7 @@
-//! `bindpose render`: the page's picture, without a page.
+//! `bindpose render`: the page's picture, without a page; or many of them.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
@@ -9,34 +9,43 @@ use super::appearance::AppearanceArguments;
 use super::diagnostic::write_diagnostic;
 use super::failure::{Failure, Outcome};
 use super::input;
+use super::paths;
+use super::progress::progress;
 use super::quiet::quietly;
-use super::text::Plain;
-use super::textures::{Textures, Wanted, read_sky, write_missing};
+use super::series::SeriesArguments;
+use super::text::{Plain, counted};
+use super::textures::{Folders, Textures, Wanted, read_sky, write_missing};
+use crate::contact_sheet::ContactSheet;
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
-use crate::render::{MaterialImages, Renderer, watched};
-use crate::scene::{Insets, Theme, ViewPreset};
-use crate::session::{CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Session};
+use crate::render::{MaterialImages, PictureTarget, Renderer, watched};
+use crate::scene::{Background, Shot, Theme, ViewPreset};
+use crate::session::{
+    CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Series, Session,
+};
 
-/// Draw a model into a PNG file.
+/// Draw a model into PNG files.
 ///
-/// The same picture that the page shows, drawn without a window. A software GPU is enough.
+/// The same picture that the page shows, drawn without a window; or many pictures, through the clip and around the model. A software GPU
+/// is enough. On the same GPU with the same driver a picture has the same bytes every time.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = OUTPUT)]
 pub(super) struct Arguments {
     /// Model to read.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Picture to write.
-    #[arg(short, long, value_name = "PNG")]
+    /// Picture to write; with --frames, --fps or --turntable the folder for the pictures.
+    ///
+    /// A folder that is not there is made. Of one that is there, files of the same names are replaced and the others stay, also
+    /// pictures of an earlier, longer series.
+    #[arg(short, long, value_name = "PATH")]
     output: PathBuf,
     /// Clip by its name [default: the first].
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
-    /// Seconds in the clip's own time, kept inside the clip [default: where the clip starts].
-    #[arg(long, value_name = "SECS", value_parser = input::seconds, allow_negative_numbers = true)]
-    time: Option<f32>,
-    /// Width and height in pixels.
+    #[command(flatten)]
+    series: SeriesArguments,
+    /// Width and height of each file's picture in pixels.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
     size: [u32; 2],
     /// Where to look from; the model is framed.
@@ -78,8 +87,12 @@ Warnings, on standard error:
   link-broken          a link to nothing
   not-a-file           a pipe or device with the name of a map
 
+Pictures of a folder become a film with, for example:
+  bindpose render walk.m3d -o frames --fps 30
+  ffmpeg -framerate 30 -i frames/frame-%04d.png walk.mp4
+
 Exit codes:
-  0  the picture is written
+  0  the picture is written, or all of them
   1  the model has errors; or with --deny missing-maps, the picture is written without some of its maps
   2  wrong use, or something is missing: a file or folder that can be read, a clip, a GPU";
 
@@ -97,42 +110,95 @@ enum Denied {
 
 /// `1280x720`.
 fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once(['x', 'X', '×']);
-    let sides = sides.and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-    match sides {
-        Some([width, height]) if width > 0 && height > 0 => Ok([width, height]),
-        _ => Err("a size is a width and a height in pixels, such as 1280x720".into()),
-    }
+    input::sides(text).ok_or_else(|| "a size is a width and a height in pixels, such as 1280x720".into())
 }
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
+    arguments.series.check(&arguments.output)?;
     let (mut session, lacks_maps) = open(arguments, err)?;
-    let (gpu, backend) = open_gpu(arguments.backend)?;
-    let png = draw(arguments, &mut session, &gpu)?;
-    std::fs::write(&arguments.output, png).map_err(|reason| Failure::Unwritable {
-        path: arguments.output.clone(),
-        reason,
-    })?;
-
-    let [width, height] = arguments.size;
-    let posed = session.clip().map_or_else(String::new, |clip| {
-        format!(", {} at {} s", clip.name, session.playback().time_secs())
-    });
-    let crowd = match session.crowd().count {
-        1 => String::new(),
-        count => format!(", {count} instances"),
+    let shots = arguments.series.shots(&mut session, &arguments.file)?;
+    let mut sheet = match arguments.series.sheet() {
+        Some(cells) => {
+            let transparent = session.look().background == Background::None;
+            Some(ContactSheet::new(arguments.size, cells, arguments.theme, transparent)?)
+        }
+        None => None,
     };
-    let output = arguments.output.display();
-    let line = format!(
-        "{output}: {width}x{height}{posed}{crowd}, drawn by {} ({backend})",
-        gpu.info.name
-    );
+    let size = sheet.as_ref().map_or(arguments.size, ContactSheet::cell_size);
+    let said = in_words(arguments, &session, &shots, size);
+    let (gpu, backend) = open_gpu(arguments.backend)?;
+    let mut painter = Painter::new(&session, &gpu, size)?;
+    let [width, height] = size.map(|side| side as f32);
+    let mut series = Series::new(session, width / height, shots);
+
+    let folder = arguments.series.fills_folder().then_some(&*arguments.output);
+    if let Some(folder) = folder {
+        std::fs::create_dir_all(folder).map_err(|reason| Failure::Unwritable {
+            path: folder.to_owned(),
+            reason,
+        })?;
+    }
+    let progress = progress(series.count(), "drawing {pos} of {len} pictures, {eta} left");
+    let drawn = (0..series.count()).try_for_each(|index| -> Result<(), Failure> {
+        let pixels = painter.draw(&mut series, index)?;
+        match (&mut sheet, folder) {
+            (Some(sheet), _) => sheet.place(index, &pixels, series.caption(index)),
+            (None, Some(folder)) => write_picture(&folder.join(format!("frame-{index:04}.png")), &pixels, size)?,
+            (None, None) => write_picture(&arguments.output, &pixels, size)?,
+        }
+        progress.inc(1);
+        Ok(())
+    });
+    progress.finish_and_clear();
+    drawn?;
+    if let Some(sheet) = sheet {
+        paths::write(&arguments.output, &sheet.into_png()?)?;
+    }
+
+    let line = format!("{said}, drawn by {} ({backend})", gpu.info.name);
     writeln!(out, "{}", Plain(&line))?;
     Ok(if lacks_maps && arguments.deny.contains(&Denied::MissingMaps) {
         Outcome::FileHasErrors
     } else {
         Outcome::Fine
     })
+}
+
+fn write_picture(path: &Path, pixels: &[u8], [width, height]: [u32; 2]) -> Result<(), Failure> {
+    paths::write(path, &encode_png(pixels, width, height)?)
+}
+
+/// What is written, in a line: `walk.png: 1280x720, Walk at 0.3 s`.
+fn in_words(arguments: &Arguments, session: &Session, shots: &[Shot], [width, height]: [u32; 2]) -> String {
+    let mut parts = Vec::new();
+    let [sheet_width, sheet_height] = arguments.size;
+    match arguments.series.sheet() {
+        Some(_) => {
+            parts.push(format!("{sheet_width}x{sheet_height}"));
+            parts.push(format!("{} of {width}x{height}", counted(shots.len(), "picture")));
+        }
+        None if arguments.series.fills_folder() => {
+            parts.push(format!("{} of {width}x{height}", counted(shots.len(), "picture")));
+        }
+        None => parts.push(format!("{width}x{height}")),
+    }
+    if let Some(clip) = session.clip() {
+        let times_secs = || shots.iter().filter_map(|shot| shot.time_secs);
+        let last_secs = times_secs().reduce(f32::max);
+        parts.push(match (times_secs().next(), last_secs) {
+            (Some(first_secs), Some(last_secs)) => {
+                format!("{} from {first_secs:.3} s to {last_secs:.3} s", clip.name)
+            }
+            _ => format!("{} at {} s", clip.name, session.playback().time_secs()),
+        });
+    }
+    if shots.iter().any(|shot| shot.turn_radians.is_some()) {
+        parts.push("all round".into());
+    }
+    if session.crowd().count > 1 {
+        parts.push(format!("{} instances", session.crowd().count));
+    }
+    format!("{}: {}", arguments.output.display(), parts.join(", "))
 }
 
 /// A session that shows what the arguments ask for, as on the page, and whether maps are missing.
@@ -153,17 +219,9 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     {
         session.apply(PlayCommand::SelectClip(clip));
     }
-    if let Some(time_secs) = arguments.time {
-        session.apply(PlayCommand::Seek { time_secs });
-    }
     session.apply(CrowdCommand::Set {
         count: usize::from(arguments.crowd),
         seed: arguments.seed,
-    });
-    let [width, height] = arguments.size;
-    session.apply(CameraCommand::SetViewport {
-        aspect: width as f32 / height as f32,
-        insets: Insets::default(),
     });
     session.apply(Command::SetTheme(arguments.theme));
     arguments.appearance.apply(&mut session);
@@ -179,7 +237,8 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
         Some(open) if !folders.is_empty() => open.model.materials.clone(),
         _ => return Ok(false),
     };
-    let mut textures = Textures::read(folders, &materials, Wanted::MapsAndSky)?;
+    let folders = Folders::walk(folders, err)?;
+    let mut textures = Textures::of(&folders, &materials, Wanted::MapsAndSky);
     textures.write_warnings(err)?;
     let pictures = std::mem::take(&mut textures.pictures);
     if !pictures.is_empty() {
@@ -212,32 +271,44 @@ fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure>
     }
 }
 
-/// The picture as the bytes of a PNG file.
-fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu) -> Result<Vec<u8>, Failure> {
-    let [width, height] = arguments.size;
-    let Gpu {
-        device, queue, samples, ..
-    } = gpu;
-    // Otherwise an error of the driver would end the process with a panic.
-    let ((mut renderer, uploaded), answer) = watched(device, || {
-        let mut renderer = Renderer::with_samples(device, queue, *samples);
-        let uploaded = session
-            .open_model()
-            .map_or(Ok(()), |open| renderer.set_model(&open.model));
-        let images = session.maps().images();
-        let images: Vec<_> = images
-            .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
-            .collect();
-        renderer.set_maps(&images);
-        renderer.set_sky(session.sky().map(|image| &**image));
-        (renderer, uploaded)
-    });
-    uploaded?;
-    pollster::block_on(answer)?;
-    let pixels = renderer
-        .picture(&session.frame_at_rest(), arguments.size)?
-        .pixels_blocking()?;
-    Ok(encode_png(&pixels, width, height)?)
+/// Draws pictures of one model: it is brought to the GPU once, and all pictures are drawn into one target.
+struct Painter {
+    renderer: Renderer,
+    target: PictureTarget,
+}
+
+impl Painter {
+    fn new(session: &Session, gpu: &Gpu, size: [u32; 2]) -> Result<Self, Failure> {
+        let Gpu {
+            device, queue, samples, ..
+        } = gpu;
+        // Otherwise an error of the driver would end the process with a panic.
+        let ((renderer, uploaded), answer) = watched(device, || {
+            let mut renderer = Renderer::with_samples(device, queue, *samples);
+            let uploaded = session
+                .open_model()
+                .map_or(Ok(()), |open| renderer.set_model(&open.model));
+            let images = session.maps().images();
+            let images: Vec<_> = images
+                .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
+                .collect();
+            renderer.set_maps(&images);
+            renderer.set_sky(session.sky().map(|image| &**image));
+            (renderer, uploaded)
+        });
+        uploaded?;
+        pollster::block_on(answer)?;
+        Ok(Self {
+            renderer,
+            target: PictureTarget::new(size),
+        })
+    }
+
+    /// The pixels of a picture, as [`encode_png`] takes them.
+    fn draw(&mut self, series: &mut Series, index: usize) -> Result<Vec<u8>, Failure> {
+        let picture = self.renderer.picture_into(&series.frame(index), &mut self.target)?;
+        Ok(picture.pixels_blocking()?)
+    }
 }
 
 #[cfg(test)]

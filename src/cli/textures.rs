@@ -1,4 +1,4 @@
-//! Folders with textures: which pictures lie in them, and those that a model can use.
+//! Folders with textures: [`Folders`] lists the pictures in them, [`Textures`] reads those that a model can use.
 
 use std::collections::{HashMap, HashSet};
 use std::fs;
@@ -15,7 +15,15 @@ use crate::session::{self, File, MapNames, MapSource, Maps, find_maps};
 /// The most entries of folders that are looked at, so that a whole disk given by mistake does not take for ever.
 const MOST_ENTRIES: usize = 500_000;
 
-/// Pictures of folders and of the folders in them, as far as a model names them.
+/// All pictures of folders and of the folders in them, by their names. None is read yet.
+#[derive(Debug, Default)]
+pub(super) struct Folders {
+    pictures: Vec<PathBuf>,
+    /// Pipes and devices with the name of a picture. Opening one could wait for ever.
+    not_files: Vec<PathBuf>,
+}
+
+/// Pictures of folders, as far as a model names them.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     /// Flat pictures whose names fit a map.
@@ -30,7 +38,8 @@ pub(super) struct Textures {
     reasons: Vec<Diagnostic>,
     /// Where a picture lies, by the path that its [`File`] goes by.
     paths: HashMap<String, PathBuf>,
-    warnings: Vec<(PathBuf, Diagnostic)>,
+    /// Of [`Folders::not_files`] those whose names fit a map.
+    pub(super) not_files: Vec<PathBuf>,
 }
 
 /// What to look for in the folders.
@@ -80,31 +89,43 @@ pub(super) fn named_maps(materials: &[Material]) -> impl Iterator<Item = NamedMa
     })
 }
 
-impl Textures {
-    /// Looks through the folders and reads what the materials name.
+impl Folders {
+    /// Looks through folders, and tells what was skipped, a line each.
     ///
     /// # Errors
-    /// When one of the given folders cannot be read. All else that cannot be read is a warning.
-    pub(super) fn read(folders: &[PathBuf], materials: &[Material], wanted: Wanted) -> Result<Self, Failure> {
-        let names = MapNames::new(materials);
-        let mut walk = Walk::new(&names);
+    /// When one of them cannot be read. All else that cannot be read is a warning.
+    pub(super) fn walk(folders: &[PathBuf], err: &mut dyn Write) -> Result<Self, Failure> {
+        let mut walk = Walk {
+            most_entries: MOST_ENTRIES,
+            ..Walk::default()
+        };
         for folder in folders {
             walk.through(folder)?;
         }
-        let mut textures = Self {
-            warnings: walk.warnings,
-            ..Self::default()
-        };
+        for (path, warning) in &walk.warnings {
+            write_diagnostic(err, path, warning, None)?;
+        }
+        Ok(walk.found)
+    }
+}
+
+impl Textures {
+    /// Reads what the materials name.
+    pub(super) fn of(folders: &Folders, materials: &[Material], wanted: Wanted) -> Self {
+        let names = MapNames::new(materials);
+        let mut textures = Self::default();
+        let fits = |path: &&PathBuf| names.fit(&path.to_string_lossy());
+        textures.not_files = folders.not_files.iter().filter(fits).cloned().collect();
         let mut cubes = Vec::new();
-        for path in walk.pictures {
+        for path in &folders.pictures {
             let name = path.to_string_lossy();
             let is_named = names.fit(&name);
             if !is_named && wanted == Wanted::Maps {
-                textures.unnamed.push(path);
+                textures.unnamed.push(path.clone());
                 continue;
             }
-            match read_picture(&path, is_named) {
-                Ok(Picture::Cube(size)) => cubes.push((size, path)),
+            match read_picture(path, is_named) {
+                Ok(Picture::Cube(size)) => cubes.push((size, path.clone())),
                 Ok(Picture::Flat(bytes)) if is_named => {
                     let file = File::new(&name, bytes);
                     textures.paths.insert(file.path.clone(), path.clone());
@@ -125,7 +146,7 @@ impl Textures {
             cubes.sort_by_key(|(size, _)| std::cmp::Reverse(*size));
             textures.cubes = cubes.into_iter().map(|(_, path)| path).collect();
         }
-        Ok(textures)
+        textures
     }
 
     /// What became of each map that the materials name. `maps` holds [`Textures::pictures`].
@@ -158,10 +179,10 @@ impl Textures {
             .map_or(Path::new(&file.path), PathBuf::as_path)
     }
 
-    /// Tells what was skipped in the folders, a line each.
+    /// Tells what has the name of a map and was not opened, a line each.
     pub(super) fn write_warnings(&self, err: &mut dyn Write) -> io::Result<()> {
-        let mut warnings = self.warnings.iter();
-        warnings.try_for_each(|(path, warning)| write_diagnostic(err, path, warning, None))
+        let mut paths = self.not_files.iter();
+        paths.try_for_each(|path| write_diagnostic(err, path, &not_a_file(), None))
     }
 }
 
@@ -264,17 +285,23 @@ pub(super) fn read_sky(path: &Path) -> Result<File, Box<Diagnostic>> {
     }
 }
 
+/// That something has the name of a map, but cannot be read as a file.
+pub(super) fn not_a_file() -> Diagnostic {
+    warning(&codes::NOT_A_FILE, codes::NOT_A_FILE.sentence.to_owned())
+}
+
 fn unreadable(reason: &io::Error) -> Diagnostic {
     warning(&codes::FILE_UNREADABLE, format!("The file cannot be read: {reason}."))
 }
 
 /// A walk through folders. Each folder is met once, however many links lead to it.
-struct Walk<'a> {
-    names: &'a MapNames,
+#[derive(Default)]
+struct Walk {
+    found: Folders,
     /// Folders that were met, without links in their paths.
     met: HashSet<PathBuf>,
     entries_met: usize,
-    pictures: Vec<PathBuf>,
+    most_entries: usize,
     warnings: Vec<(PathBuf, Diagnostic)>,
 }
 
@@ -284,17 +311,7 @@ struct Entry {
     is_link: bool,
 }
 
-impl<'a> Walk<'a> {
-    fn new(names: &'a MapNames) -> Self {
-        Self {
-            names,
-            met: HashSet::new(),
-            entries_met: 0,
-            pictures: Vec::new(),
-            warnings: Vec::new(),
-        }
-    }
-
+impl Walk {
     fn through(&mut self, folder: &Path) -> Result<(), Failure> {
         let first = self.entries(folder).map_err(|reason| Failure::Unreadable {
             path: folder.to_owned(),
@@ -318,8 +335,9 @@ impl<'a> Walk<'a> {
                 break;
             }
         }
-        if self.entries_met > MOST_ENTRIES {
-            let message = format!("More than {MOST_ENTRIES} files and folders were met; the others are skipped.");
+        if self.entries_met > self.most_entries {
+            let most = self.most_entries;
+            let message = format!("More than {most} files and folders were met; the others are skipped.");
             self.warn(folder.to_owned(), &codes::FOLDER_TOO_LARGE, message);
         }
         Ok(())
@@ -346,16 +364,13 @@ impl<'a> Walk<'a> {
         if !File::new(&name, []).is_image() {
             return None;
         }
-        // Only regular files are opened: opening a pipe would wait for a writer.
-        if kind.is_file() {
-            self.pictures.push(entry.path);
-        } else if self.names.fit(&name) {
-            self.warn(
-                entry.path,
-                &codes::NOT_A_FILE,
-                "This is no regular file; skipped.".to_owned(),
-            );
-        }
+        let found = &mut self.found;
+        let list = if kind.is_file() {
+            &mut found.pictures
+        } else {
+            &mut found.not_files
+        };
+        list.push(entry.path);
         None
     }
 
@@ -376,7 +391,7 @@ impl<'a> Walk<'a> {
         for entry in fs::read_dir(folder)? {
             let entry = entry?;
             self.entries_met += 1;
-            if self.entries_met > MOST_ENTRIES {
+            if self.entries_met > self.most_entries {
                 break;
             }
             entries.push(Entry {
@@ -391,5 +406,26 @@ impl<'a> Walk<'a> {
 
     fn warn(&mut self, path: PathBuf, code: &Code, message: String) {
         self.warnings.push((path, warning(code, message)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// No test makes as many files as a real walk takes.
+    #[test]
+    fn a_walk_ends_at_its_limit_and_says_so() {
+        let mut walk = Walk {
+            most_entries: 3,
+            ..Walk::default()
+        };
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        walk.through(&folder).expect("the sources are there");
+        let [(path, warning)] = walk.warnings.as_slice() else {
+            panic!("{:?}", walk.warnings)
+        };
+        assert_eq!((path, warning.code), (&folder, codes::FOLDER_TOO_LARGE.name));
+        assert!(warning.message.starts_with("More than 3 files and folders were met;"));
     }
 }

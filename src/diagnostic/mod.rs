@@ -173,11 +173,20 @@ pub struct Code {
     pub severity: Severity,
     /// What is the case, and what was done about it, for one occurrence without its details.
     pub sentence: &'static str,
-    /// What it means for the model, or what can be done.
+    /// What it means for the model, or where it may come from.
     pub explanation: &'static str,
+    /// What Bindpose does about it.
+    pub handling: &'static str,
+    /// How to mend it for good: in the exporter, where a file is at fault.
+    pub mending: &'static str,
 }
 
 impl Code {
+    /// What it means and how to mend it, for outputs that have one text for both.
+    pub fn help(&self) -> String {
+        format!("{} {}", self.explanation, self.mending)
+    }
+
     /// A diagnostic of this code with its usual severity, without a place and without a subject.
     pub(crate) fn says(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic {

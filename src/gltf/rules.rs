@@ -401,7 +401,9 @@ impl<'a> Rules<'a> {
             if let Some(numbers) = &of_file.matrix
                 && is_sheared(numbers)
             {
-                self.broken(at("matrix"), "A matrix is no translation, rotation and scale.");
+                let message = format!("The matrix of node {node} shears or flattens space, which a joint cannot.");
+                self.diagnostics
+                    .add(&codes::GLTF_MATRIX_SHEARED, Place::pointer(at("matrix")), message);
             }
         }
         for (skin, of_file) in root.skins().iter().enumerate() {

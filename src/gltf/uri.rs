@@ -19,8 +19,8 @@ pub enum Uri<'a> {
 /// Why an address cannot be followed, in a few words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UriError {
-    /// A data URI that is none.
-    #[error("its data URI has no comma before the data")]
+    /// A data URI that does not say what it holds, or has no comma before the data.
+    #[error("its data URI does not begin as one")]
     NoData,
     /// Letters that no base64 text has, or too few of them.
     #[error("its data URI is no base64 text")]
@@ -60,6 +60,9 @@ fn data(text: &str) -> Result<Uri<'_>, UriError> {
     let (head, body) = text.split_once(',').ok_or(UriError::NoData)?;
     let mut parts = head.split(';');
     let media_type = parts.next().unwrap_or_default();
+    if parts.clone().any(str::is_empty) {
+        return Err(UriError::NoData);
+    }
     let bytes = if parts.any(|part| part.eq_ignore_ascii_case("base64")) {
         base64(body.as_bytes()).ok_or(UriError::NotBase64)?
     } else {

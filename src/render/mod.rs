@@ -36,7 +36,7 @@ pub use composite::Compositor;
 pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
 pub use instances::BoneTexture;
 pub use maps::MaterialImages;
-pub use picture::{Picture, PictureError};
+pub use picture::{Picture, PictureError, PictureTarget};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
@@ -354,8 +354,20 @@ impl Renderer {
     /// # Errors
     /// When the device draws no picture of this size.
     pub fn picture(&mut self, frame: &RenderFrame<'_>, size: [u32; 2]) -> Result<Picture, PictureError> {
+        self.picture_into(frame, &mut PictureTarget::new(size))
+    }
+
+    /// The same into a target that is there, for one picture after another. Its pixels stay readable when the next is drawn.
+    ///
+    /// # Errors
+    /// When the device draws no picture of this size.
+    pub fn picture_into(
+        &mut self,
+        frame: &RenderFrame<'_>,
+        target: &mut PictureTarget,
+    ) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.inner.clone());
-        Picture::start(&device, &queue, self.options.samples, size, |target| {
+        Picture::start(&device, &queue, self.options.samples, target, |target| {
             // Its times would be taken for those of the window.
             let mut encoder = FrameEncoder::new(&self.common.device, "picture");
             self.draw(frame, target, &mut encoder);

@@ -38,6 +38,20 @@ pub enum PictureError {
     ReadBack(#[from] ReadBackError),
 }
 
+/// What pictures of one size are drawn into, one after another: it is allocated once.
+pub struct PictureTarget {
+    size: [u32; 2],
+    /// `None` until the first picture.
+    target: Option<Target>,
+}
+
+impl PictureTarget {
+    /// Of a size in pixels.
+    pub fn new(size: [u32; 2]) -> Self {
+        Self { size, target: None }
+    }
+}
+
 /// A picture that the device is drawing.
 pub struct Picture {
     size: [u32; 2],
@@ -50,21 +64,23 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Has `draw` draw into a target of this size, watches the device meanwhile, and begins to read the pixels.
+    /// Has `draw` draw into a target, watches the device meanwhile, and begins to read the pixels.
     pub(super) fn start(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         samples: SampleCount,
-        size: [u32; 2],
+        into: &mut PictureTarget,
         draw: impl FnOnce(&mut Target),
     ) -> Result<Self, PictureError> {
+        let PictureTarget { size, target } = into;
+        let size = *size;
         fits(&device.limits(), size)?;
         let ((proof, pixels), answer) = watched(device, || {
-            let mut target = Target::with_samples(device, size[0], size[1], samples);
+            let target = target.get_or_insert_with(|| Target::with_samples(device, size[0], size[1], samples));
             target.fill(device, queue, wgpu::Color::WHITE);
-            let proof = Pending::start(device, queue, &target, [1, 1]);
-            draw(&mut target);
-            (proof, Pending::start(device, queue, &target, target.size()))
+            let proof = Pending::start(device, queue, target, [1, 1]);
+            draw(target);
+            (proof, Pending::start(device, queue, target, size))
         });
         Ok(Self {
             size,

@@ -1,6 +1,8 @@
 //! Framing: moves the camera so that points fill the picture.
 
-use glam::{Vec2, Vec3};
+use std::f32::consts::TAU;
+
+use glam::{Quat, Vec2, Vec3};
 
 use super::camera::{GREATEST_DISTANCE, LEAST_DISTANCE};
 use super::{Aabb, Camera, Projection};
@@ -25,7 +27,46 @@ pub struct Insets {
     pub bottom: f32,
 }
 
+/// Directions in which the outline of what turns is found, and steps of the turn.
+const SWEEP_STEPS: u16 = 32;
+
+/// Points that reach as far as the given ones do while they turn about the vertical axis through the middle of their box. With them goes
+/// that middle.
+pub fn swept_about_y(world_points: &[Vec3]) -> (Vec<Vec3>, Vec3) {
+    let center = Aabb::from_points(world_points.iter().copied()).center();
+    let angles = || (0..SWEEP_STEPS).map(|step| TAU * f32::from(step) / f32::from(SWEEP_STEPS));
+    // Distance from the axis, and height.
+    let outline = angles().filter_map(|angle| {
+        let direction = Vec2::from_angle(angle);
+        let around = |point: &Vec3| Vec2::new((point - center).with_y(0.0).length(), point.y - center.y);
+        let places = world_points.iter().map(around);
+        places.max_by(|a, b| a.dot(direction).total_cmp(&b.dot(direction)))
+    });
+    let outline: Vec<Vec2> = outline.collect();
+    let turned = |angle| {
+        let turn = Quat::from_rotation_y(angle);
+        outline.iter().map(move |place| center + turn * place.extend(0.0))
+    };
+    (angles().flat_map(turned).collect(), center)
+}
+
 impl Camera {
+    /// Moves the target along the line of sight to where it is nearest to the vertical axis through a point, about which the camera then
+    /// turns. The picture stays.
+    pub fn aim_at_axis(&mut self, point: Vec3) {
+        let forward = self.forward();
+        let level = forward.with_y(0.0);
+        let way = (point - self.target).dot(level) / level.length_squared();
+        let distance = match self.projection {
+            Projection::Perspective { .. } => self.distance + way,
+            Projection::Orthographic => self.distance,
+        };
+        let target = self.target + forward * way;
+        if target.is_finite() && distance >= LEAST_DISTANCE {
+            (self.target, self.distance) = (target, distance);
+        }
+    }
+
     /// Frames points: moves target and distance so that they fill the uncovered part of the picture. The direction
     /// stays. Without points nothing changes.
     pub fn frame(&mut self, world_points: &[Vec3], aspect: f32, insets: Insets) {
@@ -187,6 +228,46 @@ mod tests {
                 lowest > free[0] && highest < free[1],
                 "{preset:?}: {lowest} to {highest} in {free:?}"
             );
+        }
+    }
+
+    #[test]
+    fn a_model_stays_in_the_picture_while_the_camera_turns_about_it() {
+        let bounds = Aabb {
+            min: Vec3::new(2.0, 0.0, -0.5),
+            max: Vec3::new(9.0, 4.0, 0.5),
+        };
+        let (swept, middle) = swept_about_y(&bounds.corners());
+        for preset in ViewPreset::ALL {
+            for projection in [Camera::default().projection, Projection::Orthographic] {
+                let mut camera = Camera {
+                    projection,
+                    ..Camera::default()
+                };
+                camera.look_from(preset);
+                camera.frame(&swept, 1.6, Insets::default());
+                let before = corners_in_clip(&camera, &bounds, 1.6);
+                camera.aim_at_axis(middle);
+                let after = corners_in_clip(&camera, &bounds, 1.6);
+                for (before, after) in before.iter().zip(after) {
+                    assert!((before - after).truncate().length() < 1e-3, "{preset:?} {projection:?}");
+                }
+                assert!(
+                    (camera.target - middle).with_y(0.0).length() < 0.02,
+                    "{preset:?}: {}",
+                    camera.target
+                );
+                let mut farthest: f32 = 0.0;
+                for _ in 0..24 {
+                    camera.orbit(TAU / 24.0, 0.0);
+                    let reach = corners_in_clip(&camera, &bounds, 1.6);
+                    farthest = reach.iter().map(|c| c.x.abs().max(c.y.abs())).fold(farthest, f32::max);
+                }
+                assert!(
+                    (0.8..0.92).contains(&farthest),
+                    "{preset:?} {projection:?} reaches {farthest}"
+                );
+            }
         }
     }
 

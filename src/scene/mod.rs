@@ -12,6 +12,7 @@ mod framing;
 mod ground;
 mod pick;
 mod ray;
+mod shots;
 mod sight;
 mod skin_colors;
 mod tint;
@@ -26,10 +27,11 @@ pub use cost::{FrameCost, TimedPass};
 pub use frame::{
     Crowd, CrowdInstance, FrameOptions, Ghosts, OverlayGeometry, OverlayVertex, RenderFrame, VertexColors,
 };
-pub use framing::Insets;
+pub use framing::{Insets, swept_about_y};
 pub use ground::Ground;
 pub use pick::{Hit, pick, tex_coord_at};
 pub use ray::Ray;
+pub use shots::{Frames, MOST_SHOTS, Shot};
 pub use sight::Sight;
 pub use skin_colors::{LegendStop, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};
 pub use tint::{display_color, linear_from_srgb8, srgb8_from_linear, stand_in_color};

@@ -110,9 +110,6 @@ impl Session {
     /// Counts changes in the revisions, so that caches that were made from what changed are filled again.
     pub(super) fn commit(&mut self, changes: Changes) {
         self.revisions.count(changes);
-        if changes.model || changes.maps {
-            self.caches.verdicts.forget();
-        }
     }
 
     /// Runs `act`, counts what it changed, and returns it.

@@ -9,6 +9,7 @@ use super::maps::Maps;
 use super::materials::Materials;
 use super::open_model::OpenModel;
 use super::sky::Sky;
+use super::verdicts::Verdicts;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Clip, JointNames};
 
@@ -33,6 +34,8 @@ pub(super) struct Content {
     /// What joints are called.
     pub(super) names: Arc<JointNames>,
     pub(super) sky: Sky,
+    /// Of the file and its maps.
+    pub(super) verdicts: Verdicts,
     /// Why the last load failed.
     pub(super) error: Option<LoadError>,
     /// What changed since the last [`Changes::take`].

@@ -3,13 +3,28 @@
 use glam::{Affine3A, Vec3};
 
 use super::Session;
-use crate::scene::Insets;
+use crate::scene::{Insets, swept_about_y};
 
 /// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
 const VERTEX_ROOM: f32 = 0.15;
 
 impl Session {
     pub(super) fn frame_model(&mut self) {
+        let points = self.reached_points();
+        self.view.frame_points(&points);
+        self.view.framed = true;
+    }
+
+    /// Frames the model so that all of it stays in the picture while the camera turns about its middle.
+    pub(super) fn frame_all_round(&mut self) {
+        let (points, middle) = swept_about_y(&self.reached_points());
+        self.view.frame_points(&points);
+        self.view.camera.aim_at_axis(middle);
+        self.view.framed = true;
+    }
+
+    /// Points by which all that the clips of all instances reach is framed, world space.
+    fn reached_points(&self) -> Vec<Vec3> {
         let mut points = Vec::new();
         if self.instances.are_many() {
             // The box of all clips at each place: no closer view, but few points, and the same whoever is selected.
@@ -21,8 +36,7 @@ impl Session {
         } else {
             self.add_reach(self.clip_index(), self.world_from_model(), &mut points);
         }
-        self.view.frame_points(&points);
-        self.view.framed = true;
+        points
     }
 
     /// Adds the points by which a clip is framed, world space.

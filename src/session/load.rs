@@ -6,6 +6,7 @@ use super::files::{File, FileSet};
 use super::maps::Maps;
 use super::open_model::OpenModel;
 use super::sky::FoundSky;
+use super::verdicts::Verdicts;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
 use crate::import::{self, FindFile};
@@ -116,7 +117,8 @@ pub struct LoadJob {
 enum State {
     Model,
     Maps(Box<OpenModel>),
-    Sky(Box<OpenModel>),
+    Verdicts(Box<OpenModel>),
+    Sky(Box<OpenModel>, Verdicts),
 }
 
 /// A model with all that belongs to it, ready to be shown.
@@ -125,6 +127,7 @@ pub struct Loaded {
     pub(super) files: Arc<FileSet>,
     pub(super) open: OpenModel,
     pub(super) maps: Maps,
+    pub(super) verdicts: Verdicts,
     pub(super) sky: Option<FoundSky>,
 }
 
@@ -203,11 +206,12 @@ impl LoadJob {
 
     /// How far it is.
     pub fn progress(&self) -> Progress {
-        // Reading the model, saying what is missing, and the sky are a step each.
+        // Reading the model, saying what is missing, the books' verdicts, and the sky are a step each.
         let (done, left) = match &self.state {
-            State::Model => (0, 2),
-            State::Maps(_) => (1, self.maps.waiting_count() + 2),
-            State::Sky(_) => (2, 1),
+            State::Model => (0, 3),
+            State::Maps(_) => (1, self.maps.waiting_count() + 3),
+            State::Verdicts(_) => (2, 2),
+            State::Sky(..) => (3, 1),
         };
         let done = done + self.maps.decoded_count();
         Progress {
@@ -222,7 +226,7 @@ impl LoadJob {
         load_beside(&self.file, &|path| find(path).map(|file| Arc::clone(&file.bytes)))
     }
 
-    /// Reads the model, decodes one image, or decodes the sky.
+    /// Reads the model, decodes one image, works out the books' verdicts, or decodes the sky.
     pub fn step(mut self) -> LoadStep {
         match self.state {
             State::Model => match self.load() {
@@ -240,15 +244,26 @@ impl LoadJob {
                 if is_last {
                     self.maps.conclude(&open.model.materials);
                 }
-                self.state = if is_last { State::Sky(open) } else { State::Maps(open) };
+                self.state = if is_last {
+                    State::Verdicts(open)
+                } else {
+                    State::Maps(open)
+                };
                 LoadStep::Working(Box::new(self))
             }
-            State::Sky(open) => {
+            State::Verdicts(open) => {
+                let verdicts = Verdicts::default();
+                verdicts.of(&open, &self.maps);
+                self.state = State::Sky(open, verdicts);
+                LoadStep::Working(Box::new(self))
+            }
+            State::Sky(open, verdicts) => {
                 let sky = FoundSky::among(self.cubes, self.sky.as_ref());
                 LoadStep::Ended(Ok(Box::new(Loaded {
                     files: self.files,
                     open: *open,
                     maps: self.maps,
+                    verdicts,
                     sky,
                 })))
             }

@@ -36,6 +36,7 @@ mod quality;
 mod reporting;
 mod restoring;
 mod selecting;
+mod series;
 mod showing;
 mod skeleton_cache;
 mod sky;
@@ -70,6 +71,7 @@ pub use opening::FileCommand;
 pub use playing::PlayCommand;
 pub use quality::{Lowered, PassChoice, PassState, Quality, QualityCommand, QualityMode, RenderScale};
 pub use selecting::{JointCommand, SubmeshCommand};
+pub use series::Series;
 pub use skeleton_cache::SkinColorsKey;
 pub use submeshes::Submeshes;
 pub use textures::{
@@ -85,7 +87,6 @@ use instances::Instances;
 use overlays::OverlayCache;
 use picking::Picker;
 use skeleton_cache::SkeletonCache;
-use verdicts::Verdicts;
 use view::View;
 
 use std::sync::Arc;
@@ -93,7 +94,7 @@ use std::sync::Arc;
 use crate::anim::Playback;
 use crate::image::Image;
 use crate::model::{Clip, Material};
-use crate::scene::{Aabb, FrameCost, FrameOptions, Overlay};
+use crate::scene::{Aabb, FrameCost, FrameOptions, Overlay, Theme};
 
 /// Speeds of the slower and faster keys.
 pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0];
@@ -137,7 +138,6 @@ struct Caches {
     skeleton: SkeletonCache,
     overlays: OverlayCache,
     crowd: CrowdCache,
-    verdicts: Verdicts,
 }
 
 impl Session {
@@ -261,6 +261,11 @@ impl Session {
 
     fn is_in_motion(&self) -> bool {
         self.is_moving() || self.view.motion.is_held() || self.is_scrubbing()
+    }
+
+    /// The dark or the light theme.
+    pub fn theme(&self) -> Theme {
+        self.view.theme
     }
 
     /// How the model is looked at.

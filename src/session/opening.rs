@@ -177,7 +177,7 @@ impl Session {
                     self.content.changes.maps = true;
                 }
                 // The first picture makes the others missing, even one that fits none.
-                self.caches.verdicts.forget();
+                self.content.verdicts.forget();
                 self.content.error = None;
             }
             None if has_maps => self.fail(LoadError::no_model(files)),
@@ -194,7 +194,13 @@ impl Session {
 
     /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices.
     fn replace_model(&mut self, loaded: Loaded) {
-        let Loaded { files, open, maps, sky } = loaded;
+        let Loaded {
+            files,
+            open,
+            maps,
+            verdicts,
+            sky,
+        } = loaded;
         let was_playing = self.playback().is_playing();
         let clips_before = self.shown_clips();
         let others = self.content.others_of(&files);
@@ -234,6 +240,7 @@ impl Session {
             materials,
             names,
             sky: old.sky,
+            verdicts,
             error: None,
             changes: old.changes,
         };

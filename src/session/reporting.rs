@@ -8,10 +8,10 @@ use crate::diagnostic::Diagnostic;
 
 impl Session {
     /// What the books' programs make of the open file, in the order of [`Book::ALL`](crate::check::book::Book::ALL); empty without a
-    /// model. They are worked out at the first call, and kept until the model or its maps change.
+    /// model. They come with the model; after new maps they are worked out at the first call.
     pub fn verdicts(&self) -> &[Verdict] {
         self.open_model()
-            .map_or(&[], |open| self.caches.verdicts.of(open, self.maps()))
+            .map_or(&[], |open| self.content.verdicts.of(open, self.maps()))
     }
 
     /// All that was found in the open file, as `bindpose check --book all` prints it; empty without a model.

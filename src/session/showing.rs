@@ -89,7 +89,6 @@ impl Session {
             skeleton,
             overlays,
             crowd: _,
-            verdicts: _,
         } = &mut self.caches;
         let model = open.map(|open| &open.model);
         overlays.update_colors(colors_key, model, picker.positions(), skeleton);

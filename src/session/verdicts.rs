@@ -7,7 +7,7 @@ use super::open_model::OpenModel;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::format;
 
-/// The verdict of each book, once somebody asked for it.
+/// The verdict of each book. [`LoadJob`](super::LoadJob) works them out in a step of its own, since the file is read three times more for them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdicts(OnceLock<Vec<Verdict>>);
 
@@ -31,7 +31,7 @@ impl Verdicts {
         })
     }
 
-    /// The model or its maps are others.
+    /// The maps are others.
     pub(super) fn forget(&mut self) {
         *self = Self::default();
     }

@@ -436,7 +436,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::ViewFrom => {
             toolbar::view_from_items(ui, session, commands);
         }
-        SheetPage::Picture => picture::show(ui, state),
+        SheetPage::Picture => picture::show(ui, session, state),
         SheetPage::Skeleton | SheetPage::Timeline => {}
     });
 }

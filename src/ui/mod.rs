@@ -39,8 +39,8 @@ pub use announce::{Announcement, view_in_words};
 pub use keys::owns_key;
 pub use message::Messages;
 pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
-pub use picture::{picture_name, report_name};
-pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, UiState};
+pub use picture::{picture_name, report_name, sheet_name};
+pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, SheetRequest, UiState};
 pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};

@@ -12,7 +12,7 @@ use super::widgets::{
 };
 use super::wording::shortened;
 use crate::actions;
-use crate::anim::GhostPlan;
+use crate::anim::{GHOST_STEP_FRAMES, GhostPlan};
 use crate::scene::{BoneStyle, Overlay, Overlays};
 use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 
@@ -20,7 +20,7 @@ use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
     before: 3,
     after: 3,
-    step_frames: 5,
+    step_frames: GHOST_STEP_FRAMES,
 };
 /// The most ghosts on either side, and the most frames between two.
 const MOST_GHOSTS: f32 = 16.0;

@@ -1,11 +1,13 @@
-//! Saves the view as a picture: its size, its background, its name.
+//! Saves the view as a picture: its size, its background, its name; and contact sheets.
 
-use egui::{Rangef, Ui, vec2};
+use egui::{Id, Rangef, Ui, UiBuilder, vec2};
 
 use super::panel::popover_gap;
-use super::state::{MAX_PICTURE_SIDE, PictureChoice, UiState};
+use super::state::{MAX_PICTURE_SIDE, UiState};
 use super::theme::Tokens;
-use super::widgets::{MenuLine, TextButton, control_size, menu_item, number_field, section_name, switch_row};
+use super::widgets::{
+    MenuLine, TextButton, control_size, menu_item, number_field, progress_bar, section_name, segmented, switch_row,
+};
 use crate::actions;
 use crate::session::Session;
 
@@ -16,8 +18,13 @@ const PRESETS: [(&str, [u32; 2]); 3] = [
     ("Square  2048 × 2048", [2048, 2048]),
 ];
 
+/// The most columns, and the most rows, of a contact sheet.
+const MOST_CELLS: u32 = 24;
+/// Width of the button that cancels one.
+const CANCEL_WIDTH: f32 = 70.0;
+
 /// The popover's contents.
-pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let size = state.picture.size_in_pixels(ui);
     section_name(ui, "Picture");
     if menu_item(ui, "As the window", MenuLine::Choice(state.picture.size.is_none())).clicked() {
@@ -29,7 +36,15 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
         }
     }
     ui.add_space(8.0);
-    size_fields(ui, size, &mut state.picture);
+    if let Some(typed) = pair_fields(
+        ui,
+        ["Width in pixels", "Height in pixels"],
+        size,
+        MAX_PICTURE_SIDE,
+        (4.0, "px"),
+    ) {
+        state.picture.size = Some(typed);
+    }
     ui.add_space(6.0);
     let response = switch_row(ui, "Transparent ground", "", state.picture.transparent);
     if response.clicked() {
@@ -44,28 +59,76 @@ pub(super) fn show(ui: &mut Ui, state: &mut UiState) {
     {
         state.save_picture(ui, false);
     }
+    if session.open_model().is_some() {
+        popover_gap(ui);
+        contact_sheet(ui, session, state);
+    }
 }
 
-/// Width × height, dragged or typed.
-fn size_fields(ui: &mut Ui, size: [u32; 2], choice: &mut PictureChoice) {
+/// Many pictures on one of the size above.
+fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
+    section_name(ui, "Contact sheet");
+    if session.clip().is_some() {
+        let choices = [(false, "Clip"), (true, "Turntable")];
+        if let Some(turntable) = segmented(ui, "Contact sheet of", &choices, Some(state.picture.turntable)) {
+            state.picture.turntable = turntable;
+        }
+        ui.add_space(8.0);
+    }
+    let cells = state.picture.cells;
+    if let Some(typed) = pair_fields(ui, ["Columns", "Rows"], cells, MOST_CELLS, (0.1, "")) {
+        state.picture.cells = typed;
+    }
+    ui.add_space(8.0);
+    // One button in two shapes: the focus stays on it.
+    let button = || UiBuilder::new().scope_id(Id::unique("contact sheet"));
+    let Some(drawn) = &mut state.drawn_sheet else {
+        let width = Rangef::point(ui.available_width());
+        let label = "Save contact sheet";
+        let save = TextButton::new(label, label).width(width);
+        if ui.scope_builder(button(), |ui| save.show(ui)).inner.clicked() {
+            state.save_sheet(ui);
+        }
+        return;
+    };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 8.0;
-        let field = vec2((ui.available_width() - 60.0) * 0.5, control_size(ui));
-        let mut typed = size;
-        let range = 1.0..=MAX_PICTURE_SIDE as f32;
-        for (index, label) in ["Width in pixels", "Height in pixels"].into_iter().enumerate() {
+        let size = vec2(ui.available_width() - CANCEL_WIDTH - 8.0, control_size(ui));
+        progress_bar(ui, "Pictures drawn", size, [drawn.done, drawn.count]);
+        let cancel = TextButton::new("Cancel", "Cancel the contact sheet").width(Rangef::point(CANCEL_WIDTH));
+        if ui.scope_builder(button(), |ui| cancel.show(ui)).inner.clicked() {
+            drawn.cancelled = true;
+        }
+    });
+}
+
+/// Two whole numbers from 1 on with a cross between them, dragged or typed. Returns both when one is new.
+fn pair_fields(
+    ui: &mut Ui,
+    labels: [&str; 2],
+    pair: [u32; 2],
+    most: u32,
+    (speed, unit): (f32, &str),
+) -> Option<[u32; 2]> {
+    let mut typed = pair;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 8.0;
+        let unit_width = if unit.is_empty() { 0.0 } else { 26.0 };
+        let field = vec2((ui.available_width() - 26.0 - unit_width) * 0.5, control_size(ui));
+        for (index, label) in labels.into_iter().enumerate() {
             if index == 1 {
                 words(ui, "×", 10.0);
             }
-            if let Some(side) = number_field(ui, label, field, size[index] as f32, range.clone(), (4.0, 0)) {
-                typed[index] = (side.round() as u32).clamp(1, MAX_PICTURE_SIDE);
+            let range = 1.0..=most as f32;
+            if let Some(number) = number_field(ui, label, field, pair[index] as f32, range, (speed, 0)) {
+                typed[index] = (number.round() as u32).clamp(1, most);
             }
         }
-        words(ui, "px", 18.0);
-        if typed != size {
-            choice.size = Some(typed);
+        if !unit.is_empty() {
+            words(ui, unit, 18.0);
         }
     });
+    (typed != pair).then_some(typed)
 }
 
 fn words(ui: &mut Ui, text: &str, width: f32) {
@@ -83,6 +146,14 @@ pub fn picture_name(session: &Session) -> String {
         parts.push(clip.name.clone());
         parts.push(clip.frame_at(session.playback().time_secs()).to_string());
     }
+    file_name(&parts, "png")
+}
+
+/// The name of a contact sheet, as in `soldier-Take1-sheet.png`.
+pub fn sheet_name(session: &Session) -> String {
+    let mut parts = model_name(session);
+    parts.extend(session.clip().map(|clip| clip.name.clone()));
+    parts.push("sheet".to_owned());
     file_name(&parts, "png")
 }
 

@@ -41,10 +41,27 @@ pub enum Request {
         /// Without a background.
         transparent: bool,
     },
+    /// Save a contact sheet; [`sheet_name`](crate::ui::sheet_name) says how the file is called.
+    SaveSheet(SheetRequest),
     /// Save the report of all that was found in the open file; [`report_name`](crate::ui::report_name) says how the file is called.
     SaveReport,
+    /// Show the page of codes at this one.
+    ExplainCode(&'static str),
     /// Have a screen reader speak.
     Announce(Announcement),
+}
+
+/// A contact sheet as it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SheetRequest {
+    /// Width and height of the whole sheet in pixels.
+    pub size: [u32; 2],
+    /// Columns and rows of pictures.
+    pub cells: [u32; 2],
+    /// From all sides, instead of at times of the clip. It is so in any case where there is no clip.
+    pub turntable: bool,
+    /// Without a background.
+    pub transparent: bool,
 }
 
 /// What the bottom sheet of a narrow window shows below the timeline.
@@ -105,6 +122,8 @@ pub struct UiState {
     pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,
     pub(super) picture: PictureChoice,
+    /// The contact sheet that is being drawn.
+    pub(super) drawn_sheet: Option<DrawnSheet>,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,
@@ -166,6 +185,52 @@ impl UiState {
             transparent: transparent || self.picture.transparent,
         });
     }
+
+    /// Asks for a contact sheet as chosen.
+    pub(super) fn save_sheet(&mut self, ui: &Ui) {
+        let PictureChoice {
+            transparent,
+            cells,
+            turntable,
+            ..
+        } = self.picture;
+        let [columns, rows] = cells;
+        self.drawn_sheet = Some(DrawnSheet {
+            count: (columns * rows) as usize,
+            ..DrawnSheet::default()
+        });
+        self.requests.push(Request::SaveSheet(SheetRequest {
+            size: self.picture.size_in_pixels(ui),
+            cells,
+            turntable,
+            transparent,
+        }));
+    }
+
+    /// Shows how many pictures of a contact sheet are drawn, of how many. False when the person cancelled it.
+    pub fn show_sheet_progress(&mut self, [done, count]: [usize; 2]) -> bool {
+        let Some(sheet) = &mut self.drawn_sheet else {
+            return false;
+        };
+        (sheet.done, sheet.count) = (done, count);
+        !sheet.cancelled
+    }
+
+    /// No contact sheet is being drawn any more.
+    pub fn end_sheet(&mut self) {
+        self.drawn_sheet = None;
+    }
+}
+
+/// A contact sheet that is being drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct DrawnSheet {
+    /// Pictures that are on it.
+    pub(super) done: usize,
+    /// Pictures that will be on it.
+    pub(super) count: usize,
+    /// The person does not want it any more.
+    pub(super) cancelled: bool,
 }
 
 /// Vertices of the submesh counted last.
@@ -193,13 +258,28 @@ impl VertexCount {
     }
 }
 
-/// How to save a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// How to save a picture or a contact sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PictureChoice {
     /// Width and height in pixels. None: the window's.
     pub(super) size: Option<[u32; 2]>,
     /// Without a background.
     pub(super) transparent: bool,
+    /// Columns and rows of a contact sheet.
+    pub(super) cells: [u32; 2],
+    /// A contact sheet shows the model from all sides, not through the clip.
+    pub(super) turntable: bool,
+}
+
+impl Default for PictureChoice {
+    fn default() -> Self {
+        Self {
+            size: None,
+            transparent: false,
+            cells: [4, 3],
+            turntable: false,
+        }
+    }
 }
 
 impl PictureChoice {

@@ -6,6 +6,8 @@ use egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, vec2,
 };
 
+use crate::contact_sheet::INTER_REGULAR;
+
 /// Distance of panels from the window's edges and from each other.
 pub const MARGIN: f32 = 12.0;
 /// Height of a row of text in panels.
@@ -276,7 +278,7 @@ fn fonts() -> FontDefinitions {
             .font_data
             .insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
     };
-    add("inter", include_bytes!("../../assets/fonts/Inter-Regular.otf"));
+    add("inter", INTER_REGULAR);
     add(
         "inter-semibold",
         include_bytes!("../../assets/fonts/Inter-SemiBold.otf"),

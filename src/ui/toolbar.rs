@@ -71,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
-        popover(ui, &camera, 224.0, |ui| picture::show(ui, state));
+        popover(ui, &camera, 224.0, |ui| picture::show(ui, session, state));
         theme_button(ui, state);
         open_button(ui, state);
         if icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open).clicked() {

@@ -6,9 +6,10 @@ use std::rc::Rc;
 use js_sys::{Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::{field, is_absent, sleep};
-use crate::app::App;
+use super::{abort_error, field, is_absent, next_task, sleep};
+use crate::app::{App, SheetFailure};
 use crate::scene::{Background, FrameOptions, Light, Overlay, ViewMode};
+use crate::ui::SheetRequest;
 
 /// The app while it runs.
 pub(super) type AppSlot = Rc<RefCell<Option<App>>>;
@@ -18,20 +19,92 @@ pub(super) async fn snapshot(app: AppSlot, canvas_size: [u32; 2], options: JsVal
     // Options are read before anything is borrowed: a getter is a script, and may call the viewer.
     let wanted = PictureOptions::read(|name| field(&options, name))?;
     let sides = ["width", "height"].map(|name| (name, field(&options, name)));
-    let longest = longest_side(&app)?;
-    let mut size = canvas_size;
-    for (pixels, (name, side)) in size.iter_mut().zip(sides) {
-        let side = if is_absent(&side) {
-            Some(f64::from(*pixels))
+    let size = whole_numbers(sides, canvas_size, longest_side(&app)?)?;
+    png(app, size, |options| wanted.apply(options)).await
+}
+
+/// Two numbers from 1 to a greatest one; where one is absent, that of the default.
+fn whole_numbers(given: [(&str, JsValue); 2], default: [u32; 2], most: u32) -> Result<[u32; 2], JsError> {
+    let mut numbers = default;
+    for (number, (name, given)) in numbers.iter_mut().zip(given) {
+        let given = if is_absent(&given) {
+            Some(f64::from(*number))
         } else {
-            side.as_f64()
+            given.as_f64()
         };
-        *pixels = match side {
-            Some(side) if (1.0..=f64::from(longest)).contains(&side) => side as u32,
-            _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {longest}"))),
+        *number = match given {
+            Some(given) if (1.0..=f64::from(most)).contains(&given) => given as u32,
+            _ => return Err(JsError::new(&format!("{name} must be a number from 1 to {most}"))),
         };
     }
-    png(app, size, |options| wanted.apply(options)).await
+    Ok(numbers)
+}
+
+/// The most columns, and the most rows, of a contact sheet.
+const MOST_CELLS: u32 = 100;
+/// What it has where a script says nothing.
+const CELLS: [u32; 2] = [4, 3];
+
+/// The contact sheet of `Viewer::contactSheet`.
+pub(super) async fn contact_sheet(app: AppSlot, canvas_size: [u32; 2], options: JsValue) -> Result<JsValue, JsValue> {
+    let sides = ["width", "height"].map(|name| (name, field(&options, name)));
+    let cells = ["columns", "rows"].map(|name| (name, field(&options, name)));
+    let wanted = SheetRequest {
+        size: whole_numbers(sides, canvas_size, longest_side(&app)?)?,
+        cells: whole_numbers(cells, CELLS, MOST_CELLS)?,
+        turntable: field(&options, "turntable").is_truthy(),
+        transparent: field(&options, "transparent").is_truthy(),
+    };
+    let signal = field(&options, "signal");
+    let goes_on = |_| !field(&signal, "aborted").is_truthy();
+    let png = sheet(app, wanted, goes_on).await?;
+    png.ok_or_else(|| abort_error("the contact sheet was cancelled"))
+}
+
+/// The contact sheet that is asked for in the window, and its size. `None` when it was cancelled.
+pub(super) async fn sheet_of_window(
+    app: AppSlot,
+    wanted: SheetRequest,
+    repaint: impl Fn(),
+) -> Result<Option<(JsValue, [u32; 2])>, JsError> {
+    let size = within(wanted.size, longest_side(&app)?);
+    let goes_on = |progress| {
+        repaint();
+        let mut app = app.borrow_mut();
+        app.as_mut().is_some_and(|app| app.show_sheet_progress(progress))
+    };
+    let png = sheet(Rc::clone(&app), SheetRequest { size, ..wanted }, goes_on).await?;
+    Ok(png.map(|png| (png, size)))
+}
+
+/// Draws a contact sheet, a picture at a time. Before each it asks whether to go on, and tells how many are drawn, of how many.
+///
+/// # Errors
+/// When the viewer is not running or another model was opened, the sheet has no room, or the GPU fails.
+async fn sheet(
+    app: AppSlot,
+    wanted: SheetRequest,
+    goes_on: impl Fn([usize; 2]) -> bool,
+) -> Result<Option<JsValue>, JsError> {
+    let begun = app.borrow().as_ref().map(|app| app.begin_sheet(&wanted));
+    let mut job = begun.ok_or_else(not_running)??;
+    loop {
+        let progress = job.progress();
+        if !goes_on(progress) {
+            return Ok(None);
+        }
+        if progress[0] == progress[1] {
+            return Ok(Some(Uint8Array::from(job.into_png()?.as_slice()).into()));
+        }
+        let picture = match app.borrow_mut().as_mut() {
+            Some(app) => app.draw_next(&mut job)?,
+            None => return Err(not_running()),
+        };
+        let pixels = picture.pixels(async || sleep(1).await).await;
+        job.place(&pixels.map_err(SheetFailure::from)?);
+        // Input and the window's own frames come in between.
+        next_task().await;
+    }
 }
 
 /// The picture that is asked for in the window, and its size. A size beyond the device's reach is drawn as large as it can be.

@@ -17,7 +17,7 @@ use super::{coarse_pointer, field, now_secs, object, sleep, state, text_of};
 use crate::app::{App, AppOptions};
 use crate::render::device;
 use crate::session::{QualityCommand, Session};
-use crate::ui::{Announcement, Request, picture_name, report_name, view_in_words};
+use crate::ui::{Announcement, Request, SheetRequest, picture_name, report_name, sheet_name, view_in_words};
 
 /// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
@@ -314,27 +314,52 @@ impl Shell {
 
     /// Draws a picture and hands it to the page, which saves it. A message says so.
     fn save_picture(&self, ctx: &egui::Context, size: [u32; 2], transparent: bool) {
+        // The name is made now: the clip and the time may change until the picture is drawn.
+        let name = picture_name(&self.shared.session.borrow());
+        let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
+        self.hand_over(ctx, name, async { drawn.await.map(Some) });
+    }
+
+    /// The same with a contact sheet.
+    fn save_sheet(&self, ctx: &egui::Context, wanted: SheetRequest) {
+        let name = sheet_name(&self.shared.session.borrow());
+        let (app, repainted) = (Rc::clone(&self.app), ctx.clone());
+        let drawn = picture::sheet_of_window(Rc::clone(&app), wanted, move || repainted.request_repaint());
+        self.hand_over(ctx, name, async move {
+            let drawn = drawn.await;
+            if let Some(app) = app.borrow_mut().as_mut() {
+                app.end_sheet();
+            }
+            drawn
+        });
+    }
+
+    /// Hands a picture to the page, which saves it, once it is drawn. A message says so. `None` is one that was cancelled.
+    fn hand_over(
+        &self,
+        ctx: &egui::Context,
+        name: String,
+        drawn: impl Future<Output = Result<Option<(JsValue, [u32; 2])>, JsError>> + 'static,
+    ) {
         let shared = Rc::clone(&self.shared);
         let (app, saved, ctx) = (Rc::clone(&self.app), Rc::clone(&self.saved), ctx.clone());
-        // The name is made now: the clip and the time may change until the picture is drawn.
-        let name = picture_name(&shared.session.borrow());
-        let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
         wasm_bindgen_futures::spawn_local(async move {
             match drawn.await {
-                Ok((bytes, size)) => {
+                Ok(Some((bytes, size))) => {
                     let picture = [("name", name.as_str().into()), ("bytes", bytes)];
                     shared.emit("picture", &object(picture.clone()));
                     *saved.borrow_mut() = Some(picture);
                     if let Some(app) = app.borrow_mut().as_mut() {
                         app.picture_was_saved(&name, size);
-                        ctx.request_repaint();
                     }
                 }
+                Ok(None) => {}
                 Err(error) => {
                     let message = field(&error.into(), "message");
                     shared.emit("picturefailed", &object([("message", message)]));
                 }
             }
+            ctx.request_repaint();
         });
     }
 }
@@ -364,8 +389,10 @@ impl eframe::App for Shell {
                 Request::ReadAgain => self.shared.emit("readagain", &JsValue::UNDEFINED),
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
                 Request::SavePicture { size, transparent } => self.save_picture(ui.ctx(), size, transparent),
+                Request::SaveSheet(wanted) => self.save_sheet(ui.ctx(), wanted),
                 Request::SavePictureAs => self.save_picture_as(),
                 Request::SaveReport => self.save_report(),
+                Request::ExplainCode(code) => self.shared.emit("explain", &object([("code", code.into())])),
                 Request::Announce(Announcement { text, assertive }) => {
                     let detail = object([("text", text.into()), ("assertive", assertive.into())]);
                     self.shared.emit("announce", &detail);

@@ -11,6 +11,7 @@ use web_sys::HtmlCanvasElement;
 use super::arguments::{checked, given};
 use super::backend::Preference;
 use super::mirror::MirrorLink;
+use super::picture::AppSlot;
 use super::run::{self, Shared};
 use super::{field, picture, promise, reduced_motion, state};
 use crate::script;
@@ -33,7 +34,7 @@ impl Viewer {
     /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)`
     /// hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
-    /// `picturefailed` (`{message}`), `report` (`{name, text}`: a SARIF file to save) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
+    /// `picturefailed` (`{message}`), `report` (`{name, text}`: a SARIF file to save), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
     /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
@@ -104,13 +105,24 @@ impl Viewer {
     ///
     /// Rejects when the viewer is not running, the size is not possible, a name is none, or the GPU fails.
     pub fn snapshot(&self, options: JsValue) -> Promise {
-        let running = self.shared.running.borrow().as_ref().map(|running| {
-            let canvas = &running.canvas;
-            (Rc::clone(&running.app), [canvas.width(), canvas.height()])
-        });
+        let running = self.shared.app_and_size();
         promise(async {
             let (app, canvas_size) = running.ok_or_else(picture::not_running)?;
             picture::snapshot(app, canvas_size, options).await
+        })
+    }
+
+    /// Many pictures on one, as the bytes of a PNG: of the clip or the range that plays, or with `turntable` from all sides, each with a label.
+    /// `columns` and `rows` are 4 and 3 where they are absent, `width` and `height`, of the whole sheet, those of the canvas; `transparent`
+    /// leaves out all grounds. What is open plays on meanwhile. An `AbortSignal` as `signal` ends it.
+    ///
+    /// Rejects as [`Viewer::snapshot`] does, when another model is opened meanwhile, and with an `AbortError` after the signal.
+    #[wasm_bindgen(js_name = contactSheet)]
+    pub fn contact_sheet(&self, options: JsValue) -> Promise {
+        let running = self.shared.app_and_size();
+        promise(async {
+            let (app, canvas_size) = running.ok_or_else(picture::not_running)?;
+            picture::contact_sheet(app, canvas_size, options).await
         })
     }
 
@@ -133,6 +145,14 @@ impl Drop for Viewer {
 }
 
 impl Shared {
+    /// The app while it runs, and the size of its canvas in pixels.
+    fn app_and_size(&self) -> Option<(AppSlot, [u32; 2])> {
+        let running = self.running.borrow();
+        let running = running.as_ref()?;
+        let canvas = &running.canvas;
+        Some((Rc::clone(&running.app), [canvas.width(), canvas.height()]))
+    }
+
     /// See [`Viewer::state`].
     pub(super) fn state(&self) -> JsValue {
         let running = self.running.borrow();

@@ -1,9 +1,9 @@
 // The page itself: it starts, on the backend that was asked for, in any window, and says so when it cannot.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { BACKEND, CENTRE, LARGE, PAGE, atRest, call, keep, panicAtStart, settled, state, test, until } from "./harness.js";
-import { assertDrawn, coloursOnScreen, decoded, difference, picture } from "./picture.js";
+import { readFileSync, writeFileSync } from "node:fs";
+import { BACKEND, CENTRE, LARGE, OUT, PAGE, atRest, call, keep, panicAtStart, settled, state, test, until } from "./harness.js";
+import { assertDrawn, coloursOnScreen, contactSheet, decoded, difference, picture } from "./picture.js";
 
 test("the page opens the sample, draws it and logs no error", { viewport: LARGE, own: true, fine: true, passes: true, motion: true }, async (page) => {
   const { model, playing, error } = await state(page);
@@ -110,6 +110,65 @@ test("P saves a picture, named after what it shows", { fine: true }, async (page
   assert.deepEqual([...bytes.subarray(1, 4)], [..."PNG"].map((letter) => letter.charCodeAt(0)));
   const { width, height } = page.viewportSize();
   assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [width, height]);
+});
+
+test("a contact sheet has pictures of the clip while the page goes on", {}, async (page) => {
+  await call(page, "pause");
+  const sheet = await contactSheet(page, { width: 300, height: 200, columns: 2, rows: 2 });
+  writeFileSync(`${OUT}${BACKEND}-contact-sheet.png`, sheet.png);
+  assert.deepEqual([sheet.width, sheet.height], [300, 200]);
+  assertDrawn(sheet);
+  assert.equal((await contactSheet(page, { width: 300, height: 200, columns: 2, rows: 2 })).digest, sheet.digest, "the same again");
+  const round = await contactSheet(page, { width: 300, height: 200, columns: 2, rows: 2, turntable: true, transparent: true });
+  assert.ok(round.clear > 0.3 && round.clear < 0.99, `${round.clear} of the pixels are transparent`);
+  assert.ok(difference(sheet, round) > 0.2);
+
+  const { moved, refused, cancelled } = await page.evaluate(async () => {
+    const failed = (promise) => promise.then(() => null, ({ name, message }) => ({ name, message }));
+    bindpose.play();
+    const before = bindpose.state().framesRendered;
+    await bindpose.contactSheet({ width: 300, height: 200, columns: 3, rows: 2 });
+    const moved = bindpose.state().framesRendered - before;
+    bindpose.pause();
+    const refused = await failed(bindpose.contactSheet({ width: 100, height: 50, columns: 8, rows: 8 }));
+    const abort = new AbortController();
+    const cancelled = failed(bindpose.contactSheet({ signal: abort.signal }));
+    abort.abort();
+    return { moved, refused, cancelled: await cancelled };
+  });
+  assert.ok(moved >= 2, `${moved} frames of the window meanwhile`);
+  assert.match(refused.message, /no room for 8 × 8 pictures/);
+  assert.equal(cancelled.name, "AbortError");
+});
+
+test("a contact sheet is saved from the panel, which says how far it is, and is cancelled there", { viewport: LARGE, fine: true }, async (page) => {
+  await call(page, "pause");
+  const press = async (name) => {
+    await page.getByRole("button", { name }).focus();
+    await page.keyboard.press("Enter");
+  };
+  await press(/^Picture…/);
+  const save = page.getByRole("button", { name: "Save contact sheet" });
+  await save.waitFor({ state: "attached" });
+  const saving = page.waitForEvent("download");
+  await press("Save contact sheet");
+  // The same element with another name: the focus stays.
+  assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? document.activeElement.textContent), /Cancel|Save/);
+  const progress = page.getByRole("progressbar", { name: "Pictures drawn" });
+  await progress.waitFor({ state: "attached" });
+  await keep(page, "contact-sheet-progress");
+  const saved = await saving;
+  assert.match(saved.suggestedFilename(), /^figure-\w+-sheet\.png$/);
+  const bytes = readFileSync(await saved.path());
+  writeFileSync(`${OUT}${BACKEND}-contact-sheet-saved.png`, bytes);
+  assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [LARGE.width, LARGE.height]);
+
+  await save.waitFor({ state: "attached" });
+  await press("Save contact sheet");
+  await page.getByRole("button", { name: "Cancel the contact sheet" }).waitFor({ state: "attached" });
+  await press("Cancel the contact sheet");
+  await save.waitFor({ state: "attached" });
+  await page.keyboard.press("Escape");
 });
 
 test("a print that the browser begins has the view without the panels, and the panels are there again", { fine: true }, async (page) => {

@@ -9,17 +9,17 @@ import { BACKEND, OUT } from "./harness.js";
 /** What both backends must come to. */
 const GOLDEN = fileURLToPath(new URL("golden/", import.meta.url));
 
-/** A picture of the view without the interface, with the options of `bindpose.snapshot`: the PNG's bytes. */
-async function png(page, options) {
-  const { type, base64 } = await page.evaluate(async (options) => {
-    const png = await globalThis.bindpose.snapshot(options);
+/** What a call of `bindpose` gives that resolves with a PNG: its bytes. */
+async function png(page, call, options) {
+  const { type, base64 } = await page.evaluate(async ([call, options]) => {
+    const png = await globalThis.bindpose[call](options);
     const reader = new FileReader();
     const address = await new Promise((done) => {
       reader.onload = () => done(reader.result);
       reader.readAsDataURL(png);
     });
     return { type: png.type, base64: address.split(",")[1] };
-  }, options);
+  }, [call, options]);
   assert.equal(type, "image/png");
   return Buffer.from(base64, "base64");
 }
@@ -51,12 +51,15 @@ export async function decoded(page, png) {
   return { ...rest, pixels: Buffer.from(pixels, "base64") };
 }
 
-/** A picture of the view without the interface: its PNG and the hash of that, and its pixels. */
-export async function picture(page, options = {}) {
-  const bytes = await png(page, { width: 320, height: 200, ...options });
+/** A picture of the view without the interface, with the options of `bindpose.snapshot`: its PNG and the hash of that, and its pixels. */
+export async function picture(page, options = {}, call = "snapshot") {
+  const bytes = await png(page, call, { width: 320, height: 200, ...options });
   const digest = createHash("sha256").update(bytes).digest("hex");
   return { png: bytes, digest, ...(await decoded(page, bytes)) };
 }
+
+/** The same of a contact sheet. */
+export const contactSheet = (page, options) => picture(page, options, "contactSheet");
 
 /**
  * The part of the pixels, from 0 to 1, that differ by more than `tolerance` of 255 in any channel. Of the columns between

@@ -65,7 +65,8 @@ fn json_has_an_object_for_each_file() {
             "subject": null,
             "count": 1,
             "places": [{"line": 34, "column": 17}],
-            "help": "An index must name a row that is there; a count must not be negative.",
+            "help": "An index must name a row that is there; a count must not be negative. Count from 0, and write counts and \
+                     indices of the same list as whole numbers.",
         }], "book": null},
     ]);
     assert_eq!(run.json(), expected);
@@ -75,7 +76,9 @@ fn json_has_an_object_for_each_file() {
 fn a_code_is_explained() {
     let run = run(["check", "--explain", "weights-not-normalized"]);
     let expected = "warning[weights-not-normalized]: The blend weights of a vertex do not sum to 1; normalised.\n\
-                    The books' shaders give the fourth bone whatever is left to 1, so the vertex may stand elsewhere there.\n";
+                    The books' shaders give the fourth bone whatever is left to 1, so the vertex may stand elsewhere there.\n\
+                    Here: The weights are normalised.\n\
+                    To mend it: Keep the four greatest weights, and divide them by their sum.\n";
     assert_eq!((run.code, run.out.as_str(), run.err.as_str()), (Some(0), expected, ""));
 }
 
@@ -519,8 +522,14 @@ fn maps_are_looked_for_where_a_folder_is_given() {
     );
     let limits = found[0]["book"]["d3d12"]["limits"].as_array().expect("a list");
     assert!(limits.iter().any(|limit| limit["code"] == "map-missing"), "{limits:?}");
-    let absent = run(["check", "--textures", "no/such/folder", &file]);
-    assert_eq!(absent.code, Some(2), "{absent:?}");
+    // Folders are walked once, however many files are read.
+    let absent = run(["check", "--textures", "no/such/folder", &file, &file]);
+    let line = "error: no/such/folder cannot be read: ";
+    assert!(
+        absent.err.starts_with(line) && absent.err.lines().count() == 1,
+        "{absent:?}"
+    );
+    assert_eq!((absent.code, absent.out.as_str()), (Some(2), ""));
 }
 
 #[test]

@@ -2,11 +2,14 @@
 
 mod appearance;
 mod check;
+mod codes;
+mod folders;
 mod info;
 mod pipe;
 mod pose;
 mod program;
 mod render;
+mod series;
 #[path = "../common/shared.rs"]
 mod shared;
 #[path = "../core/textbook.rs"]

@@ -7,7 +7,7 @@ use image::RgbaImage;
 use crate::program::{FIGURE, Run, bindpose, fixture, run, run_command, scratch, shared};
 
 /// Draws, and gives the picture with what was printed.
-fn draw(name: &str, file: &str, arguments: &[&str]) -> (RgbaImage, String) {
+pub(crate) fn draw(name: &str, file: &str, arguments: &[&str]) -> (RgbaImage, String) {
     let path = scratch(name);
     let path = path.to_str().expect("UTF-8");
     let printed = run(["render", file, "-o", path].iter().chain(arguments)).fine();
@@ -16,7 +16,7 @@ fn draw(name: &str, file: &str, arguments: &[&str]) -> (RgbaImage, String) {
 }
 
 /// Share of the pixels in which some channel differs by more than `tolerance`.
-fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) -> f64 {
+pub(crate) fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
     let differs = a
         .pixels()
@@ -26,7 +26,7 @@ fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) -> f64 {
 }
 
 /// Columns and rows that hold something, of a picture with nothing behind: left, right, top, bottom.
-fn extent(picture: &RgbaImage) -> Option<[u32; 4]> {
+pub(crate) fn extent(picture: &RgbaImage) -> Option<[u32; 4]> {
     let covered = picture.enumerate_pixels().filter(|(_, _, pixel)| pixel.0[3] > 127);
     covered.fold(None, |extent, (x, y, _)| {
         let [left, right, top, bottom] = extent.unwrap_or([x, x, y, y]);

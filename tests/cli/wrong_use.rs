@@ -7,12 +7,13 @@ use crate::program::{FIGURE, fixture, run, scratch};
 #[test]
 fn wrong_use_is_told_apart_from_bad_files() {
     let file = fixture("good/bones_child_first.m3d");
+    let still = fixture("good/d3d11_static.m3d");
     for (arguments, told) in [
         (vec![], "Usage: bindpose <COMMAND>"),
         (vec!["animate", &file], "unrecognized subcommand 'animate'"),
         (vec!["info"], "<FILE>"),
         (vec!["check"], "<PATH>..."),
-        (vec!["render", &file], "--output <PNG>"),
+        (vec!["render", &file], "--output <PATH>"),
         (vec!["info", &file, "--yaml"], "unexpected argument '--yaml'"),
         (vec!["pose", &file, "--time", "soon"], "a time is a number of seconds"),
         (vec!["pose", &file, "--time", "inf"], "a time is a number of seconds"),
@@ -27,6 +28,83 @@ fn wrong_use_is_told_apart_from_bad_files() {
         (vec!["render", &file, "-o", "x.png", "--crowd", "1001"], "1..=1000"),
         (vec!["render", &file, "-o", "x.png", "--crowd", "0"], "1..=1000"),
         (vec!["render", &file, "-o", "x.png", "--seed", "3"], "--crowd <N>"),
+        (vec!["render", &file, "-o", "dir", "--frames", "0"], "1..=100000"),
+        (vec!["render", &file, "-o", "dir", "--turntable", "0"], "1..=100000"),
+        (
+            vec!["render", &file, "-o", "dir", "--frames", "2", "--fps", "3"],
+            "'--frames <N>' cannot be used with '--fps <F>'",
+        ),
+        (
+            vec!["render", &file, "-o", "dir", "--frames", "2", "--time", "0"],
+            "'--frames <N>' cannot be used with '--time <SECS>'",
+        ),
+        (
+            vec!["render", &file, "-o", "dir", "--fps", "2", "--time", "0"],
+            "'--fps <F>' cannot be used with '--time <SECS>'",
+        ),
+        (
+            vec!["render", &file, "-o", "dir", "--fps", "0"],
+            "a number of pictures a second above 0",
+        ),
+        (vec!["render", &file, "-o", "dir", "--fps", "1e9"], "--fps makes "),
+        (
+            vec!["render", &file, "-o", "x.png", "--frames", "2"],
+            "error: several pictures need a folder, and -o x.png names a picture; --sheet puts them on one",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--sheet", "4"],
+            "columns and rows of pictures, such as 4x3",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--sheet", "2x2", "--time", "0"],
+            "error: --sheet shows the whole clip, and --time one moment of it; together they need --turntable",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--sheet", "2x2", "--frames", "5"],
+            "error: 5 pictures have no room on a sheet of 2x2",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--sheet", "2x2", "--turntable", "5"],
+            "error: 5 pictures have no room on a sheet of 2x2",
+        ),
+        (
+            vec!["render", &file, "-o", "x.png", "--sheet", "9x9", "--size", "90x90"],
+            "error: a sheet of 90 × 90 pixels has no room for 9 × 9 pictures of 8 × 8 pixels",
+        ),
+        (
+            vec![
+                "render",
+                &file,
+                "-o",
+                "x.png",
+                "--sheet",
+                "2x2",
+                "--size",
+                "99999x99999",
+            ],
+            "error: a sheet of 99999 × 99999 pixels is too large: at most 268435456 pixels in all",
+        ),
+        (vec!["render", &file, "-o", "x.png", "--ghosts", "33"], "1..=32"),
+        (
+            vec!["render", &file, "-o", "x.png", "--ghost-step", "3"],
+            "--ghosts <N>",
+        ),
+        (
+            vec!["render", &still, "-o", "dir", "--frames", "2"],
+            "error: --frames needs a clip, and ",
+        ),
+        (
+            vec!["render", &still, "-o", "dir", "--fps", "2"],
+            "error: --fps needs a clip, and ",
+        ),
+        (
+            vec!["render", &still, "-o", "x.png", "--sheet", "2x2"],
+            "error: --sheet without --turntable needs a clip, and ",
+        ),
+        (
+            vec!["render", &still, "-o", "x.png", "--ghosts", "2"],
+            "error: --ghosts needs a clip, and ",
+        ),
         (
             vec!["render", &file, "-o", "x.png", "--view", "inside"],
             "three-quarter",

@@ -1,6 +1,5 @@
 //! Tests of `check`, but for the books' programs.
 
-mod fixtures;
 mod many;
 mod mesh;
 mod real_files;

@@ -18,12 +18,16 @@ fn names_are_kebab_case_and_texts_are_sentences() {
         name,
         sentence,
         explanation,
+        handling,
+        mending,
         ..
     } in codes::all()
     {
         let is_kebab = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'-';
         assert!(name.bytes().all(is_kebab), "{name}");
-        assert!(is_sentence(sentence) && is_sentence(explanation), "{name}");
+        for text in [sentence, explanation, handling, mending] {
+            assert!(is_sentence(text), "{name}: {text}");
+        }
     }
 }
 

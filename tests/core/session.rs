@@ -19,6 +19,7 @@ mod picking;
 mod playing;
 mod random;
 mod replay;
+mod series;
 mod sky;
 mod slowness;
 mod submeshes;

@@ -334,12 +334,15 @@ fn the_search_looks_in_words_and_codes_and_esc_clears_it() {
 }
 
 #[test]
-fn an_open_row_says_how_to_mend_it() {
+fn an_open_row_says_how_to_mend_it_and_leads_to_the_page_of_codes() {
     let mut window = opened();
     let code = bindpose::diagnostic::codes::named("offset-not-affine").expect("it is in the table");
-    assert!(!window.shows(code.explanation));
+    assert!(!window.shows(&code.help()));
     window.click(OF_BONE);
-    assert!(window.shows(code.explanation) && shows_lines(&window));
+    assert!(window.shows(&code.help()) && shows_lines(&window));
+    window.click("offset-not-affine");
+    let last = window.harness.state().requests.last();
+    assert_eq!(last, Some(&Request::ExplainCode("offset-not-affine")));
 }
 
 #[test]

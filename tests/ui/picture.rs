@@ -197,6 +197,25 @@ fn both_lights_and_what_is_chosen_about_them() {
 }
 
 #[test]
+fn what_is_saved_as_a_picture_and_as_a_contact_sheet() {
+    compare(
+        "wide-light-picture",
+        &draw_after(WIDE, Theme::Light, false, vec![], &["Picture"]),
+    );
+    // Nobody draws it here.
+    compare(
+        "phone-dark-sheet",
+        &draw_after(
+            PHONE,
+            Theme::Dark,
+            true,
+            vec![],
+            &["More", "Picture", "Scrolled: Save contact sheet", "Save contact sheet"],
+        ),
+    );
+}
+
+#[test]
 fn maps_that_are_missing_and_one_that_is_damaged() {
     let mut files = sample_with_its_maps();
     // As another model, so that the maps of the first do not stay.

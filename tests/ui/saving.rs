@@ -1,7 +1,8 @@
-//! Pictures as files: their size, their ground and their name.
+//! Pictures and contact sheets as files: their size, their ground and their name.
 
 use bindpose::session::{FileCommand, PlayCommand, Session};
-use bindpose::ui::{Request, picture_name};
+use bindpose::ui::{Request, SheetRequest, picture_name, sheet_name};
+use egui::accesskit::{Action, Role};
 use egui::{Event, Key, Modifiers};
 
 use crate::models::{self, moving, still};
@@ -75,6 +76,114 @@ fn the_name_says_model_clip_and_frame() {
     let odd = models::file("x.m3d", &models::skinned(&[("Run/../away: now?", 0.0, 31)]));
     assert_eq!(named(vec![odd]), "x-Run-..-away--now--15.png");
     assert_eq!(named(vec![]), "bindpose.png");
+}
+
+/// Types a number into the field of this name.
+fn type_into(window: &mut Window, field: &str, number: &str) {
+    window.click(field);
+    window.press(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text(number.to_owned()));
+    window.press(Modifiers::NONE, Key::Enter);
+}
+
+#[test]
+fn a_contact_sheet_is_asked_for_as_chosen() {
+    let mut window = open();
+    window.click("Save contact sheet");
+    let first = SheetRequest {
+        size: [1440, 900],
+        cells: [4, 3],
+        turntable: false,
+        transparent: false,
+    };
+    assert_eq!(pictures(&window), [Request::SaveSheet(first)]);
+
+    window.harness.state_mut().state.end_sheet();
+    window.pass_on();
+    type_into(&mut window, "Columns", "6");
+    type_into(&mut window, "Rows", "0");
+    window.click("Contact sheet of: Turntable");
+    window.click("Transparent ground");
+    window.click("Square");
+    window.click("Save contact sheet");
+    let second = SheetRequest {
+        size: [2048, 2048],
+        cells: [6, 1],
+        turntable: true,
+        transparent: true,
+    };
+    assert_eq!(pictures(&window).last(), Some(&Request::SaveSheet(second)));
+}
+
+#[test]
+fn a_contact_sheet_tells_how_far_it_is_and_is_cancelled() {
+    let mut window = open();
+    let tell = |window: &mut Window, done| {
+        let goes_on = window.harness.state_mut().state.show_sheet_progress([done, 12]);
+        window.pass_on();
+        goes_on
+    };
+    assert!(!tell(&mut window, 0), "nobody wants one");
+    window.click("Save contact sheet");
+    assert!(!window.shows("Save contact sheet"), "one at a time");
+    for done in [0, 5] {
+        assert!(tell(&mut window, done));
+        let node = window.node("Pictures drawn");
+        assert_eq!(node.role(), Role::ProgressIndicator);
+        assert_eq!(node.value(), Some(format!("{done} of 12")));
+        assert_eq!(
+            (node.numeric_value(), node.max_numeric_value()),
+            (Some(done as f64), Some(12.0))
+        );
+    }
+    // The popover may be shut and opened meanwhile.
+    window.press(Modifiers::NONE, Key::Escape);
+    assert!(!window.shows("Cancel the contact sheet"));
+    assert!(tell(&mut window, 6));
+    window.click("Picture");
+    window.click("Cancel the contact sheet");
+    assert!(!tell(&mut window, 7), "it ends before the next picture");
+    window.harness.state_mut().state.end_sheet();
+    window.pass_on();
+    assert!(window.shows("Save contact sheet"));
+    assert_eq!(pictures(&window).len(), 1);
+}
+
+#[test]
+fn the_keyboard_stays_on_the_button_while_it_changes() {
+    let mut window = open();
+    window.ask("Save contact sheet", Action::Focus, None);
+    window.press(Modifiers::NONE, Key::Enter);
+    assert_eq!(window.focused().as_deref(), Some("Cancel the contact sheet"));
+    window.harness.state_mut().state.end_sheet();
+    window.pass_on();
+    assert_eq!(window.focused().as_deref(), Some("Save contact sheet"));
+}
+
+#[test]
+fn a_model_without_a_clip_has_a_sheet_of_its_sides_and_no_model_has_none() {
+    let window_of = |files| {
+        let mut window = window(WIDE, files);
+        window.click("Picture");
+        window
+    };
+    let mut of_still = window_of(vec![still("a.m3d")]);
+    assert!(!of_still.shows("Contact sheet of: Clip"));
+    of_still.click("Save contact sheet");
+    assert_eq!(pictures(&of_still).len(), 1);
+    let empty = window_of(vec![]);
+    assert!(empty.shows("Save PNG (P)") && !empty.shows("Save contact sheet"));
+}
+
+#[test]
+fn a_sheet_is_named_by_model_and_clip() {
+    let named = |files| {
+        let mut session = Session::new(true);
+        session.apply(FileCommand::Add(files));
+        sheet_name(&session)
+    };
+    assert_eq!(named(vec![moving("in/soldier.m3d")]), "soldier-Bend-sheet.png");
+    assert_eq!(named(vec![still("a.m3d")]), "a-sheet.png");
 }
 
 #[test]

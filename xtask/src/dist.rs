@@ -1,6 +1,6 @@
 //! `cargo xtask dist`: the site as static files that a host may keep for ever.
 //!
-//! Each file but the page has a part of its content's hash in its name, and every reference to it is rewritten. A file
+//! Each file but the pages has a part of its content's hash in its name, and every reference to it is rewritten. A file
 //! is named after those it refers to, so a change below changes the names above it.
 
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use crate::failure::{Doing as _, Failure};
 use crate::site::Site;
 use crate::wasm::{self, Profile};
 
-/// The page's own address; it keeps its name.
+/// The viewer's page. Others lead back to it, so it comes last; pages keep their names.
 const PAGE: &str = "index.html";
 
 /// Files that are text and may refer to others.
@@ -112,7 +112,7 @@ impl Naming<'_> {
         let bytes = self.rewritten(address)?;
         self.open.pop();
         let name = match (address, address.rsplit_once('.')) {
-            (PAGE, _) | (_, None) => address.to_owned(),
+            (_, None | Some((_, "html"))) => address.to_owned(),
             (_, Some((stem, extension))) => format!("{stem}.{:016x}.{extension}", fnv1a(&bytes)),
         };
         self.names.insert(address.to_owned(), name.clone());
@@ -257,7 +257,7 @@ mod tests {
             .filter(|(name, _)| REFERRING.iter().any(|end| name.ends_with(end)))
         {
             let text = std::str::from_utf8(bytes).expect("text");
-            for gone in files.keys().filter(|address| *address != PAGE) {
+            for gone in files.keys().filter(|address| !address.ends_with(".html")) {
                 let (folder, file) = gone.rsplit_once('/').unwrap_or(("", gone));
                 assert!(!text.contains(&format!("/{file}\"")), "{name} still refers to {gone}");
                 // A bare name is a reference only to a neighbour; elsewhere it is a name to show.

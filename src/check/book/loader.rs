@@ -2,7 +2,8 @@
 //! Without bones the loader for static models is meant, which ends with the triangles.
 
 use super::demo::Book;
-use super::stream::{Row, Stream, Trouble};
+use super::row::Row;
+use super::stream::{Stream, Trouble};
 use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
 
 /// What a loader made of a file.

@@ -6,13 +6,16 @@
 mod demo;
 mod limits;
 mod loader;
+mod number;
+mod row;
 mod shows;
 mod stream;
 
 pub use demo::{Book, DEMO_CLIP, MOST_BONES};
 pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
-pub use stream::{Row, Trouble};
+pub use row::Row;
+pub use stream::Trouble;
 
 use crate::diagnostic::{Diagnostic, Position, codes};
 

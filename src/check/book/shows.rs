@@ -2,7 +2,7 @@
 
 use super::demo::{Book, DEMO_CLIP, MOST_BONES};
 use super::loader::{Counts, Reading};
-use super::stream::Row;
+use super::row::Row;
 
 /// What one sees of a file with which the demo does not end, in a sentence.
 pub(super) fn shows(reading: &Reading) -> String {

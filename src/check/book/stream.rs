@@ -5,61 +5,9 @@
 
 use std::fmt;
 
+use super::number::{Misfit, float_length, whole};
+use super::row::Row;
 use crate::diagnostic::Position;
-
-/// What the loader reads when something happens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Row {
-    /// A count of the header.
-    Header,
-    /// A material, by its index.
-    Material(u32),
-    /// A subset, by its index.
-    Subset(u32),
-    /// A vertex, by its index.
-    Vertex(u32),
-    /// A triangle, by its index.
-    Triangle(u32),
-    /// The offset of a bone.
-    Offset(u32),
-    /// The parent of a bone.
-    Parent(u32),
-    /// The name of a clip, by its index.
-    Clip(u32),
-    /// How many keys a bone has in a clip.
-    Bone {
-        /// Index of the clip.
-        clip: u32,
-        /// Number of the bone.
-        bone: u32,
-    },
-    /// A key of a bone in a clip.
-    Key {
-        /// Index of the clip.
-        clip: u32,
-        /// Number of the bone.
-        bone: u32,
-        /// Index of the key.
-        key: u32,
-    },
-}
-
-impl fmt::Display for Row {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Header => f.write_str("the header"),
-            Self::Material(index) => write!(f, "material {index}"),
-            Self::Subset(index) => write!(f, "subset {index}"),
-            Self::Vertex(index) => write!(f, "vertex {index}"),
-            Self::Triangle(index) => write!(f, "triangle {index}"),
-            Self::Offset(bone) => write!(f, "the offset of bone {bone}"),
-            Self::Parent(bone) => write!(f, "the parent of bone {bone}"),
-            Self::Clip(index) => write!(f, "clip {index}"),
-            Self::Bone { clip, bone } => write!(f, "bone {bone} of clip {clip}"),
-            Self::Key { clip, bone, key } => write!(f, "key {key} of bone {bone} in clip {clip}"),
-        }
-    }
-}
 
 /// A run of bytes without blanks, and where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -329,58 +277,8 @@ impl<'a> Stream<'a> {
     }
 }
 
-/// Why a number was not read.
-enum Misfit {
-    NoNumber,
-    OutOfRange,
-}
-
 fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t'..=b'\r')
-}
-
-fn digits(text: &[u8]) -> usize {
-    text.iter().take_while(|byte| byte.is_ascii_digit()).count()
-}
-
-/// How many bytes at the beginning are a decimal number: sign, digits with a point, exponent.
-fn float_length(word: &[u8]) -> Option<usize> {
-    let sign = usize::from(matches!(word.first(), Some(b'+' | b'-')));
-    let before = digits(&word[sign..]);
-    let mut end = sign + before;
-    let mut after = 0;
-    if word.get(end) == Some(&b'.') {
-        after = digits(&word[end + 1..]);
-        end += 1 + after;
-    }
-    if before + after == 0 {
-        return None;
-    }
-    if let Some(b'e' | b'E') = word.get(end) {
-        let sign = usize::from(matches!(word.get(end + 1), Some(b'+' | b'-')));
-        let exponent = digits(&word[end + 1 + sign..]);
-        if exponent > 0 {
-            end += 1 + sign + exponent;
-        }
-    }
-    Some(end)
-}
-
-/// The whole number at the beginning, and how many bytes it has.
-fn whole(word: &[u8]) -> Result<(usize, i64), Misfit> {
-    let sign = usize::from(matches!(word.first(), Some(b'+' | b'-')));
-    let length = digits(&word[sign..]);
-    if length == 0 {
-        return Err(Misfit::NoNumber);
-    }
-    let magnitude = word[sign..sign + length]
-        .iter()
-        .try_fold(0i64, |value, digit| {
-            value.checked_mul(10)?.checked_add(i64::from(digit - b'0'))
-        })
-        .ok_or(Misfit::OutOfRange)?;
-    let value = if word[0] == b'-' { -magnitude } else { magnitude };
-    Ok((sign + length, value))
 }
 
 #[cfg(test)]

@@ -49,12 +49,11 @@ impl Images {
         }
         let mut views = HashMap::new();
         let found: Vec<Found> = (0..root.images().len())
-            .map(
-                |index| match is_used[index].then(|| find(root, buffers, index, &mut views, diagnostics)) {
-                    Some(Found::Beside(path, _)) => Found::Beside(path.clone(), find_file(&path)),
-                    found => found.unwrap_or(Found::None),
-                },
-            )
+            .map(|index| match find(root, buffers, index, &mut views, diagnostics) {
+                _ if !is_used[index] => Found::None,
+                Found::Beside(path, _) => Found::Beside(path.clone(), find_file(&path)),
+                found => found,
+            })
             .collect();
         let wished = found.iter().map(|found| match found {
             Found::Inside { extension, stem, .. } => format!("{stem}.{extension}"),

@@ -386,7 +386,8 @@ impl Builder<'_> {
         // What joins two strips has no area.
         let has_area = |&[a, b, c]: &[u32; 3]| mode == TRIANGLES || (a != b && b != c && c != a);
         for [a, b, c] in triangles.filter(has_area) {
-            let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
+            // Fronts run against the clock in glTF, and with it in a model.
+            let corners = if is_mirrored { [a, b, c] } else { [a, c, b] };
             self.mesh.indices.extend(corners.map(|corner| start + corner));
         }
         let triangle_count = self.mesh.triangle_count() - triangle_start;

@@ -82,8 +82,10 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     gltf::check_asset(&root, diagnostics)?;
     let buffers = Buffers::new(&root, &container, find);
     let mut noted = Diagnostics::default();
-    gltf::note_broken_rules(&root, &mut noted);
     let read = model(&root, &buffers, &container, find, &mut noted);
+    if read.is_ok() {
+        gltf::note_broken_rules(&root, &mut noted);
+    }
     diagnostics.extend(noted.into_vec());
     let (model, images) = read?;
     // What the model needs of them was there.

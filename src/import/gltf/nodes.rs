@@ -17,8 +17,6 @@ pub(super) struct Nodes {
     pub(super) order: Vec<u32>,
     /// Relative to the parent, in parts.
     pub(super) local: Vec<LocalJoint>,
-    /// Whether parts cannot say what the node's matrix does.
-    pub(super) is_sheared: Vec<bool>,
     /// Relative to the model, with all that matrices say.
     pub(super) model_from_node: Vec<DAffine3>,
     /// In the default scene.
@@ -34,12 +32,8 @@ impl Nodes {
         let order = parents_first(nodes, &parents)?;
         let mut local = Vec::with_capacity(nodes.len());
         let mut exact = Vec::with_capacity(nodes.len());
-        let mut is_sheared = Vec::with_capacity(nodes.len());
         for (index, node) in nodes.iter().enumerate() {
             let (parts, matrix) = transform(index, node, diagnostics);
-            let recomposed = parts.parent_from_joint().as_daffine3();
-            let size = matrix.to_cols_array().into_iter().map(f64::abs).fold(1e-30, f64::max);
-            is_sheared.push(!matrix.abs_diff_eq(recomposed, 1e-4 * size));
             local.push(parts);
             exact.push(matrix);
         }
@@ -54,7 +48,6 @@ impl Nodes {
             parents,
             order,
             local,
-            is_sheared,
             model_from_node,
             in_scene,
         })

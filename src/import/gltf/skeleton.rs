@@ -305,7 +305,7 @@ pub(super) fn rig(
             on_nodes[mesh.node as usize] = Some(binding.bind_on(joint));
         }
     }
-    note(root, nodes, &order, uses, diagnostics);
+    note(root, nodes, uses, diagnostics);
     let extra = binding.parents[order.len()..].iter().flatten();
     let node_of = order.iter().chain(extra.map(|&joint| &order[joint as usize]));
     let names = node_of.map(|&node| root.nodes()[node as usize].name.clone().unwrap_or_default());
@@ -323,15 +323,7 @@ pub(super) fn rig(
     })
 }
 
-fn note(root: &Root, nodes: &Nodes, order: &[u32], uses: &[MeshUse], diagnostics: &mut Diagnostics) {
-    for &node in order.iter().filter(|&&node| nodes.is_sheared[node as usize]) {
-        let message = format!("The matrix of node {node} shears or flattens space, which a joint cannot; left out.");
-        diagnostics.add(
-            &codes::GLTF_MATRIX_SHEARED,
-            Place::pointer(format!("/nodes/{node}/matrix")),
-            message,
-        );
-    }
+fn note(root: &Root, nodes: &Nodes, uses: &[MeshUse], diagnostics: &mut Diagnostics) {
     for skin in uses.iter().filter_map(|mesh| mesh.skin) {
         let mut joints = root.skins()[skin].joints.iter();
         if let Some(outside) = joints.find(|node| !nodes.in_scene[node.0 as usize]) {

@@ -13,6 +13,10 @@ const UNIT_TOLERANCE: f32 = 1e-3;
 /// Thirty years: a time beyond it is no time, and its next neighbour could not be told from it.
 const MAX_TIME_SECS: f32 = 1e9;
 
+/// The dot product of two keys' quaternions below which the second lies on the other side. About 0 both sides are as near: there a bone
+/// turns by half a circle, and no sign is wrong. Here it turns by less than a third of one.
+const OTHER_SIDE: f32 = -0.5;
+
 /// All clips of a document for a skeleton.
 pub(super) fn clips_from_document(
     document: &Document,
@@ -61,6 +65,7 @@ struct Mended {
     not_finite: Tally,
     not_unit: Tally,
     zero_rotation: Tally,
+    other_side: Tally,
     empty: Tally,
 }
 
@@ -166,6 +171,13 @@ impl ClipReader<'_> {
             keys.1,
             "a rotation of length 0; taken as no rotation.",
         );
+        warn(
+            &codes::ROTATION_SIDE,
+            mended.other_side,
+            keys.0,
+            keys.1,
+            "a rotation with all signs turned against the key before; turned back.",
+        );
     }
 }
 
@@ -197,7 +209,13 @@ fn mended_keys(bone: u32, keys: &[Keyframe], mended: &mut Mended) -> Vec<(f32, L
         mended.unsorted.add(bone);
         sound.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
-    apart(bone, sound, mended)
+    let keys = apart(bone, sound, mended);
+    for two in keys.windows(2) {
+        if two[0].1.rotation.dot(two[1].1.rotation) < OTHER_SIDE {
+            mended.other_side.add(bone);
+        }
+    }
+    keys
 }
 
 /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are

@@ -4,15 +4,15 @@ use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::filter::color;
-use super::row::{INDENT, explanation, tell_fold};
-use super::state::{BookLines, FindingsState};
+use super::row::{INDENT, explanation, mending, tell_fold};
+use super::state::BookLines;
 use crate::check::book::{Limit, Verdict};
 use crate::diagnostic::{Severity, codes};
 use crate::session::{OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
-use crate::ui::state::UiState;
-use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{hint_beside, paint_elided, paint_fold_mark, pressed_row};
+use crate::ui::state::{Request, UiState};
+use crate::ui::theme::Tokens;
+use crate::ui::widgets::{hint_beside, paint_fold_mark, pressed_row};
 
 /// What a book's program does with a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,8 +96,8 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
 }
 
 /// A line for each book, and below it what one sees and why while it is unfolded.
-pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut FindingsState) {
-    for (verdict, lines) in session.verdicts().iter().zip(&mut state.books).rev() {
+pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState) {
+    for (verdict, lines) in session.verdicts().iter().zip(&mut state.findings.books).rev() {
         let response = line(ui, verdict, lines.is_some());
         if tell_fold(ui, &response, lines.is_some()) {
             *lines = lines.is_none().then(|| BookLines::of(open, verdict));
@@ -108,7 +108,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
                 bottom: 8,
                 ..Margin::ZERO
             });
-            frame.show(ui, |ui| details(ui, verdict, lines));
+            frame.show(ui, |ui| details(ui, verdict, lines, &mut state.requests));
         }
     }
 }
@@ -204,7 +204,7 @@ fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
 }
 
 /// What happens, what one sees, the lines of the file, and the limits.
-fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines) {
+fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines, requests: &mut Vec<Request>) {
     let tokens = Tokens::of(ui);
     let words = |words: &str, color| RichText::new(words).size(12.5).color(color);
     if let Some(trouble) = &verdict.trouble {
@@ -220,20 +220,11 @@ fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines) {
     ui.label(words(&format!("One sees: {}", verdict.shows), color));
     if verdict.trouble.is_some() {
         ui.add_space(2.0);
-        explanation(ui, codes::BOOK_STOPS.name);
+        explanation(ui, codes::BOOK_STOPS.name, requests);
     }
     for limit in &verdict.limits {
         ui.add_space(8.0);
         ui.label(words(&limit.message, tokens.text));
-        explanation(ui, limit.code);
-        code_line(ui, limit.code);
+        mending(ui, limit.code, requests);
     }
-}
-
-fn code_line(ui: &mut Ui, code: &str) {
-    let size = vec2(ui.available_width(), 15.0);
-    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    let (at, color) = (rect.left_center(), Tokens::of(ui).muted);
-    paint_elided(ui.painter(), at, code, theme::mono(11.0), color, rect.width());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, code));
 }

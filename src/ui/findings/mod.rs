@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     let below = if at_end { 0.0 } else { control_size(ui) + 2.0 * GAP };
     let most = (ui.available_height() - below).max(LEAST_SCROLLED);
     scrolled("findings", most).auto_shrink([false, true]).show(ui, |ui| {
-        books::show(ui, session, open, &mut state.findings);
+        books::show(ui, session, open, state);
         rule(ui, MARGIN);
         found(ui, session, open, state, commands);
         if at_end {

@@ -7,10 +7,10 @@ use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, W
 use super::filter::color;
 use super::goal::Goal;
 use super::state::ShownDiagnostic;
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::session::{Command, OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
-use crate::ui::state::UiState;
+use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{RowList, paint_elided, paint_row_ground, pressed_row};
 use crate::ui::wording::grouped;
@@ -135,7 +135,7 @@ impl FindingRow<'_> {
     }
 
     /// The lines of the file, what belonged there, and how to mend it for good.
-    fn details(&self, ui: &mut Ui, state: &UiState) {
+    fn details(&self, ui: &mut Ui, state: &mut UiState) {
         let diagnostic = self.diagnostic;
         if let Some(lines) = state.findings.shown.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
             ui.add_space(4.0);
@@ -151,7 +151,7 @@ impl FindingRow<'_> {
         if let Some(expected) = expected {
             ui.label(RichText::new(expected).size(12.5).color(Tokens::of(ui).text));
         }
-        explanation(ui, diagnostic.code);
+        explanation(ui, diagnostic.code, &mut state.requests);
         ui.add_space(8.0);
     }
 
@@ -215,10 +215,25 @@ impl FindingRow<'_> {
 }
 
 /// What findings of a code mean, and how to mend them for good.
-pub(super) fn explanation(ui: &mut Ui, code: &str) {
-    if let Some(code) = codes::named(code) {
-        let words = RichText::new(code.explanation).size(12.5);
+pub(super) fn explanation(ui: &mut Ui, code: &'static str, requests: &mut Vec<Request>) {
+    let words = codes::named(code).map(Code::help);
+    about(ui, words.as_deref(), code, requests);
+}
+
+/// How to mend findings of a code for good.
+pub(super) fn mending(ui: &mut Ui, code: &'static str, requests: &mut Vec<Request>) {
+    about(ui, codes::named(code).map(|code| code.mending), code, requests);
+}
+
+/// Words about a code, and the code, which leads to its place on the page of codes.
+fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Vec<Request>) {
+    if let Some(words) = words {
+        let words = RichText::new(words.replace('`', "")).size(12.5);
         ui.label(words.color(Tokens::of(ui).muted));
+    }
+    let link = ui.link(RichText::new(code).font(theme::mono(11.0)));
+    if link.on_hover_text("What it means, with an example").clicked() {
+        requests.push(Request::ExplainCode(code));
     }
 }
 

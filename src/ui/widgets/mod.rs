@@ -18,6 +18,7 @@ pub(super) use control::{
 };
 pub(super) use number::{Slider, TypedValue, number_field};
 pub(super) use row::{
-    RowList, choice_row, closable_heading, heading_with_close, keyed_section_name, paint_ends, pressed_row, row_icon,
-    rule, section_name, section_with_action, section_with_labelled_action, selected_heading, sheet_handle, value_row,
+    RowList, choice_row, closable_heading, heading_with_close, keyed_section_name, paint_ends, pressed_row,
+    progress_bar, row_icon, rule, section_name, section_with_action, section_with_labelled_action, selected_heading,
+    sheet_handle, value_row,
 };

@@ -5,8 +5,8 @@ use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Stroke, Ui,
 use super::button::push_button;
 use super::color::paint_swatch;
 use super::control::{
-    MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_elided, paint_row_ground,
-    pressed_row_height, walked,
+    MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_elided, paint_ground,
+    paint_row_ground, pressed_row_height, walked,
 };
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -239,6 +239,27 @@ pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Opti
     focus_ring(ui, ground, &response);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response.clicked()
+}
+
+/// How much of a work is done, as a bar and as `5 of 12`.
+pub(crate) fn progress_bar(ui: &mut Ui, name: &str, size: Vec2, [done, count]: [usize; 2]) {
+    let tokens = Tokens::of(ui);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    paint_ground(ui, rect, tokens.field);
+    let fraction = done as f32 / count.max(1) as f32;
+    let filled = rect.with_max_x(rect.min.x + rect.width() * fraction.min(1.0));
+    ui.painter().rect_filled(filled, CONTROL_RADIUS, tokens.accent_ground);
+    let words = format!("{done} of {count}");
+    let font = FontId::proportional(12.5);
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, &words, font, tokens.text);
+    response.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, name));
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_min_numeric_value(0.0);
+        node.set_max_numeric_value(count as f64);
+        node.set_numeric_value(done as f64);
+        node.set_value(words);
+    });
 }
 
 /// A hairline across a panel, from border to border.

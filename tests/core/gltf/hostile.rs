@@ -107,7 +107,7 @@ fn a_long_data_uri_and_deep_nesting_are_met_without_trouble() {
     assert!(import(&file.text()).is_ok());
     for (open, close) in [("[", "]"), ("{\"a\":", "}")] {
         let deep = format!(
-            "{{\"asset\":{{\"version\":\"2.0\"}},\"extras\":{}1{}}}",
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"extras\":{}1{}}}]}}",
             open.repeat(200_000),
             close.repeat(200_000)
         );

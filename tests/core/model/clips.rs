@@ -140,7 +140,7 @@ fn rotations_are_made_unit_and_put_on_one_side() {
         "{}",
         rotations[1]
     );
-    assert_eq!(codes, ["rotation-not-unit", "rotation-zero"]);
+    assert_eq!(codes, ["rotation-not-unit", "rotation-zero", "rotation-side"]);
     for (code, words) in [
         (
             "rotation-not-unit",
@@ -369,4 +369,18 @@ fn a_clip_without_a_name_is_noted_and_shown_with_its_number() {
         (model.clips[0].name.as_str(), codes.as_slice()),
         ("clip 0", &["clip-unnamed"][..])
     );
+}
+
+#[test]
+fn a_quaternion_with_turned_signs_is_told_but_not_a_turn_of_more_than_half_a_circle() {
+    let quarter = turned(at_height(1.0, 0.0), std::f32::consts::FRAC_PI_2);
+    let other_side = Keyframe {
+        rotation: quarter.rotation.map(|part| -part),
+        ..quarter
+    };
+    let (model, codes) = model_of(&with_keys([at_height(0.0, 0.0), other_side]));
+    assert_eq!(codes, ["rotation-side"]);
+    assert!(model.clips[0].tracks[1].rotations()[1].w > 0.0);
+    let wide = turned(at_height(1.0, 0.0), 200_f32.to_radians());
+    assert_eq!(model_of(&with_keys([at_height(0.0, 0.0), wide])).1, [""; 0]);
 }

@@ -56,6 +56,7 @@ const CHANGES: &[fn(&mut Document)] = &[
     |arm| arm.clips[0].bones[1].keyframes[1].time_secs = 0.0,
     |arm| arm.clips[0].bones[1].keyframes[1].rotation = [0.0, 0.0, 0.0, 2.0],
     |arm| arm.clips[0].bones[1].keyframes[1].rotation = [0.0; 4],
+    |arm| arm.clips[0].bones[1].keyframes[1].rotation = arm.clips[0].bones[1].keyframes[1].rotation.map(|part| -part),
     |arm| arm.clips[0].bones[1].keyframes[0].translation = [20.0, 0.0, 0.0],
     |arm| arm.clips[0].name.clear(),
     |arm| {

@@ -33,8 +33,8 @@ fn each_step_does_one_thing_and_the_way_to_the_end_never_grows_once_the_model_is
     };
     let [before, after_model] = [told[0], told[1]];
     assert_eq!(before.done, 0);
-    // The model, two images, the end of the images, the sky.
-    assert_eq!(after_model, Progress { done: 1, total: 5 });
+    // The model, two images, the end of the images, the books' verdicts, the sky.
+    assert_eq!(after_model, Progress { done: 1, total: 6 });
     assert!(
         told[1..]
             .windows(2)

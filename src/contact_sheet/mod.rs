@@ -1,0 +1,273 @@
+//! A contact sheet: many pictures in rows on one, each with a label under it. Pixels only; nothing here draws a model.
+
+mod label;
+mod layout;
+
+pub use label::INTER_REGULAR;
+pub use layout::SheetError;
+
+use crate::image::{EncodeError, encode_png};
+use crate::scene::Theme;
+use label::Labels;
+use layout::{Layout, Place};
+
+/// sRGB.
+type Ink = [u8; 3];
+
+/// Colours of a sheet: the ground between the pictures, the first part of a label, the others.
+struct Inks {
+    ground: Ink,
+    text: Ink,
+    muted: Ink,
+}
+
+impl Inks {
+    fn of(theme: Theme) -> Self {
+        match theme {
+            Theme::Dark => Self {
+                ground: [0x18, 0x1b, 0x21],
+                text: [0xe7, 0xea, 0xf0],
+                muted: [0x98, 0xa1, 0xb0],
+            },
+            Theme::Light => Self {
+                ground: [0xfc, 0xfd, 0xfe],
+                text: [0x1b, 0x20, 0x29],
+                muted: [0x5b, 0x65, 0x74],
+            },
+        }
+    }
+}
+
+/// A sheet that is being filled.
+pub struct ContactSheet {
+    layout: Layout,
+    inks: Inks,
+    labels: Labels,
+    /// RGBA, sRGB, straight alpha, rows from the top.
+    pixels: Vec<u8>,
+    /// With the places that they are for.
+    captions: Vec<(usize, Vec<String>)>,
+}
+
+impl ContactSheet {
+    /// Without pictures, of a size in pixels, for so many columns and rows of pictures. A transparent one has no ground.
+    ///
+    /// # Errors
+    /// When it has too many pixels, or too few for so many pictures.
+    pub fn new(size: [u32; 2], cells: [u32; 2], theme: Theme, transparent: bool) -> Result<Self, SheetError> {
+        let layout = Layout::new(size, cells)?;
+        let inks = Inks::of(theme);
+        let [red, green, blue] = inks.ground;
+        let ground = if transparent { [0; 4] } else { [red, green, blue, 255] };
+        Ok(Self {
+            pixels: ground.repeat(layout.pixel_count()),
+            labels: Labels::new(layout.text_size()),
+            layout,
+            inks,
+            captions: Vec::new(),
+        })
+    }
+
+    /// Width and height of each picture, pixels.
+    pub fn cell_size(&self) -> [u32; 2] {
+        self.layout.cell_size()
+    }
+
+    /// Sets a picture of [`ContactSheet::cell_size`] into a place, counted from 0 along the rows, with a label for it. A place that is not
+    /// there is ignored.
+    ///
+    /// `pixels` are RGBA, sRGB, straight alpha, rows from the top without padding.
+    pub fn place(&mut self, index: usize, pixels: &[u8], caption: Vec<String>) {
+        let Some((picture, _)) = self.layout.places(index) else {
+            return;
+        };
+        let row_bytes = picture.size[0] as usize * 4;
+        for (row, from) in (picture.at[1]..)
+            .zip(pixels.chunks_exact(row_bytes))
+            .take(picture.size[1] as usize)
+        {
+            let start = self.layout.pixel_index([picture.at[0], row]) * 4;
+            self.pixels[start..start + row_bytes].copy_from_slice(from);
+        }
+        self.captions.push((index, caption));
+    }
+
+    /// Writes the labels: the first part at the left end, the others at the right end. Where one label lacks room for them, all go without
+    /// their last parts.
+    fn write_captions(&mut self) {
+        let captions = std::mem::take(&mut self.captions);
+        let most = captions.iter().map(|(_, caption)| caption.len()).max().unwrap_or(0);
+        let fits = |parts: &usize| captions.iter().all(|(_, caption)| self.fits(caption, *parts));
+        let Some(parts) = (1..=most).rev().find(fits) else {
+            return;
+        };
+        for (index, caption) in &captions {
+            let (Some((_, label)), Some((first, others))) = (self.layout.places(*index), ends(caption, parts)) else {
+                continue;
+            };
+            self.write(label, 0.0, first, self.inks.text);
+            let left = label.size[0] as f32 - self.labels.width(&others);
+            self.write(label, left, &others, self.inks.muted);
+        }
+    }
+
+    /// Whether a label has room for so many parts.
+    fn fits(&self, caption: &[String], parts: usize) -> bool {
+        let Some((first, others)) = ends(caption, parts) else {
+            return true;
+        };
+        let gap = if others.is_empty() {
+            0.0
+        } else {
+            2.0 * self.labels.size()
+        };
+        self.labels.width(first) + gap + self.labels.width(&others) <= self.layout.cell_size()[0] as f32
+    }
+
+    /// Writes text into a place, beginning so far from its left end.
+    fn write(&mut self, place: Place, left: f32, text: &str, [red, green, blue]: Ink) {
+        let coverage = self.labels.coverage(text, left, place.size);
+        let rows = coverage.chunks_exact(place.size[0] as usize);
+        for (row, covered) in (place.at[1]..).zip(rows) {
+            let start = self.layout.pixel_index([place.at[0], row]) * 4;
+            let pixels = self.pixels[start..].chunks_exact_mut(4);
+            for (pixel, &covered) in pixels.zip(covered) {
+                blend(pixel, [red, green, blue], covered);
+            }
+        }
+    }
+
+    /// The bytes of a PNG file.
+    ///
+    /// # Errors
+    /// When it cannot be encoded.
+    pub fn into_png(mut self) -> Result<Vec<u8>, EncodeError> {
+        self.write_captions();
+        let [width, height] = self.layout.size();
+        encode_png(&self.pixels, width, height)
+    }
+}
+
+/// What stands at both ends of a label of at most so many parts.
+fn ends(caption: &[String], parts: usize) -> Option<(&String, String)> {
+    let (first, others) = caption[..parts.min(caption.len())].split_first()?;
+    Some((first, others.join(" · ")))
+}
+
+/// Puts an ink over a pixel with straight alpha, as sRGB values like all text of the interface.
+fn blend(pixel: &mut [u8], ink: Ink, covered: u8) {
+    let [red, green, blue, alpha] = pixel else { return };
+    let over = f32::from(covered) / 255.0;
+    let under = f32::from(*alpha) / 255.0 * (1.0 - over);
+    let sum = over + under;
+    if sum <= 0.0 {
+        return;
+    }
+    for (channel, ink) in [red, green, blue].into_iter().zip(ink) {
+        *channel = ((f32::from(ink) * over + f32::from(*channel) * under) / sum).round() as u8;
+    }
+    *alpha = (sum * 255.0).round() as u8;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: [u32; 2] = [400, 300];
+
+    fn sheet(transparent: bool) -> ContactSheet {
+        ContactSheet::new(SIZE, [2, 2], Theme::Dark, transparent).expect("has room")
+    }
+
+    fn red(size: [u32; 2]) -> Vec<u8> {
+        [255, 0, 0, 255].repeat((size[0] * size[1]) as usize)
+    }
+
+    /// Pixels below `from` rows of the sheet that are as bright as text.
+    fn bright(sheet: &ContactSheet, columns: std::ops::Range<u32>, rows: std::ops::Range<u32>) -> usize {
+        let at = |x, y| &sheet.pixels[sheet.layout.pixel_index([x, y]) * 4..];
+        let pixels = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+        pixels.filter(|&(x, y)| at(x, y)[2] > 100).count()
+    }
+
+    #[test]
+    fn a_picture_fills_its_place_and_its_label_stands_under_it() {
+        let mut sheet = sheet(false);
+        let caption = ["0.500 s", "frame 15"].map(str::to_owned);
+        sheet.place(3, &red(sheet.cell_size()), caption.to_vec());
+        sheet.write_captions();
+        let (picture, label) = sheet.layout.places(3).expect("the last of four");
+        let reds = sheet.pixels.chunks_exact(4).filter(|pixel| pixel[..3] == [255, 0, 0]);
+        assert_eq!(reds.count() as u32, picture.size[0] * picture.size[1]);
+        let ([left, top], [width, height]) = (label.at, label.size);
+        assert_eq!(top, picture.at[1] + picture.size[1]);
+        let middle = left + width / 2;
+        assert!(bright(&sheet, left..middle, top..top + height) > 30, "the time");
+        assert!(
+            bright(&sheet, middle..left + width, top..top + height) > 30,
+            "the frame"
+        );
+        assert_eq!(bright(&sheet, 0..SIZE[0], 0..picture.at[1]), 0, "nothing else");
+    }
+
+    #[test]
+    fn labels_without_room_lose_their_last_parts_together() {
+        let captions = [&["0.500 s", "frame 1"][..], &["0.500 s", "frame 1", "a turn"]];
+        let captions = captions.map(|parts| parts.iter().map(|&part| part.to_owned()).collect::<Vec<_>>());
+        // How many pixels of text are in the right half of each label, and in all of it.
+        let written = |size: [u32; 2]| {
+            let mut sheet = ContactSheet::new(size, [2, 1], Theme::Dark, false).expect("has room");
+            let black = vec![0; red(sheet.cell_size()).len()];
+            for (index, caption) in captions.iter().enumerate() {
+                sheet.place(index, &black, caption.clone());
+            }
+            sheet.write_captions();
+            [0, 1].map(|index| {
+                let (_, label) = sheet.layout.places(index).expect("is there");
+                let ([left, top], [width, height]) = (label.at, label.size);
+                let count = |columns| bright(&sheet, columns, top..top + height);
+                [count(left + width / 2..left + width), count(left..left + width)]
+            })
+        };
+        let [one, other] = written([400, 150]);
+        assert!(other[0] > one[0], "room for all: {one:?} {other:?}");
+        let [one, other] = written([220, 100]);
+        assert!(one[0] > 0 && one == other, "without the turn: {one:?} {other:?}");
+        let [one, other] = written([120, 100]);
+        assert!(one[0] < one[1] && one == other, "the time alone: {one:?} {other:?}");
+        assert_eq!(written([60, 100]), [[0, 0]; 2], "nothing");
+    }
+
+    #[test]
+    fn without_ground_there_is_nothing_but_pictures_and_labels() {
+        let mut sheet = sheet(true);
+        assert!(sheet.pixels.chunks_exact(4).all(|pixel| pixel[3] == 0));
+        sheet.place(0, &vec![0; red(sheet.cell_size()).len()], vec!["1.000 s".to_owned()]);
+        sheet.write_captions();
+        let opaque = sheet.pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0);
+        let inks: Vec<_> = opaque.map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+        assert!(inks.len() > 30 && inks.iter().all(|&ink| ink == sheet.inks.text));
+    }
+
+    #[test]
+    fn ink_covers_what_is_under_it() {
+        for (under, covered, expected) in [
+            ([0, 0, 0, 255], 255, [200, 100, 0, 255]),
+            ([0, 0, 0, 255], 0, [0, 0, 0, 255]),
+            ([100, 100, 100, 255], 128, [150, 100, 50, 255]),
+            ([9, 9, 9, 0], 128, [200, 100, 0, 128]),
+            ([9, 9, 9, 0], 0, [9, 9, 9, 0]),
+        ] {
+            let mut pixel = under;
+            blend(&mut pixel, [200, 100, 0], covered);
+            assert_eq!(pixel, expected, "{under:?} {covered}");
+        }
+    }
+
+    #[test]
+    fn the_file_has_the_size_of_the_sheet() -> Result<(), Box<dyn std::error::Error>> {
+        let read = image::load_from_memory(&sheet(false).into_png()?)?;
+        assert_eq!([read.width(), read.height()], SIZE);
+        Ok(())
+    }
+}
