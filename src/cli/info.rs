@@ -12,10 +12,9 @@ use super::text::{Plain, column_width, counted, grouped};
 use super::textures::{Folders, MapState, NamedMap, Textures, Wanted, by_name, named_maps};
 use crate::anim::animated_bounds;
 use crate::diagnostic::{Diagnostic, Severity, codes};
-use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::summary::{self, Bounds, Finding};
-use crate::session::{FileFormat, Maps, OpenModel};
+use crate::session::{Maps, OpenModel};
 
 /// Print what is in a model.
 #[derive(Debug, clap::Args)]
@@ -163,13 +162,7 @@ fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
 }
 
 fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {
-    let dialect = match open.format {
-        FileFormat::M3d(Dialect::D3d12) => "D3D12 book",
-        FileFormat::M3d(Dialect::D3d11) => "D3D11 book",
-        FileFormat::M3d(Dialect::Imm) => "imm exporter",
-        FileFormat::Glb => "GLB",
-        FileFormat::Gltf => "glTF",
-    };
+    let dialect = open.format.label();
     let hand = match open.model.handedness {
         Handedness::Left => "left-handed",
         Handedness::Right => "right-handed",

@@ -528,7 +528,7 @@ table! {
             "Export triangles.";
         GLTF_NORMALS_ABSENT = "gltf-normals-absent", Note,
             "A part of a mesh has no normals; smooth ones were computed.",
-            "glTF asks for flat triangles there, which would need vertices of their own.",
+            "The format asks for flat triangles there, which would need vertices of their own.",
             "The mean of the triangles around each vertex is taken.",
             "Export normals.";
         GLTF_MORPH_ANIMATION_LEFT_OUT = "gltf-morph-animation-left-out", Warning,

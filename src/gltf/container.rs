@@ -23,12 +23,17 @@ pub struct Container<'a> {
     pub is_binary: bool,
 }
 
-pub(super) fn is_binary(bytes: &[u8]) -> bool {
+/// Whether bytes begin as a glTF file does: a `.glb` container, or JSON that says what its asset is.
+pub fn begins_like_gltf(bytes: &[u8]) -> bool {
+    is_binary(bytes) || (is_json(bytes) && memchr::memmem::find(bytes, b"\"asset\"").is_some())
+}
+
+fn is_binary(bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC)
 }
 
 /// Whether the first character that is no blank opens an object.
-pub(super) fn is_json(bytes: &[u8]) -> bool {
+fn is_json(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{')
 }

@@ -51,6 +51,17 @@ impl FileFormat {
         }
     }
 
+    /// The name that a person knows.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::M3d(Dialect::D3d12) => "D3D12 book",
+            Self::M3d(Dialect::D3d11) => "D3D11 book",
+            Self::M3d(Dialect::Imm) => "imm exporter",
+            Self::Glb => "GLB",
+            Self::Gltf => "glTF",
+        }
+    }
+
     /// Whether it is glTF, in either form.
     pub fn is_gltf(self) -> bool {
         matches!(self, Self::Glb | Self::Gltf)

@@ -13,7 +13,7 @@ mod tangents;
 pub use error::{ImportError, ImportErrorKind};
 pub use imported::{FileFormat, Imported, Picture, Refused};
 
-pub use crate::gltf::FindFile;
+use crate::gltf::FindFile;
 
 /// Whether a file begins as one of the formats does, whatever its name.
 ///

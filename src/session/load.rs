@@ -9,7 +9,7 @@ use super::sky::FoundSky;
 use super::verdicts::Verdicts;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
-use crate::import::{self, FindFile};
+use crate::import;
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +83,7 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
 ///
 /// # Errors
 /// As [`load`], and when a file that it needs is not there.
-pub fn load_beside(file: &File, find: FindFile<'_>) -> Result<OpenModel, Box<LoadError>> {
+pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<Arc<[u8]>>) -> Result<OpenModel, Box<LoadError>> {
     let imported = import::import_beside(&file.bytes, find);
     imported
         .map(|imported| OpenModel::new(file, imported))

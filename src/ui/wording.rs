@@ -1,8 +1,5 @@
 //! Numbers and names as people read them.
 
-use crate::format::Dialect;
-use crate::session::FileFormat;
-
 /// A whole number with thousands grouped by narrow spaces: `13 748`.
 pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
@@ -93,17 +90,6 @@ pub(super) fn capital(label: &str) -> String {
 /// `1 note`, `2 notes`.
 pub(super) fn counted(count: usize, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
-}
-
-/// The common name of a kind of file.
-pub(super) fn format_name(format: FileFormat) -> &'static str {
-    match format {
-        FileFormat::M3d(Dialect::D3d12) => "D3D12 book",
-        FileFormat::M3d(Dialect::D3d11) => "D3D11 book",
-        FileFormat::M3d(Dialect::Imm) => "imm exporter",
-        FileFormat::Glb => "GLB",
-        FileFormat::Gltf => "glTF",
-    }
 }
 
 /// `1 vertex`, `945 vertices`.

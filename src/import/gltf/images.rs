@@ -104,21 +104,23 @@ fn find(
 ) -> Found {
     let image = &root.images()[index];
     let pointer = format!("/images/{index}");
-    let mut not_read = |key: &str, why: String| {
+    let not_read = |diagnostics: &mut Diagnostics, key: &str, why: String| {
         let place = Place::pointer(format!("{pointer}{key}"));
-        diagnostics.add(
-            &codes::GLTF_IMAGE_NOT_READ,
-            place,
-            format!("Image {index} is not read: {why}."),
-        );
+        let message = format!("Image {index} is not read: {why}.");
+        diagnostics.add(&codes::GLTF_IMAGE_NOT_READ, place, message);
         Found::None
     };
+    // What a data URI says that it is.
+    let mut kind = "image/png";
     let (bytes, key) = match (&image.uri, image.buffer_view) {
-        (None, None) => return not_read("", "it has neither an address nor data".to_owned()),
+        (None, None) => return not_read(diagnostics, "", "it has neither an address nor data".to_owned()),
         (Some(uri), _) => match Uri::parse(uri) {
             Ok(Uri::Path(path)) => return Found::Beside(path, None),
-            Ok(Uri::Data { bytes, .. }) => (bytes, "/uri"),
-            Err(error) => return not_read("/uri", error.to_string()),
+            Ok(Uri::Data { media_type, bytes }) => {
+                kind = media_type;
+                (bytes, "/uri")
+            }
+            Err(error) => return not_read(diagnostics, "/uri", error.to_string()),
         },
         (None, Some(view)) => {
             if let Some(&other) = views.get(&view.0) {
@@ -127,12 +129,27 @@ fn find(
             views.insert(view.0, index);
             match buffers.view(view, &format!("{pointer}/bufferView")) {
                 Ok((bytes, _)) => (bytes.to_vec(), "/bufferView"),
-                Err(fault) => return not_read("/bufferView", fault.message.trim_end_matches('.').to_owned()),
+                Err(fault) => {
+                    return not_read(
+                        diagnostics,
+                        "/bufferView",
+                        fault.message.trim_end_matches('.').to_owned(),
+                    );
+                }
             }
         }
     };
-    let Some(extension) = extension_of(&bytes) else {
-        return not_read(key, "it is neither PNG nor JPEG".to_owned());
+    let extension = extension_of(&bytes);
+    if extension.is_some() && !["image/png", "image/jpeg"].contains(&kind) {
+        let message = format!("\"{kind}\" is no kind of picture that glTF has; it is read by its bytes.");
+        diagnostics.add(
+            &codes::GLTF_RULE_BROKEN,
+            Place::pointer(format!("{pointer}/uri")),
+            message,
+        );
+    }
+    let Some(extension) = extension else {
+        return not_read(diagnostics, key, "it is neither PNG nor JPEG".to_owned());
     };
     let name = image.name.as_deref().unwrap_or_default().replace(['/', '\\'], "_");
     let stem = match stem(name.trim()) {
