@@ -65,7 +65,7 @@ pub(super) struct NamedMap<'a> {
 pub(super) enum MapState<'a> {
     Found(&'a Path),
     Missing,
-    Unreadable(&'a Path, Diagnostic),
+    Unreadable(&'a Path, Box<Diagnostic>),
 }
 
 impl MapState<'_> {
@@ -159,13 +159,13 @@ impl Textures {
             let file = self.unopened.get(found.file)?;
             Some(MapState::Unreadable(
                 self.path(file),
-                self.reasons.get(found.file)?.clone(),
+                Box::new(self.reasons.get(found.file)?.clone()),
             ))
         };
         let mut all: Vec<NamedMap<'a>> = named_maps(materials).collect();
         for (map, (material, slot, _)) in all.iter_mut().zip(session::named_maps(materials)) {
             map.state = Some(match (maps.file(material, slot), maps.diagnostic(material, slot)) {
-                (Some(file), Some(diagnostic)) => MapState::Unreadable(self.path(file), diagnostic.clone()),
+                (Some(file), Some(diagnostic)) => MapState::Unreadable(self.path(file), Box::new(diagnostic.clone())),
                 (Some(file), None) => MapState::Found(self.path(file)),
                 (None, _) => unopened(material, slot).unwrap_or(MapState::Missing),
             });

@@ -226,16 +226,15 @@ impl<'a> Reader<'a> {
         }
         self.spend(sparse.count.0, &at)?;
         let indices = &sparse.indices;
-        let component = match Component::of(indices.component_type.0) {
-            Some(component @ (Component::U8 | Component::U16 | Component::U32)) => component,
-            _ => {
-                let message = format!("Indices are not of component type {}.", indices.component_type.0);
-                return Err(fault(
-                    &codes::GLTF_ACCESSOR_FORMAT,
-                    format!("{at}/indices/componentType"),
-                    message,
-                ));
-            }
+        let Some(component @ (Component::U8 | Component::U16 | Component::U32)) =
+            Component::of(indices.component_type.0)
+        else {
+            let message = format!("Indices are not of component type {}.", indices.component_type.0);
+            return Err(fault(
+                &codes::GLTF_ACCESSOR_FORMAT,
+                format!("{at}/indices/componentType"),
+                message,
+            ));
         };
         let offset = indices.byte_offset.unwrap_or_default().0;
         let places = self.range(

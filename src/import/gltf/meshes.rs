@@ -213,9 +213,11 @@ impl Builder<'_> {
                 Ok(())
             };
             moved("POSITION", &mut |vertex, step| {
-                add(&mut vertices.positions, vertex, step)
+                add(&mut vertices.positions, vertex, step);
             })?;
-            moved("NORMAL", &mut |vertex, step| add(&mut vertices.normals, vertex, step))?;
+            moved("NORMAL", &mut |vertex, step| {
+                add(&mut vertices.normals, vertex, step);
+            })?;
             moved("TANGENT", &mut |vertex, step| {
                 if let Some([x, y, z, _]) = vertices.tangents.get_mut(vertex) {
                     [*x, *y, *z] = (Vec3::new(*x, *y, *z) + step).to_array();

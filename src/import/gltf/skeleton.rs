@@ -521,12 +521,12 @@ impl Binding {
             }
         }
         let mut model_from_joint: Vec<DAffine3> = Vec::with_capacity(count);
-        for joint in 0..count {
+        for (joint, local) in local.iter().enumerate().take(count) {
             let model_from_parent =
                 self.parents[joint].map_or(DAffine3::IDENTITY, |parent| model_from_joint[parent as usize]);
             let placed = match self.joint_from_bind[joint] {
                 Some(joint_from_bind) if is_invertible(&joint_from_bind) => joint_from_bind.inverse(),
-                _ => model_from_parent * local[joint],
+                _ => model_from_parent * *local,
             };
             model_from_joint.push(placed);
             if self.joint_from_bind[joint].is_none() {
