@@ -9,7 +9,7 @@ pub(crate) struct Gltf {
 }
 
 impl Gltf {
-    pub(crate) fn new(json: Value) -> Self {
+    pub(crate) fn new(json: &Value) -> Self {
         let mut all = json!({ "asset": { "version": "2.0" }, "scene": 0, "accessors": [], "bufferViews": [] });
         for (key, value) in json.as_object().expect("an object") {
             all[key] = value.clone();

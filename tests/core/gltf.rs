@@ -23,8 +23,8 @@ use crate::gltf_files::Gltf;
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
 
 /// A triangle, on a node of its own; `attributes` are added to its position.
-fn triangle(document: Value, attributes: impl FnOnce(&mut Gltf) -> Value) -> Gltf {
-    let mut file = Gltf::new(json!({ "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }] }));
+fn triangle(document: &Value, attributes: impl FnOnce(&mut Gltf) -> Value) -> Gltf {
+    let mut file = Gltf::new(&json!({ "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }] }));
     for (key, value) in document.as_object().expect("an object") {
         file.json[key] = value.clone();
     }

@@ -10,7 +10,7 @@ use crate::gltf_files::glb;
 
 #[test]
 fn binary_text_and_text_with_its_data_beside_are_one_model() {
-    let file = triangle(json!({}), |_| json!({}));
+    let file = triangle(&json!({}), |_| json!({}));
     let beside = file.text_beside("some%20folder/data.bin");
     assert_eq!(files_beside(&beside), ["some folder/data.bin"]);
     assert_eq!(refused(&beside).code, "gltf-buffer-missing");
@@ -25,7 +25,7 @@ fn binary_text_and_text_with_its_data_beside_are_one_model() {
 
 #[test]
 fn a_finding_has_its_pointer_and_in_text_its_line_and_in_a_container_its_offset() {
-    let mut file = triangle(json!({}), |_| json!({}));
+    let mut file = triangle(&json!({}), |_| json!({}));
     file.json["meshes"][0]["primitives"][0]["indices"] = json!(7);
     let (text, binary) = (refused(&file.text()), refused(&file.glb()));
     for refused in [&text, &binary] {
@@ -79,7 +79,7 @@ fn what_a_container_has_too_much_is_left_out() {
 #[test]
 fn numbers_are_read_sparse_interleaved_normalised_and_of_8_and_16_bits() {
     // Two attributes in one view, step 20 bytes: three floats, then normalised bytes and shorts.
-    let mut file = triangle(json!({ "extensionsUsed": ["KHR_mesh_quantization"] }), |_| json!({}));
+    let mut file = triangle(&json!({ "extensionsUsed": ["KHR_mesh_quantization"] }), |_| json!({}));
     let mut bytes = Vec::new();
     for (index, corner) in CORNERS.iter().enumerate() {
         bytes.extend(corner.iter().flat_map(|number| number.to_le_bytes()));
@@ -111,10 +111,9 @@ fn numbers_are_read_sparse_interleaved_normalised_and_of_8_and_16_bits() {
     assert_eq!(mesh.tex_coords[0].to_array(), [1.0, -1.0]);
 
     // Positions as whole bytes, which KHR_mesh_quantization allows, and an accessor without a view, which is of zeros.
-    let mut file = triangle(
-        json!({ "extensionsRequired": ["KHR_mesh_quantization"] }),
-        |_| json!({}),
-    );
+    let mut file = triangle(&json!({ "extensionsRequired": ["KHR_mesh_quantization"] }), |_| {
+        json!({})
+    });
     let view = file.view(&[0, 0, 0, 0, 255, 3, 0, 0, 7, 0, 128, 0], Some(4));
     let position = file.accessor(json!({ "bufferView": view, "componentType": 5120, "count": 3, "type": "VEC3" }));
     let tex_coord = file.accessor(json!({ "componentType": 5126, "count": 3.0, "type": "VEC2" }));
@@ -135,14 +134,14 @@ fn extensions_that_a_model_needs_are_named_and_others_noted() {
         "ACME_teapots",
     ] {
         let file = triangle(
-            json!({ "extensionsUsed": [name], "extensionsRequired": [name] }),
+            &json!({ "extensionsUsed": [name], "extensionsRequired": [name] }),
             |_| json!({}),
         );
         let refused = refused(&file.glb());
         assert_eq!(refused.code, "gltf-extension-required");
         assert!(refused.message.contains(name), "{}", refused.message);
         assert_eq!(refused.pointer.as_deref(), Some("/extensionsRequired/0"));
-        let file = triangle(json!({ "extensionsUsed": [name] }), |_| json!({}));
+        let file = triangle(&json!({ "extensionsUsed": [name] }), |_| json!({}));
         let imported = read(&file);
         let noted = imported
             .diagnostics
@@ -151,7 +150,7 @@ fn extensions_that_a_model_needs_are_named_and_others_noted() {
         assert!(noted.expect("it is noted").message.contains(name));
     }
     for version in ["1.0", "3.0"] {
-        let file = triangle(json!({ "asset": { "version": version } }), |_| json!({}));
+        let file = triangle(&json!({ "asset": { "version": version } }), |_| json!({}));
         assert_eq!(refused(&file.text()).code, "gltf-version");
     }
 }

@@ -32,7 +32,7 @@ fn every_value_of_a_material_arrives() {
         "KHR_texture_transform",
     ];
     let file = triangle(
-        json!({
+        &json!({
             "extensionsUsed": extensions,
             "materials": [material, { "alphaMode": "BLEND" }],
             "meshes": [{ "primitives": [{ "material": 0 }, { "material": 1 }, {}] }],
@@ -97,7 +97,7 @@ fn a_books_material_comes_back_from_what_was_written_of_it() {
     let phong = json!({ "reflectance": "phong", "ambient": [0.1, 0.1, 0.1], "specular": [0.2, 0.2, 0.2], "specPower": 8.0,
         "reflectivity": [0.0, 0.0, 0.5], "diffuse": [1.0, 1.0, 1.0], "alphaClip": false, "diffuseMap": null, "normalMap": "n.dds" });
     let file = triangle(
-        json!({ "materials": [{ "extras": { "bindpose": book } }, { "extras": { "bindpose": phong } }, { "extras": 7 }],
+        &json!({ "materials": [{ "extras": { "bindpose": book } }, { "extras": { "bindpose": phong } }, { "extras": 7 }],
             "meshes": [{ "primitives": [{ "material": 0 }, { "material": 1 }, { "material": 2 }] }] }),
         |_| json!({}),
     );
@@ -141,7 +141,7 @@ fn pictures_inside_the_file_have_names_of_their_own() {
     let texture = |index: usize| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": index } } });
     let uri = format!("data:image/png;base64,{}", crate::gltf_files::base64(PNG));
     let mut file = triangle(
-        json!({
+        &json!({
             "materials": (0..5).map(texture).collect::<Vec<_>>(),
             "meshes": [{ "primitives": (0..5).map(|material| json!({ "material": material })).collect::<Vec<_>>() }],
             "textures": (0..5).map(|source| json!({ "source": source })).collect::<Vec<_>>(),

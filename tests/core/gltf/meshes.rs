@@ -9,7 +9,7 @@ use super::{CORNERS, assert_at, codes_of, posed, read, triangle};
 #[test]
 fn strips_fans_and_lists_wind_the_same_way_and_points_and_lines_are_left_out() {
     let mut file = triangle(
-        json!({ "meshes": [{ "primitives": [{}, { "mode": 5 }, { "mode": 6 }, { "mode": 0 }, { "mode": 2 }] }] }),
+        &json!({ "meshes": [{ "primitives": [{}, { "mode": 5 }, { "mode": 6 }, { "mode": 0 }, { "mode": 2 }] }] }),
         |_| json!({}),
     );
     let square = file.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
@@ -56,7 +56,7 @@ fn strips_fans_and_lists_wind_the_same_way_and_points_and_lines_are_left_out() {
 
 #[test]
 fn absent_normals_are_computed_and_told_and_absent_tangents_are_no_flaw() {
-    let imported = read(&triangle(json!({}), |_| json!({})));
+    let imported = read(&triangle(&json!({}), |_| json!({})));
     assert_eq!(imported.model.mesh.normals, [Vec3::Z; 3]);
     assert!(
         imported
@@ -77,7 +77,7 @@ fn a_static_mesh_stands_where_its_nodes_put_it_and_a_mirror_turns_its_winding() 
         { "mesh": 0, "matrix": [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 3, 0, 1] },
     ]);
     let file = triangle(
-        json!({ "nodes": nodes }),
+        &json!({ "nodes": nodes }),
         |file| json!({ "NORMAL": file.floats(&[[0.0, 0.0, 1.0]; 3]) }),
     );
     let imported = read(&file);
@@ -112,7 +112,7 @@ fn a_static_mesh_stands_where_its_nodes_put_it_and_a_mirror_turns_its_winding() 
 #[test]
 fn morph_targets_are_shown_with_the_weights_of_node_or_mesh() {
     let mut file = triangle(
-        json!({ "meshes": [{ "primitives": [{}], "weights": [0.5, 0.0] }] }),
+        &json!({ "meshes": [{ "primitives": [{}], "weights": [0.5, 0.0] }] }),
         |_| json!({}),
     );
     let target = file.floats(&[[0.0, 0.0, 2.0]; 3]);
@@ -131,7 +131,7 @@ fn morph_targets_are_shown_with_the_weights_of_node_or_mesh() {
 
 #[test]
 fn numbers_that_are_none_and_lists_that_do_not_fit_are_mended_and_told() {
-    let file = triangle(json!({}), |file| {
+    let file = triangle(&json!({}), |file| {
         json!({
             "NORMAL": file.floats(&[[0.0, 0.0, 1.0]; 3]),
             "TEXCOORD_0": file.floats(&[[f32::NAN, 0.0], [0.0, 1.0], [1.0, 1.0]]),

@@ -11,10 +11,10 @@ use crate::gltf_files::Gltf;
 /// A PNG of one pixel.
 const PIXEL: &[u8] = include_bytes!("../../../web/sample/visor_norm.png");
 
-fn textured(image: serde_json::Value) -> Gltf {
+fn textured(image: &serde_json::Value) -> Gltf {
     let material = json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } });
     triangle(
-        json!({ "materials": [material], "meshes": [{ "primitives": [{ "material": 0 }] }], "textures": [{ "source": 0 }], "images": [image] }),
+        &json!({ "materials": [material], "meshes": [{ "primitives": [{ "material": 0 }] }], "textures": [{ "source": 0 }], "images": [image] }),
         |file| json!({ "TEXCOORD_0": file.floats(&[[0.0; 2]; 3]) }),
     )
 }
@@ -28,7 +28,7 @@ fn opened(files: Vec<File>) -> Session {
 
 #[test]
 fn a_drop_of_text_data_and_picture_opens_as_one_model() {
-    let file = textured(json!({ "uri": "maps/skin.png" }));
+    let file = textured(&json!({ "uri": "maps/skin.png" }));
     let session = opened(vec![
         File::new("fox/data.bin", file.bin.clone()),
         File::new("fox/maps/skin.png", PIXEL),
@@ -56,7 +56,7 @@ fn a_drop_of_text_data_and_picture_opens_as_one_model() {
 
 #[test]
 fn a_missing_file_is_told_with_its_name_and_place() {
-    let file = triangle(json!({}), |_| json!({}));
+    let file = triangle(&json!({}), |_| json!({}));
     let mut session = Session::new(false);
     session.apply(FileCommand::Add(vec![File::new(
         "fox.gltf",
@@ -71,7 +71,7 @@ fn a_missing_file_is_told_with_its_name_and_place() {
 
 #[test]
 fn pictures_inside_a_file_are_maps_and_a_dropped_one_of_that_name_takes_over() {
-    let mut file = textured(json!({}));
+    let mut file = textured(&json!({}));
     let view = file.view(PIXEL, None);
     file.json["images"] = json!([{ "name": "skin", "bufferView": view, "mimeType": "image/png" }]);
     let mut session = opened(vec![File::new("fox.glb", file.glb())]);
@@ -92,7 +92,7 @@ fn without_a_clip_joints_are_at_rest_and_have_the_files_names() {
     let nodes = json!([{ "mesh": 0, "skin": 0 }, { "name": "Spine", "translation": [0.0, 3.0, 0.0], "children": [2] },
         { "name": "Head", "rotation": [0.0, 0.0, 1.0, 0.0] }]);
     let mut file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [1, 2] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [1, 2] }] }),
         |file| json!({ "JOINTS_0": file.shorts(&[[1, 0, 0, 0]; 3]), "WEIGHTS_0": file.floats(&[[1.0, 0.0, 0.0, 0.0]; 3]) }),
     );
     let matrices = file.floats(&[Affine3A::IDENTITY; 2].map(|matrix| glam::Mat4::from(matrix).to_cols_array()));

@@ -31,7 +31,7 @@ fn rig() -> Value {
 #[test]
 fn a_skin_hangs_on_its_joints_and_not_on_the_node_of_its_mesh() {
     let mut file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": rig(), "skins": [{ "joints": [2, 3] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": rig(), "skins": [{ "joints": [2, 3] }] }),
         weights,
     );
     let matrices = file.floats(&[moved(0.0, 0.0, 0.0), moved(0.0, -1.0, 0.0)]);
@@ -61,7 +61,7 @@ fn a_skin_hangs_on_its_joints_and_not_on_the_node_of_its_mesh() {
 #[test]
 fn without_inverse_bind_matrices_the_mesh_is_in_the_space_of_its_joints() {
     let file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": rig(), "skins": [{ "joints": [2, 3] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": rig(), "skins": [{ "joints": [2, 3] }] }),
         weights,
     );
     assert_at(
@@ -78,7 +78,7 @@ fn two_skins_on_the_same_joints_make_one_skeleton() {
     ]);
     let skins = json!([{ "joints": [2, 3] }, { "joints": [3, 2] }]);
     let mut file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1, 2] }], "nodes": nodes, "skins": skins }),
+        &json!({ "scenes": [{ "nodes": [0, 1, 2] }], "nodes": nodes, "skins": skins }),
         weights,
     );
     // The second mesh was modelled 5 to the right of the first, and its joints stand in the other order.
@@ -111,7 +111,7 @@ fn a_mesh_on_a_joint_follows_it_beside_a_skin() {
         .expect("a list")
         .push(json!({ "name": "Hat", "mesh": 1, "scale": [-1.0, 1.0, 1.0] }));
     let mut file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }], "meshes": [{ "primitives": [{}] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }], "meshes": [{ "primitives": [{}] }] }),
         weights,
     );
     let hat = file.floats(&super::CORNERS);
@@ -138,7 +138,7 @@ fn a_joint_that_flattens_space_is_no_reason_to_fail() {
     nodes[3]["scale"] = json!([0.0, 0.0, 0.0]);
     nodes[3]["mesh"] = json!(0);
     let file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
         weights,
     );
     assert_at(&posed(&read(&file).model, 0.0)[3..], &[[2.0, 2.0, 0.0]; 3]);
@@ -149,7 +149,7 @@ fn the_four_greatest_weights_are_kept_and_the_loss_is_told() {
     let nodes = json!([{ "mesh": 0, "skin": 0 }, {}, {}, {}, {}, {}, {}]);
     let skins = json!([{ "joints": [1, 2, 3, 4, 5, 6] }]);
     let file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1, 2, 3, 4, 5, 6] }], "nodes": nodes, "skins": skins }),
+        &json!({ "scenes": [{ "nodes": [0, 1, 2, 3, 4, 5, 6] }], "nodes": nodes, "skins": skins }),
         |file| {
             json!({
                 "JOINTS_0": file.shorts(&[[0, 1, 2, 3]; 3]),
@@ -186,7 +186,7 @@ fn bone_numbers_of_the_file_are_taken_where_all_joints_have_them() {
     nodes[2]["extras"] = json!({ "bindpose": { "bone": 0 } });
     nodes[3]["extras"] = json!({ "bindpose": { "bone": 1 } });
     let mut file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
         weights,
     );
     let name = |file: &Gltf| {
@@ -202,7 +202,7 @@ fn bone_numbers_of_the_file_are_taken_where_all_joints_have_them() {
 fn weights_for_joints_that_a_skin_lacks_are_refused_with_the_vertex() {
     let nodes = json!([{ "mesh": 0, "skin": 0 }, {}]);
     let file = triangle(
-        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [1] }] }),
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [1] }] }),
         weights,
     );
     let refused = refused(&file.glb());
