@@ -43,6 +43,7 @@ pub mod cli;
 pub mod contact_sheet;
 pub mod diagnostic;
 pub mod format;
+pub mod gltf;
 pub mod image;
 pub mod import;
 pub mod light;

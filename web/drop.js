@@ -1,7 +1,7 @@
 // Files and folders from the person: dropped on a viewer, or chosen in a dialog.
 
 /** What a model can use out of a folder; the rest of the folder is left where it is. */
-const USEFUL = /\.(m3d|a3d|dds|png|jpe?g|bmp|tga)$/i;
+const USEFUL = /\.(m3d|a3d|glb|gltf|bin|dds|png|jpe?g|bmp|tga)$/i;
 
 /** A folder with more than this in it was not meant for a viewer. */
 const MAX_ENTRIES = 20_000;

@@ -43,10 +43,11 @@ pub(super) fn write_diagnostic(
 
 /// `line:column: severity[code]: message`; without the numbers when there is no place.
 pub(super) fn worded_place(diagnostic: &Diagnostic) -> String {
-    let place = diagnostic
-        .position
-        .map(|position| format!("{}:{}: ", position.line, position.column))
-        .unwrap_or_default();
+    let place = match (diagnostic.position, diagnostic.place_in_file()) {
+        (Some(position), _) => format!("{}:{}: ", position.line, position.column),
+        (None, place) if place.is_empty() => place,
+        (None, place) => format!("{place}: "),
+    };
     format!(
         "{place}{}[{}]: {}",
         diagnostic.severity, diagnostic.code, diagnostic.message

@@ -15,7 +15,7 @@ use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::summary::{self, Bounds, Finding};
-use crate::session::{Maps, OpenModel};
+use crate::session::{FileFormat, Maps, OpenModel};
 
 /// Print what is in a model.
 #[derive(Debug, clap::Args)]
@@ -35,10 +35,13 @@ pub(super) struct Arguments {
 const JSON: &str = "\
 JSON: an object
   file              the path as given
-  dialect           \"d3d12\", \"d3d11\" or \"imm\"
+  dialect           \"d3d12\", \"d3d11\" or \"imm\"; \"glb\" or \"gltf\"
   handedness        \"left\" or \"right\", found from the triangles
   up_axis           \"y\" or \"z\", as the dialect suggests
   counts            materials, vertices, triangles, bones, clips
+  bones             array, in the order in which `pose` prints them
+    name            as the file has it, or null
+    parent          index of the parent in this array, or null
   materials         array of names
   maps              array: each map that a material names, in the order of the materials
     material        name of the material
@@ -62,6 +65,8 @@ JSON: an object
     code            stable name of the kind of finding
     message         one sentence
     line, column    place, both from 1; null when it is about the whole file
+    json_pointer    what of a glTF file's JSON it is about, or null
+    byte_offset     place in a .glb file, in bytes from its start, or null
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0
@@ -97,13 +102,14 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let materials = &open.model.materials;
     let mut found = Maps::without_mips();
     let mut textures;
-    let maps = if arguments.textures.is_empty() {
+    let maps = if arguments.textures.is_empty() && !open.format.is_gltf() {
         named_maps(materials).collect()
     } else {
         let folders = Folders::walk(&arguments.textures, err)?;
         textures = Textures::of(&folders, materials, Wanted::Maps);
         textures.write_warnings(err)?;
-        found.add(materials, std::mem::take(&mut textures.pictures));
+        let pictures = std::mem::take(&mut textures.pictures).into_iter();
+        found.add(materials, pictures.chain(open.pictures.iter().cloned()));
         textures.states(materials, &found)
     };
     let info = Info::new(arguments.file.display().to_string(), &open, &maps);
@@ -153,14 +159,16 @@ fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
         return None;
     }
     let of_clips = open.compiled.iter().map(|clip| animated_bounds(&open.model, clip));
-    Some(of_clips.reduce(Aabb::union).unwrap_or(open.bind_bounds))
+    Some(of_clips.reduce(Aabb::union).unwrap_or(open.extent(None).0))
 }
 
 fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {
-    let dialect = match open.dialect {
-        Dialect::D3d12 => "D3D12 book",
-        Dialect::D3d11 => "D3D11 book",
-        Dialect::Imm => "imm exporter",
+    let dialect = match open.format {
+        FileFormat::M3d(Dialect::D3d12) => "D3D12 book",
+        FileFormat::M3d(Dialect::D3d11) => "D3D11 book",
+        FileFormat::M3d(Dialect::Imm) => "imm exporter",
+        FileFormat::Glb => "GLB",
+        FileFormat::Gltf => "glTF",
     };
     let hand = match open.model.handedness {
         Handedness::Left => "left-handed",

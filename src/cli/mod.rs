@@ -28,7 +28,7 @@ use clap::{Parser, Subcommand};
 use failure::{Failure, Outcome};
 use output::UntilClosed;
 
-/// Looks at skinned .m3d models: the text format of Frank Luna's DirectX books.
+/// Looks at skinned models: .m3d, the text format of Frank Luna's DirectX books, and glTF.
 #[derive(Debug, Parser)]
 #[command(name = "bindpose", version, after_help = EXIT_CODES)]
 struct Arguments {

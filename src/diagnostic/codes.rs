@@ -57,7 +57,7 @@ table! {
             "This is a file of another format.",
             "The message names the format.",
             "The file is not opened.",
-            "Choose `.m3d` text as the exporter's output; renaming a file does not convert it.";
+            "Choose `.m3d` text or glTF as the exporter's output; renaming a file does not convert it.";
         RELATIVE_FORMAT = "relative-format", Error,
             "This file is a variant of the format that is laid out differently.",
             "The books' loaders do not read it either.",
@@ -439,6 +439,125 @@ table! {
             "Turn the signs of a quaternion where its dot product with the one before is negative.";
     }
 
+    /// What reading a glTF file gives ([`gltf`](crate::gltf), [`import::gltf`](crate::import::gltf)), beside codes above.
+    OF_GLTF {
+        GLB_DAMAGED = "glb-damaged", Error,
+            "The container of a .glb file is damaged.",
+            "It was not written or copied to its end, or another program changed it.",
+            "The file is not opened.",
+            "Copy or export the file again.";
+        GLB_SURPLUS = "glb-surplus", Warning,
+            "A .glb file has chunks or bytes that do not belong there.",
+            "A .glb file is one chunk of JSON, then at most one of binary data, and nothing behind the length in its header.",
+            "What is too much is left out.",
+            "Write the length of the whole file into its header, the JSON first and the binary data second.";
+        GLTF_NOT_JSON = "gltf-not-json", Error,
+            "The JSON of a glTF file cannot be read.",
+            "The message says what the reader of JSON met.",
+            "The file is not opened.",
+            "Write the file with a library for JSON, and its text in UTF-8.";
+        GLTF_WRONG_TYPE = "gltf-wrong-type", Error,
+            "A value is of another kind than glTF asks for, or one that it needs is missing.",
+            "The JSON pointer says which value it is.",
+            "The file is not opened.",
+            "Write what the specification of glTF 2.0 has at that place.";
+        GLTF_VERSION = "gltf-version", Error,
+            "The file is of another version of glTF.",
+            "Export it as glTF 2.0.",
+            "The file is not opened.",
+            "Export it as glTF 2.0.";
+        GLTF_EXTENSION_REQUIRED = "gltf-extension-required", Error,
+            "The model cannot be read without an extension that is not known here.",
+            "Export it without compression and with textures in PNG or JPEG.",
+            "The file is not opened.",
+            "Export it without compression, and with textures in PNG or JPEG.";
+        GLTF_EXTENSION_UNKNOWN = "gltf-extension-unknown", Note,
+            "The file uses an extension that is not read; the model is shown without.",
+            "The file says itself that it can be shown so.",
+            "The extension is left out.",
+            "Nothing needs to be mended.";
+        GLTF_INDEX_OUT_OF_RANGE = "gltf-index-out-of-range", Error,
+            "An index names something that is not in the file.",
+            "The JSON pointer says which index it is.",
+            "The file is not opened.",
+            "Count from 0, and write every list that is named.";
+        GLTF_BUFFER_MISSING = "gltf-buffer-missing", Error,
+            "The data of a buffer are not there.",
+            "A .gltf file has its data in files beside it: drop them together with it.",
+            "The file is not opened where a model needs them.",
+            "Drop the files together, or export a `.glb`, which has all in one.";
+        GLTF_BUFFER_SHORT = "gltf-buffer-short", Error,
+            "A buffer has less data than it says, or a part of it reaches beyond its end.",
+            "It was not written or copied to its end.",
+            "The file is not opened.",
+            "Write `byteLength` after the data are known, and copy the file to its end.";
+        GLTF_ACCESSOR_OUT_OF_RANGE = "gltf-accessor-out-of-range", Error,
+            "An accessor reaches beyond its data.",
+            "Its count, offset or stride is wrong.",
+            "The file is not opened.",
+            "Write the count of the elements that there are, and offsets in bytes.";
+        GLTF_ACCESSOR_FORMAT = "gltf-accessor-format", Error,
+            "An accessor has other numbers than belong in its place.",
+            "Positions have three numbers, joints four whole ones, and so on.",
+            "The file is not opened.",
+            "Write the type and the component type that the specification has for the attribute.";
+        GLTF_NODES_TANGLED = "gltf-nodes-tangled", Error,
+            "Nodes are no trees: one is its own ancestor, or the child of two.",
+            "Every node has one parent at most.",
+            "The file is not opened.",
+            "Name each node as the child of one other at most, and of none below it.";
+        GLTF_TOO_LARGE = "gltf-too-large", Error,
+            "The file asks for far more than it holds.",
+            "One mesh or clip is used so often that it does not fit into memory.",
+            "The file is not opened.",
+            "Look whether a count is wrong, or one accessor is named by a great many others.";
+        GLTF_RULE_BROKEN = "gltf-rule-broken", Warning,
+            "The file breaks a rule of glTF, and was read by its sense.",
+            "Other programs may refuse it.",
+            "It is read by its sense; what makes none is left out.",
+            "Look at the place with the Khronos validator, which names the rule.";
+        GLTF_EMPTY = "gltf-empty", Warning,
+            "The scene has neither meshes nor joints.",
+            "There is nothing to show.",
+            "An empty model is opened.",
+            "Look whether the scene or the selection was empty when it was exported.";
+        GLTF_PRIMITIVE_LEFT_OUT = "gltf-primitive-left-out", Warning,
+            "A part of a mesh has no triangles; left out.",
+            "Points, lines and parts without positions are not shown.",
+            "The part is left out.",
+            "Export triangles.";
+        GLTF_NORMALS_ABSENT = "gltf-normals-absent", Note,
+            "A part of a mesh has no normals; smooth ones were computed.",
+            "glTF asks for flat triangles there, which would need vertices of their own.",
+            "The mean of the triangles around each vertex is taken.",
+            "Export normals.";
+        GLTF_MORPH_ANIMATION_LEFT_OUT = "gltf-morph-animation-left-out", Warning,
+            "A clip moves the weights of morph targets; left out.",
+            "Morph targets are shown with the weights that the file gives them outside of clips.",
+            "The rest of the clip is played.",
+            "Bake what moves a face into joints, where it has to be seen here.";
+        GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
+            "A clip moves something that is not shown; left out.",
+            "Cameras, lights and nodes without meshes are not shown.",
+            "The rest of the clip is played.",
+            "Nothing needs to be mended.";
+        GLTF_MATRIX_SHEARED = "gltf-matrix-sheared", Warning,
+            "A node's matrix shears or flattens space, which a joint cannot.",
+            "Joints have a translation, a rotation and a scale. What hangs on the node may look displaced.",
+            "The shear is left out where the node is a joint; a mesh that nothing moves keeps it.",
+            "Apply scales before exporting, so that nothing is turned below a node of uneven scale.";
+        GLTF_IMAGE_NOT_READ = "gltf-image-not-read", Warning,
+            "A picture is of a kind that is not read, or its address is none; the material is shown without it.",
+            "PNG and JPEG are read.",
+            "The material is shown without it.",
+            "Export textures as PNG or JPEG.";
+        WEIGHTS_CUT = "weights-cut", Warning,
+            "A vertex is moved by more than four joints; the four with the greatest weights are kept.",
+            "Their weights are scaled to sum to 1. The message says how much was lost at most.",
+            "The four greatest weights are kept and scaled to sum to 1.",
+            "Limit the weights of a vertex to four in the modelling program, and look at the result there.";
+    }
+
     /// What the checks of a mesh and its rig give ([`check::model`](crate::check::model)).
     OF_MESH_AND_RIG {
         TRIANGLES_WITHOUT_AREA = "triangles-without-area", Note,
@@ -713,7 +832,7 @@ table! {
     /// What putting files together gives: models, maps, clips, and the GPU that is to draw them.
     OF_SESSION {
         NO_MODEL = "no-model", Error,
-            "No .m3d model was dropped.",
+            "No model was dropped.",
             "Pictures alone show nothing.",
             "What is open stays.",
             "Drop the `.m3d` file too, or the folder that has both.";

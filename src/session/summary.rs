@@ -11,7 +11,7 @@ use crate::scene::Aabb;
 /// What a model is and has.
 #[derive(Debug, Serialize)]
 pub struct Model<'a> {
-    /// `d3d12`, `d3d11` or `imm`.
+    /// `d3d12`, `d3d11`, `imm`, `glb` or `gltf`.
     pub dialect: &'static str,
     /// `left` or `right`, found from the triangles.
     pub handedness: &'static str,
@@ -19,6 +19,8 @@ pub struct Model<'a> {
     pub up_axis: &'static str,
     /// How much of each there is.
     pub counts: Counts,
+    /// The bones, in the order of the file.
+    pub bones: Vec<Bone<'a>>,
     /// Names of the materials, in the order of the file.
     pub materials: Vec<&'a str>,
     /// The clips, in the order of the file.
@@ -36,6 +38,15 @@ pub struct Counts {
     pub triangles: usize,
     pub bones: usize,
     pub clips: usize,
+}
+
+/// A bone.
+#[derive(Debug, Serialize)]
+pub struct Bone<'a> {
+    /// Its name, where the file has one.
+    pub name: Option<&'a str>,
+    /// Its parent's number in the file.
+    pub parent: Option<u32>,
 }
 
 /// A clip.
@@ -78,6 +89,10 @@ pub struct Finding<'a> {
     pub line: Option<u32>,
     /// Column in bytes, from 1; `None` when it is about the whole file.
     pub column: Option<u32>,
+    /// What of a glTF file's JSON it is about; `None` for other formats, and when it is about the whole file.
+    pub json_pointer: Option<&'a str>,
+    /// Where it is in a binary file, in bytes from its start.
+    pub byte_offset: Option<u64>,
     /// The part of the model that it is about, the first one of several.
     pub subject: Option<Part>,
     /// How many alike things it tells of, 1 or more.
@@ -171,6 +186,11 @@ impl<'a> From<&'a book::Verdict> for Verdict<'a> {
 impl<'a> From<&'a OpenModel> for Model<'a> {
     fn from(open: &'a OpenModel) -> Self {
         let model = &open.model;
+        let skeleton = &model.skeleton;
+        let bones = skeleton.joint_of_bone().iter().map(|&joint| Bone {
+            name: skeleton.name(joint),
+            parent: skeleton.parents()[joint.index()].map(|parent| skeleton.file_bones()[parent.index()]),
+        });
         let clips = model.clips.iter().map(|clip| Clip {
             name: &clip.name,
             start_secs: clip.start_secs,
@@ -179,7 +199,7 @@ impl<'a> From<&'a OpenModel> for Model<'a> {
             keys: clip.key_count,
         });
         Self {
-            dialect: open.dialect.as_str(),
+            dialect: open.format.as_str(),
             handedness: model.handedness.name(),
             up_axis: model.up_axis.name(),
             counts: Counts {
@@ -189,6 +209,7 @@ impl<'a> From<&'a OpenModel> for Model<'a> {
                 bones: model.skeleton.joint_count(),
                 clips: model.clips.len(),
             },
+            bones: bones.collect(),
             materials: model.materials.iter().map(|material| material.name.as_str()).collect(),
             clips: clips.collect(),
             bind_bounds: Bounds::of(&open.bind_bounds),
@@ -217,6 +238,8 @@ impl<'a> From<&'a Diagnostic> for Finding<'a> {
             found: diagnostic.found.as_deref(),
             line: diagnostic.position.map(|position| position.line),
             column: diagnostic.position.map(|position| position.column),
+            json_pointer: diagnostic.pointer.as_deref(),
+            byte_offset: diagnostic.byte_offset,
             subject: diagnostic.subject.map(Part::from),
             count: diagnostic.count,
             places: diagnostic.few_places().iter().map(place).collect(),

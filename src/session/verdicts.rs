@@ -15,6 +15,10 @@ impl Verdicts {
     /// Those of the open model with its maps, in the order of [`Book::ALL`]. They are worked out at the first call.
     pub(super) fn of(&self, open: &OpenModel, maps: &Maps) -> &[Verdict] {
         self.0.get_or_init(|| {
+            if open.format.is_gltf() {
+                // The books' programs know no other format than theirs.
+                return Vec::new();
+            }
             let bytes = &open.file.bytes;
             let parsed = format::parse(bytes).ok();
             let known = Known {

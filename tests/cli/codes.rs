@@ -11,9 +11,10 @@ use serde_json::Value;
 use crate::program::{bindpose, run_command};
 
 /// Groups of codes under the page's headings.
-const GROUPS: [(&str, &[Code]); 10] = [
+const GROUPS: [(&str, &[Code]); 11] = [
     ("Reading an .m3d file", codes::OF_PARSER),
     ("Making a model of it", codes::OF_MODEL),
+    ("Reading a glTF file", codes::OF_GLTF),
     ("Mesh and rig", codes::OF_MESH_AND_RIG),
     ("In motion", codes::OF_MOTION),
     ("The books’ programs", codes::OF_BOOKS),
@@ -111,6 +112,9 @@ const ELSEWHERE: [(&str, &str, &[&str]); 8] = [
     ),
 ];
 
+/// Extensions of models.
+const EXTENSIONS: [&str; 3] = ["m3d", "gltf", "glb"];
+
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/check")
 }
@@ -126,7 +130,10 @@ fn listed(folder: &Path, is_one: impl Fn(&Path) -> bool) -> BTreeSet<String> {
 /// The codes that have a model of their own, and those that have pictures for the model of all.
 fn fixtures() -> (BTreeSet<String>, BTreeSet<String>) {
     let folder = folder();
-    let is_model = |path: &Path| path.extension().is_some_and(|extension| extension == "m3d");
+    let is_model = |path: &Path| {
+        path.extension()
+            .is_some_and(|extension| EXTENSIONS.iter().any(|model| extension == *model))
+    };
     (
         listed(&folder, is_model),
         listed(&folder.join("textures"), Path::is_dir),
@@ -143,7 +150,13 @@ fn check(code: &str, format: &str) -> String {
         if code.starts_with("book-") {
             command.args(["--book", "d3d12"]);
         }
-        command.arg(format!("{code}.m3d"));
+        let names = EXTENSIONS.map(|extension| format!("{code}.{extension}"));
+        command.arg(
+            names
+                .into_iter()
+                .find(|name| folder().join(name).is_file())
+                .expect("its fixture"),
+        );
     }
     let run = run_command(&mut command);
     assert_eq!(run.err, "", "{code}");

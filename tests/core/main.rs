@@ -7,6 +7,9 @@ mod check;
 mod codes;
 mod documents;
 mod format;
+mod gltf;
+#[path = "../common/gltf.rs"]
+mod gltf_files;
 mod image;
 mod light;
 mod model;

@@ -13,8 +13,8 @@ use crate::check::report::{self, CheckedFile};
 use crate::check::sarif;
 use crate::cli::diagnostic::Colors;
 use crate::cli::failure::{Failure, Outcome};
-use crate::cli::paths;
 use crate::cli::textures::Folders;
+use crate::cli::{input, paths};
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::format;
 use crate::import::{self, Imported};
@@ -53,13 +53,13 @@ pub(super) fn check(
     is_only: bool,
 ) -> Result<Checked, Failure> {
     let bytes = paths::read(path)?;
-    let imported = import::import(&bytes);
+    let imported = import::import_beside(&bytes, &|name| input::beside(path, name));
     let mut diagnostics = Vec::new();
     let mut missing_maps = None;
     if let Ok(imported) = &imported
         && let Some(textures) = textures
     {
-        let found = maps::find(&imported.model.materials, textures, is_only);
+        let found = maps::find(imported, textures, is_only);
         missing_maps = Some(found.missing);
         diagnostics = found.diagnostics;
     }

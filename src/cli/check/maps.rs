@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::cli::text::counted;
 use crate::cli::textures::{Folders, MapState, Textures, Wanted, by_name, missing, not_a_file, without_name};
 use crate::diagnostic::{Diagnostic, Subject, codes};
-use crate::model::Material;
+use crate::import::Imported;
 use crate::session::{File, Maps};
 
 /// What looking for maps gives.
@@ -16,11 +17,17 @@ pub(super) struct FoundMaps {
     pub(super) missing: Vec<String>,
 }
 
-/// Looks for the maps that materials name. `is_only`: no other file is read, so that pictures without a name are worth a word.
-pub(super) fn find(materials: &[Material], folders: &Folders, is_only: bool) -> FoundMaps {
+/// Looks for the maps that the materials of a file name. `is_only`: no other file is read, so that pictures without a name are worth a word.
+pub(super) fn find(imported: &Imported, folders: &Folders, is_only: bool) -> FoundMaps {
+    let materials = imported.model.materials.as_slice();
     let mut textures = Textures::of(folders, materials, Wanted::Maps);
     let mut maps = Maps::without_mips();
-    maps.add(materials, std::mem::take(&mut textures.pictures));
+    let pictures = std::mem::take(&mut textures.pictures).into_iter();
+    let own = imported
+        .pictures
+        .iter()
+        .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)));
+    maps.add(materials, pictures.chain(own));
     let states = textures.states(materials, &maps);
     let mut diagnostics = Vec::new();
     let mut absent = Vec::new();

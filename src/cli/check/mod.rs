@@ -72,7 +72,7 @@ Text:
   FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
-  Of a folder every .m3d file below it is read, by path. After several files comes a line with counts.
+  Of a folder every .m3d, .glb and .gltf file below it is read, by path. After several files comes a line with counts.
   --explain CODE tells what a finding of this code means, what is done about it, and how to mend it in the exporter.
   The viewer has the same of all codes, with an example of each, as the page web/codes.html.
 
@@ -83,6 +83,8 @@ JSON: an array with one object for each file that could be read
     code              stable name of the kind of finding, for example \"weights-not-normalized\"
     message           one sentence
     line, column      place, both from 1, the column in bytes; null when it is about the whole file
+    json_pointer      what of a glTF file's JSON it is about, or null
+    byte_offset       place in a .glb file, in bytes from its start, or null
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\", \"clip\" or \"map\") and index, its number in the file from 0; maps

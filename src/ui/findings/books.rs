@@ -52,9 +52,13 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
     let words: Vec<String> = newest_first(verdicts)
         .map(|verdict| format!("{} {}", short_label(verdict), Outcome::of(verdict).word()))
         .collect();
-    let value = words.join(" · ");
+    let value = if words.is_empty() {
+        "know .m3d alone".to_owned()
+    } else {
+        words.join(" · ")
+    };
     // A file is of one book's dialect: that the other fails is no news.
-    let is_shown = verdicts.iter().any(|verdict| Outcome::of(verdict) == Outcome::Shows);
+    let is_shown = words.is_empty() || verdicts.iter().any(|verdict| Outcome::of(verdict) == Outcome::Shows);
     let color = if is_shown { tokens.muted } else { tokens.warning };
     let font = FontId::proportional(13.0);
     let width = |text: &str| {
@@ -78,11 +82,14 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
         tokens.text,
     );
     painter.text(rect.right_center(), Align2::RIGHT_CENTER, &value, font, color);
-    let name = format!("{long}: {}", words.join(", "));
+    let name = format!("{long}: {}", value.replace(" ·", ","));
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &name));
-    let hint: Vec<String> = newest_first(verdicts)
+    let mut hint: Vec<String> = newest_first(verdicts)
         .map(|verdict| format!("{}: {}", verdict.book.label(), in_words(verdict)))
         .collect();
+    if hint.is_empty() {
+        hint.push("The books' programs read no glTF.".to_owned());
+    }
     if hint_beside(response, None, &hint.join("\n")).clicked() {
         state.diagnostics_open = !state.diagnostics_open;
     }

@@ -1,0 +1,89 @@
+//! Reading glTF.
+
+mod clips;
+mod forms;
+mod hostile;
+mod materials;
+mod meshes;
+mod real_files;
+mod session;
+mod skins;
+mod validator;
+
+use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};
+use bindpose::diagnostic::Diagnostic;
+use bindpose::import::{Imported, import};
+use bindpose::model::Model;
+use glam::Vec3;
+use serde_json::{Value, json};
+
+use crate::gltf_files::Gltf;
+
+/// The one triangle of most files here.
+const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+
+/// A triangle, on a node of its own; `attributes` are added to its position.
+fn triangle(document: Value, attributes: impl FnOnce(&mut Gltf) -> Value) -> Gltf {
+    let mut file = Gltf::new(json!({ "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }] }));
+    for (key, value) in document.as_object().expect("an object") {
+        file.json[key] = value.clone();
+    }
+    let position = file.floats(&CORNERS);
+    let mut all = json!({ "POSITION": position });
+    let more = attributes(&mut file);
+    for (key, value) in more.as_object().expect("an object") {
+        all[key] = value.clone();
+    }
+    if file.json.get("meshes").is_none() {
+        file.json["meshes"] = json!([{ "primitives": [{}] }]);
+    }
+    let primitives = file.json["meshes"][0]["primitives"].as_array_mut().expect("a list");
+    for primitive in primitives {
+        primitive["attributes"] = all.clone();
+    }
+    file
+}
+
+fn read(file: &Gltf) -> Imported {
+    let [binary, text] = [file.glb(), file.text()].map(|bytes| import(&bytes));
+    let text = text.unwrap_or_else(|refused| panic!("{}", refused.error.message));
+    let binary = binary.unwrap_or_else(|refused| panic!("{}", refused.error.message));
+    assert_eq!(
+        text.model.mesh.positions, binary.model.mesh.positions,
+        "both forms say the same"
+    );
+    binary
+}
+
+fn refused(bytes: &[u8]) -> Diagnostic {
+    import(bytes).expect_err("a refusal").error
+}
+
+fn codes_of(imported: &Imported) -> Vec<&'static str> {
+    imported.diagnostics.iter().map(|finding| finding.code).collect()
+}
+
+/// All vertices of the first clip at a time, or at rest without one.
+fn posed(model: &Model, time_secs: f32) -> Vec<Vec3> {
+    let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+    if let Some(clip) = model.clips.first() {
+        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), time_secs);
+    }
+    let mut positions = Vec::new();
+    if model.mesh.influences.is_empty() {
+        return model.mesh.positions.clone();
+    }
+    skin_positions(&model.mesh, &pose.palette, &mut positions);
+    positions
+}
+
+#[track_caller]
+fn assert_at(found: &[Vec3], expected: &[[f32; 3]]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(
+            found.abs_diff_eq(Vec3::from_array(*expected), 1e-5),
+            "{found} is not {expected:?}"
+        );
+    }
+}

@@ -1,0 +1,175 @@
+//! Files that want to do harm: each ends in an error, soon and with little memory.
+
+use bindpose::import::import;
+use proptest::prelude::*;
+use serde_json::json;
+
+use super::{read, refused, triangle};
+use crate::gltf_files::glb;
+
+fn code(file: &crate::gltf_files::Gltf) -> &'static str {
+    let [binary, text] = [refused(&file.glb()), refused(&file.text())];
+    assert_eq!(binary.code, text.code);
+    binary.code
+}
+
+#[test]
+fn accessors_that_reach_beyond_their_data_are_refused_before_anything_is_allocated() {
+    for (key, value) in [
+        ("count", json!(4)),
+        ("count", json!(4_294_967_295_u64)),
+        ("count", json!(u64::MAX)),
+        ("byteOffset", json!(4)),
+        ("byteOffset", json!(u64::MAX)),
+    ] {
+        let mut file = triangle(json!({}), |_| json!({}));
+        file.json["accessors"][0][key] = value;
+        assert!(
+            ["gltf-accessor-out-of-range", "gltf-too-large"].contains(&code(&file)),
+            "{key}"
+        );
+    }
+    // Without data nothing bounds a count but what the file holds.
+    let mut file = triangle(json!({}), |_| json!({}));
+    file.json["accessors"][0] = json!({ "componentType": 5126, "count": 4_294_967_295_u64, "type": "VEC3" });
+    assert_eq!(code(&file), "gltf-too-large");
+    for (key, value) in [
+        ("byteLength", json!(37)),
+        ("byteLength", json!(u64::MAX)),
+        ("byteOffset", json!(u64::MAX)),
+        ("buffer", json!(9)),
+    ] {
+        let mut file = triangle(json!({}), |_| json!({}));
+        file.json["bufferViews"][0][key] = value;
+        assert!(
+            ["gltf-buffer-short", "gltf-index-out-of-range"].contains(&code(&file)),
+            "{key}"
+        );
+    }
+    for stride in [0, 1, u64::MAX] {
+        let mut file = triangle(json!({}), |_| json!({}));
+        file.json["bufferViews"][0]["byteStride"] = json!(stride);
+        assert_eq!(code(&file), "gltf-accessor-out-of-range", "{stride}");
+    }
+    let mut file = triangle(json!({}), |_| json!({}));
+    let wrong = file.view(&[3], None);
+    file.json["accessors"][0]["sparse"] =
+        json!({ "count": 1, "indices": { "bufferView": wrong, "componentType": 5121 }, "values": { "bufferView": 0 } });
+    assert_eq!(code(&file), "gltf-accessor-out-of-range");
+}
+
+#[test]
+fn nodes_in_circles_and_with_two_parents_are_refused() {
+    for nodes in [
+        json!([{ "mesh": 0, "children": [0] }]),
+        json!([{ "mesh": 0 }, { "children": [2] }, { "children": [1] }]),
+        json!([{ "mesh": 0, "children": [1] }, {}, { "children": [1] }]),
+    ] {
+        let file = triangle(json!({ "nodes": nodes }), |_| json!({}));
+        assert_eq!(code(&file), "gltf-nodes-tangled", "{nodes}");
+    }
+}
+
+#[test]
+fn a_long_chain_of_nodes_is_no_deep_recursion() {
+    let mut nodes: Vec<_> = (1..50_000).map(|child| json!({ "children": [child] })).collect();
+    nodes.push(json!({ "mesh": 0, "translation": [1.0, 0.0, 0.0] }));
+    let file = triangle(json!({ "nodes": nodes }), |_| json!({}));
+    assert_eq!(read(&file).model.mesh.positions[0].x, 1.0);
+}
+
+#[test]
+fn one_mesh_or_clip_used_again_and_again_ends_in_an_error() {
+    let corners = vec![[1.0, 2.0, 3.0]; 30_000];
+    let mut file = triangle(json!({}), |_| json!({}));
+    let position = file.floats(&corners);
+    file.json["meshes"] = json!([{ "primitives": [{ "attributes": { "POSITION": position } }] }]);
+    file.json["nodes"] = vec![json!({ "mesh": 0 }); 2_000].into();
+    file.json["scenes"] = json!([{ "nodes": (0..2_000).collect::<Vec<_>>() }]);
+    assert_eq!(code(&file), "gltf-too-large");
+
+    let mut file = triangle(json!({}), |_| json!({}));
+    let times = file.floats(&[[0.0]]);
+    let values = file.floats(&[[0.0; 3]]);
+    let nodes: Vec<_> = (0..1_100).map(|_| json!({ "mesh": 0 })).collect();
+    file.json["scenes"] = json!([{ "nodes": (0..nodes.len()).collect::<Vec<_>>() }]);
+    file.json["nodes"] = nodes.into();
+    let animation = json!({ "samplers": [{ "input": times, "output": values }],
+        "channels": [{ "sampler": 0, "target": { "node": 0, "path": "translation" } }] });
+    file.json["animations"] = vec![animation; 1_000].into();
+    assert_eq!(code(&file), "gltf-too-large");
+}
+
+#[test]
+fn a_long_data_uri_and_deep_nesting_are_met_without_trouble() {
+    let mut file = triangle(json!({}), |_| json!({}));
+    file.bin.resize(40_000_000, 7);
+    assert!(import(&file.text()).is_ok());
+    for (open, close) in [("[", "]"), ("{\"a\":", "}")] {
+        let deep = format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"extras\":{}1{}}}]}}",
+            open.repeat(200_000),
+            close.repeat(200_000)
+        );
+        assert_eq!(refused(deep.as_bytes()).code, "gltf-not-json");
+    }
+}
+
+#[test]
+fn containers_cut_anywhere_are_refused() {
+    let whole = triangle(json!({}), |_| json!({})).glb();
+    for length in 4..whole.len() {
+        assert_eq!(refused(&whole[..length]).code, "glb-damaged", "{length}");
+    }
+    let mut claims = glb(&[(b"JSON", b"{}  ")]);
+    claims[12..16].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert_eq!(refused(&claims).code, "glb-damaged");
+    assert_eq!(refused(&glb(&[(b"BIN\0", b"abcd")])).code, "glb-damaged");
+    assert_eq!(refused(&glb(&[])).code, "glb-damaged");
+}
+
+fn skinned() -> Vec<u8> {
+    let nodes = json!([{ "mesh": 0, "skin": 0 }, { "children": [2] }, { "translation": [0, 1, 0] }]);
+    let mut file = triangle(
+        json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [1, 2] }],
+            "materials": [{ "pbrMetallicRoughness": { "baseColorFactor": [1, 0, 0, 1] } }],
+            "meshes": [{ "primitives": [{ "material": 0 }] }] }),
+        |file| {
+            json!({
+                "JOINTS_0": file.shorts(&[[0, 1, 0, 0]; 3]),
+                "WEIGHTS_0": file.floats(&[[0.5, 0.5, 0.0, 0.0]; 3]),
+                "NORMAL": file.floats(&[[0.0, 0.0, 1.0]; 3]),
+            })
+        },
+    );
+    let indices = file.shorts(&[[0], [1], [2]]);
+    file.json["meshes"][0]["primitives"][0]["indices"] = indices.into();
+    let times = file.floats(&[[0.0], [1.0]]);
+    let turns = file.floats(&[[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0]]);
+    file.json["animations"] = json!([{ "samplers": [{ "input": times, "output": turns, "interpolation": "STEP" }],
+        "channels": [{ "sampler": 0, "target": { "node": 2, "path": "rotation" } }] }]);
+    file.glb()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn changed_bytes_never_end_in_a_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6), digits in any::<bool>()) {
+        let mut bytes = skinned();
+        let json_end = 20 + u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+        for (place, value) in changes {
+            if digits {
+                // Other numbers in the JSON, which stays JSON.
+                let places: Vec<usize> = (20..json_end).filter(|&at| bytes[at].is_ascii_digit()).collect();
+                bytes[places[place.index(places.len())]] = b'0' + value % 10;
+            } else {
+                let at = place.index(bytes.len());
+                bytes[at] = value;
+            }
+        }
+        if let Ok(imported) = import(&bytes) {
+            prop_assert!(imported.model.checked().is_ok());
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Materials and pictures.
+
+use std::f32::consts::FRAC_PI_2;
+
+use bindpose::model::{AlphaMode, MapSlot, Reflectance, Wrap};
+use glam::Vec2;
+use serde_json::json;
+
+use super::{codes_of, read, triangle};
+
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n and more";
+
+#[test]
+fn every_value_of_a_material_arrives() {
+    let material = json!({
+        "name": "Skin",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6,
+            "baseColorTexture": { "index": 0, "texCoord": 1 },
+            "metallicRoughnessTexture": { "index": 1 },
+        },
+        "normalTexture": { "index": 1, "scale": 0.7, "extensions": { "KHR_texture_transform": {
+            "offset": [0.5, 0.25], "rotation": FRAC_PI_2, "scale": [2.0, 4.0], "texCoord": 0 } }, "texCoord": 1 },
+        "occlusionTexture": { "index": 1, "strength": 0.8 },
+        "emissiveTexture": { "index": 0 }, "emissiveFactor": [1.0, 0.5, 0.0],
+        "alphaMode": "MASK", "alphaCutoff": 0.3, "doubleSided": true,
+        "extensions": { "KHR_materials_unlit": {}, "KHR_materials_emissive_strength": { "emissiveStrength": 4.0 } },
+    });
+    let extensions = [
+        "KHR_materials_unlit",
+        "KHR_materials_emissive_strength",
+        "KHR_texture_transform",
+    ];
+    let file = triangle(
+        json!({
+            "extensionsUsed": extensions,
+            "materials": [material, { "alphaMode": "BLEND" }],
+            "meshes": [{ "primitives": [{ "material": 0 }, { "material": 1 }, {}] }],
+            "textures": [{ "source": 0, "sampler": 0 }, { "source": 1 }],
+            "samplers": [{ "wrapS": 33071, "wrapT": 33648, "magFilter": 9728 }],
+            "images": [{ "uri": "textures/a%20b.png" }, { "uri": "other.jpg" }],
+        }),
+        |file| {
+            json!({
+                "NORMAL": file.floats(&[[0.0, 0.0, 1.0]; 3]),
+                "TEXCOORD_0": file.floats(&[[0.25, 0.0]; 3]),
+                "TEXCOORD_1": file.floats(&[[0.5, 1.0]; 3]),
+            })
+        },
+    );
+    let imported = read(&file);
+    let model = &imported.model;
+    assert_eq!(model.mesh.second_tex_coords, [Vec2::new(0.5, 1.0); 3]);
+    let skin = &model.materials[0];
+    assert_eq!(
+        (skin.name.as_str(), skin.diffuse, skin.opacity),
+        ("Skin", [0.1, 0.2, 0.3], 0.4)
+    );
+    assert_eq!(
+        skin.reflectance,
+        Reflectance::MetallicRoughness {
+            metallic: 0.5,
+            roughness: 0.6
+        }
+    );
+    assert_eq!(
+        (skin.alpha, skin.double_sided, skin.unlit),
+        (AlphaMode::Mask { cutoff: 0.3 }, true, true)
+    );
+    assert_eq!(
+        (skin.emissive, skin.normal_scale, skin.occlusion_strength),
+        ([4.0, 2.0, 0.0], 0.7, 0.8)
+    );
+    let names = MapSlot::ALL.map(|slot| skin.map_name(slot));
+    let [first, second] = [Some("textures/a b.png"), Some("other.jpg")];
+    assert_eq!(names, [first, second, second, second, first]);
+    let diffuse = skin.map(MapSlot::Diffuse).expect("it has one").sampling;
+    assert_eq!(
+        (diffuse.second_tex_coords, diffuse.wrap, diffuse.nearest),
+        (true, [Wrap::Clamp, Wrap::Mirror], true)
+    );
+    let normal = skin.map(MapSlot::Normal).expect("it has one").sampling;
+    assert!(!normal.second_tex_coords, "the transform says otherwise");
+    // Scaled to (2, 4), turned to (4, −2), moved: as the extension's own matrix has it.
+    let moved = normal.map_from_mesh.transform_point2(Vec2::ONE);
+    assert!(moved.abs_diff_eq(Vec2::new(4.5, -1.75), 1e-5), "{moved}");
+    assert_eq!(model.materials[1].alpha, AlphaMode::Blend);
+    let default = &model.materials[2];
+    assert_eq!((default.name.as_str(), default.diffuse), ("default", [1.0; 3]));
+    assert_eq!(codes_of(&imported), Vec::<&str>::new());
+}
+
+#[test]
+fn a_books_material_comes_back_from_what_was_written_of_it() {
+    let book = json!({ "reflectance": "fresnel", "fresnel0": [0.1, 0.2, 0.3], "roughness": 0.9, "diffuse": [0.5, 0.6, 0.7],
+        "alphaClip": true, "diffuseMap": "skin.dds", "normalMap": null });
+    let phong = json!({ "reflectance": "phong", "ambient": [0.1, 0.1, 0.1], "specular": [0.2, 0.2, 0.2], "specPower": 8.0,
+        "reflectivity": [0.0, 0.0, 0.5], "diffuse": [1.0, 1.0, 1.0], "alphaClip": false, "diffuseMap": null, "normalMap": "n.dds" });
+    let file = triangle(
+        json!({ "materials": [{ "extras": { "bindpose": book } }, { "extras": { "bindpose": phong } }, { "extras": 7 }],
+            "meshes": [{ "primitives": [{ "material": 0 }, { "material": 1 }, { "material": 2 }] }] }),
+        |_| json!({}),
+    );
+    let materials = read(&file).model.materials;
+    let skin = &materials[0];
+    assert_eq!(
+        skin.reflectance,
+        Reflectance::Fresnel {
+            fresnel0: [0.1, 0.2, 0.3],
+            roughness: 0.9
+        }
+    );
+    assert_eq!(
+        (skin.diffuse, skin.alpha, skin.double_sided),
+        ([0.5, 0.6, 0.7], AlphaMode::Mask { cutoff: 0.1 }, true)
+    );
+    assert_eq!(
+        (skin.map_name(MapSlot::Diffuse), skin.map_name(MapSlot::Normal)),
+        (Some("skin.dds"), None)
+    );
+    let Reflectance::Phong {
+        spec_power,
+        reflectivity,
+        ..
+    } = materials[1].reflectance
+    else {
+        panic!("{:?}", materials[1].reflectance)
+    };
+    assert_eq!(
+        (spec_power, reflectivity, materials[1].map_name(MapSlot::Normal)),
+        (8.0, [0.0, 0.0, 0.5], Some("n.dds"))
+    );
+    assert!(matches!(
+        materials[2].reflectance,
+        Reflectance::MetallicRoughness { .. }
+    ));
+}
+
+#[test]
+fn pictures_inside_the_file_have_names_of_their_own() {
+    let texture = |index: usize| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": index } } });
+    let uri = format!("data:image/png;base64,{}", crate::gltf_files::base64(PNG));
+    let mut file = triangle(
+        json!({
+            "materials": (0..5).map(texture).collect::<Vec<_>>(),
+            "meshes": [{ "primitives": (0..5).map(|material| json!({ "material": material })).collect::<Vec<_>>() }],
+            "textures": (0..5).map(|source| json!({ "source": source })).collect::<Vec<_>>(),
+        }),
+        |file| json!({ "TEXCOORD_0": file.floats(&[[0.0; 2]; 3]) }),
+    );
+    let view = file.view(PNG, None);
+    let strange = file.view(b"RIFF....WEBP", None);
+    file.json["images"] = json!([
+        { "name": "skin.png", "bufferView": view, "mimeType": "image/png" },
+        { "name": "Skin", "uri": uri },
+        { "bufferView": view, "mimeType": "image/png" },
+        { "bufferView": strange, "mimeType": "image/webp" },
+        { "uri": uri },
+    ]);
+    let imported = read(&file);
+    let names: Vec<_> = imported
+        .model
+        .materials
+        .iter()
+        .map(|material| material.map_name(MapSlot::Diffuse))
+        .collect();
+    assert_eq!(
+        names,
+        [
+            Some("skin.png"),
+            Some("Skin (2).png"),
+            Some("skin.png"),
+            None,
+            Some("image 4.png")
+        ]
+    );
+    let pictures: Vec<_> = imported
+        .pictures
+        .iter()
+        .map(|picture| (picture.name.as_str(), &*picture.bytes))
+        .collect();
+    assert_eq!(
+        pictures,
+        [("skin.png", PNG), ("Skin (2).png", PNG), ("image 4.png", PNG)]
+    );
+    let not_read = imported
+        .diagnostics
+        .iter()
+        .find(|finding| finding.code == "gltf-image-not-read")
+        .expect("it is told");
+    assert_eq!(not_read.pointer.as_deref(), Some("/images/3/bufferView"));
+}
