@@ -183,7 +183,7 @@ fn measure(backend: Backend) {
     renderer.set_model(&open.model).expect("it is small");
     let images = session.maps().images();
     let images: Vec<_> = images
-        .map(|[diffuse, normal]| MaterialImages { diffuse, normal })
+        .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
         .collect();
     renderer.set_maps(&images);
     let map_count = images

@@ -109,6 +109,19 @@ pub enum AlphaMode {
     Blend,
 }
 
+impl AlphaMode {
+    /// What the books' `AlphaClip` says.
+    pub const fn clipped(is_clipped: bool) -> Self {
+        if is_clipped {
+            Self::Mask {
+                cutoff: Material::ALPHA_CLIP,
+            }
+        } else {
+            Self::Opaque
+        }
+    }
+}
+
 modes! {
     /// What a material uses a map for.
     #[derive(PartialOrd, Ord)]

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::curve::{Curves, rotation_of};
+use super::curve::Curves;
 use super::{LocalJoint, ModelError};
 
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
@@ -98,7 +98,7 @@ impl Track {
                 joint.translation = curve.value_at(time_secs);
             }
             if let Some(curve) = &curves.rotation {
-                let rotation = rotation_of(curve.value_at(time_secs)).unwrap_or(joint.rotation);
+                let rotation = unit(Quat::from_vec4(curve.value_at(time_secs))).unwrap_or(joint.rotation);
                 joint.rotation = if rotation.dot(joint.rotation) < 0.0 {
                     -rotation
                 } else {

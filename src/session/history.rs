@@ -76,7 +76,7 @@ pub(super) struct ClipRange {
 pub(super) enum Value {
     Material {
         index: usize,
-        material: Material,
+        material: Box<Material>,
     },
     /// Names of bones, by their numbers in the file.
     Names(BTreeMap<usize, Option<String>>),

@@ -16,7 +16,7 @@ pub enum MaterialCommand {
         /// Which of the model's.
         index: usize,
         /// The values.
-        material: Material,
+        material: Box<Material>,
     },
     /// Draws a material as the file has it.
     Reset(usize),

@@ -82,7 +82,10 @@ impl Session {
         match value {
             Value::Material { index, material } => Value::Material {
                 index: *index,
-                material: self.materials().get(*index).unwrap_or(material).clone(),
+                material: self
+                    .materials()
+                    .get(*index)
+                    .map_or_else(|| material.clone(), |now| Box::new(now.clone())),
             },
             Value::Names(names) => {
                 let all = self.joint_names().all();
@@ -101,7 +104,7 @@ impl Session {
     fn set(&mut self, value: Value) {
         match value {
             Value::Material { index, material } => {
-                self.content.changes.materials |= self.content.materials.replace(index, material);
+                self.content.changes.materials |= self.content.materials.replace(index, *material);
             }
             Value::Names(names) => {
                 let mut all = self.joint_names().clone();
@@ -149,7 +152,7 @@ impl Session {
         if !self.content.materials.are_shared_with(&before.materials) {
             for (index, (now, then)) in self.materials().iter().zip(before.materials.drawn()).enumerate() {
                 if now != then {
-                    let material = then.clone();
+                    let material = Box::new(then.clone());
                     values.push(Value::Material { index, material });
                 }
             }

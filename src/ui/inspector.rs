@@ -51,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     if let Some(edited) = material_fields(ui, values) {
         commands.push(Command::Material(MaterialCommand::Edit {
             index: material,
-            material: edited,
+            material: Box::new(edited),
         }));
     }
     if MapSlot::ALL.into_iter().any(|slot| values.map_name(slot).is_some()) {
@@ -127,13 +127,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
         }
     }
     if switch_row(ui, "Alpha clip", "", material.is_cut()).clicked() {
-        edited.alpha = if material.is_cut() {
-            AlphaMode::Opaque
-        } else {
-            AlphaMode::Mask {
-                cutoff: Material::ALPHA_CLIP,
-            }
-        };
+        edited.alpha = AlphaMode::clipped(!material.is_cut());
     }
     (edited != *material).then_some(edited)
 }

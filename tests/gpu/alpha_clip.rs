@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::{Image, decode};
+use bindpose::model::AlphaMode;
 use bindpose::render::{Renderer, SampleCount, Target};
 use bindpose::scene::{Background, Theme};
 use glam::Vec2;
@@ -25,7 +26,7 @@ fn half() -> Arc<Image> {
 
 fn clipped(mut scene: Scene) -> Scene {
     for material in &mut scene.model.materials {
-        material.alpha_clip = true;
+        material.alpha = AlphaMode::clipped(true);
     }
     scene
 }

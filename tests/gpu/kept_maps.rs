@@ -1,5 +1,6 @@
 //! Shadow, contact, geometry and occlusion are drawn again whenever what they show is different, and only then.
 
+use bindpose::model::AlphaMode;
 use bindpose::render::MaterialImages;
 use bindpose::scene::{Light, Theme};
 use glam::{Affine3A, Vec3};
@@ -90,7 +91,7 @@ on_both_backends! {
         let mut scene = card_once().three_quarter(Theme::Light);
         let mut easel = gpu.easel(&scene, &maps, SIZE);
         let before = easel.draw(&scene);
-        scene.model.materials[0].alpha_clip = true;
+        scene.model.materials[0].alpha = AlphaMode::clipped(true);
         easel.renderer.set_materials(&scene.model.materials);
         let after = easel.draw(&scene);
         assert!(after.rgba != before.rgba && after.rgba == gpu.easel(&scene, &maps, SIZE).draw(&scene).rgba);

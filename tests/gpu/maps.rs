@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::{Image, MapKind};
+use bindpose::model::AlphaMode;
 use bindpose::scene::{Background, ViewMode};
 use glam::Vec2;
 
@@ -131,7 +132,7 @@ on_both_backends! {
     /// A header of DirectX 10 may say that alpha does not count, whatever the blocks hold: they go up, and it is not asked for.
     fn blocks_that_are_declared_opaque_have_no_holes(gpu) {
         let mut scene = card_once();
-        scene.model.materials[0].alpha_clip = true;
+        scene.model.materials[0].alpha = AlphaMode::clipped(true);
         // The colour of a hole in BC1 is black.
         scene.options.background = Background::Color([255; 3]);
         let decodes = without_blocks(gpu.backend);

@@ -1,6 +1,7 @@
 //! What must hold for any picture, whatever the look.
 
 use bindpose::anim::Palette;
+use bindpose::model::AlphaMode;
 use bindpose::render::{Compositor, Renderer, SampleCount, Target};
 use bindpose::scene::{Background, Light, Overlays, Projection, Theme};
 use glam::{Affine3A, Vec3};
@@ -71,7 +72,7 @@ on_both_backends! {
             let mut scene = Scene::of(card(facing));
             scene.camera.yaw_radians = std::f32::consts::PI;
             for material in &mut scene.model.materials {
-                material.alpha_clip = true;
+                material.alpha = AlphaMode::clipped(true);
             }
             gpu.draw(&scene, 160, 100)
         };

@@ -1,5 +1,6 @@
 //! Pipelines are built before somebody asks for what they draw, and each once.
 
+use bindpose::model::AlphaMode;
 use bindpose::render::MaterialImages;
 use bindpose::scene::{Light, Overlay, Theme, ViewMode};
 use glam::Vec3;
@@ -67,7 +68,7 @@ on_both_backends! {
     fn no_key_builds_one_for_a_model_with_holes(gpu) {
         let map = square(16, |x, _| [40, 160, 60, if x < 8 { 0 } else { 255 }]);
         let mut scene = card_once().three_quarter(Theme::Dark);
-        scene.model.materials[0].alpha_clip = true;
+        scene.model.materials[0].alpha = AlphaMode::clipped(true);
         check(gpu, scene, &diffuse(&map));
     }
 }

@@ -149,9 +149,7 @@ pub(crate) fn material(name: &str, diffuse: [f32; 3]) -> Material {
             fresnel0: [0.04; 3],
             roughness: 0.7,
         },
-        alpha_clip: false,
-        diffuse_map: None,
-        normal_map: None,
+        ..Material::default()
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::Image;
-use bindpose::model::{Material, Mesh, Model, Reflectance, Submesh};
+use bindpose::model::{AlphaMode, Material, Mesh, Model, Reflectance, Submesh};
 use bindpose::render::MaterialImages;
 use glam::{Vec2, Vec3};
 
@@ -46,7 +46,7 @@ pub(crate) fn still_life() -> Scene {
         with("tray", [0.5; 3], [0.04; 3], 0.6),
         with("wall", [0.35, 0.38, 0.42], [0.04; 3], 0.9),
         Material {
-            alpha_clip: true,
+            alpha: AlphaMode::clipped(true),
             ..with("fence", [0.3, 0.32, 0.1], [0.04; 3], 0.5)
         },
         with("metal", [0.02; 3], [0.9, 0.7, 0.4], 0.15),

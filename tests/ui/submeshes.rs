@@ -193,7 +193,7 @@ fn values_of_the_books_second_edition_are_edited_and_given_back() {
     window.click("Roughness");
     let edited = window.session().materials()[0].clone();
     assert_eq!(edited.diffuse, [0.25, 0.3, 0.2]);
-    assert!(edited.alpha_clip);
+    assert!(edited.is_cut());
     let Reflectance::Fresnel { fresnel0, roughness } = edited.reflectance else {
         panic!("{edited:?}")
     };

@@ -226,13 +226,7 @@ pub(super) fn materials_from_document(
             name,
             diffuse: finite(material.diffuse),
             reflectance: reflectance(material.reflectance),
-            alpha: if material.alpha_clip {
-                AlphaMode::Mask {
-                    cutoff: Material::ALPHA_CLIP,
-                }
-            } else {
-                AlphaMode::Opaque
-            },
+            alpha: AlphaMode::clipped(material.alpha_clip),
             double_sided: material.alpha_clip,
             diffuse_map: material.diffuse_map.clone().map(Into::into),
             normal_map: material.normal_map.clone().map(Into::into),

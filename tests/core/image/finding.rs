@@ -1,8 +1,8 @@
 //! Which file is which map.
 
 use bindpose::diagnostic::{Severity, Subject};
-use bindpose::model::{Material, Reflectance};
-use bindpose::session::{Checklist, File, MapNames, MapSlot, MapSource, find_map, find_maps, map_diagnostics};
+use bindpose::model::{MapSlot, Material, Reflectance};
+use bindpose::session::{Checklist, File, MapNames, MapSource, find_map, find_maps, map_diagnostics};
 
 fn files(paths: &[&str]) -> Vec<File> {
     paths.iter().map(|path| File::new(path, [])).collect()
@@ -16,9 +16,9 @@ fn material(name: &str, diffuse_map: Option<&str>, normal_map: Option<&str>) -> 
             fresnel0: [0.05; 3],
             roughness: 0.5,
         },
-        alpha_clip: false,
-        diffuse_map: diffuse_map.map(str::to_owned),
-        normal_map: normal_map.map(str::to_owned),
+        diffuse_map: diffuse_map.map(Into::into),
+        normal_map: normal_map.map(Into::into),
+        ..Material::default()
     }
 }
 
@@ -151,15 +151,15 @@ fn each_material_learns_of_both_maps() {
     let missing = |name: &str| MapSource::Missing(name.to_owned());
     assert_eq!(maps.len(), 4);
     assert_eq!(
-        (&maps[0].diffuse, maps[0].normal.file()),
+        (maps[0].slot(MapSlot::Diffuse), maps[0].slot(MapSlot::Normal).file()),
         (&missing("head_diff.dds"), Some(1))
     );
     assert_eq!(
-        (&maps[1].diffuse, maps[1].normal.file()),
+        (maps[1].slot(MapSlot::Diffuse), maps[1].slot(MapSlot::Normal).file()),
         (&missing("jacket_diff.dds"), Some(2))
     );
     assert_eq!(
-        (&maps[2].diffuse, &maps[2].normal),
+        (maps[2].slot(MapSlot::Diffuse), maps[2].slot(MapSlot::Normal)),
         (&MapSource::NoneNamed, &MapSource::NoneNamed)
     );
     assert_eq!(maps[3].slot(MapSlot::Diffuse), &missing("head_diff.dds"));

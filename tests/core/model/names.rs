@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use bindpose::format::Document;
 use bindpose::import::m3d;
 use bindpose::model::{
-    Handedness, JointIndex, JointNames, JointTree, MirrorPair, Model, SavedNames, UpAxis, hierarchy_fingerprint,
+    Front, Handedness, JointIndex, JointNames, JointTree, MirrorPair, Model, SavedNames, UpAxis, hierarchy_fingerprint,
     mirror_pairs, world_from_model,
 };
 use glam::Affine3A;
@@ -15,7 +15,7 @@ use crate::chains::{mirrored, mirrored_model};
 use crate::documents::{arm, figure, model_of, offset, real_file, reordered};
 
 fn pairs(model: &Model) -> Vec<MirrorPair> {
-    let world_from_model = world_from_model(model.handedness, model.up_axis);
+    let world_from_model = world_from_model(model.handedness, model.up_axis, model.front);
     mirror_pairs(&model.skeleton, &JointTree::new(&model.skeleton), world_from_model)
 }
 
@@ -227,7 +227,7 @@ fn the_soldiers_limbs_are_pairs() {
     };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let pairs = pairs(&model);
-    let world = world_from_model(model.handedness, model.up_axis);
+    let world = world_from_model(model.handedness, model.up_axis, model.front);
     let x = |joint: JointIndex| {
         let place: Affine3A = world * model.skeleton.bind_model_from_joint()[joint.index()];
         place.translation.x

@@ -2,7 +2,7 @@
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::import::m3d;
-use bindpose::model::{Handedness, JointIndex, Model, UpAxis, world_from_model};
+use bindpose::model::{Front, Handedness, JointIndex, Model, UpAxis, world_from_model};
 use bindpose::scene::{
     Aabb, BoneColors, BoneStyle, Bones, Camera, MarkedJoints, OverlayGeometry, OverlayVertex, Projection, Screen,
     Theme, draw_bones, label_places, pick_joint,

@@ -2,7 +2,8 @@
 
 use bindpose::diagnostic::codes;
 use bindpose::image::encode_png;
-use bindpose::session::{Event, File, FileCommand, MapSlot, PlayCommand, Session};
+use bindpose::model::MapSlot;
+use bindpose::session::{Event, File, FileCommand, PlayCommand, Session};
 
 use super::{models, opened};
 

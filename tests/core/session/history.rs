@@ -27,7 +27,7 @@ fn hide(submesh: usize) -> Command {
 }
 
 fn paint(session: &Session, index: usize, red: f32) -> Command {
-    let mut material = session.materials()[index].clone();
+    let mut material = Box::new(session.materials()[index].clone());
     material.diffuse[0] = red;
     MaterialCommand::Edit { index, material }.into()
 }

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use bindpose::session::{File, FileSet, LoadJob, LoadStep, MapSlot, Progress};
+use bindpose::model::MapSlot;
+use bindpose::session::{File, FileSet, LoadJob, LoadStep, Progress};
 
 use super::maps::{mapped, picture};
 use super::models::broken;

@@ -1,7 +1,7 @@
 //! The camera, the space of the world, and when the picture is another one.
 
 use bindpose::anim::{self, CompiledClip, LoopMode, PoseBuffers};
-use bindpose::model::{Handedness, UpAxis, world_from_model};
+use bindpose::model::{Front, Handedness, UpAxis, world_from_model};
 use bindpose::scene::{Camera, Insets, Overlay, Projection, Theme, ViewPreset};
 use bindpose::session::{CameraCommand, Command, File, FileCommand, LookCommand, PlayCommand, Session};
 use glam::{Vec2, Vec3};

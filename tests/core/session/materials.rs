@@ -13,7 +13,7 @@ fn three_materials(path: &str) -> File {
 }
 
 fn edit(session: &mut Session, index: usize, change: impl FnOnce(&mut Material)) {
-    let mut material = session.materials()[index].clone();
+    let mut material = Box::new(session.materials()[index].clone());
     change(&mut material);
     session.apply(MaterialCommand::Edit { index, material });
 }
@@ -28,7 +28,7 @@ fn an_edited_material_is_drawn_and_the_files_stays_known() {
     edit(&mut session, 1, |material| {
         material.diffuse = [0.1, 0.2, 0.3];
         material.name = "renamed".to_owned();
-        material.normal_map = Some("other.dds".to_owned());
+        material.normal_map = Some("other.dds".into());
         material.reflectance = Reflectance::Fresnel {
             fresnel0: [2.0, f32::NAN, 0.5],
             roughness: -1.0,
@@ -63,7 +63,7 @@ fn nothing_is_drawn_anew_for_what_changes_nothing() {
     edit(&mut session, 0, |material| material.diffuse[0] = f32::INFINITY);
     session.apply(MaterialCommand::Reset(0));
     session.apply(MaterialCommand::Reset(7));
-    let material = session.materials()[0].clone();
+    let material = Box::new(session.materials()[0].clone());
     session.apply(MaterialCommand::Edit { index: 7, material });
     assert_eq!(
         (session.materials_revision(), session.picture_revision()),

@@ -224,10 +224,10 @@ fn what_alpha_cuts_is_looked_through_only_where_the_material_cuts() {
         let below = world(&mut session, 1.0);
         assert_eq!(below == Some(true), !alpha_clip, "{below:?}");
 
-        let material = bindpose::model::Material {
-            alpha_clip: true,
+        let material = Box::new(bindpose::model::Material {
+            alpha: bindpose::model::AlphaMode::clipped(true),
             ..session.materials()[0].clone()
-        };
+        });
         session.apply(MaterialCommand::Edit { index: 0, material });
         assert_ne!(world(&mut session, 1.0), Some(true), "edited to be cut");
     }

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use bindpose::anim::{Direction, GhostPlan, LoopMode, MAX_SPEED, MIN_SPEED, SkinView, WrapMode};
-use bindpose::model::{Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint};
+use bindpose::model::{
+    AlphaMode, Handedness, JointIndex, Material, Reflectance, SavedNames, UpAxis, hierarchy_fingerprint,
+};
 use bindpose::scene::{BoneStyle, Insets, Overlay, Theme, ViewPreset};
 use bindpose::session::{
     CameraCommand, Command, CrowdCommand, CrowdState, Event, File, FileCommand, HistoryCommand, JointCommand,
@@ -139,12 +141,11 @@ fn material_command() -> impl Strategy<Value = MaterialCommand> {
         name: "any".to_owned(),
         diffuse,
         reflectance,
-        alpha_clip,
-        diffuse_map: None,
-        normal_map: None,
+        alpha: AlphaMode::clipped(alpha_clip),
+        ..Material::default()
     });
     prop_oneof![
-        2 => (0usize..4, material).prop_map(|(index, material)| MaterialCommand::Edit { index, material }),
+        2 => (0usize..4, material).prop_map(|(index, material)| MaterialCommand::Edit { index, material: Box::new(material) }),
         1 => (0usize..4).prop_map(MaterialCommand::Reset),
     ]
 }
