@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::number;
+use super::number::number;
 
 /// What the numbers of an accessor are for.
 #[derive(Clone, Copy, PartialEq, Eq)]

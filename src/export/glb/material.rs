@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use serde_json::{Value, json};
 
 use super::binary::Binary;
+use super::number::{number, numbers};
 use super::pictures::{Pictures, Use};
-use super::{number, numbers};
 use crate::export::{ExportError, MapImages};
 use crate::model::{AlphaMode, MapSlot, Material, MaterialMap, MetallicSurface, Model, Reflectance, Sampling, Wrap};
 

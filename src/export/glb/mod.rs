@@ -12,6 +12,7 @@ mod binary;
 mod geometry;
 mod losses;
 mod material;
+mod number;
 mod pictures;
 mod skeleton;
 mod space;
@@ -113,17 +114,4 @@ fn container(root: &Value, mut binary: Vec<u8>) -> Result<Vec<u8>, ExportError> 
         whole(&[bytes.len() as u32, *kind], bytes);
     }
     Ok(file)
-}
-
-/// A number with the fewest digits that read back to it.
-fn number(value: f32) -> Value {
-    // The shortest digits of an f32, read as f64, come out as the same digits; what is not finite is no number in JSON.
-    value
-        .to_string()
-        .parse::<f64>()
-        .map_or(Value::Null, |digits| json!(digits))
-}
-
-fn numbers<const N: usize>(values: [f32; N]) -> Value {
-    Value::Array(values.map(number).to_vec())
 }

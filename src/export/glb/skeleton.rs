@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::binary::{Binary, Target};
-use super::numbers;
+use super::number::numbers;
 use super::space::Space;
 use crate::model::{Influences, JointNames, LocalJoint, Model};
 

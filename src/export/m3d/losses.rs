@@ -1,6 +1,6 @@
 //! What the books' format does not hold.
 
-use super::{names_materials, of_subsets, one_word, rests_apart};
+use super::document::{names_materials, of_subsets, one_word, rests_apart};
 use crate::anim::STRAIGHT_ERROR;
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::counted;
