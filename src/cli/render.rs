@@ -14,7 +14,7 @@ use super::text::Plain;
 use super::textures::{Textures, Wanted, read_sky, write_missing};
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
-use crate::render::{MaterialImages, Renderer, watched};
+use crate::render::{Renderer, watched};
 use crate::scene::{Insets, Theme, ViewPreset};
 use crate::session::{CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Session};
 
@@ -224,11 +224,7 @@ fn draw(arguments: &Arguments, session: &mut Session, gpu: &Gpu) -> Result<Vec<u
         let uploaded = session
             .open_model()
             .map_or(Ok(()), |open| renderer.set_model(&open.model));
-        let images = session.maps().images();
-        let images: Vec<_> = images
-            .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
-            .collect();
-        renderer.set_maps(&images);
+        renderer.set_maps(&session.maps().images().collect::<Vec<_>>());
         renderer.set_sky(session.sky().map(|image| &**image));
         (renderer, uploaded)
     });

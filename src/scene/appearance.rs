@@ -1,6 +1,17 @@
 //! How a model appears: theme, light, view mode, background, lines over it, and which passes are drawn. Plain data.
 
+use crate::image::MapKind;
+use crate::model::MapSlot;
 use crate::modes::modes;
+
+/// What the texels of a map are.
+pub fn map_kind(slot: MapSlot) -> MapKind {
+    match slot {
+        MapSlot::Diffuse | MapSlot::Emissive => MapKind::Diffuse,
+        MapSlot::Normal => MapKind::Normal,
+        MapSlot::MetallicRoughness | MapSlot::Occlusion => MapKind::Data,
+    }
+}
 
 modes! {
     /// Colours of the page, the backdrop and the grid.

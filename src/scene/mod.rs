@@ -17,7 +17,7 @@ mod skin_colors;
 mod tint;
 
 pub use crate::model::Aabb;
-pub use appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
+pub use appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode, map_kind};
 pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
 pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones, draw_marked_bones};
 pub use bones::{Bone, Bones};
