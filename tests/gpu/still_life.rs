@@ -111,7 +111,7 @@ impl StillLifeMaps {
 }
 
 /// A submesh with the next material.
-fn add_ball(mesh: &mut Mesh, center: Vec3, radius: f32) {
+pub(crate) fn add_ball(mesh: &mut Mesh, center: Vec3, radius: f32) {
     let first = mesh.positions.len() as u32;
     for ring in 0..=RINGS {
         let v = ring as f32 / RINGS as f32;

@@ -26,6 +26,11 @@ pub(crate) fn directions(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<
     Arc::new(texels(side, texel).with_mips(MapKind::Normal))
 }
 
+/// The same of numbers.
+pub(crate) fn numbers(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Image> {
+    Arc::new(texels(side, texel).with_mips(MapKind::Data))
+}
+
 /// The same texel everywhere, which needs no mips.
 pub(crate) fn plain(texel: [u8; 4]) -> Arc<Image> {
     Arc::new(texels(4, |_, _| texel))
