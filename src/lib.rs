@@ -41,6 +41,7 @@ pub mod check;
 pub mod cli;
 pub mod diagnostic;
 pub mod format;
+pub mod gltf;
 pub mod image;
 pub mod import;
 pub mod light;
