@@ -65,13 +65,14 @@ modes! {
         /// Texture coordinates, as a checker of 8 × 8 fields a tile with u as red and v as green.
         TexCoords = "uv", "Texture coordinates";
         /// Roughness, black smooth … white rough, with the gloss in the alpha of normal maps: 1 − (1 − roughness) × alpha, as
-        /// both lights take it. For materials of the DirectX 11 book: what their power comes to.
+        /// both lights take it. For materials of the DirectX 11 book: what their power comes to. For those of glTF the number times the
+        /// map's green.
         Roughness = "roughness", "Roughness";
         /// A colour of its own for each material.
         Material = "material", "Material";
         /// Distance from the viewer, near white … far black.
         Depth = "depth", "Depth";
-        /// Ambient occlusion: black where none of the environment is seen … white where all is.
+        /// Ambient occlusion, times the occlusion map: black where none of the environment is seen … white where all is.
         AmbientOcclusion = "ao", "Ambient occlusion";
         /// How much of the first light arrives, without the surface's angle to it.
         Shadow = "shadow", "Shadow";

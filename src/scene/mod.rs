@@ -28,7 +28,7 @@ pub use frame::{
 };
 pub use framing::Insets;
 pub use ground::Ground;
-pub use pick::{Hit, pick, tex_coord_at};
+pub use pick::{Hit, pick, value_at};
 pub use ray::Ray;
 pub use sight::Sight;
 pub use skin_colors::{LegendStop, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};
