@@ -116,7 +116,7 @@ fn panes(materials: [Material; 2]) -> Scene {
         normal: Vec3::NEG_Z,
     };
     let mut scene = Scene::of(plates(&[pane(0.0), pane(1.0)]));
-    scene.model.materials = materials.to_vec();
+    scene.model.materials = materials.into();
     scene.options.background = Background::Color([0; 3]);
     scene
 }
