@@ -12,8 +12,8 @@ use std::task::{Context, Poll, Wake, Waker};
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
 use crate::render::{
-    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, RendererOptions, SampleCount, Target,
-    UploadError, device, watched,
+    Compositor, GpuAnswer, Picture, PictureError, Renderer, RendererOptions, SampleCount, Target, UploadError, device,
+    watched,
 };
 use crate::scene::{FrameCost, FrameOptions, Theme};
 use crate::session::{Quality, Session};
@@ -457,11 +457,7 @@ impl SessionPainter {
             self.materials = None;
         }
         if self.maps != Some(maps) {
-            let images = session.maps().images();
-            let images: Vec<_> = images
-                .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
-                .collect();
-            self.renderer.set_maps(&images);
+            self.renderer.set_maps(&session.maps().images().collect::<Vec<_>>());
             self.maps = Some(maps);
         }
         let materials = session.materials_revision();
