@@ -5,6 +5,7 @@
 
 mod choose;
 mod close_loop;
+mod edited;
 mod error;
 mod fix;
 mod for_book;
@@ -13,9 +14,10 @@ mod reduce;
 mod rename;
 mod space;
 
+pub use edited::{Change, Edited};
 pub use error::EditError;
 
-use crate::model::{Clip, Front, Handedness, JointNames, Model, Track, UpAxis};
+use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
 
 /// What to change. The default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,35 +47,6 @@ pub struct Edits {
     /// Brings it into the shape that the books' demo shows: right-handed, y up, of a height that is seen, one root as bone 0, children
     /// after their parents, keys for each bone from 0 s on, names of one word and the demo's clip among them.
     pub for_book: bool,
-}
-
-/// Something that came out otherwise than it was.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Change {
-    /// Stable name of its kind. What check names has check's code.
-    pub code: &'static str,
-    /// One sentence.
-    pub message: String,
-}
-
-impl Change {
-    fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            message: message.into(),
-        }
-    }
-}
-
-/// A changed model.
-#[derive(Clone, Debug)]
-pub struct Edited {
-    /// The model.
-    pub model: Model,
-    /// Names of its bones, by their numbers in the model as it is now.
-    pub names: JointNames,
-    /// What is otherwise than before, in the order of the edits.
-    pub changes: Vec<Change>,
 }
 
 /// Makes all edits, in the order that the module's doc names. `names` are those that a person gave to bones.
@@ -128,14 +101,4 @@ pub fn apply(model: Model, names: &JointNames, edits: &Edits) -> Result<Edited, 
         for_book::shape(&mut edited)?;
     }
     Ok(edited)
-}
-
-/// The clip with other tracks.
-fn with_tracks(clip: &Clip, tracks: Vec<Track>) -> Clip {
-    Clip::new(clip.name.clone(), tracks)
-}
-
-/// `1 key`, `2 keys`.
-fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }
