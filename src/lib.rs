@@ -41,6 +41,7 @@ pub mod check;
 pub mod cli;
 pub mod diagnostic;
 pub mod edit;
+pub mod export;
 pub mod format;
 pub mod image;
 pub mod import;

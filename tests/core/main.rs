@@ -7,6 +7,7 @@ mod check;
 mod codes;
 mod documents;
 mod edit;
+mod export;
 mod format;
 mod image;
 mod light;
