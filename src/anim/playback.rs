@@ -284,7 +284,7 @@ impl Playback {
     }
 
     /// Goes on by some seconds of the clip, or back where they are negative, whether it plays or not: in [`LoopMode::PingPong`] there
-    /// and back, else round and round, so that the same way back leads to where it was. What is not finite is ignored.
+    /// and back, else round and round. The same way back leads to where it was, unless that was the very end. What is not finite is ignored.
     pub fn shift(&mut self, secs: f64) {
         if !secs.is_finite() {
             return;

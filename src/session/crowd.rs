@@ -12,8 +12,7 @@ use crate::scene::Aabb;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CrowdCommand {
     /// Shows this many instances, clamped to 1…[`MAX_CROWD`]; clips, times and places come from a seed. The first stays where it is and as
-    /// it is. If the seed is the same as before, the others that are kept stay as
-    /// they are, too. The camera frames them. Ignored without a model.
+    /// it is. If the seed is the same as before, the others that are kept stay as they are, too. The camera frames them. Ignored without a model.
     Set {
         /// Instances, with the first.
         count: usize,

@@ -3,7 +3,6 @@
 use glam::{Affine3A, Vec3};
 
 use super::Session;
-use super::instances::moved;
 use crate::scene::Insets;
 
 /// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
@@ -12,11 +11,15 @@ const VERTEX_ROOM: f32 = 0.15;
 impl Session {
     pub(super) fn frame_model(&mut self) {
         let mut points = Vec::new();
-        self.add_reach(self.clip_index(), self.world_from_model(), &mut points);
-        let (formation, world_from_file) = (self.formation(), self.world_from_file());
-        for (index, player) in self.instances.others() {
-            let world_from_model = moved(world_from_file, self.instances.offset(&formation, index));
-            self.add_reach(player.clip, world_from_model, &mut points);
+        if self.instances.are_many() {
+            // The box of all clips at each place: no closer view, but few points, and the same whoever is selected.
+            let formation = self.formation();
+            for index in 0..self.instances.count() {
+                let offset = self.instances.offset(&formation, index);
+                points.extend(formation.reach.corners().map(|corner| corner + offset));
+            }
+        } else {
+            self.add_reach(self.clip_index(), self.world_from_model(), &mut points);
         }
         self.view.frame_points(&points);
         self.view.framed = true;
