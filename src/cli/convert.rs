@@ -194,6 +194,9 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         }
     } else if target != Target::Glb {
         losses.extend(unwritten_maps(&open, &maps, &model));
+        if arguments.for_book && target == Target::M3d(Dialect::D3d12) {
+            losses.extend(maps_not_dds(&model));
+        }
     }
     let Exported {
         bytes,
@@ -379,6 +382,17 @@ fn unwritten_maps(open: &OpenModel, maps: &Maps, model: &Model) -> Option<Loss> 
         code: "maps-not-written",
         message: "Maps of the input are named and not written; --textures-out DIR writes them.".to_owned(),
         count: inside,
+    })
+}
+
+/// Maps that the D3D12 book's demo does not read.
+fn maps_not_dds(model: &Model) -> Option<Loss> {
+    let names = session::named_maps(&model.materials).map(|(_, _, name)| name);
+    let count = names.filter(|name| !has_extension(Path::new(name), "dds")).count();
+    (count > 0).then(|| Loss {
+        code: codes::BOOK_MAP_FORMAT.name,
+        message: "Maps are not named as DDS, which the demo needs; --textures-out DIR writes them so.".to_owned(),
+        count,
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod appearance;
 mod check;
+mod convert;
 mod info;
 mod pipe;
 mod pose;
