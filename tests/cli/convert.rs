@@ -85,7 +85,7 @@ fn assert_book_shows(file: &str, clip_is_shown: bool) {
 #[test]
 fn a_model_that_needs_no_change_is_the_same_after_it() {
     let output = out("same", "figure.m3d");
-    let told = convert(FIGURE, &output, &[]);
+    let told = convert(FIGURE, &output, &["--hand", "left"]);
     assert_eq!(codes(&told["changes"]), [""; 0]);
     assert_eq!(codes(&told["losses"]), [""; 0]);
     for clip in clip_names(FIGURE) {
@@ -93,7 +93,7 @@ fn a_model_that_needs_no_change_is_the_same_after_it() {
         assert_eq!(old, new, "{clip}");
     }
     let again = out("same", "again.m3d");
-    convert(&output, &again, &[]);
+    convert(&output, &again, &["--hand", "left"]);
     let read = |path: &str| std::fs::read(path).expect("was written");
     assert_eq!(read(&output), read(&again));
     assert_eq!(read(&output).len() as u64, told["bytes"].as_u64().expect("a size"));
@@ -175,7 +175,16 @@ fn text_tells_changes_losses_and_bytes() {
 #[test]
 fn clips_are_chosen_cut_and_renamed() {
     let output = out("clips", "walk.m3d");
-    let options = ["--clips", "Walk", "--range", "0.25..0.75", "--rename", "Walk=Step"];
+    let options = [
+        "--clips",
+        "Walk",
+        "--range",
+        "0.25..0.75",
+        "--rename",
+        "Walk=Step",
+        "--hand",
+        "left",
+    ];
     let told = convert(FIGURE, &output, &options);
     assert_eq!(codes(&told["changes"]), ["clips-chosen", "range-cut", "clip-renamed"]);
     let clip = &info(&output)["clips"][0];
@@ -209,7 +218,7 @@ fn a_loop_is_closed() {
 #[test]
 fn keys_are_reduced_and_the_error_told() {
     let output = out("reduce", "figure.m3d");
-    let told = convert(FIGURE, &output, &["--reduce", "0.001"]);
+    let told = convert(FIGURE, &output, &["--reduce", "0.001", "--hand", "left"]);
     let changes = told["changes"].as_array().expect("a list");
     assert_eq!(changes.len(), 4);
     for change in changes {
