@@ -9,10 +9,12 @@ use std::time::Duration;
 
 use bindpose::anim::CompiledClip;
 use bindpose::check;
+use bindpose::export::{MapImages, glb};
 use bindpose::format::{
     AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex, parse, write,
 };
 use bindpose::import;
+use bindpose::model::JointNames;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 fn parsing(criterion: &mut Criterion) {
@@ -45,6 +47,12 @@ fn parsing(criterion: &mut Criterion) {
             let compiled = CompiledClip::all(&imported.model.clips);
             drop(black_box(check::model(&imported.model, &compiled, &imported.lines)));
         },
+    );
+    let model = import().model;
+    report_ratio(
+        "writing as .glb without maps / parsing and building",
+        || drop(black_box(import())),
+        || drop(black_box(glb(&model, &JointNames::default(), &MapImages::new()))),
     );
 }
 

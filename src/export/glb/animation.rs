@@ -56,13 +56,13 @@ impl Writer<'_> {
         match curves.and_then(|curves| curves.rotation.as_ref()) {
             Some(curve) => self.curve(bone, "rotation", curve, rotation),
             None => {
-                let values = track
+                let values: Vec<_> = track
                     .rotations()
                     .iter()
                     .map(|&value| rotation(Vec4::from(value)))
                     .collect();
                 // All keys, also where they are alike: they say how long the track is.
-                self.channel(bone, "rotation", "LINEAR", track.times_secs(), values);
+                self.channel(bone, "rotation", "LINEAR", track.times_secs(), &values);
             }
         }
         match curves.and_then(|curves| curves.translation.as_ref()) {
@@ -86,8 +86,8 @@ impl Writer<'_> {
     ) {
         let is_constant = track.curves().is_none() && values.iter().all(|value| *value == values[0]);
         let count = if is_constant { 1 } else { values.len() };
-        let values = values[..count].iter().map(|&value| in_gltf(value)).collect();
-        self.channel(bone, path, "LINEAR", &track.times_secs()[..count], values);
+        let values: Vec<_> = values[..count].iter().map(|&value| in_gltf(value)).collect();
+        self.channel(bone, path, "LINEAR", &track.times_secs()[..count], &values);
     }
 
     /// Held values, or splines.
@@ -104,19 +104,19 @@ impl Writer<'_> {
             Some(tangents) if values.len() > 1 => {
                 let keys = tangents.iter().zip(values);
                 let rows = keys.flat_map(|(&[before, after], &value)| [before, value, after].map(&in_gltf));
-                let rows = rows.collect();
-                self.channel(bone, path, "CUBICSPLINE", curve.times_secs(), rows);
+                let rows: Vec<_> = rows.collect();
+                self.channel(bone, path, "CUBICSPLINE", curve.times_secs(), &rows);
             }
             _ => {
-                let rows = values.iter().map(|&value| in_gltf(value)).collect();
-                self.channel(bone, path, "STEP", curve.times_secs(), rows);
+                let rows: Vec<_> = values.iter().map(|&value| in_gltf(value)).collect();
+                self.channel(bone, path, "STEP", curve.times_secs(), &rows);
             }
         }
     }
 
-    fn channel<const N: usize>(&mut self, bone: usize, path: &str, way: &str, times_secs: &[f32], rows: Vec<[f32; N]>) {
+    fn channel<const N: usize>(&mut self, bone: usize, path: &str, way: &str, times_secs: &[f32], rows: &[[f32; N]]) {
         let input = self.input(times_secs);
-        let output = self.binary.floats(&rows, Target::Other, false);
+        let output = self.binary.floats(rows, Target::Other, false);
         let mut sampler = json!({ "input": input, "output": output });
         if way != "LINEAR" {
             sampler["interpolation"] = json!(way);

@@ -113,7 +113,8 @@ impl Writer<'_> {
     /// What it shines with by itself, and whether it is lit.
     fn light(&mut self, material: &Material, written: &mut Value) {
         let strongest = material.emissive.into_iter().fold(0.0, f32::max);
-        if strongest > 1.0 {
+        // What is unlit is shown in its colour alone, and goes with no other extension.
+        if strongest > 1.0 && !material.unlit {
             self.written.extensions.insert(EMISSIVE_STRENGTH);
             written["extensions"][EMISSIVE_STRENGTH] = json!({ "emissiveStrength": number(strongest) });
         }
