@@ -7,9 +7,10 @@ use glam::Affine3A;
 use super::edited::{Change, Edited, counted, with_tracks};
 use super::error::EditError;
 use super::space;
+use crate::anim::{CompiledClip, PoseBuffers, skin_positions};
 use crate::check::book::{DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::codes;
-use crate::model::{Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track};
+use crate::model::{Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track};
 
 /// The height of the books' soldier.
 const SOLDIER_HEIGHT: f32 = 72.0;
@@ -35,9 +36,16 @@ pub(super) fn check_size(model: &Model) -> Result<(), EditError> {
     Ok(())
 }
 
-/// The factor that makes a model as high as the books' soldier, where it is too small or too large to be seen. Its y is up.
+/// The factor that makes a model as high as the books' soldier, where it is too small or too large to be seen. Its y is up. The height is
+/// that of its first pose: the bind pose of other programs may lie down, or be of another size.
 pub(super) fn scale(model: &Model) -> Option<f32> {
-    let height = model.bind_bounds().size().y;
+    let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+    if let Some(clip) = model.clips.first() {
+        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), clip.start_secs);
+    }
+    let mut positions = Vec::new();
+    skin_positions(&model.mesh, &pose.palette, &mut positions);
+    let height = Aabb::from_points(positions).size().y;
     let is_seen = SEEN_HEIGHTS[0]..=SEEN_HEIGHTS[1];
     let factor = SOLDIER_HEIGHT / height;
     let is_small_or_large = model.skeleton.joint_count() > 0 && !is_seen.contains(&(height * DEMO_SCALE));

@@ -1,8 +1,8 @@
 //! Size, handedness, up axis and front: geometry, skeleton, keys and curves are turned together, so that the picture in the world is the
 //! same, or larger.
 //!
-//! The order of a triangle's corners stays: a model's handedness is what its winding says, so what is mirrored winds the other way
-//! round by itself.
+//! The order of a triangle's corners stays, since what is mirrored winds the other way round by itself. Only where the triangles wind as
+//! in the other hand, as those of glTF do, they are turned round: in a `.m3d` the winding is all that tells the hand.
 
 use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A, Vec4};
 
@@ -26,11 +26,11 @@ pub(super) fn turn(edited: &mut Edited, to: Space) {
     let model = &edited.model;
     let (handedness, up_axis, front) = (model.handedness, model.up_axis, model.front);
     let Space {
-        handedness: to_handedness,
+        handedness: handedness_asked,
         up_axis: to_up_axis,
         front: to_front,
     } = to;
-    let (to_handedness, to_up_axis) = (to_handedness.unwrap_or(handedness), to_up_axis.unwrap_or(up_axis));
+    let (to_handedness, to_up_axis) = (handedness_asked.unwrap_or(handedness), to_up_axis.unwrap_or(up_axis));
     let to_front = to_front.unwrap_or(front);
     let world_from_new = world_from_model(to_handedness, to_up_axis, to_front);
     // Axes are exchanged and turned round, no more: the inverse is exact.
@@ -41,6 +41,11 @@ pub(super) fn turn(edited: &mut Edited, to: Space) {
     }
     let model = &mut edited.model;
     (model.handedness, model.up_axis, model.front) = (to_handedness, to_up_axis, to_front);
+    let turned_round = handedness_asked.is_some() && winds_against(model);
+    if turned_round {
+        let (triangles, _) = model.mesh.indices.as_chunks_mut::<3>();
+        triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    }
     let mut change = |is_one: bool, code, message: String| {
         if is_one {
             edited.changes.push(Change::new(code, message));
@@ -61,10 +66,33 @@ pub(super) fn turn(edited: &mut Edited, to: Space) {
         ),
     );
     change(
+        turned_round,
+        "winding-changed",
+        "Triangles wind the other way round, as the hand asks for.".to_owned(),
+    );
+    change(
         to_front != front,
         "front-changed",
         "It is turned round, to face where the format's characters do.".to_owned(),
     );
+}
+
+/// Whether most triangles wind as in the other hand: where fronts are clockwise, normals point to the side that the corners go round by
+/// the left hand.
+fn winds_against(model: &Model) -> bool {
+    let mesh = &model.mesh;
+    let (triangles, _) = mesh.indices.as_chunks::<3>();
+    let mut left_less_right = 0_i64;
+    for corners in triangles {
+        let [a, b, c] = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+        let normal: Vec3 = corners.iter().map(|&vertex| mesh.normals[vertex as usize]).sum();
+        let side = (b - a).cross(c - a).dot(normal.as_dvec3());
+        left_less_right += i64::from(side > 0.0) - i64::from(side < 0.0);
+    }
+    match model.handedness {
+        Handedness::Left => left_less_right < 0,
+        Handedness::Right => left_less_right > 0,
+    }
 }
 
 /// Multiplies all lengths.

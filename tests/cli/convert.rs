@@ -143,6 +143,9 @@ fn a_glb_is_read_again_with_the_same_lengths() {
     assert_eq!(info(&output)["counts"], info(FIGURE)["counts"]);
     let back = out("glb", "back.m3d");
     convert(&output, &back, &[]);
+    for file in [&output, &back] {
+        assert_eq!(info(file)["handedness"], "right", "{file}");
+    }
     for clip in ["Walk", "Run", "Wave", "Idle"] {
         let old = lengths(&positions(FIGURE, clip, 0.4));
         for file in [&output, &back] {
@@ -503,7 +506,6 @@ fn real_files_go_every_way() {
     ];
     for name in names {
         let Some(input) = shared(&format!("models/{name}.m3d")) else {
-            println!("skipped: {name}");
             continue;
         };
         let stem = name.replace('/', "_");

@@ -171,3 +171,21 @@ fn a_scale_that_is_none_is_refused() {
         EditError::Overflows
     );
 }
+
+#[test]
+fn triangles_of_gltf_wind_as_the_hand_that_is_asked_for() {
+    let mut model = figure();
+    model.handedness = Handedness::Right;
+    let old = model.mesh.indices.clone();
+    assert_eq!(edit(&model, &Edits::default()).model.mesh.indices, old, "nobody asked");
+    let asked = Edits {
+        handedness: Some(Handedness::Right),
+        ..Edits::default()
+    };
+    let edited = edit(&model, &asked);
+    assert_eq!(edited.changes[0].code, "winding-changed");
+    for (old, new) in old.chunks_exact(3).zip(edited.model.mesh.indices.chunks_exact(3)) {
+        assert_eq!(new, [old[0], old[2], old[1]]);
+    }
+    assert_eq!(edit(&edited.model, &asked).changes, []);
+}
