@@ -204,7 +204,7 @@ pub(super) fn rests_apart(model: &Model) -> Vec<Option<LocalJoint>> {
     let size = model.bind_bounds().size().length();
     let rests = model.skeleton.rest().iter();
     rests
-        .zip(model.skeleton.bind_rest())
+        .zip(model.skeleton.bind().iter().copied())
         .map(|(&rest, bind)| {
             let near = rest.translation.distance(bind.translation) <= REST_TOLERANCE * size
                 && rest.scale.distance(bind.scale) <= REST_TOLERANCE
