@@ -40,6 +40,7 @@ pub mod check;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod cli;
 pub mod diagnostic;
+pub mod edit;
 pub mod export;
 pub mod format;
 pub mod image;

@@ -15,7 +15,7 @@ const MOST_HALVINGS: u32 = 9;
 
 /// A track whose parts all go straight from key to key, and that strays from the given one by less than [`MOST_ERROR`]. A value that
 /// is held has a second key, which is the last number before the time of the next.
-pub(super) fn straight(track: &Track) -> Cow<'_, Track> {
+pub(crate) fn straight(track: &Track) -> Cow<'_, Track> {
     let Some(curves) = track.curves() else {
         return Cow::Borrowed(track);
     };
