@@ -86,6 +86,9 @@ export function createApi() {
       const running = await unlessStopped(ready);
       return new Blob([await unlessStopped(running.snapshot(options))], { type: "image/png" });
     },
+
+    /** The model as a file of another format: `{name, bytes, changes, losses}`. */
+    export: async (options = {}) => unlessStopped((await unlessStopped(ready)).exportModel(options)),
   });
 
   return {

@@ -67,7 +67,11 @@ impl Reducing {
         };
         self.done += 1;
         if new.key_count != old.key_count {
-            let fraction = if self.diagonal > 0.0 { reached / self.diagonal } else { 0.0 };
+            let fraction = if self.diagonal > 0.0 {
+                reached / self.diagonal
+            } else {
+                0.0
+            };
             edited.changes.push(Change::new(
                 "keys-reduced",
                 format!(

@@ -73,5 +73,7 @@ impl Archive {
 /// Whether a file of this name is compressed already.
 fn is_packed(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
-    [".png", ".jpg", ".jpeg"].iter().any(|extension| name.ends_with(extension))
+    [".png", ".jpg", ".jpeg"]
+        .iter()
+        .any(|extension| name.ends_with(extension))
 }

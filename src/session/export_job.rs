@@ -65,6 +65,17 @@ pub struct ExportedFile {
     pub plan: ExportPlan,
 }
 
+impl ExportedFile {
+    /// Its media type.
+    pub fn media_type(&self) -> &'static str {
+        match self.name.rsplit_once('.') {
+            Some((_, "glb")) => "model/gltf-binary",
+            Some((_, "zip")) => "application/zip",
+            _ => "text/plain",
+        }
+    }
+}
+
 /// Why no file was written.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportRefusal {
@@ -228,10 +239,7 @@ fn is_of_book(slot: MapSlot) -> bool {
 }
 
 /// The pictures that a file of the books names, each once, under the name that it gives.
-fn beside(
-    edited: &Edited,
-    pictures: &BTreeMap<(usize, MapSlot), File>,
-) -> impl Iterator<Item = (String, Arc<[u8]>)> {
+fn beside(edited: &Edited, pictures: &BTreeMap<(usize, MapSlot), File>) -> impl Iterator<Item = (String, Arc<[u8]>)> {
     let named = pictures.iter().filter_map(|(&(material, slot), file)| {
         let name = edited.model.materials.get(material)?.map_name(slot)?;
         let name = name_in_archive(name, file);

@@ -144,54 +144,42 @@ impl Session {
         }
     }
 
-    /// Does one step of what is planned or written, for what is open now. Whether there is more to do.
+    /// Does one step of what is planned or written, for what is open now. Whether there was one to do.
     pub fn step_export(&mut self) -> bool {
         let Some(options) = self.exporting.options.clone() else {
             return false;
         };
-        let Some(stamp) = self.stamp(&options) else {
-            self.exporting = Exporting {
-                options: Some(options),
-                ..Exporting::default()
-            };
-            return false;
-        };
-        // What is being written was taken when that began.
-        if !self.exporting.saves && self.exporting.of.as_ref() != Some(&stamp) {
-            self.exporting.made = Made::Nothing;
+        let stamp = self.stamp(&options);
+        let exporting = &mut self.exporting;
+        let is_known = exporting.of == stamp;
+        // What is being written was taken when that began, but it ends with its model.
+        if !is_known && !(exporting.saves && stamp.is_some()) {
+            (exporting.made, exporting.saves) = (Made::Nothing, false);
         }
-        let job = match std::mem::take(&mut self.exporting.made) {
+        let job = match std::mem::take(&mut exporting.made) {
             Made::Nothing => {
-                self.exporting.of = Some(stamp);
+                self.exporting.of = stamp;
                 self.export_job(&options).map(Box::new)
             }
-            Made::Job(job) if job.plan().is_some() && !self.exporting.saves => {
-                self.exporting.made = Made::Job(job);
-                return false;
-            }
-            Made::Job(job) => Some(job),
-            refused @ Made::Refused(_) => {
-                self.exporting.made = refused;
-                self.exporting.saves = false;
-                return false;
+            Made::Job(job) if exporting.saves || job.plan().is_none() => Some(job),
+            idle => {
+                (exporting.made, exporting.saves) = (idle, false);
+                None
             }
         };
         let Some(job) = job else { return false };
+        let exporting = &mut self.exporting;
         match job.step() {
-            ExportStep::Working(job) => {
-                let is_due = self.exporting.saves || job.plan().is_none();
-                self.exporting.made = Made::Job(job);
-                return is_due;
-            }
+            ExportStep::Working(job) => exporting.made = Made::Job(job),
             ExportStep::Ended(Ok(file)) => {
-                self.exporting.written = Some(*file);
-                // It is planned anew: a job ends with its file.
-                self.exporting.of = None;
+                // A job ends with its file. What the next one would be is planned anew.
+                (exporting.written, exporting.saves) = (Some(*file), false);
             }
-            ExportStep::Ended(Err(refusal)) => self.exporting.made = Made::Refused(refusal.to_string()),
+            ExportStep::Ended(Err(refusal)) => {
+                (exporting.made, exporting.saves) = (Made::Refused(refusal.to_string()), false);
+            }
         }
-        let was_saved = std::mem::take(&mut self.exporting.saves) && self.exporting.written.is_some();
-        was_saved
+        true
     }
 
     /// The file that was written since the last call.

@@ -84,8 +84,8 @@ pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState
 use actor::Actor;
 use changes::Revisions;
 use content::Content;
-use exporting::Exporting;
 use crowd_cache::CrowdCache;
+use exporting::Exporting;
 use instances::Instances;
 use overlays::OverlayCache;
 use picking::Picker;

@@ -16,7 +16,7 @@ use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
-use crate::session::Session;
+use crate::session::{ExportOptions, ExportedFile, Session};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
@@ -43,6 +43,8 @@ pub enum Request {
     },
     /// Save the report of all that was found in the open file; [`report_name`](crate::ui::report_name) says how the file is called.
     SaveReport,
+    /// Save a file that was written.
+    SaveExport(Box<ExportedFile>),
     /// Have a screen reader speak.
     Announce(Announcement),
 }
@@ -64,6 +66,8 @@ pub enum SheetPage {
     ViewFrom,
     /// A picture as a file.
     Picture,
+    /// The model as a file of another format.
+    Export,
     /// Dope sheet and curves.
     Timeline,
 }
@@ -105,6 +109,7 @@ pub struct UiState {
     pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,
     pub(super) picture: PictureChoice,
+    pub(super) export: ExportChoice,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,
@@ -209,4 +214,17 @@ impl PictureChoice {
         let pixels = |side: f32| (side.round() as u32).clamp(1, MAX_PICTURE_SIDE);
         self.size.unwrap_or([pixels(window.x), pixels(window.y)])
     }
+}
+
+/// How to export, for the model that is open.
+#[derive(Debug, Default)]
+pub(super) struct ExportChoice {
+    pub(super) options: ExportOptions,
+    pub(super) of_model: u64,
+    /// The lists of changes and losses that are shown whole.
+    pub(super) unfolded: [bool; 2],
+    /// A key asked for it.
+    pub(super) asked: bool,
+    /// It is shown in this pass.
+    pub(super) shown: bool,
 }
