@@ -43,6 +43,7 @@ pub mod diagnostic;
 pub mod edit;
 pub mod export;
 pub mod format;
+pub mod gltf;
 pub mod image;
 pub mod import;
 pub mod light;

@@ -58,9 +58,7 @@ pub fn text(file: &CheckedFile<'_>, paint: Paint<'_>) -> String {
 
 /// `file:line:column: severity[code]: message`, the lines that it is about, and the numbers of others like it.
 pub fn finding(path: &str, diagnostic: &Diagnostic, excerpt: Option<&Excerpt>, paint: Paint<'_>) -> String {
-    let place = diagnostic
-        .position
-        .map_or_else(|| path.to_owned(), |at| format!("{path}:{}:{}", at.line, at.column));
+    let place = format!("{path}{}", diagnostic.place_in_file());
     let place = paint(Ink::Place, &OneLine(&place).to_string());
     let severity = format!("{}[{}]", diagnostic.severity, diagnostic.code);
     let severity = paint(Ink::Severity(diagnostic.severity), &severity);

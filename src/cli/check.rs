@@ -12,6 +12,7 @@ use serde::Serialize;
 use super::diagnostic::Colors;
 use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
+use super::input;
 use super::paths;
 use super::text::counted;
 use super::textures::{MapState, Textures, Wanted, by_name, missing, without_name};
@@ -214,7 +215,7 @@ fn progress(files: usize) -> ProgressBar {
 
 fn check_file(path: &Path, arguments: &Arguments, is_only: bool) -> Result<Checked, Failure> {
     let bytes = paths::read(path)?;
-    let imported = import::import(&bytes);
+    let imported = import::import_beside(&bytes, &|name| input::beside(path, name));
     let mut diagnostics = Vec::new();
     let mut missing_maps = None;
     if let Ok(imported) = &imported
@@ -279,7 +280,12 @@ fn findings_of_maps(imported: &Imported, folders: &[PathBuf], is_only: bool) -> 
     let materials = &imported.model.materials;
     let mut textures = Textures::read(folders, materials, Wanted::Maps)?;
     let mut maps = Maps::without_mips();
-    maps.add(materials, std::mem::take(&mut textures.pictures));
+    let pictures = std::mem::take(&mut textures.pictures).into_iter();
+    let own = imported
+        .pictures
+        .iter()
+        .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)));
+    maps.add(materials, pictures.chain(own));
     let states = textures.states(materials, &maps);
     let mut diagnostics = Vec::new();
     let mut absent = Vec::new();

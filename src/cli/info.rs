@@ -15,7 +15,7 @@ use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::Dialect;
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::summary::{self, Bounds, Finding};
-use crate::session::{Maps, OpenModel};
+use crate::session::{FileFormat, Maps, OpenModel};
 
 /// Print what is in a model.
 #[derive(Debug, clap::Args)]
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
 const JSON: &str = "\
 JSON: an object
   file              the path as given
-  dialect           \"d3d12\", \"d3d11\" or \"imm\"
+  dialect           \"d3d12\", \"d3d11\" or \"imm\"; \"glb\" or \"gltf\"
   handedness        \"left\" or \"right\", found from the triangles
   up_axis           \"y\" or \"z\", as the dialect suggests
   counts            materials, vertices, triangles, bones, clips
@@ -97,12 +97,13 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let materials = &open.model.materials;
     let mut found = Maps::without_mips();
     let mut textures;
-    let maps = if arguments.textures.is_empty() {
+    let maps = if arguments.textures.is_empty() && !open.format.is_gltf() {
         named_maps(materials).collect()
     } else {
         textures = Textures::read(&arguments.textures, materials, Wanted::Maps)?;
         textures.write_warnings(err)?;
-        found.add(materials, std::mem::take(&mut textures.pictures));
+        let pictures = std::mem::take(&mut textures.pictures).into_iter();
+        found.add(materials, pictures.chain(open.pictures.iter().cloned()));
         textures.states(materials, &found)
     };
     let info = Info::new(arguments.file.display().to_string(), &open, &maps);
@@ -156,10 +157,12 @@ fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
 }
 
 fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {
-    let dialect = match open.dialect {
-        Dialect::D3d12 => "D3D12 book",
-        Dialect::D3d11 => "D3D11 book",
-        Dialect::Imm => "imm exporter",
+    let dialect = match open.format {
+        FileFormat::M3d(Dialect::D3d12) => "D3D12 book",
+        FileFormat::M3d(Dialect::D3d11) => "D3D11 book",
+        FileFormat::M3d(Dialect::Imm) => "imm exporter",
+        FileFormat::Glb => "GLB",
+        FileFormat::Gltf => "glTF",
     };
     let hand = match open.model.handedness {
         Handedness::Left => "left-handed",

@@ -1,10 +1,12 @@
 //! What the arguments name: a file, its model, a clip, a time.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::failure::Failure;
+use crate::import;
 use crate::model::Model;
 use crate::session::{self, File, OpenModel};
 
@@ -18,9 +20,24 @@ pub(super) fn read(path: &Path) -> Result<File, Failure> {
     Ok(File::new("model.m3d", bytes))
 }
 
+/// The same with the files beside it that it names, as far as they are there.
+pub(super) fn read_all(path: &Path) -> Result<Vec<File>, Failure> {
+    let model = read(path)?;
+    let named = import::files_beside(&model.bytes).into_iter();
+    let beside = named.filter_map(|name| Some(File::new(&name, beside(path, &name)?)));
+    let beside: Vec<File> = beside.collect();
+    Ok(std::iter::once(model).chain(beside).collect())
+}
+
+/// The bytes of a file that a model names by a relative path. Only regular files are opened: opening a pipe would wait for a writer.
+pub(super) fn beside(model: &Path, name: &str) -> Option<Arc<[u8]>> {
+    let path = model.parent()?.join(name);
+    path.is_file().then(|| std::fs::read(path).ok())?.map(Into::into)
+}
+
 /// A model that can be shown.
 pub(super) fn load(path: &Path) -> Result<OpenModel, Failure> {
-    session::load(&read(path)?).map_err(|error| Failure::Refused {
+    session::load_beside(&read(path)?, &|name| beside(path, name)).map_err(|error| Failure::Refused {
         path: path.to_owned(),
         error,
     })

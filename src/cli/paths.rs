@@ -10,7 +10,7 @@ use super::failure::Failure;
 /// The name of standard input.
 const STDIN: &str = "-";
 
-/// The files that arguments name, in the order of the arguments; of a folder every `.m3d` file below it, by their paths. What cannot be
+/// The files that arguments name, in the order of the arguments; of a folder every model below it, by their paths. What cannot be
 /// listed is a failure in its place. Links to folders are not followed.
 pub(super) fn models(arguments: &[PathBuf]) -> Vec<Result<PathBuf, Failure>> {
     let mut models = Vec::new();
@@ -35,7 +35,12 @@ pub(super) fn models(arguments: &[PathBuf]) -> Vec<Result<PathBuf, Failure>> {
 
 fn is_model(path: &Path) -> bool {
     path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("m3d"))
+        .and_then(|extension| extension.to_str())
+        .is_some_and(|extension| {
+            ["m3d", "glb", "gltf"]
+                .iter()
+                .any(|known| extension.eq_ignore_ascii_case(known))
+        })
 }
 
 /// The bytes of a file, or of standard input where the path says `-`.

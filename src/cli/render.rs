@@ -140,7 +140,7 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     let path = &arguments.file;
     // Paused, so that time stays where it is set.
     let mut session = Session::new(true);
-    session.apply(FileCommand::Add(vec![input::read(path)?]));
+    session.apply(FileCommand::Add(input::read_all(path)?));
     if let Some(error) = session.error() {
         return Err(Failure::Refused {
             path: path.clone(),

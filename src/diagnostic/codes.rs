@@ -280,6 +280,79 @@ table! {
             "Such a quaternion has no direction.";
     }
 
+    /// What reading a glTF file gives ([`gltf`](crate::gltf), [`import::gltf`](crate::import::gltf)), beside codes above.
+    OF_GLTF {
+        GLB_DAMAGED = "glb-damaged", Error,
+            "The container of a .glb file is damaged.",
+            "It was not written or copied to its end, or another program changed it.";
+        GLB_SURPLUS = "glb-surplus", Warning,
+            "A .glb file has chunks or bytes that do not belong there.",
+            "A .glb file is one chunk of JSON, then at most one of binary data, and nothing behind the length in its header.";
+        GLTF_NOT_JSON = "gltf-not-json", Error,
+            "The JSON of a glTF file cannot be read.",
+            "The message says what the reader of JSON met.";
+        GLTF_WRONG_TYPE = "gltf-wrong-type", Error,
+            "A value is of another kind than glTF asks for, or one that it needs is missing.",
+            "The JSON pointer says which value it is.";
+        GLTF_VERSION = "gltf-version", Error,
+            "The file is of another version of glTF.",
+            "Export it as glTF 2.0.";
+        GLTF_EXTENSION_REQUIRED = "gltf-extension-required", Error,
+            "The model cannot be read without an extension that is not known here.",
+            "Export it without compression and with textures in PNG or JPEG.";
+        GLTF_EXTENSION_UNKNOWN = "gltf-extension-unknown", Note,
+            "The file uses an extension that is not read; the model is shown without.",
+            "The file says itself that it can be shown so.";
+        GLTF_INDEX_OUT_OF_RANGE = "gltf-index-out-of-range", Error,
+            "An index names something that is not in the file.",
+            "The JSON pointer says which index it is.";
+        GLTF_BUFFER_MISSING = "gltf-buffer-missing", Error,
+            "The data of a buffer are not there.",
+            "A .gltf file has its data in files beside it: drop them together with it.";
+        GLTF_BUFFER_SHORT = "gltf-buffer-short", Error,
+            "A buffer has less data than it says, or a part of it reaches beyond its end.",
+            "It was not written or copied to its end.";
+        GLTF_ACCESSOR_OUT_OF_RANGE = "gltf-accessor-out-of-range", Error,
+            "An accessor reaches beyond its data.",
+            "Its count, offset or stride is wrong.";
+        GLTF_ACCESSOR_FORMAT = "gltf-accessor-format", Error,
+            "An accessor has other numbers than belong in its place.",
+            "Positions have three numbers, joints four whole ones, and so on.";
+        GLTF_NODES_TANGLED = "gltf-nodes-tangled", Error,
+            "Nodes are no trees: one is its own ancestor, or the child of two.",
+            "Every node has one parent at most.";
+        GLTF_TOO_LARGE = "gltf-too-large", Error,
+            "The file asks for far more than it holds.",
+            "One mesh or clip is used so often that it does not fit into memory.";
+        GLTF_RULE_BROKEN = "gltf-rule-broken", Warning,
+            "The file breaks a rule of glTF, and was read by its sense.",
+            "Other programs may refuse it.";
+        GLTF_EMPTY = "gltf-empty", Warning,
+            "The scene has neither meshes nor joints.",
+            "There is nothing to show.";
+        GLTF_PRIMITIVE_LEFT_OUT = "gltf-primitive-left-out", Warning,
+            "A part of a mesh has no triangles; left out.",
+            "Points, lines and parts without positions are not shown.";
+        GLTF_NORMALS_ABSENT = "gltf-normals-absent", Note,
+            "A part of a mesh has no normals; smooth ones were computed.",
+            "glTF asks for flat triangles there, which would need vertices of their own.";
+        GLTF_MORPH_ANIMATION_LEFT_OUT = "gltf-morph-animation-left-out", Warning,
+            "A clip moves the weights of morph targets; left out.",
+            "Morph targets are shown with the weights that the file gives them outside of clips.";
+        GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
+            "A clip moves something that is not shown; left out.",
+            "Cameras, lights and nodes without meshes are not shown.";
+        GLTF_MATRIX_SHEARED = "gltf-matrix-sheared", Warning,
+            "A node's matrix shears or flattens space; the shear was left out.",
+            "Joints have a translation, a rotation and a scale. What hangs on the node may look displaced.";
+        GLTF_IMAGE_NOT_READ = "gltf-image-not-read", Warning,
+            "A picture is of a kind that is not read, or its address is none; the material is shown without it.",
+            "PNG and JPEG are read.";
+        WEIGHTS_CUT = "weights-cut", Warning,
+            "A vertex is moved by more than four joints; the four with the greatest weights are kept.",
+            "Their weights are scaled to sum to 1. The message says how much was lost at most.";
+    }
+
     /// What the checks of a mesh and its rig give ([`check::model`](crate::check::model)).
     OF_MESH_AND_RIG {
         TRIANGLES_WITHOUT_AREA = "triangles-without-area", Note,

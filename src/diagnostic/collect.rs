@@ -34,6 +34,7 @@ impl Diagnostics {
             position: places.first().copied(),
             subject: place.subjects.first().copied(),
             count: place.count,
+            pointer: place.pointer,
             places,
             subjects: place.subjects,
             ..code.says(message)
@@ -81,6 +82,7 @@ pub(crate) struct Place {
     lines: Vec<u32>,
     count: u32,
     subjects: Vec<Subject>,
+    pointer: Option<String>,
 }
 
 /// The whole file.
@@ -90,11 +92,29 @@ impl Default for Place {
             lines: Vec::new(),
             count: 1,
             subjects: Vec::new(),
+            pointer: None,
         }
     }
 }
 
 impl Place {
+    /// A place in a JSON document.
+    pub(crate) fn pointer(pointer: impl Into<String>) -> Self {
+        Self {
+            pointer: Some(pointer.into()),
+            ..Self::default()
+        }
+    }
+
+    /// The same place, and the part of the model that it is about.
+    #[must_use]
+    pub(crate) fn about(self, subject: Subject) -> Self {
+        Self {
+            subjects: vec![subject],
+            ..self
+        }
+    }
+
     /// A part of the model. `lines` has the line of each part of this kind.
     pub(crate) fn of(subject: Subject, lines: &[u32]) -> Self {
         let (Subject::Material(index)
@@ -113,6 +133,7 @@ impl Place {
             lines: line.into_iter().collect(),
             count: 1,
             subjects: vec![subject],
+            pointer: None,
         }
     }
 
@@ -123,6 +144,7 @@ impl Place {
             lines: rows.first_lines(lines),
             count: rows.count_u32(),
             subjects: rows.rows.into_iter().flatten().map(subject).collect(),
+            pointer: None,
         }
     }
 
@@ -134,6 +156,7 @@ impl Place {
             lines: otherwise.into_iter().chain(rows.first_lines(lines)).collect(),
             count: rows.count_u32(),
             subjects: vec![subject],
+            pointer: None,
         }
     }
 }

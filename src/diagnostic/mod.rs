@@ -102,6 +102,10 @@ pub struct Diagnostic {
     pub position: Option<Position>,
     /// How many bytes from `position` on are meant; 0 when only the point is known.
     pub length: u32,
+    /// What of a JSON document it is about, as RFC 6901 points at it: `/meshes/0/primitives/1`.
+    pub pointer: Option<String>,
+    /// Where it is in a binary file, in bytes from its start.
+    pub byte_offset: Option<u64>,
     /// The part of the model it is about; the first one when there are several.
     pub subject: Option<Subject>,
     /// How many occurrences it stands for, rows of the file or parts of the model; 1 for a single one.
@@ -122,6 +126,25 @@ impl Diagnostic {
     /// The positions that outputs name.
     pub fn few_places(&self) -> &[Position] {
         &self.places[..self.places.len().min(Self::FEW_PLACES)]
+    }
+
+    /// What follows the file's name where a line of text says the place: `:3:14`, `#/meshes/0` or `@20`; empty for the whole file.
+    pub fn place_in_file(&self) -> String {
+        match (self.position, &self.pointer, self.byte_offset) {
+            (Some(at), ..) => format!(":{}:{}", at.line, at.column),
+            (None, Some(pointer), _) => format!("#{pointer}"),
+            (None, None, Some(offset)) => format!("@{offset}"),
+            (None, None, None) => String::new(),
+        }
+    }
+
+    /// The same at a place in a JSON document.
+    #[must_use]
+    pub(crate) fn pointing_at(self, pointer: impl Into<String>) -> Self {
+        Self {
+            pointer: Some(pointer.into()),
+            ..self
+        }
     }
 
     /// Part and position of each occurrence that is known, as far as it has them.
@@ -165,6 +188,8 @@ impl Code {
             found: None,
             position: None,
             length: 0,
+            pointer: None,
+            byte_offset: None,
             subject: None,
             count: 1,
             places: Vec::new(),

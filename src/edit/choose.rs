@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::{Change, EditError, Edited, counted};
+use super::edited::{Change, Edited, counted};
+use super::error::EditError;
 
 /// Keeps the clips of these names, in the model's order.
 pub(super) fn choose_clips(edited: &mut Edited, names: &[String]) -> Result<(), EditError> {

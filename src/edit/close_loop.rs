@@ -6,7 +6,8 @@
 
 use glam::Quat;
 
-use super::{Change, EditError, Edited, counted, with_tracks};
+use super::edited::{Change, Edited, counted, with_tracks};
+use super::error::EditError;
 use crate::anim::straight;
 use crate::model::{Clip, LocalJoint, Track};
 

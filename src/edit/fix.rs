@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::{Change, Edited, counted, with_tracks};
+use super::edited::{Change, Edited, counted, with_tracks};
 use crate::check::{flat_triangles, is_still, repeated_triangles, surplus_keys, tangents_against, used_vertices};
 use crate::diagnostic::{Code, codes};
 use crate::model::{Clip, Influences, Mesh, Track};

@@ -4,7 +4,9 @@ use std::collections::HashSet;
 
 use glam::Affine3A;
 
-use super::{Change, EditError, Edited, counted, space, with_tracks};
+use super::edited::{Change, Edited, counted, with_tracks};
+use super::error::EditError;
+use super::space;
 use crate::check::book::{DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::codes;
 use crate::model::{Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track};

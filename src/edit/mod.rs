@@ -5,6 +5,7 @@
 
 mod choose;
 mod close_loop;
+mod edited;
 mod error;
 mod fix;
 mod for_book;
@@ -13,11 +14,12 @@ mod reduce;
 mod rename;
 mod space;
 
+pub use edited::{Change, Edited};
 pub use error::EditError;
 
 use reduce::Reducing;
 
-use crate::model::{Clip, Front, Handedness, JointNames, Model, Track, UpAxis};
+use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
 
 /// What to change. The default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,35 +66,6 @@ impl Edits {
         self.front.get_or_insert(Front::Negative);
         self
     }
-}
-
-/// Something that came out otherwise than it was.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Change {
-    /// Stable name of its kind. What check names has check's code.
-    pub code: &'static str,
-    /// One sentence.
-    pub message: String,
-}
-
-impl Change {
-    fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            message: message.into(),
-        }
-    }
-}
-
-/// A changed model.
-#[derive(Clone, Debug)]
-pub struct Edited {
-    /// The model.
-    pub model: Model,
-    /// Names of its bones, by their numbers in the model as it is now.
-    pub names: JointNames,
-    /// What is otherwise than before, in the order of the edits.
-    pub changes: Vec<Change>,
 }
 
 /// Makes all edits, in the order that the module's doc names. `names` are those that a person gave to bones.
@@ -232,14 +205,4 @@ impl EditJob {
         }
         Ok(())
     }
-}
-
-/// The clip with other tracks.
-fn with_tracks(clip: &Clip, tracks: Vec<Track>) -> Clip {
-    Clip::new(clip.name.clone(), tracks)
-}
-
-/// `1 key`, `2 keys`.
-fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }

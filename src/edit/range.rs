@@ -1,6 +1,7 @@
 //! Keeps a part of a clip, with keys at the cuts.
 
-use super::{Change, EditError, Edited, with_tracks};
+use super::edited::{Change, Edited, with_tracks};
+use super::error::EditError;
 use crate::model::{Clip, Curve, CurveValue, Curves, ModelError, Track};
 
 /// Cuts the only clip to a range of its own time, which stays as it is.

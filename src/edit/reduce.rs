@@ -6,12 +6,13 @@
 
 use glam::Affine3A;
 
-use super::{Change, EditError, Edited, with_tracks};
+use super::edited::{Change, Edited, with_tracks};
+use super::error::EditError;
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::model::{Aabb, Clip, LocalJoint, Model, Skeleton, Track};
 
 /// Errors of a chain's joints rarely point the same way, so shares begin greater than what is safe.
-const FIRST_SHARE: f32 = 4.0;
+const FIRST_SHARE: f32 = 8.0;
 
 /// So often is a chain thinned anew before it keeps its keys.
 const MOST_ROUNDS: usize = 8;

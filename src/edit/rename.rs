@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-use super::{Change, EditError, Edited};
+use super::edited::{Change, Edited};
+use super::error::EditError;
 
 /// Renames clips, all at once: two may exchange their names.
 pub(super) fn rename_clips(edited: &mut Edited, names: &[(String, String)]) -> Result<(), EditError> {

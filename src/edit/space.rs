@@ -6,7 +6,8 @@
 
 use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A, Vec4};
 
-use super::{Change, EditError, Edited, with_tracks};
+use super::edited::{Change, Edited, with_tracks};
+use super::error::EditError;
 use crate::model::{
     Curve, CurveValue, Curves, Front, Handedness, JointIndex, LocalJoint, Model, ModelError, Skeleton, Track, UpAxis,
     world_from_model,

@@ -3,6 +3,7 @@
 //! What a format cannot hold is a [`Loss`]. All losses are known before anything is written.
 
 mod glb;
+mod losses;
 mod m3d;
 
 use std::collections::BTreeMap;
@@ -11,7 +12,7 @@ use crate::image::Image;
 use crate::model::MapSlot;
 
 pub use glb::{glb, glb_losses};
-pub use m3d::{m3d, m3d_losses};
+pub use m3d::{m3d, m3d_losses, one_word};
 
 /// A written file.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! What comes out of a file of any format.
 
+use std::sync::Arc;
+
 use crate::diagnostic::Diagnostic;
 use crate::format::{Dialect, LineMap};
 use crate::model::Model;
@@ -16,12 +18,50 @@ pub struct Refused {
 /// What came out of a file.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// Spelling of the file.
-    pub dialect: Dialect,
+    /// What kind of file it was.
+    pub format: FileFormat,
     /// The model, in the file's space.
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
     /// Where its parts stand in the file; empty for a format without lines.
     pub lines: LineMap,
+    /// Pictures inside the file, and those beside it that were given, as its materials name them.
+    pub pictures: Vec<Picture>,
+}
+
+/// The kinds of files that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
+    /// The books' text, in one of its spellings.
+    M3d(Dialect),
+    /// glTF in one binary file.
+    Glb,
+    /// glTF as JSON text.
+    Gltf,
+}
+
+impl FileFormat {
+    /// The name that outputs use: `d3d12`, `d3d11`, `imm`, `glb` or `gltf`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::M3d(dialect) => dialect.as_str(),
+            Self::Glb => "glb",
+            Self::Gltf => "gltf",
+        }
+    }
+
+    /// Whether it is glTF, in either form.
+    pub fn is_gltf(self) -> bool {
+        matches!(self, Self::Glb | Self::Gltf)
+    }
+}
+
+/// A picture that came with a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// The name that materials give it, with its extension; unique in the file.
+    pub name: String,
+    /// Its bytes, as a file of its kind has them.
+    pub bytes: Arc<[u8]>,
 }

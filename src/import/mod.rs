@@ -4,25 +4,49 @@
 //! [`Model`](crate::model::Model)'s to prove. Normals and tangents are computed for any format.
 
 mod error;
+mod gltf;
 mod imported;
 pub mod m3d;
 mod normals;
 mod tangents;
 
 pub use error::{ImportError, ImportErrorKind};
-pub use imported::{Imported, Refused};
+pub use imported::{FileFormat, Imported, Picture, Refused};
+
+pub use crate::gltf::FindFile;
 
 /// Whether a file begins as one of the formats does, whatever its name.
 ///
 /// A quick look. What it accepts [`import`] may still refuse.
 pub fn begins_like_model(bytes: &[u8]) -> bool {
-    m3d::begins_like_model(bytes)
+    m3d::begins_like_model(bytes) || gltf::begins_like_model(bytes)
 }
 
-/// Reads a model.
+/// Reads a model that needs no other file.
 ///
 /// # Errors
 /// When the bytes are of no format that is known here, or what they say makes no model.
 pub fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
-    m3d::import(bytes)
+    import_beside(bytes, &|_| None)
+}
+
+/// Reads a model; `find` gives the files beside it that it names ([`files_beside`]).
+///
+/// # Errors
+/// As [`import`], and when such a file is not there.
+pub fn import_beside(bytes: &[u8], find: FindFile<'_>) -> Result<Imported, Box<Refused>> {
+    if gltf::begins_like_model(bytes) {
+        gltf::import(bytes, find)
+    } else {
+        m3d::import(bytes)
+    }
+}
+
+/// The relative paths of the files that a model needs beside itself: data and pictures. A quick look for those who read files.
+pub fn files_beside(bytes: &[u8]) -> Vec<String> {
+    if gltf::begins_like_model(bytes) {
+        gltf::files_beside(bytes)
+    } else {
+        Vec::new()
+    }
 }

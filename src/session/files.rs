@@ -61,6 +61,9 @@ pub struct FileSet {
 /// Extensions of pictures that models name as their maps.
 const IMAGE_EXTENSIONS: [&str; 7] = ["dds", "png", "jpg", "jpeg", "tga", "bmp", "hdr"];
 
+/// Extensions of models.
+const MODEL_EXTENSIONS: [&str; 3] = ["m3d", "glb", "gltf"];
+
 impl FileSet {
     /// A set of these files, in their order. Of two files with one path the later is kept.
     pub fn new(files: impl IntoIterator<Item = File>) -> Self {
@@ -106,6 +109,24 @@ impl FileSet {
         self.files.iter().filter(|file| file.is_cube())
     }
 
+    /// The file that `from` names by a relative path: at that path, or else any of that base name.
+    pub fn beside(&self, from: &File, path: &str) -> Option<&File> {
+        let mut parts: Vec<&str> = from.path.split('/').collect();
+        parts.pop();
+        for part in path.split('/') {
+            match part {
+                "" | "." => {}
+                ".." => {
+                    parts.pop();
+                }
+                part => parts.push(part),
+            }
+        }
+        let base_name = parts.last()?;
+        let has_name = |file: &&File| file.base_name().eq_ignore_ascii_case(base_name);
+        self.get(&parts.join("/")).or_else(|| self.files.iter().find(has_name))
+    }
+
     /// The file with this path.
     pub fn get(&self, path: &str) -> Option<&File> {
         self.by_path.get(path).map(|&index| &self.files[index])
@@ -117,7 +138,7 @@ fn models_among(files: &[File]) -> Vec<usize> {
         let files = files.iter().enumerate().filter(|(_, file)| wanted(file));
         files.map(|(index, _)| index).collect::<Vec<_>>()
     };
-    let mut models = by_name(|file| file.extension() == "m3d");
+    let mut models = by_name(|file| MODEL_EXTENSIONS.contains(&file.extension().as_str()));
     if models.is_empty() {
         models = by_name(|file| !file.is_image());
         if models.len() < files.len() {

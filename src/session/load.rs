@@ -8,7 +8,7 @@ use super::open_model::OpenModel;
 use super::sky::FoundSky;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
-use crate::import;
+use crate::import::{self, FindFile};
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,12 +59,9 @@ impl LoadError {
             severity,
             code,
             message,
-            position,
             ..
         } = &self.diagnostic;
-        let place = position
-            .map(|p| format!(":{}:{}", p.line, p.column))
-            .unwrap_or_default();
+        let place = self.diagnostic.place_in_file();
         let mut text = format!("{}{place}: {severity}[{code}]: {message}\n", self.file_name);
         if let Some(excerpt) = &self.excerpt {
             text.push_str(&excerpt.to_string());
@@ -78,7 +75,15 @@ impl LoadError {
 /// # Errors
 /// When the file is of no format that is known here, or what it says makes no model.
 pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
-    let imported = import::import(&file.bytes);
+    load_beside(file, &|_| None)
+}
+
+/// Reads a model file that may name others, which `find` gives.
+///
+/// # Errors
+/// As [`load`], and when a file that it needs is not there.
+pub fn load_beside(file: &File, find: FindFile<'_>) -> Result<OpenModel, Box<LoadError>> {
+    let imported = import::import_beside(&file.bytes, find);
     imported
         .map(|imported| OpenModel::new(file, imported))
         .map_err(|refused| {
@@ -211,14 +216,21 @@ impl LoadJob {
         }
     }
 
+    fn load(&self) -> Result<OpenModel, Box<LoadError>> {
+        // Pictures of the drop are found by their names later.
+        let find = |path: &str| self.files.beside(&self.file, path).filter(|file| !file.is_image());
+        load_beside(&self.file, &|path| find(path).map(|file| Arc::clone(&file.bytes)))
+    }
+
     /// Reads the model, decodes one image, or decodes the sky.
     pub fn step(mut self) -> LoadStep {
         match self.state {
-            State::Model => match load(&self.file) {
+            State::Model => match self.load() {
                 Err(error) => LoadStep::Ended(Err(error)),
                 Ok(mut open) => {
                     open.join_again(self.joined.iter());
-                    self.maps.begin(&open.model.materials, self.files.images().cloned());
+                    let pictures = self.files.images().chain(&open.pictures).cloned();
+                    self.maps.begin(&open.model.materials, pictures);
                     self.state = State::Maps(Box::new(open));
                     LoadStep::Working(Box::new(self))
                 }

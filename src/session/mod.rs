@@ -51,6 +51,7 @@ mod verdicts;
 mod view;
 mod view_state;
 
+pub use crate::import::FileFormat;
 pub use camera::CameraCommand;
 pub use changes::Changes;
 pub use command::Command;
@@ -63,7 +64,7 @@ pub use history::{History, HistoryCommand};
 pub use instances::{CrowdState, MAX_CROWD};
 pub use joint_rows::JointRow;
 pub use joints::{Joints, SelectedVertex};
-pub use load::{LoadError, LoadJob, LoadStep, Loaded, Progress, load};
+pub use load::{LoadError, LoadJob, LoadStep, Loaded, Progress, load, load_beside};
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use maps::{Maps, UnreadableMap, UsedMap};
 pub use materials::{MAX_SPEC_POWER, MaterialCommand};

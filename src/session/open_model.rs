@@ -1,7 +1,7 @@
 //! A model that is open: its file, and what is known of it and of each clip beside what they hold. Most of it is computed when it
 //! is first asked for.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 
@@ -9,8 +9,8 @@ use super::files::File;
 use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
 use crate::diagnostic::{Diagnostic, Position};
-use crate::format::{self, Dialect, Excerpt};
-use crate::import::Imported;
+use crate::format::{self, Excerpt};
+use crate::import::{FileFormat, Imported};
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
 
@@ -19,8 +19,10 @@ use crate::scene::Aabb;
 pub struct OpenModel {
     /// The file.
     pub file: File,
-    /// Spelling of the file.
-    pub dialect: Dialect,
+    /// What kind of file it was.
+    pub format: FileFormat,
+    /// Pictures that came with the file, as its materials name them.
+    pub pictures: Vec<File>,
     /// The model, in the file's space.
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
@@ -119,17 +121,22 @@ impl OpenModel {
     /// A model that has just been read from a file.
     pub(super) fn new(file: &File, imported: Imported) -> Self {
         let Imported {
-            dialect,
+            format,
             model,
             mut diagnostics,
             lines,
+            pictures,
         } = imported;
         let compiled = CompiledClip::all(&model.clips);
         diagnostics.extend(check::model(&model, &compiled, &lines));
         diagnostics.sort_by_key(|diagnostic| diagnostic.position);
         Self {
             file: file.clone(),
-            dialect,
+            format,
+            pictures: pictures
+                .iter()
+                .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)))
+                .collect(),
             diagnostics,
             compiled,
             bind_bounds: model.bind_bounds(),

@@ -11,7 +11,7 @@ use crate::scene::Aabb;
 /// What a model is and has.
 #[derive(Debug, Serialize)]
 pub struct Model<'a> {
-    /// `d3d12`, `d3d11` or `imm`.
+    /// `d3d12`, `d3d11`, `imm`, `glb` or `gltf`.
     pub dialect: &'static str,
     /// `left` or `right`, found from the triangles.
     pub handedness: &'static str,
@@ -78,6 +78,10 @@ pub struct Finding<'a> {
     pub line: Option<u32>,
     /// Column in bytes, from 1; `None` when it is about the whole file.
     pub column: Option<u32>,
+    /// What of a glTF file's JSON it is about; `None` for other formats, and when it is about the whole file.
+    pub json_pointer: Option<&'a str>,
+    /// Where it is in a binary file, in bytes from its start.
+    pub byte_offset: Option<u64>,
     /// The part of the model that it is about, the first one of several.
     pub subject: Option<Part>,
     /// How many alike things it tells of, 1 or more.
@@ -179,7 +183,7 @@ impl<'a> From<&'a OpenModel> for Model<'a> {
             keys: clip.key_count,
         });
         Self {
-            dialect: open.dialect.as_str(),
+            dialect: open.format.as_str(),
             handedness: model.handedness.name(),
             up_axis: model.up_axis.name(),
             counts: Counts {
@@ -217,6 +221,8 @@ impl<'a> From<&'a Diagnostic> for Finding<'a> {
             found: diagnostic.found.as_deref(),
             line: diagnostic.position.map(|position| position.line),
             column: diagnostic.position.map(|position| position.column),
+            json_pointer: diagnostic.pointer.as_deref(),
+            byte_offset: diagnostic.byte_offset,
             subject: diagnostic.subject.map(Part::from),
             count: diagnostic.count,
             places: diagnostic.few_places().iter().map(place).collect(),

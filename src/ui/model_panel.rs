@@ -14,7 +14,7 @@ use super::widgets::{
     MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_elided, paint_swatch,
     pressed_row, row_icon, rule, section_with_action, tell_popup, value_row,
 };
-use super::wording::{counted, dialect_name, grouped, measured};
+use super::wording::{counted, format_name, grouped, measured};
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, MapSlot, Submesh, UpAxis};
 use crate::scene::display_color;
@@ -72,7 +72,8 @@ fn heading(ui: &mut Ui) {
 
 fn counts(ui: &mut Ui, open: &OpenModel) {
     let model = &open.model;
-    value_row(ui, "Dialect", dialect_name(open.dialect));
+    let label = if open.format.is_gltf() { "Format" } else { "Dialect" };
+    value_row(ui, label, format_name(open.format));
     value_row(ui, "Vertices", &grouped(model.mesh.vertex_count()));
     value_row(ui, "Triangles", &grouped(model.mesh.triangle_count()));
     value_row(ui, "Bones", &grouped(model.skeleton.joint_count()));

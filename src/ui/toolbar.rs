@@ -14,7 +14,7 @@ use super::widgets::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, hint_beside, icon_button, keyed_menu_item,
     menu_item, pressed_chip, push_button, section_name, untold_icon_button, valued_menu_item,
 };
-use super::wording::{dialect_name, shortened_front};
+use super::wording::{format_name, shortened_front};
 use super::{export, light, overlays, picture};
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
@@ -336,7 +336,7 @@ pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>,
         let is_wide = state.is_some();
         let (count, color) = summary(session, &tokens);
         let findings = state.filter(|_| session.diagnostics().next().is_some() && fits(ui, &count));
-        let dialect = dialect_name(open.dialect);
+        let dialect = format_name(open.format);
         let with_dialect = is_wide && fits(ui, dialect);
         ui.scope(|ui| {
             ui.set_max_width(room.max(0.0));

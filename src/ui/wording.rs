@@ -1,6 +1,7 @@
 //! Numbers and names as people read them.
 
 use crate::format::Dialect;
+use crate::session::FileFormat;
 
 /// A whole number with thousands grouped by narrow spaces: `13 748`.
 pub(super) fn grouped(number: usize) -> String {
@@ -94,12 +95,14 @@ pub(super) fn counted(count: usize, word: &str) -> String {
     format!("{} {word}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// The common name of a dialect.
-pub(super) fn dialect_name(dialect: Dialect) -> &'static str {
-    match dialect {
-        Dialect::D3d12 => "D3D12 book",
-        Dialect::D3d11 => "D3D11 book",
-        Dialect::Imm => "imm exporter",
+/// The common name of a kind of file.
+pub(super) fn format_name(format: FileFormat) -> &'static str {
+    match format {
+        FileFormat::M3d(Dialect::D3d12) => "D3D12 book",
+        FileFormat::M3d(Dialect::D3d11) => "D3D11 book",
+        FileFormat::M3d(Dialect::Imm) => "imm exporter",
+        FileFormat::Glb => "GLB",
+        FileFormat::Gltf => "glTF",
     }
 }
 

@@ -12,7 +12,7 @@ mod influences;
 mod mesh;
 mod surfaces;
 
-use super::{ImportError, Imported, Refused};
+use super::{FileFormat, ImportError, Imported, Refused};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::collect::Diagnostics;
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
@@ -27,10 +27,11 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
         from_parsed(&parsed).map_err(|error| refused(error.diagnostic(), parsed.diagnostics.clone()))?;
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {
-        dialect: parsed.document.dialect,
+        format: FileFormat::M3d(parsed.document.dialect),
         model,
         diagnostics,
         lines: parsed.lines,
+        pictures: Vec::new(),
     })
 }
 

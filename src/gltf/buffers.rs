@@ -1,0 +1,167 @@
+//! The bytes of buffers and of their views.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use super::json::{Index, Root};
+use super::uri::{Uri, UriError};
+use super::{Container, Fault, fault};
+use crate::diagnostic::codes;
+
+/// Gives the bytes of a file at a path relative to the one that is read.
+pub type FindFile<'a> = &'a dyn Fn(&str) -> Option<Arc<[u8]>>;
+
+/// The buffers of a document. What is wrong with one is told when its bytes are asked for.
+#[derive(Debug)]
+pub struct Buffers<'a> {
+    root: &'a Root,
+    buffers: Vec<Result<Bytes<'a>, Fault>>,
+}
+
+#[derive(Debug)]
+enum Bytes<'a> {
+    Chunk(&'a [u8]),
+    Decoded(Vec<u8>),
+    File(Arc<[u8]>),
+}
+
+impl Deref for Bytes<'_> {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        match self {
+            Self::Chunk(bytes) => bytes,
+            Self::Decoded(bytes) => bytes,
+            Self::File(bytes) => bytes,
+        }
+    }
+}
+
+impl<'a> Buffers<'a> {
+    /// Finds the bytes of all buffers.
+    pub fn new(root: &'a Root, container: &Container<'a>, find: FindFile<'_>) -> Self {
+        let buffers = root.buffers().iter().enumerate().map(|(index, buffer)| {
+            let pointer = format!("/buffers/{index}");
+            let bytes = match (&buffer.uri, container.bin) {
+                (Some(uri), _) => at_uri(uri, &pointer, find)?,
+                (None, Some(bin)) if index == 0 => Bytes::Chunk(bin),
+                (None, _) => {
+                    let message = format!("Buffer {index} has no data: neither an address nor a binary chunk.");
+                    return Err(fault(&codes::GLTF_BUFFER_MISSING, pointer, message));
+                }
+            };
+            let (said, there) = (buffer.byte_length.0, bytes.len());
+            if said > there as u64 {
+                let message = format!("Buffer {index} is to have {said} bytes, but there are {there}.");
+                return Err(fault(
+                    &codes::GLTF_BUFFER_SHORT,
+                    format!("{pointer}/byteLength"),
+                    message,
+                ));
+            }
+            Ok(bytes)
+        });
+        Self {
+            root,
+            buffers: buffers.collect(),
+        }
+    }
+
+    /// How many bytes the buffers have together.
+    pub fn byte_count(&self) -> u64 {
+        let lengths = self.buffers.iter().flatten().map(|bytes| bytes.len() as u64);
+        lengths.sum()
+    }
+
+    /// What is wrong with buffers that cannot be read.
+    pub fn faults(&self) -> impl Iterator<Item = &Fault> {
+        self.buffers.iter().filter_map(|buffer| buffer.as_ref().err())
+    }
+
+    /// The bytes of a view, and the step between its elements where it gives one. `pointer` is where the view is named.
+    ///
+    /// # Errors
+    /// When the view or its buffer is not there, or it reaches beyond its buffer.
+    pub fn view(&self, view: Index, pointer: &str) -> Result<(&[u8], Option<u64>), Fault> {
+        let index = view.0;
+        let Some(view) = usize::try_from(index)
+            .ok()
+            .and_then(|index| self.root.buffer_views().get(index))
+        else {
+            return Err(out_of_range(
+                pointer,
+                "buffer view",
+                index,
+                self.root.buffer_views().len(),
+            ));
+        };
+        let buffer = usize::try_from(view.buffer.0)
+            .ok()
+            .and_then(|buffer| self.buffers.get(buffer));
+        let Some(buffer) = buffer else {
+            let pointer = format!("/bufferViews/{index}/buffer");
+            return Err(out_of_range(&pointer, "buffer", view.buffer.0, self.buffers.len()));
+        };
+        let buffer = buffer.as_ref().map_err(Clone::clone)?;
+        let offset = view.byte_offset.unwrap_or_default().0;
+        let range = offset.checked_add(view.byte_length.0).and_then(|end| {
+            let range = usize::try_from(offset).ok()?..usize::try_from(end).ok()?;
+            buffer.get(range)
+        });
+        let Some(bytes) = range else {
+            let message = format!(
+                "Buffer view {index} has {} bytes from {offset} on, but its buffer has {}.",
+                view.byte_length.0,
+                buffer.len()
+            );
+            return Err(fault(
+                &codes::GLTF_BUFFER_SHORT,
+                format!("/bufferViews/{index}"),
+                message,
+            ));
+        };
+        Ok((bytes, view.byte_stride.map(|stride| stride.0)))
+    }
+}
+
+fn at_uri<'a>(uri: &str, pointer: &str, find: FindFile<'_>) -> Result<Bytes<'a>, Fault> {
+    let pointer = || format!("{pointer}/uri");
+    let index = pointer();
+    let index = index.trim_start_matches("/buffers/").trim_end_matches("/uri");
+    match Uri::parse(uri) {
+        Ok(Uri::Data { bytes, .. }) => Ok(Bytes::Decoded(bytes)),
+        Ok(Uri::Path(path)) => find(&path).map(Bytes::File).ok_or_else(|| {
+            let message = format!("The file \"{path}\", which has the data of buffer {index}, is not there.");
+            fault(&codes::GLTF_BUFFER_MISSING, pointer(), message)
+        }),
+        Err(error) => {
+            let message = match error {
+                UriError::NotRelative => format!("Buffer {index} is at \"{}\": {error}.", shortened(uri)),
+                _ => format!("The data of buffer {index} cannot be read: {error}."),
+            };
+            Err(fault(&codes::GLTF_BUFFER_MISSING, pointer(), message))
+        }
+    }
+}
+
+/// The beginning of an address, for messages.
+fn shortened(uri: &str) -> String {
+    let mut letters = uri.chars();
+    let beginning: String = letters.by_ref().take(60).collect();
+    if letters.next().is_some() {
+        format!("{beginning}…")
+    } else {
+        beginning
+    }
+}
+
+/// That an index names nothing.
+pub(crate) fn out_of_range(pointer: &str, what: &str, index: u64, count: usize) -> Fault {
+    let there = match count {
+        0 => "there is none".to_owned(),
+        1 => "there is 1, with the number 0".to_owned(),
+        count => format!("there are {count}"),
+    };
+    let message = format!("This names {what} {index}, but {there}.");
+    fault(&codes::GLTF_INDEX_OUT_OF_RANGE, pointer, message)
+}

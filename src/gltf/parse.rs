@@ -1,0 +1,154 @@
+//! From JSON text to the document, or to what is wrong with it.
+
+use super::{Container, Fault, Root, fault};
+use crate::diagnostic::{Diagnostic, Position, codes};
+
+/// Extensions whose meaning is known.
+const KNOWN: [&str; 4] = [
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_materials_unlit",
+    "KHR_materials_emissive_strength",
+];
+
+/// Reads the JSON of a file.
+///
+/// # Errors
+/// When it is no JSON, or a value is of another kind than glTF gives it.
+pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
+    serde_json::from_slice(container.json).map_err(|error| {
+        if !error.is_data() {
+            let message = format!("The JSON cannot be read: {}.", words(&error));
+            return Box::new(placed(codes::GLTF_NOT_JSON.says(message), &error, container));
+        }
+        // Only now the slower reader that knows where it is.
+        let mut deserializer = serde_json::Deserializer::from_slice(container.json);
+        let pointer = match serde_path_to_error::deserialize::<_, Root>(&mut deserializer) {
+            Ok(_) => String::new(),
+            Err(error) => pointer(error.path()),
+        };
+        let message = format!("This is not what glTF has here: {}.", words(&error));
+        let diagnostic = codes::GLTF_WRONG_TYPE.says(message).pointing_at(pointer);
+        Box::new(placed(diagnostic, &error, container))
+    })
+}
+
+/// Whether the document is of a version and asks for extensions that are read here.
+///
+/// # Errors
+/// When it is not, or does not.
+pub fn check_asset(root: &Root, diagnostics: &mut Vec<Diagnostic>) -> Result<(), Fault> {
+    let Some(asset) = &root.asset else {
+        let message = "The JSON does not say that it is a glTF asset: there is no \"asset\".";
+        return Err(fault(&codes::GLTF_WRONG_TYPE, "", message));
+    };
+    let least = asset.min_version.as_deref();
+    if !asset.version.starts_with("2.") || least.is_some_and(|least| least != "2.0") {
+        let (key, asked) = match least {
+            Some(least) if asset.version.starts_with("2.") => ("minVersion", least),
+            _ => ("version", asset.version.as_str()),
+        };
+        let message = format!("The file is of glTF {asked}; glTF 2.0 is read.");
+        return Err(fault(&codes::GLTF_VERSION, format!("/asset/{key}"), message));
+    }
+    for (index, name) in root.extensions_required.iter().flatten().enumerate() {
+        if !KNOWN.contains(&name.as_str()) {
+            let message = format!(
+                "The model needs the extension {name}, which is not read here{}.",
+                remedy(name)
+            );
+            return Err(fault(
+                &codes::GLTF_EXTENSION_REQUIRED,
+                format!("/extensionsRequired/{index}"),
+                message,
+            ));
+        }
+    }
+    let unknown = root
+        .extensions_used
+        .iter()
+        .flatten()
+        .filter(|name| !KNOWN.contains(&name.as_str()));
+    let names: Vec<&str> = unknown.map(String::as_str).collect();
+    if !names.is_empty() {
+        let extensions = if names.len() == 1 {
+            "The extension"
+        } else {
+            "The extensions"
+        };
+        let are = if names.len() == 1 { "is" } else { "are" };
+        let message = format!(
+            "{extensions} {} {are} not read; the model is shown without.",
+            names.join(", ")
+        );
+        diagnostics.push(Diagnostic {
+            count: u32::try_from(names.len()).unwrap_or(u32::MAX),
+            ..codes::GLTF_EXTENSION_UNKNOWN
+                .says(message)
+                .pointing_at("/extensionsUsed")
+        });
+    }
+    Ok(())
+}
+
+/// What a person can do about an extension that many files need.
+fn remedy(name: &str) -> &'static str {
+    match name {
+        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+            ": export it without compression"
+        }
+        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => ": export its textures as PNG or JPEG",
+        _ => "",
+    }
+}
+
+/// The place of an error: line and column of a text, the offset in a binary file.
+fn placed(diagnostic: Diagnostic, error: &serde_json::Error, container: &Container<'_>) -> Diagnostic {
+    if error.line() == 0 {
+        return diagnostic;
+    }
+    if container.is_binary {
+        let lines = memchr::memchr_iter(b'\n', container.json).map(|end| end + 1);
+        let start = std::iter::once(0)
+            .chain(lines)
+            .nth(error.line() - 1)
+            .unwrap_or_default();
+        let offset = container.json_offset + start + error.column().saturating_sub(1);
+        return Diagnostic {
+            byte_offset: Some(offset as u64),
+            ..diagnostic
+        };
+    }
+    let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+    let mark = if error.line() == 1 { container.json_offset } else { 0 };
+    let position = Position {
+        line: number(error.line()),
+        column: number(error.column().max(1) + mark),
+    };
+    Diagnostic {
+        position: Some(position),
+        places: vec![position],
+        ..diagnostic
+    }
+}
+
+/// serde's words without the place, which is told apart.
+fn words(error: &serde_json::Error) -> String {
+    let words = error.to_string();
+    words.split(" at line ").next().unwrap_or(&words).to_owned()
+}
+
+fn pointer(path: &serde_path_to_error::Path) -> String {
+    use serde_path_to_error::Segment;
+    let part = |segment: &Segment| match segment {
+        Segment::Seq { index } => Some(format!("/{index}")),
+        Segment::Map { key } => Some(format!("/{}", escaped(key))),
+        Segment::Enum { .. } | Segment::Unknown => None,
+    };
+    path.iter().filter_map(part).collect()
+}
+
+/// A key as a JSON pointer has it.
+pub(super) fn escaped(key: &str) -> String {
+    key.replace('~', "~0").replace('/', "~1")
+}

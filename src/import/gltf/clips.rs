@@ -1,0 +1,471 @@
+//! From animations to clips: a track for each joint, with a key wherever a channel of the joint has one.
+
+use std::collections::HashMap;
+
+use glam::{Quat, Vec3, Vec4};
+
+use super::skeleton::Rig;
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::{Code, Subject, codes};
+use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, fault, out_of_range};
+use crate::model::{Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, unique_names, unit_rotation};
+
+/// A rotation whose length is off by more than this was not meant to be rounded.
+const UNIT_TOLERANCE: f32 = 1e-3;
+
+/// Thirty years: a time beyond it is no time, and its next neighbour could not be told from it.
+const MAX_TIME_SECS: f32 = 1e9;
+
+/// More tracks than this do not come from a file of a character.
+const MAX_TRACKS: usize = 1_000_000;
+
+/// The clips of a document for its skeleton. Animations that move no joint are none.
+///
+/// # Errors
+/// When a channel names what is not there, or its numbers are of the wrong kind.
+pub(super) fn clips(
+    root: &Root,
+    reader: &Reader<'_>,
+    rig: &Rig,
+    diagnostics: &mut Diagnostics,
+) -> Result<Vec<Clip>, Fault> {
+    let joint_count = rig.skeleton.joint_count();
+    if root.animations().len().saturating_mul(joint_count) > MAX_TRACKS {
+        let message = format!(
+            "{} animations of {joint_count} joints do not fit into memory.",
+            root.animations().len()
+        );
+        return Err(fault(&codes::GLTF_TOO_LARGE, "/animations", message));
+    }
+    let mut read = Vec::new();
+    for (index, animation) in root.animations().iter().enumerate() {
+        let mut clip = ClipReader {
+            index,
+            clip: read.len() as u32,
+            root,
+            reader,
+            rig,
+            diagnostics,
+            mended: Mended::default(),
+        };
+        if let Some(tracks) = clip.read(animation)? {
+            read.push((index, tracks));
+        }
+    }
+    let name = |&(index, _): &(usize, Vec<Track>)| root.animations()[index].name.as_deref().unwrap_or_default();
+    let names = unique_names(read.iter().map(name), "clip", |index, name| {
+        let message = format!("Another clip has the same name; this one is shown as \"{name}\".");
+        let animation = read[index as usize].0;
+        let place = Place::pointer(format!("/animations/{animation}/name")).about(Subject::Clip(index));
+        diagnostics.add(&codes::DUPLICATE_CLIP_NAME, place, message);
+    });
+    let clips = names.into_iter().zip(read);
+    Ok(clips.map(|(name, (_, tracks))| Clip::new(name, tracks)).collect())
+}
+
+/// The values of a part of a joint over time.
+enum Part<T> {
+    /// Straight from key to key; times increase, and there is one at least.
+    Straight(Vec<(f32, T)>),
+    Curved(Curve<T>),
+}
+
+/// What moves a joint.
+#[derive(Default)]
+struct Parts {
+    translation: Option<Part<Vec3>>,
+    rotation: Option<Part<Vec4>>,
+    scale: Option<Part<Vec3>>,
+}
+
+/// What is mended in the keys of a clip, counted over its channels.
+#[derive(Default)]
+struct Mended {
+    unsorted: Tally,
+    equal_times: Tally,
+    not_finite: Tally,
+    not_unit: Tally,
+    zero_rotation: Tally,
+    elsewhere: Tally,
+    morphs: Tally,
+}
+
+struct ClipReader<'a> {
+    index: usize,
+    clip: u32,
+    root: &'a Root,
+    reader: &'a Reader<'a>,
+    rig: &'a Rig,
+    diagnostics: &'a mut Diagnostics,
+    mended: Mended,
+}
+
+impl ClipReader<'_> {
+    /// The tracks; `None` for an animation that moves no joint.
+    fn read(&mut self, animation: &Animation) -> Result<Option<Vec<Track>>, Fault> {
+        let mut parts: HashMap<u32, Parts> = HashMap::new();
+        for (channel, of_file) in animation.channels.iter().enumerate() {
+            let pointer = format!("/animations/{}/channels/{channel}", self.index);
+            let Some(node) = of_file.target.node else {
+                self.mended.elsewhere.add(channel as u32);
+                continue;
+            };
+            let nodes = self.root.nodes().len();
+            let Some(index) = usize::try_from(node.0).ok().filter(|&node| node < nodes) else {
+                return Err(out_of_range(&format!("{pointer}/target/node"), "node", node.0, nodes));
+            };
+            let joint = match (of_file.target.path, self.rig.joint_of_node[index]) {
+                (Path::Translation | Path::Rotation | Path::Scale, Some(joint)) => joint,
+                (Path::Weights, _) => {
+                    self.mended.morphs.add(channel as u32);
+                    continue;
+                }
+                _ => {
+                    self.mended.elsewhere.add(channel as u32);
+                    continue;
+                }
+            };
+            if self.root.nodes()[index].matrix.is_some() {
+                let message = format!("Node {index} has a matrix, which clips cannot move; its parts are moved.");
+                self.broken(format!("{pointer}/target"), message);
+            }
+            let parts = parts.entry(joint).or_default();
+            let sampler = of_file.sampler.0;
+            let is_first = match of_file.target.path {
+                Path::Translation => set(
+                    &mut parts.translation,
+                    || self.keys(animation, sampler, &pointer, false),
+                    Vec3::from_array,
+                )?,
+                Path::Scale => set(
+                    &mut parts.scale,
+                    || self.keys(animation, sampler, &pointer, false),
+                    Vec3::from_array,
+                )?,
+                _ => set(
+                    &mut parts.rotation,
+                    || self.keys(animation, sampler, &pointer, true),
+                    Vec4::from_array,
+                )?,
+            };
+            if !is_first {
+                let message = format!("Another channel moves the same of node {index}; this one is left out.");
+                self.broken(format!("{pointer}/target"), message);
+            }
+        }
+        self.note();
+        if parts.values().all(Parts::is_empty) {
+            return Ok(None);
+        }
+        let rest = (0u32..).zip(self.rig.skeleton.rest());
+        let tracks = rest.map(|(joint, &rest)| match parts.remove(&joint) {
+            Some(parts) if !parts.is_empty() => parts.track(rest),
+            _ => Ok(Track::at_rest(rest)),
+        });
+        let tracks: Result<_, ModelError> = tracks.collect();
+        let pointer = format!("/animations/{}", self.index);
+        tracks
+            .map(Some)
+            .map_err(|rule| Box::new(rule.diagnostic().pointing_at(pointer)))
+    }
+
+    fn broken(&mut self, pointer: String, message: String) {
+        let place = Place::pointer(pointer).about(Subject::Clip(self.clip));
+        self.diagnostics.add(&codes::GLTF_RULE_BROKEN, place, message);
+    }
+
+    /// The keys of a sampler: finite, in strictly increasing time. `pointer` is its channel.
+    fn keys<const N: usize>(
+        &mut self,
+        animation: &Animation,
+        sampler: u64,
+        pointer: &str,
+        are_rotations: bool,
+    ) -> Result<Keys<N>, Fault> {
+        let samplers = &animation.samplers;
+        let Some((index, of_file)) = usize::try_from(sampler)
+            .ok()
+            .and_then(|index| Some((index, samplers.get(index)?)))
+        else {
+            return Err(out_of_range(
+                &format!("{pointer}/sampler"),
+                "sampler",
+                sampler,
+                samplers.len(),
+            ));
+        };
+        let at = format!("/animations/{}/samplers/{index}", self.index);
+        let times = self
+            .reader
+            .floats::<1>(of_file.input, &format!("{at}/input"))?
+            .into_flattened();
+        let values: Vec<[f32; N]> = self.reader.floats(of_file.output, &format!("{at}/output"))?;
+        if of_file.interpolation == Interpolation::Unknown {
+            self.broken(
+                format!("{at}/interpolation"),
+                "There is no such interpolation; taken as LINEAR.".to_owned(),
+            );
+        }
+        let each = if of_file.interpolation == Interpolation::CubicSpline {
+            3
+        } else {
+            1
+        };
+        if values.len() != times.len() * each {
+            let message = format!(
+                "{} times have {} values, where {each} belong to each.",
+                times.len(),
+                values.len()
+            );
+            self.broken(format!("{at}/output"), message);
+        }
+        let slopes = |group: &[[f32; N]]| match *group {
+            [into, value, out] => (value, [into, out]),
+            _ => (group[0], [[0.0; N]; 2]),
+        };
+        let mut rows = Vec::with_capacity(times.len());
+        let number = index as u32;
+        for (&time_secs, group) in times.iter().zip(values.chunks_exact(each)) {
+            let (mut value, slopes) = slopes(group);
+            let is_sound = group.as_flattened().iter().all(|number| number.is_finite());
+            if !is_sound || time_secs.is_nan() || time_secs.abs() > MAX_TIME_SECS {
+                self.mended.not_finite.add(number);
+                continue;
+            }
+            if are_rotations && each == 1 {
+                value = self.mended.rotation(number, value);
+            }
+            // Adding 0 makes −0 and 0 the same time for the sort as well.
+            rows.push((time_secs + 0.0, value, slopes));
+        }
+        if !rows.is_sorted_by(|a, b| a.0 <= b.0) {
+            self.mended.unsorted.add(number);
+            rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        Ok(Keys {
+            interpolation: if rows.len() == 1 {
+                Interpolation::Linear
+            } else {
+                of_file.interpolation
+            },
+            rows: self.mended.apart(number, rows),
+        })
+    }
+
+    fn note(&mut self) {
+        let Mended {
+            unsorted,
+            equal_times,
+            not_finite,
+            not_unit,
+            zero_rotation,
+            elsewhere,
+            morphs,
+        } = std::mem::take(&mut self.mended);
+        let mut note = |code: &Code, tally: Tally, [one, many]: [&str; 2], rule: &str| {
+            if tally.count > 0 {
+                let place = Place::pointer(format!("/animations/{}", self.index)).about(Subject::Clip(self.clip));
+                self.diagnostics
+                    .add(code, place, format!("{} {rule}", counted(tally.count, one, many)));
+            }
+        };
+        let keys = ["key has", "keys have"];
+        let channels = ["channel moves", "channels move"];
+        note(
+            &codes::KEYS_NOT_FINITE,
+            not_finite,
+            keys,
+            "a number that is not finite or a time beyond 10⁹ s; left out.",
+        );
+        note(
+            &codes::KEYS_NOT_SORTED,
+            unsorted,
+            ["sampler has", "samplers have"],
+            "keys that are not in the order of time; sorted.",
+        );
+        let rule = "the time of the key before; the first and the last key of a time are kept as a jump.";
+        note(&codes::KEYS_AT_EQUAL_TIMES, equal_times, keys, rule);
+        note(
+            &codes::ROTATION_NOT_UNIT,
+            not_unit,
+            keys,
+            "a rotation that is not of unit length; normalised.",
+        );
+        note(
+            &codes::ROTATION_ZERO,
+            zero_rotation,
+            keys,
+            "a rotation of length 0; taken as no rotation.",
+        );
+        note(
+            &codes::GLTF_CHANNEL_LEFT_OUT,
+            elsewhere,
+            channels,
+            "something that is not shown; left out.",
+        );
+        note(
+            &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,
+            morphs,
+            channels,
+            "the weights of morph targets; left out.",
+        );
+    }
+}
+
+/// The keys of a channel: time in seconds, value, and the slopes of a spline.
+struct Keys<const N: usize> {
+    interpolation: Interpolation,
+    rows: Vec<Row<N>>,
+}
+
+type Row<const N: usize> = (f32, [f32; N], [[f32; N]; 2]);
+
+/// Sets a part of a joint that has none yet. Whether it had none.
+fn set<T: CurveValue, const N: usize>(
+    part: &mut Option<Part<T>>,
+    keys: impl FnOnce() -> Result<Keys<N>, Fault>,
+    value: impl Fn([f32; N]) -> T,
+) -> Result<bool, Fault> {
+    if part.is_some() {
+        return Ok(false);
+    }
+    let Keys { interpolation, rows } = keys()?;
+    if rows.is_empty() {
+        return Ok(true);
+    }
+    let rows = rows.into_iter();
+    let curve = match interpolation {
+        Interpolation::Linear | Interpolation::Unknown => {
+            *part = Some(Part::Straight(
+                rows.map(|(time_secs, stored, _)| (time_secs, value(stored))).collect(),
+            ));
+            return Ok(true);
+        }
+        Interpolation::Step => Curve::step(rows.map(|(time_secs, stored, _)| (time_secs, value(stored)))),
+        Interpolation::CubicSpline => {
+            Curve::cubic(rows.map(|(time_secs, stored, slopes)| (time_secs, value(stored), slopes.map(&value))))
+        }
+    };
+    // The keys were mended before.
+    *part = Some(Part::Curved(curve.map_err(|rule| Box::new(rule.diagnostic()))?));
+    Ok(true)
+}
+
+impl Mended {
+    fn rotation<const N: usize>(&mut self, number: u32, stored: [f32; N]) -> [f32; N] {
+        let length = stored.iter().map(|part| part * part).sum::<f32>().sqrt();
+        if (length - 1.0).abs() > UNIT_TOLERANCE {
+            if length > 1e-6 {
+                self.not_unit.add(number);
+            } else {
+                self.zero_rotation.add(number);
+                let mut none = [0.0; N];
+                none[N - 1] = 1.0;
+                return none;
+            }
+        }
+        stored
+    }
+
+    /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are never
+    /// seen. The last is moved to the next time that a number can name.
+    fn apart<const N: usize>(&mut self, number: u32, rows: Vec<Row<N>>) -> Vec<Row<N>> {
+        if rows.is_sorted_by(|a, b| a.0 < b.0) {
+            return rows;
+        }
+        let mut kept: Vec<Row<N>> = Vec::with_capacity(rows.len());
+        for group in rows.chunk_by(|a, b| a.0 == b.0) {
+            let (time_secs, value, slopes) = group[group.len() - 1];
+            (1..group.len()).for_each(|_| self.equal_times.add(number));
+            if kept.last().is_none_or(|before| before.0 < time_secs) {
+                kept.push(group[0]);
+            }
+            if group.len() > 1 {
+                kept.push((time_secs.next_up(), value, slopes));
+            }
+        }
+        kept
+    }
+}
+
+impl<T: CurveValue> Part<T> {
+    fn times_secs(&self) -> Vec<f32> {
+        match self {
+            Self::Straight(keys) => keys.iter().map(|&(time_secs, _)| time_secs).collect(),
+            Self::Curved(curve) => curve.times_secs().to_vec(),
+        }
+    }
+
+    /// The value at a time; `blend` is between two keys.
+    fn at(&self, time_secs: f32, blend: impl Fn(T, T, f64) -> T) -> T {
+        let keys = match self {
+            Self::Curved(curve) => return curve.value_at(time_secs),
+            Self::Straight(keys) => keys,
+        };
+        let next = keys.partition_point(|&(key_secs, _)| key_secs <= time_secs);
+        let (from_secs, from) = keys[next.saturating_sub(1)];
+        match keys.get(next) {
+            Some(&(to_secs, to)) if from_secs < time_secs => {
+                let [from_secs, to_secs, time_secs] = [from_secs, to_secs, time_secs].map(f64::from);
+                blend(from, to, (time_secs - from_secs) / (to_secs - from_secs))
+            }
+            _ => from,
+        }
+    }
+
+    fn into_curve(self) -> Option<Curve<T>> {
+        match self {
+            Self::Straight(_) => None,
+            Self::Curved(curve) => Some(curve),
+        }
+    }
+}
+
+impl Parts {
+    fn is_empty(&self) -> bool {
+        self.translation.is_none() && self.rotation.is_none() && self.scale.is_none()
+    }
+
+    /// A track with a key at each time of a part. Straight parts stay straight, so the keys that this adds to them change nothing.
+    fn track(self, rest: LocalJoint) -> Result<Track, ModelError> {
+        let times = [
+            self.translation.as_ref().map(Part::times_secs),
+            self.rotation.as_ref().map(Part::times_secs),
+            self.scale.as_ref().map(Part::times_secs),
+        ];
+        let mut times_secs = times.into_iter().flatten().reduce(|mut all, times| {
+            if all != times {
+                all.extend(times);
+            }
+            all
+        });
+        let times_secs = times_secs.get_or_insert_default();
+        times_secs.sort_by(f32::total_cmp);
+        times_secs.dedup();
+        let straight = |from: Vec3, to: Vec3, part| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
+        let joint_at = |time_secs: f32| {
+            let vector =
+                |part: &Option<Part<Vec3>>, rest| part.as_ref().map_or(rest, |part| part.at(time_secs, straight));
+            let rotation = self.rotation.as_ref().map(|part| part.at(time_secs, turned));
+            LocalJoint {
+                rotation: rotation
+                    .and_then(|value| unit_rotation(Quat::from_vec4(value)))
+                    .unwrap_or(rest.rotation),
+                translation: vector(&self.translation, rest.translation),
+                scale: vector(&self.scale, rest.scale),
+            }
+        };
+        let track = Track::new(times_secs.iter().map(|&time_secs| (time_secs, joint_at(time_secs))))?;
+        Ok(track.with_curves(Curves {
+            translation: self.translation.and_then(Part::into_curve),
+            rotation: self.rotation.and_then(Part::into_curve),
+            scale: self.scale.and_then(Part::into_curve),
+        }))
+    }
+}
+
+/// Between two rotations, along the shorter arc.
+fn turned(from: Vec4, to: Vec4, part: f64) -> Vec4 {
+    let [from, to] = [from, to].map(|rotation| Quat::from_vec4(rotation).as_dquat().normalize());
+    Vec4::from(from.slerp(to, part).as_quat())
+}

@@ -1,0 +1,181 @@
+//! From any number of joints and weights of a vertex to four.
+
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::{Diagnostic, Subject, codes};
+use crate::gltf::{Fault, Primitive, Reader};
+use crate::model::Influences;
+
+/// A sum of weights that is off by more than this was not meant to be rounded.
+const SUM_TOLERANCE: f64 = 1e-3;
+
+/// The weights of a primitive.
+pub(super) struct Weighted<'a> {
+    pub(super) reader: &'a Reader<'a>,
+    pub(super) part: &'a Primitive,
+    /// The joint of each slot of the skin.
+    pub(super) joints: &'a [u32],
+    pub(super) first_vertex: u32,
+    pub(super) pointer: &'a str,
+}
+
+/// What is noted of all vertices.
+#[derive(Default)]
+pub(super) struct Noted {
+    off_sum: Tally,
+    unweighted: Tally,
+    invalid: Tally,
+    cut: Tally,
+    /// The greatest part of a vertex's weights that was left out.
+    most_lost: f64,
+}
+
+/// Joints and weights of all vertices, four of each.
+type Set = (Vec<[u32; 4]>, Vec<[f32; 4]>);
+
+impl Weighted<'_> {
+    /// The influences of `count` vertices.
+    ///
+    /// # Errors
+    /// When the numbers are of the wrong kind, or a vertex gives weight to a joint that the skin does not have.
+    pub(super) fn read(
+        &self,
+        count: usize,
+        noted: &mut Noted,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<Vec<Influences>, Fault> {
+        let sets = self.sets(count, diagnostics)?;
+        let mut pairs = Vec::with_capacity(4 * sets.len());
+        (0..count)
+            .map(|vertex| self.influences(vertex, &sets, &mut pairs, noted))
+            .collect()
+    }
+
+    /// `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1` and so on.
+    fn sets(&self, count: usize, diagnostics: &mut Diagnostics) -> Result<Vec<Set>, Fault> {
+        let mut sets = Vec::new();
+        for number in 0.. {
+            let keys = [format!("JOINTS_{number}"), format!("WEIGHTS_{number}")];
+            let [joints, weights] = keys.each_ref().map(|key| self.part.attributes.get(key));
+            let mut broken = |key: &str, message: String| {
+                let place = Place::pointer(format!("{}/attributes/{key}", self.pointer));
+                diagnostics.add(&codes::GLTF_RULE_BROKEN, place, message);
+            };
+            let (Some(&joints), Some(&weights)) = (joints, weights) else {
+                if joints.is_some() || weights.is_some() {
+                    let [here, other] = if joints.is_some() { [0, 1] } else { [1, 0] };
+                    broken(&keys[here], format!("{} has no {}; left out.", keys[here], keys[other]));
+                }
+                break;
+            };
+            let at = |key: &str| format!("{}/attributes/{key}", self.pointer);
+            let joints = self.reader.whole::<4>(joints, &at(&keys[0]))?;
+            let weights = self.reader.floats::<4>(weights, &at(&keys[1]))?;
+            if joints.len() < count || weights.len() < count {
+                broken(
+                    &keys[0],
+                    format!("There are fewer {} or {} than vertices; left out.", keys[0], keys[1]),
+                );
+                break;
+            }
+            sets.push((joints, weights));
+        }
+        Ok(sets)
+    }
+
+    fn influences(
+        &self,
+        vertex: usize,
+        sets: &[Set],
+        pairs: &mut Vec<(f32, u32)>,
+        noted: &mut Noted,
+    ) -> Result<Influences, Fault> {
+        let number = self.first_vertex + vertex as u32;
+        pairs.clear();
+        let mut is_sound = true;
+        for (joints, weights) in sets {
+            for (&slot, &weight) in joints[vertex].iter().zip(&weights[vertex]) {
+                let is_weight = weight.is_finite() && weight >= 0.0;
+                is_sound &= is_weight;
+                if is_weight && weight > 0.0 {
+                    pairs.push((weight, self.joint(slot, number)?));
+                }
+            }
+        }
+        if !is_sound {
+            noted.invalid.add(number);
+        }
+        let all: f64 = pairs.iter().map(|&(weight, _)| f64::from(weight)).sum();
+        if pairs.is_empty() {
+            noted.unweighted.add(number);
+            return Ok(Influences::default());
+        }
+        if (all - 1.0).abs() > SUM_TOLERANCE {
+            noted.off_sum.add(number);
+        }
+        if pairs.len() > 4 {
+            // Stable, so that of equal weights the first ones are kept.
+            pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+            pairs.truncate(4);
+        }
+        let kept: f64 = pairs.iter().map(|&(weight, _)| f64::from(weight)).sum();
+        if kept < all {
+            noted.cut.add(number);
+            noted.most_lost = noted.most_lost.max(1.0 - kept / all);
+        }
+        let mut influences = Influences::default();
+        for (slot, &(weight, joint)) in pairs.iter().enumerate() {
+            influences.joints[slot] = joint;
+            influences.weights[slot] = if kept == 1.0 {
+                weight
+            } else {
+                (f64::from(weight) / kept) as f32
+            };
+        }
+        Ok(influences)
+    }
+
+    fn joint(&self, slot: u32, vertex: u32) -> Result<u32, Fault> {
+        self.joints.get(slot as usize).copied().ok_or_else(|| {
+            let count = self.joints.len();
+            let message = format!("Vertex {vertex} gives weight to joint {slot} of its skin, which has {count}.");
+            Box::new(Diagnostic {
+                subject: Some(Subject::Vertex(vertex)),
+                subjects: vec![Subject::Vertex(vertex)],
+                expected: Some(format!("a joint below {count}")),
+                found: Some(slot.to_string()),
+                ..codes::INFLUENCE_OUT_OF_RANGE
+                    .says(message)
+                    .pointing_at(format!("{}/attributes", self.pointer))
+            })
+        })
+    }
+}
+
+impl Noted {
+    pub(super) fn tell(&self, diagnostics: &mut Diagnostics) {
+        let mut note = |code, tally: &Tally, rule: &str| {
+            if tally.count > 0 {
+                let have = counted(tally.count, "vertex has", "vertices have");
+                diagnostics.add(
+                    code,
+                    Place::of_rows(tally, Subject::Vertex, &[]),
+                    format!("{have} {rule}"),
+                );
+            }
+        };
+        let rule = "a blend weight that is negative or not finite; taken as 0.";
+        note(&codes::WEIGHTS_INVALID, &self.invalid, rule);
+        let rule = format!("blend weights whose sum is off from 1 by more than {SUM_TOLERANCE}; normalised.");
+        note(&codes::WEIGHTS_NOT_NORMALIZED, &self.off_sum, &rule);
+        note(
+            &codes::WEIGHTS_ALL_ZERO,
+            &self.unweighted,
+            "no blend weight; not moved by any bone.",
+        );
+        let rule = format!(
+            "weights for more than four joints; the four greatest are kept, and at most {:.2} % of a vertex's weight is lost.",
+            self.most_lost * 100.0
+        );
+        note(&codes::WEIGHTS_CUT, &self.cut, &rule);
+    }
+}

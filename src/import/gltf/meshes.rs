@@ -1,0 +1,541 @@
+//! From primitives to one mesh: the vertices of all meshes of the scene in the file's order, and a submesh for each primitive.
+//!
+//! Primitives of one mesh that share their attributes share their vertices. A mesh on several nodes is copied.
+
+use glam::{DAffine3, DMat3, Vec2, Vec3, Vec4};
+
+use super::influences::{self, Weighted};
+use super::nodes::Nodes;
+use super::skeleton::{MeshUse, Rig};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::{Subject, codes};
+use crate::gltf::{Fault, Index, Primitive, Reader, Root, fault, out_of_range};
+use crate::import::normals::{is_direction, mend_normals};
+use crate::import::tangents::mend_tangents;
+use crate::model::{Handedness, Influences, Mesh, Submesh};
+
+const TRIANGLES: u64 = 4;
+const TRIANGLE_STRIP: u64 = 5;
+const TRIANGLE_FAN: u64 = 6;
+
+/// What of the document a mesh is made of.
+pub(super) struct Source<'a> {
+    pub(super) root: &'a Root,
+    pub(super) reader: &'a Reader<'a>,
+    pub(super) nodes: &'a Nodes,
+    pub(super) rig: &'a Rig,
+    /// Whether a map of some material takes the second texture coordinates.
+    pub(super) second_tex_coords: bool,
+}
+
+impl<'a> Source<'a> {
+    /// The joints of the slots of a primitive's skin, and what brings its vertices into bind space.
+    fn skin_of(&self, mesh: &MeshUse, part: &Primitive) -> Option<(&'a [u32], DAffine3)> {
+        let skin = self.rig.skins.get(mesh.skin?)?.as_ref()?;
+        part.attributes
+            .contains_key("JOINTS_0")
+            .then_some((skin.joints.as_slice(), skin.bind_from_mesh))
+    }
+}
+
+/// What is noted of all vertices together.
+#[derive(Default)]
+struct Noted {
+    positions: Tally,
+    tex_coords: Tally,
+    normals: Tally,
+    tangents: Tally,
+    weights: influences::Noted,
+}
+
+/// The mesh of a scene.
+///
+/// # Errors
+/// When a primitive names what is not there, or numbers of the wrong kind.
+pub(super) fn mesh(source: &Source<'_>, uses: &[MeshUse], diagnostics: &mut Diagnostics) -> Result<Mesh, Fault> {
+    let mut builder = Builder {
+        source,
+        mesh: Mesh::default(),
+        noted: Noted::default(),
+        diagnostics,
+    };
+    for mesh in uses {
+        builder.add(mesh)?;
+    }
+    builder.finish()
+}
+
+/// Attributes of the vertices of a primitive. Those that are absent are empty.
+#[derive(Default)]
+struct Vertices {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    tangents: Vec<[f32; 4]>,
+    tex_coords: Vec<[f32; 2]>,
+    second_tex_coords: Vec<[f32; 2]>,
+    colors: Vec<[f32; 4]>,
+}
+
+struct Builder<'a> {
+    source: &'a Source<'a>,
+    mesh: Mesh,
+    noted: Noted,
+    diagnostics: &'a mut Diagnostics,
+}
+
+impl Builder<'_> {
+    fn add(&mut self, mesh: &MeshUse) -> Result<(), Fault> {
+        let of_file = &self.source.root.meshes()[mesh.mesh];
+        // Primitives whose vertices are there, and where those begin.
+        let mut added: Vec<(&Primitive, u32)> = Vec::new();
+        for (index, part) in of_file.primitives.iter().enumerate() {
+            let pointer = format!("/meshes/{}/primitives/{index}", mesh.mesh);
+            let mode = part.mode.map_or(TRIANGLES, |mode| mode.0);
+            let what = match mode {
+                TRIANGLES..=TRIANGLE_FAN if part.attributes.contains_key("POSITION") => None,
+                TRIANGLES..=TRIANGLE_FAN => Some("has no positions"),
+                0 => Some("is of points"),
+                1..=3 => Some("is of lines"),
+                _ => Some("is of a mode that glTF does not have"),
+            };
+            if let Some(what) = what {
+                let message = format!("Primitive {index} of mesh {} {what}; left out.", mesh.mesh);
+                self.diagnostics
+                    .add(&codes::GLTF_PRIMITIVE_LEFT_OUT, Place::pointer(pointer), message);
+                continue;
+            }
+            let shares =
+                |(other, _): &&(&Primitive, u32)| other.attributes == part.attributes && other.targets == part.targets;
+            let start = match added.iter().find(shares) {
+                Some(&(_, start)) => start,
+                None => {
+                    let start = self.mesh.vertex_count() as u32;
+                    self.add_vertices(mesh, part, &pointer)?;
+                    added.push((part, start));
+                    start
+                }
+            };
+            let is_mirrored = self.placement(mesh, part).matrix3.determinant() < 0.0;
+            self.add_triangles(part, mode, start, is_mirrored, &pointer)?;
+        }
+        Ok(())
+    }
+
+    /// What brings the vertices of a primitive into bind space.
+    fn placement(&self, mesh: &MeshUse, part: &Primitive) -> DAffine3 {
+        match self.source.skin_of(mesh, part) {
+            Some((_, bind_from_mesh)) => bind_from_mesh,
+            None => self.source.rig.on_node(mesh.node, self.source.nodes).1,
+        }
+    }
+
+    fn add_vertices(&mut self, mesh: &MeshUse, part: &Primitive, pointer: &str) -> Result<(), Fault> {
+        let weights = self.morph_weights(mesh, part, pointer);
+        let vertices = self.read(part, &weights, pointer)?;
+        let count = vertices.positions.len();
+        let start = self.mesh.vertex_count();
+        if start + count > u32::MAX as usize {
+            return Err(fault(
+                &codes::GLTF_TOO_LARGE,
+                pointer,
+                "There are more vertices than indices can name.",
+            ));
+        }
+        let influences = self.influences(mesh, part, count, pointer)?;
+        let placement = self.placement(mesh, part);
+        self.place(&vertices, &placement);
+        let mesh = &mut self.mesh;
+        mesh.influences.extend(influences);
+        self.add_tex_coords(&vertices);
+        // A stream that only some primitives have is filled up for the others.
+        let mesh = &mut self.mesh;
+        if !vertices.colors.is_empty() {
+            mesh.colors.resize(start, Vec4::ONE);
+            mesh.colors.extend(vertices.colors.into_iter().map(color));
+        } else if !mesh.colors.is_empty() {
+            mesh.colors.resize(start + count, Vec4::ONE);
+        }
+        Ok(())
+    }
+
+    /// The weights that the morph targets of a primitive have outside of clips.
+    fn morph_weights(&mut self, mesh: &MeshUse, part: &Primitive, pointer: &str) -> Vec<f32> {
+        let root = self.source.root;
+        let of_node = root.nodes()[mesh.node as usize].weights.as_ref();
+        let of_mesh = root.meshes()[mesh.mesh].weights.as_ref();
+        let weights = of_node.or(of_mesh).map_or(&[][..], Vec::as_slice);
+        if !weights.is_empty() && weights.len() != part.targets.len() {
+            let message = format!(
+                "There are {} weights for {} morph targets.",
+                weights.len(),
+                part.targets.len()
+            );
+            self.diagnostics.add(
+                &codes::GLTF_RULE_BROKEN,
+                Place::pointer(format!("{pointer}/targets")),
+                message,
+            );
+        }
+        weights.to_vec()
+    }
+
+    fn read(&mut self, part: &Primitive, weights: &[f32], pointer: &str) -> Result<Vertices, Fault> {
+        let reader = self.source.reader;
+        let at = |key: &str| format!("{pointer}/attributes/{key}");
+        let mut vertices = Vertices::default();
+        if let Some(&accessor) = part.attributes.get("POSITION") {
+            vertices.positions = reader.floats(accessor, &at("POSITION"))?;
+        }
+        let count = vertices.positions.len();
+        vertices.normals = self.attribute(part, "NORMAL", count, pointer)?;
+        if vertices.normals.is_empty() {
+            let message = "The primitive has no normals; smooth ones were computed from its triangles.";
+            self.diagnostics
+                .add(&codes::GLTF_NORMALS_ABSENT, Place::pointer(pointer), message.to_owned());
+        }
+        vertices.tangents = self.attribute(part, "TANGENT", count, pointer)?;
+        vertices.tex_coords = self.attribute(part, "TEXCOORD_0", count, pointer)?;
+        if self.source.second_tex_coords {
+            vertices.second_tex_coords = self.attribute(part, "TEXCOORD_1", count, pointer)?;
+        }
+        if let Some(&accessor) = part.attributes.get("COLOR_0") {
+            vertices.colors = if reader.width(accessor, &at("COLOR_0"))? == Some(3) {
+                let opaque = |[red, green, blue]: [f32; 3]| [red, green, blue, 1.0];
+                self.attribute(part, "COLOR_0", count, pointer)?
+                    .into_iter()
+                    .map(opaque)
+                    .collect()
+            } else {
+                self.attribute(part, "COLOR_0", count, pointer)?
+            };
+        }
+        for (index, (target, &weight)) in part.targets.iter().zip(weights).enumerate() {
+            if weight == 0.0 || !weight.is_finite() {
+                continue;
+            }
+            let at = |key: &str| format!("{pointer}/targets/{index}/{key}");
+            let moved = |key: &str, to: &mut dyn FnMut(usize, Vec3)| -> Result<(), Fault> {
+                if let Some(&accessor) = target.get(key) {
+                    let steps = reader.floats::<3>(accessor, &at(key))?;
+                    steps
+                        .into_iter()
+                        .enumerate()
+                        .for_each(|(vertex, step)| to(vertex, Vec3::from_array(step) * weight));
+                }
+                Ok(())
+            };
+            moved("POSITION", &mut |vertex, step| {
+                add(&mut vertices.positions, vertex, step)
+            })?;
+            moved("NORMAL", &mut |vertex, step| add(&mut vertices.normals, vertex, step))?;
+            moved("TANGENT", &mut |vertex, step| {
+                if let Some([x, y, z, _]) = vertices.tangents.get_mut(vertex) {
+                    [*x, *y, *z] = (Vec3::new(*x, *y, *z) + step).to_array();
+                }
+            })?;
+        }
+        Ok(vertices)
+    }
+
+    /// An attribute with an element for each of `count` vertices; empty where there is none, or too few.
+    fn attribute<const N: usize>(
+        &mut self,
+        part: &Primitive,
+        key: &str,
+        count: usize,
+        pointer: &str,
+    ) -> Result<Vec<[f32; N]>, Fault> {
+        let Some(&accessor) = part.attributes.get(key) else {
+            return Ok(Vec::new());
+        };
+        let pointer = format!("{pointer}/attributes/{key}");
+        let mut elements: Vec<[f32; N]> = self.source.reader.floats(accessor, &pointer)?;
+        if elements.len() != count {
+            let have = elements.len();
+            let (then, kept) = if have > count {
+                ("the rest is left out", count)
+            } else {
+                ("left out", 0)
+            };
+            let message = format!("{key} has {have} elements for {count} vertices; {then}.");
+            self.diagnostics
+                .add(&codes::GLTF_RULE_BROKEN, Place::pointer(pointer), message);
+            elements.truncate(kept);
+        }
+        Ok(elements)
+    }
+
+    fn influences(
+        &mut self,
+        mesh: &MeshUse,
+        part: &Primitive,
+        count: usize,
+        pointer: &str,
+    ) -> Result<Vec<Influences>, Fault> {
+        let source = self.source;
+        if let Some((joints, _)) = source.skin_of(mesh, part) {
+            let weighted = Weighted {
+                reader: source.reader,
+                part,
+                joints,
+                first_vertex: self.mesh.vertex_count() as u32,
+                pointer,
+            };
+            return weighted.read(count, &mut self.noted.weights, self.diagnostics);
+        }
+        Ok(match source.rig.on_node(mesh.node, source.nodes).0 {
+            None => Vec::new(),
+            Some(joint) => {
+                let influences = Influences {
+                    joints: [joint, 0, 0, 0],
+                    weights: [1.0, 0.0, 0.0, 0.0],
+                };
+                vec![influences; count]
+            }
+        })
+    }
+
+    /// Adds positions, normals and tangents, brought into bind space. Absent ones are 0.
+    fn place(&mut self, vertices: &Vertices, bind_from_mesh: &DAffine3) {
+        let count = vertices.positions.len();
+        let stays = *bind_from_mesh == DAffine3::IDENTITY;
+        let mesh = &mut self.mesh;
+        let normal_from_normal = normal_matrix(bind_from_mesh);
+        let sign = bind_from_mesh.matrix3.determinant().signum() as f32;
+        for (vertex, &position) in (mesh.positions.len() as u32..).zip(&vertices.positions) {
+            let stored = Vec3::from_array(position);
+            let placed = if stays {
+                stored
+            } else {
+                bind_from_mesh.transform_point3(stored.as_dvec3()).as_vec3()
+            };
+            let is_sound = placed.is_finite();
+            if !is_sound {
+                self.noted.positions.add(vertex);
+            }
+            mesh.positions.push(if is_sound { placed } else { Vec3::ZERO });
+        }
+        let direction = |stored: Vec3, by: &DMat3| match (by * stored.as_dvec3()).try_normalize() {
+            _ if stays => stored,
+            Some(direction) if is_direction(stored) => direction.as_vec3(),
+            _ => Vec3::ZERO,
+        };
+        for (vertex, &normal) in (mesh.normals.len() as u32..).zip(&vertices.normals) {
+            let normal = direction(Vec3::from_array(normal), &normal_from_normal);
+            if !is_direction(normal) {
+                self.noted.normals.add(vertex);
+            }
+            mesh.normals.push(normal);
+        }
+        for (vertex, &[x, y, z, w]) in (mesh.tangents.len() as u32..).zip(&vertices.tangents) {
+            let tangent = direction(Vec3::new(x, y, z), &bind_from_mesh.matrix3);
+            if !is_direction(tangent) || w.abs() != 1.0 {
+                self.noted.tangents.add(vertex);
+            }
+            mesh.tangents.push(tangent.extend(if w < 0.0 { -sign } else { sign }));
+        }
+        let end = mesh.positions.len();
+        debug_assert!(vertices.normals.is_empty() || vertices.normals.len() == count);
+        mesh.normals.resize(end, Vec3::ZERO);
+        mesh.tangents.resize(end, Vec4::ZERO);
+    }
+
+    fn add_tex_coords(&mut self, vertices: &Vertices) {
+        let mesh = &mut self.mesh;
+        let end = mesh.positions.len();
+        let noted = &mut self.noted.tex_coords;
+        let mut add = |to: &mut Vec<Vec2>, from: &[[f32; 2]]| {
+            for &stored in from {
+                let stored = Vec2::from_array(stored);
+                if !stored.is_finite() {
+                    noted.add(to.len() as u32);
+                }
+                to.push(if stored.is_finite() { stored } else { Vec2::ZERO });
+            }
+            to.resize(end, Vec2::ZERO);
+        };
+        add(&mut mesh.tex_coords, &vertices.tex_coords);
+        if self.source.second_tex_coords {
+            add(&mut mesh.second_tex_coords, &vertices.second_tex_coords);
+        }
+    }
+
+    fn add_triangles(
+        &mut self,
+        part: &Primitive,
+        mode: u64,
+        start: u32,
+        is_mirrored: bool,
+        pointer: &str,
+    ) -> Result<(), Fault> {
+        let material = match part.material {
+            None => self.source.root.materials().len(),
+            Some(material) => usize::try_from(material.0)
+                .ok()
+                .filter(|&index| index < self.source.root.materials().len())
+                .ok_or_else(|| {
+                    let count = self.source.root.materials().len();
+                    out_of_range(&format!("{pointer}/material"), "material", material.0, count)
+                })?,
+        };
+        let count = self.vertex_count(part, pointer)?;
+        let corners = self.corners(part, count, pointer)?;
+        let at = || Place::pointer(pointer);
+        if mode == TRIANGLES && !corners.len().is_multiple_of(3) {
+            let left = corners.len() % 3;
+            let message = format!(
+                "{} at the end make no triangle; left out.",
+                counted(left, "corner", "corners")
+            );
+            self.diagnostics.add(&codes::GLTF_RULE_BROKEN, at(), message);
+        }
+        let triangle_start = self.mesh.triangle_count();
+        let triangles: Box<dyn Iterator<Item = [u32; 3]>> = match mode {
+            TRIANGLES => Box::new(corners.as_chunks().0.iter().copied()),
+            TRIANGLE_STRIP => {
+                Box::new(corners.array_windows().enumerate().map(
+                    |(index, &[a, b, c])| {
+                        if index % 2 == 0 { [a, b, c] } else { [a, c, b] }
+                    },
+                ))
+            }
+            _ => {
+                let first = corners.first().copied().unwrap_or_default();
+                let rest = corners.get(1..).unwrap_or_default();
+                Box::new(rest.array_windows().map(move |&[b, c]| [b, c, first]))
+            }
+        };
+        // What joins two strips has no area.
+        let has_area = |&[a, b, c]: &[u32; 3]| mode == TRIANGLES || (a != b && b != c && c != a);
+        for [a, b, c] in triangles.filter(has_area) {
+            let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
+            self.mesh.indices.extend(corners.map(|corner| start + corner));
+        }
+        let triangle_count = self.mesh.triangle_count() - triangle_start;
+        let number = |count: usize| {
+            let message = "There are more triangles than numbers for them.";
+            u32::try_from(count).map_err(|_| fault(&codes::GLTF_TOO_LARGE, pointer, message))
+        };
+        self.mesh.submeshes.push(Submesh {
+            triangle_start: number(triangle_start)?,
+            triangle_count: number(triangle_count)?,
+            material: number(material)?,
+        });
+        Ok(())
+    }
+
+    fn vertex_count(&self, part: &Primitive, pointer: &str) -> Result<u64, Fault> {
+        let position = part.attributes.get("POSITION").copied().unwrap_or_default();
+        let accessor = self
+            .source
+            .reader
+            .accessor(position, &format!("{pointer}/attributes/POSITION"))?;
+        Ok(accessor.count.0)
+    }
+
+    /// The vertices of a primitive in the order in which they make triangles.
+    fn corners(&mut self, part: &Primitive, vertex_count: u64, pointer: &str) -> Result<Vec<u32>, Fault> {
+        let reader = self.source.reader;
+        let Some(indices) = part.indices else {
+            reader.spend(vertex_count, pointer)?;
+            // As many vertices were read before.
+            return Ok((0..vertex_count as u32).collect());
+        };
+        let pointer = format!("{pointer}/indices");
+        let corners = reader.whole::<1>(Index(indices.0), &pointer)?.into_flattened();
+        if let Some(place) = corners.iter().position(|&corner| u64::from(corner) >= vertex_count) {
+            let message = format!(
+                "Index {place} names vertex {}, but there are {vertex_count}.",
+                corners[place]
+            );
+            return Err(fault(&codes::VERTEX_OUT_OF_RANGE, pointer, message));
+        }
+        Ok(corners)
+    }
+
+    fn finish(mut self) -> Result<Mesh, Fault> {
+        let mesh = &mut self.mesh;
+        if !mesh.colors.is_empty() {
+            mesh.colors.resize(mesh.positions.len(), Vec4::ONE);
+        }
+        if mesh.colors.iter().all(|&color| color == Vec4::ONE) {
+            mesh.colors = Vec::new();
+        }
+        let mut note = |code, tally: &Tally, rule: &str| {
+            if tally.count > 0 {
+                let have = counted(tally.count, "vertex has", "vertices have");
+                self.diagnostics.add(
+                    code,
+                    Place::of_rows(tally, Subject::Vertex, &[]),
+                    format!("{have} {rule}"),
+                );
+            }
+        };
+        note(
+            &codes::VERTEX_NOT_FINITE,
+            &self.noted.positions,
+            "a position that is not finite; taken as 0.",
+        );
+        note(
+            &codes::VERTEX_NOT_FINITE,
+            &self.noted.tex_coords,
+            "a texture coordinate that is not finite; taken as 0.",
+        );
+        let rule = "a normal that is zero or not finite; computed from the triangles.";
+        note(&codes::NORMALS_MISSING, &self.noted.normals, rule);
+        let rule = "a tangent that is zero or not finite, or whose fourth number is not 1 or −1; mended.";
+        note(&codes::TANGENTS_MISSING, &self.noted.tangents, rule);
+        self.noted.weights.tell(self.diagnostics);
+        // What is absent was noted for each primitive, or is no flaw.
+        let mut quiet = Diagnostics::default();
+        mesh.check().map_err(|rule| Box::new(rule.diagnostic()))?;
+        mend_normals(mesh, Handedness::Right, &[], &mut quiet);
+        mend_tangents(mesh, Vec::new, &mut quiet);
+        Ok(self.mesh)
+    }
+}
+
+fn add(to: &mut [[f32; 3]], vertex: usize, step: Vec3) {
+    if let Some(numbers) = to.get_mut(vertex) {
+        *numbers = (Vec3::from_array(*numbers) + step).to_array();
+    }
+}
+
+/// Keeps normals square to their surface.
+fn normal_matrix(bind_from_mesh: &DAffine3) -> DMat3 {
+    // The cofactors: the inverse transpose times the determinant, which a flat transform has too.
+    let DMat3 { x_axis, y_axis, z_axis } = bind_from_mesh.matrix3;
+    let sign = bind_from_mesh.matrix3.determinant().signum();
+    DMat3::from_cols(
+        y_axis.cross(z_axis) * sign,
+        z_axis.cross(x_axis) * sign,
+        x_axis.cross(y_axis) * sign,
+    )
+}
+
+fn color(stored: [f32; 4]) -> Vec4 {
+    let sound = stored.map(|number| if number.is_finite() { number.max(0.0) } else { 1.0 });
+    Vec4::from_array(sound)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn normals_stay_square_to_a_surface_that_is_stretched_or_mirrored() {
+        let surface = [DVec3::new(1.0, -1.0, 0.0), DVec3::Z];
+        let normal = DVec3::new(1.0, 1.0, 0.0);
+        for scale in [DVec3::new(2.0, 1.0, 1.0), DVec3::new(-2.0, 1.0, 3.0)] {
+            let transform = DAffine3::from_scale(scale);
+            let moved = normal_matrix(&transform) * normal;
+            for axis in surface {
+                assert!((transform.matrix3 * axis).dot(moved).abs() < 1e-12, "{scale}");
+            }
+            // It points to the side to which it pointed.
+            assert!(moved.dot(transform.matrix3 * normal) > 0.0, "{scale}");
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! glTF 2.0, as `.glb` or as `.gltf` with its data in place or beside it.
+//!
+//! The scene that the file shows first becomes one model: right-handed, y up, facing +z, one skeleton of all nodes that move
+//! something, one mesh of all primitives. What was mended comes back as diagnostics; what names something that is not there, or
+//! reaches beyond its data, ends the reading.
+
+mod clips;
+mod images;
+mod influences;
+mod materials;
+mod meshes;
+mod nodes;
+mod skeleton;
+
+use self::images::Images;
+use self::meshes::Source;
+use self::nodes::Nodes;
+use super::{FileFormat, Imported, Refused};
+use crate::diagnostic::collect::{Diagnostics, Place};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::format::LineMap;
+use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
+use crate::model::{Front, Handedness, Model, UpAxis};
+
+pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
+
+pub(super) fn import(bytes: &[u8], find: FindFile<'_>) -> Result<Imported, Box<Refused>> {
+    let mut diagnostics = Vec::new();
+    match read(bytes, find, &mut diagnostics) {
+        Ok(imported) => Ok(Imported {
+            diagnostics,
+            ..imported
+        }),
+        Err(error) => Err(Box::new(Refused {
+            error: *error,
+            diagnostics,
+        })),
+    }
+}
+
+/// The paths of the files beside a glTF file that it names, percent-decoded; none for a file that cannot be read.
+pub(super) fn files_beside(bytes: &[u8]) -> Vec<String> {
+    let mut diagnostics = Vec::new();
+    let root = gltf::open(bytes, &mut diagnostics).and_then(|container| gltf::parse(&container));
+    let Ok(root) = root else { return Vec::new() };
+    let buffers = root.buffers().iter().filter_map(|buffer| buffer.uri.as_deref());
+    let images = root.images().iter().filter_map(|image| image.uri.as_deref());
+    let mut paths: Vec<String> = buffers
+        .chain(images)
+        .filter_map(|uri| match Uri::parse(uri) {
+            Ok(Uri::Path(path)) => Some(path),
+            _ => None,
+        })
+        .collect();
+    paths.sort();
+    paths.dedup();
+    paths
+}
+
+fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> Result<Imported, Fault> {
+    let container = gltf::open(bytes, diagnostics)?;
+    let root = gltf::parse(&container)?;
+    gltf::check_asset(&root, diagnostics)?;
+    let buffers = Buffers::new(&root, &container, find);
+    gltf::note_broken_rules(&root, diagnostics);
+    let mut noted = Diagnostics::default();
+    let read = model(&root, &buffers, &container, find, &mut noted);
+    diagnostics.extend(noted.into_vec());
+    let (model, images) = read?;
+    Ok(Imported {
+        format: if container.is_binary {
+            FileFormat::Glb
+        } else {
+            FileFormat::Gltf
+        },
+        model,
+        diagnostics: Vec::new(),
+        lines: LineMap::default(),
+        pictures: images.pictures,
+    })
+}
+
+fn model(
+    root: &Root,
+    buffers: &Buffers<'_>,
+    container: &Container<'_>,
+    find: FindFile<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Result<(Model, Images), Fault> {
+    let reader = Reader::new(root, buffers, container.json.len() as u64);
+    let nodes = Nodes::read(root, diagnostics)?;
+    let images = Images::read(root, buffers, find, diagnostics);
+    let mut materials = materials::materials(root, &images, diagnostics)?;
+    let uses = skeleton::meshes_in_scene(root, &nodes, diagnostics)?;
+    let rig = skeleton::rig(root, &reader, &nodes, &uses, diagnostics)?;
+    let source = Source {
+        root,
+        reader: &reader,
+        nodes: &nodes,
+        rig: &rig,
+        second_tex_coords: materials::take_second_tex_coords(&materials),
+    };
+    let mesh = meshes::mesh(&source, &uses, diagnostics)?;
+    // The last one is for primitives without any.
+    if !mesh
+        .submeshes
+        .iter()
+        .any(|submesh| submesh.material as usize == root.materials().len())
+    {
+        materials.pop();
+    }
+    let clips = clips::clips(root, &reader, &rig, diagnostics)?;
+    if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
+        let message = codes::GLTF_EMPTY.sentence.to_owned();
+        diagnostics.add(&codes::GLTF_EMPTY, Place::default(), message);
+    }
+    let model = Model {
+        materials,
+        mesh,
+        skeleton: rig.skeleton,
+        clips,
+        handedness: Handedness::Right,
+        up_axis: UpAxis::Y,
+        front: Front::Positive,
+    };
+    let model = model.checked().map_err(|rule| Box::new(rule.diagnostic()))?;
+    Ok((model, images))
+}

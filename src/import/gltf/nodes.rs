@@ -1,0 +1,207 @@
+//! Nodes as trees: who is whose parent, where each is at rest, and which are in the scene.
+
+use glam::{DAffine3, DMat4, DVec4, Mat4, Quat, Vec3};
+
+use crate::diagnostic::codes;
+use crate::diagnostic::collect::{Diagnostics, Place};
+use crate::gltf::{Fault, Node, Root, fault, out_of_range};
+use crate::model::{LocalJoint, unit_rotation};
+
+/// A rotation whose length is off by more than this was not meant to be rounded.
+const UNIT_TOLERANCE: f32 = 1e-3;
+
+/// The nodes of a document. Lists have an entry for each node.
+pub(super) struct Nodes {
+    pub(super) parents: Vec<Option<u32>>,
+    /// All nodes, parents before children.
+    pub(super) order: Vec<u32>,
+    /// Relative to the parent, in parts.
+    pub(super) local: Vec<LocalJoint>,
+    /// Whether parts cannot say what the node's matrix does.
+    pub(super) is_sheared: Vec<bool>,
+    /// Relative to the model, with all that matrices say.
+    pub(super) model_from_node: Vec<DAffine3>,
+    /// In the default scene.
+    pub(super) in_scene: Vec<bool>,
+}
+
+impl Nodes {
+    /// # Errors
+    /// When a child or a scene's node is not there, or nodes are no trees.
+    pub(super) fn read(root: &Root, diagnostics: &mut Diagnostics) -> Result<Self, Fault> {
+        let nodes = root.nodes();
+        let parents = parents(nodes)?;
+        let order = parents_first(nodes, &parents)?;
+        let mut local = Vec::with_capacity(nodes.len());
+        let mut exact = Vec::with_capacity(nodes.len());
+        let mut is_sheared = Vec::with_capacity(nodes.len());
+        for (index, node) in nodes.iter().enumerate() {
+            let (parts, matrix) = transform(index, node, diagnostics);
+            let recomposed = parts.parent_from_joint().as_daffine3();
+            let size = matrix.to_cols_array().into_iter().map(f64::abs).fold(1e-30, f64::max);
+            is_sheared.push(!matrix.abs_diff_eq(recomposed, 1e-4 * size));
+            local.push(parts);
+            exact.push(matrix);
+        }
+        let mut model_from_node = exact;
+        for &node in &order {
+            if let Some(parent) = parents[node as usize] {
+                model_from_node[node as usize] = model_from_node[parent as usize] * model_from_node[node as usize];
+            }
+        }
+        let in_scene = in_scene(root, &parents, &order, diagnostics)?;
+        Ok(Self {
+            parents,
+            order,
+            local,
+            is_sheared,
+            model_from_node,
+            in_scene,
+        })
+    }
+
+    /// A node and all above it, from the node up.
+    pub(super) fn and_above(&self, node: u32) -> impl Iterator<Item = u32> {
+        std::iter::successors(Some(node), |&node| self.parents[node as usize])
+    }
+}
+
+fn parents(nodes: &[Node]) -> Result<Vec<Option<u32>>, Fault> {
+    let mut parents = vec![None; nodes.len()];
+    for (parent, node) in (0u32..).zip(nodes) {
+        for (place, child) in node.children().enumerate() {
+            let pointer = || format!("/nodes/{parent}/children/{place}");
+            let slot = usize::try_from(child).ok().and_then(|child| parents.get_mut(child));
+            match slot {
+                None => return Err(out_of_range(&pointer(), "node", child, nodes.len())),
+                Some(Some(before)) => {
+                    let message = format!("Node {child} is the child of node {before} and of node {parent}.");
+                    return Err(fault(&codes::GLTF_NODES_TANGLED, pointer(), message));
+                }
+                Some(slot) => *slot = Some(parent),
+            }
+        }
+    }
+    Ok(parents)
+}
+
+fn parents_first(nodes: &[Node], parents: &[Option<u32>]) -> Result<Vec<u32>, Fault> {
+    let roots = (0u32..).zip(parents).filter(|(_, parent)| parent.is_none());
+    let mut order: Vec<u32> = roots.map(|(node, _)| node).collect();
+    let mut done = 0;
+    while let Some(&node) = order.get(done) {
+        // Every child was proved to be a node.
+        order.extend(nodes[node as usize].children().map(|child| child as u32));
+        done += 1;
+    }
+    if order.len() == nodes.len() {
+        return Ok(order);
+    }
+    let mut reached = vec![false; nodes.len()];
+    for &node in &order {
+        reached[node as usize] = true;
+    }
+    let node = reached.iter().position(|reached| !reached).unwrap_or_default();
+    let message = format!("Node {node} is below itself, or below nodes that are.");
+    Err(fault(&codes::GLTF_NODES_TANGLED, format!("/nodes/{node}"), message))
+}
+
+/// The parts of a node's transform, and the transform itself.
+fn transform(index: usize, node: &Node, diagnostics: &mut Diagnostics) -> (LocalJoint, DAffine3) {
+    let mut broken = |key: &str, message: String| {
+        let place = Place::pointer(format!("/nodes/{index}/{key}"));
+        diagnostics.add(&codes::GLTF_RULE_BROKEN, place, message);
+    };
+    if let Some(numbers) = &node.matrix {
+        if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
+            broken(
+                "matrix",
+                format!("Node {index} has a matrix and its parts; the matrix is taken."),
+            );
+        }
+        let matrix = Mat4::from_cols_array(numbers);
+        if !matrix.is_finite() {
+            broken(
+                "matrix",
+                format!("The matrix of node {index} is not finite; taken as none."),
+            );
+            return (LocalJoint::IDENTITY, DAffine3::IDENTITY);
+        }
+        let matrix: DMat4 = matrix.as_dmat4();
+        if matrix.row(3) != DVec4::W {
+            broken(
+                "matrix",
+                format!("The matrix of node {index} has a fourth row other than 0 0 0 1; left out."),
+            );
+        }
+        let matrix = DAffine3::from_mat4(matrix);
+        return (LocalJoint::from_matrix(&matrix), matrix);
+    }
+    let mut vector = |key: &str, numbers: Option<[f32; 3]>, default: Vec3| {
+        let vector = numbers.map_or(default, Vec3::from_array);
+        if vector.is_finite() {
+            return vector;
+        }
+        broken(key, format!("The {key} of node {index} is not finite; taken as none."));
+        default
+    };
+    let translation = vector("translation", node.translation, Vec3::ZERO);
+    let scale = vector("scale", node.scale, Vec3::ONE);
+    let stored = node.rotation.map_or(Quat::IDENTITY, Quat::from_array);
+    let rotation = unit_rotation(stored).unwrap_or(Quat::IDENTITY);
+    if !stored.is_finite() || (stored.length() - 1.0).abs() > UNIT_TOLERANCE {
+        broken(
+            "rotation",
+            format!("The rotation of node {index} is not of unit length; brought to it."),
+        );
+    }
+    let local = LocalJoint {
+        rotation,
+        translation,
+        scale,
+    };
+    (local, local.parent_from_joint().as_daffine3())
+}
+
+/// Which nodes are below those that the default scene names: the one that the document says, or the first, or all there is.
+fn in_scene(
+    root: &Root,
+    parents: &[Option<u32>],
+    order: &[u32],
+    diagnostics: &mut Diagnostics,
+) -> Result<Vec<bool>, Fault> {
+    let scenes = root.scenes();
+    let index = match root.scene {
+        Some(scene) => usize::try_from(scene.0).ok().filter(|&index| index < scenes.len()),
+        None => Some(0),
+    };
+    let Some(index) = index else {
+        let scene = root.scene.unwrap_or_default().0;
+        return Err(out_of_range("/scene", "scene", scene, scenes.len()));
+    };
+    let Some(scene) = scenes.get(index) else {
+        return Ok(vec![true; parents.len()]);
+    };
+    let mut in_scene = vec![false; parents.len()];
+    for (place, node) in scene.nodes.iter().flatten().enumerate() {
+        let pointer = format!("/scenes/{index}/nodes/{place}");
+        let slot = usize::try_from(node.0).ok().and_then(|node| in_scene.get_mut(node));
+        let Some(slot) = slot else {
+            return Err(out_of_range(&pointer, "node", node.0, parents.len()));
+        };
+        *slot = true;
+        if parents[node.0 as usize].is_some() {
+            let message = format!(
+                "Node {} of the scene is below another node; it is shown where that one has it.",
+                node.0
+            );
+            diagnostics.add(&codes::GLTF_RULE_BROKEN, Place::pointer(pointer), message);
+        }
+    }
+    for &node in order {
+        if let Some(parent) = parents[node as usize] {
+            in_scene[node as usize] |= in_scene[parent as usize];
+        }
+    }
+    Ok(in_scene)
+}

@@ -1,0 +1,3 @@
+//! Models as files.
+
+mod m3d;
