@@ -14,17 +14,17 @@ pub fn blend(from: &LocalPose, to: &LocalPose, weight: f32, out: &mut LocalPose)
     }
 }
 
-/// Brings each joint of a local pose toward [`Skeleton::rest`], as [`blend`] does with the `weight` of rest: 0 leaves the
-/// pose as it is, 1 is rest.
+/// Brings each joint of a local pose toward [`Skeleton::bind`], as [`blend`] does with the `weight` of the bind pose: 0 leaves
+/// the pose as it is, 1 is the bind pose.
 ///
-/// Rest comes from the inverse bind matrices alone, so a joint that moves no vertex rests where its matrix puts it like any
+/// It comes from the inverse bind matrices alone, so a joint that moves no vertex goes where its matrix puts it like any
 /// other. Exporters that write the identity for such a joint put it at the model's origin: no vertex goes with it, and its
-/// children still come to their own places, since their rest is relative to that same origin.
-pub fn blend_to_rest(skeleton: &Skeleton, weight: f32, local: &mut LocalPose) {
+/// children still come to their own places, since they are relative to that same origin.
+pub fn blend_to_bind(skeleton: &Skeleton, weight: f32, local: &mut LocalPose) {
     let joint_count = local.joint_count().min(skeleton.joint_count());
-    let rest = skeleton.rest()[..joint_count].chunks(JointLanes::COUNT);
-    for (group, rest) in local.groups.iter_mut().zip(rest) {
-        *group = between(group, &JointLanes::from_joints(rest), weight);
+    let bind = skeleton.bind()[..joint_count].chunks(JointLanes::COUNT);
+    for (group, bind) in local.groups.iter_mut().zip(bind) {
+        *group = between(group, &JointLanes::from_joints(bind), weight);
     }
 }
 

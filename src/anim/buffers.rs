@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::blend::blend_to_rest;
+use super::blend::blend_to_bind;
 use super::compile::CompiledClip;
 use super::pose::{LocalPose, ModelPose, Palette, local_to_model, palette};
 use super::sample::sample;
@@ -20,10 +20,10 @@ pub struct PoseBuffers {
 }
 
 impl PoseBuffers {
-    /// Buffers of the right size, in the bind pose: the skeleton at rest, and a palette of identities.
+    /// Buffers of the right size, at rest.
     pub fn for_skeleton(skeleton: &Skeleton) -> Self {
         let mut buffers = Self::default();
-        buffers.set_bind_pose(skeleton);
+        buffers.set_rest_pose(skeleton);
         buffers
     }
 
@@ -40,20 +40,30 @@ impl PoseBuffers {
         palette(skeleton, &self.model, &mut self.palette);
     }
 
-    /// Brings the pose toward the bind pose, whose `weight` is 0 to 1; see [`blend_to_rest`]. From 1 on it is
-    /// the bind pose of [`PoseBuffers::set_bind_pose`], with the shear that rest has no part for.
+    /// Brings the pose toward the bind pose, whose `weight` is 0 to 1; see [`blend_to_bind`]. From 1 on it is
+    /// the bind pose of [`PoseBuffers::set_bind_pose`], with the shear that joints have no part for.
     pub fn bring_toward_bind(&mut self, skeleton: &Skeleton, weight: f32) {
         if weight >= 1.0 {
             self.set_bind_pose(skeleton);
         } else if weight > 0.0 {
-            blend_to_rest(skeleton, weight, &mut self.local);
+            blend_to_bind(skeleton, weight, &mut self.local);
+            self.place(skeleton);
+        }
+    }
+
+    /// The pose of a model without a clip: [`Skeleton::rest`]. Where that is the bind pose, [`PoseBuffers::set_bind_pose`].
+    pub fn set_rest_pose(&mut self, skeleton: &Skeleton) {
+        if skeleton.rests_in_bind_pose() {
+            self.set_bind_pose(skeleton);
+        } else {
+            self.local.set_joints(skeleton.rest());
             self.place(skeleton);
         }
     }
 
     /// The pose in which the mesh was skinned. Its palette is the identity by meaning, so it is set and not computed.
     pub fn set_bind_pose(&mut self, skeleton: &Skeleton) {
-        self.local.set_joints(skeleton.rest());
+        self.local.set_joints(skeleton.bind());
         self.model.0.clear();
         self.model.0.extend_from_slice(skeleton.bind_model_from_joint());
         self.palette.0.clear();

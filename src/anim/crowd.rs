@@ -3,7 +3,7 @@
 use glam::Affine3A;
 use rustc_hash::FxHashMap;
 
-use super::blend::blend_to_rest;
+use super::blend::blend_to_bind;
 use super::compile::CompiledClip;
 use super::pose::{LocalPose, ModelPose, local_to_model, palette_matrices};
 use super::sample::sample;
@@ -124,13 +124,16 @@ impl CrowdPalettes {
         self.posed += 1;
         let palette = &mut self.palettes[slot * self.joint_count..][..self.joint_count];
         let clip = pose.clip.and_then(|clip| clips.get(clip as usize));
-        let Some(clip) = clip.filter(|_| self.bind_weight < 1.0) else {
+        if self.bind_weight >= 1.0 || (clip.is_none() && skeleton.rests_in_bind_pose()) {
             palette.fill(Affine3A::IDENTITY);
             return;
-        };
-        sample(clip, f32::from_bits(pose.time_bits), &mut self.local);
+        }
+        match clip {
+            Some(clip) => sample(clip, f32::from_bits(pose.time_bits), &mut self.local),
+            None => self.local.set_joints(skeleton.rest()),
+        }
         if self.bind_weight > 0.0 {
-            blend_to_rest(skeleton, self.bind_weight, &mut self.local);
+            blend_to_bind(skeleton, self.bind_weight, &mut self.local);
         }
         local_to_model(skeleton, &self.local, &mut self.model);
         for (matrix, posed) in palette.iter_mut().zip(palette_matrices(skeleton, &self.model)) {

@@ -43,6 +43,15 @@ pub fn animated_bounds(model: &Model, clip: &CompiledClip) -> Aabb {
     })
 }
 
+/// Box of the vertices of a model without a clip, in model space.
+pub fn bounds_at_rest(model: &Model) -> Aabb {
+    if model.skeleton.rests_in_bind_pose() {
+        return model.bind_bounds();
+    }
+    let buffers = PoseBuffers::for_skeleton(&model.skeleton);
+    skinned_bounds(&model.mesh, &buffers.palette, &mut Vec::new())
+}
+
 fn skinned_bounds(mesh: &Mesh, palette: &Palette, positions: &mut Vec<Vec3>) -> Aabb {
     skin_positions(mesh, palette, positions);
     Aabb::from_points(positions.iter().copied())
@@ -81,19 +90,25 @@ impl CarriedBoxes {
     }
 }
 
-/// Points of the mesh, in model space, that lie farthest in many directions over a clip, or in bind space without one.
+/// Points of the mesh, in model space, that lie farthest in many directions over a clip, or at rest without one.
 /// Their hull is nearly that of all the model reaches, and they are at most `2 · 32` a time.
 pub fn extreme_points(model: &Model, clip: Option<&CompiledClip>) -> Vec<Vec3> {
     let mesh = &model.mesh;
     let stride = mesh.vertex_count().div_ceil(MOST_VERTICES).max(1);
     let axes = axes();
     let mut points = Vec::new();
+    let mut positions = Vec::new();
+    let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     let Some(clip) = clip.filter(|_| !mesh.influences.is_empty()) else {
-        keep_extremes(&axes, mesh.positions.iter().step_by(stride), &mut points);
+        let at_rest = if model.skeleton.rests_in_bind_pose() {
+            &mesh.positions
+        } else {
+            skin_positions(mesh, &buffers.palette, &mut positions);
+            &positions
+        };
+        keep_extremes(&axes, at_rest.iter().step_by(stride), &mut points);
         return points;
     };
-    let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
-    let mut positions = Vec::with_capacity(mesh.vertex_count());
     let duration_secs = clip.end_secs() - clip.start_secs();
     for i in 0..TIMES {
         let part = i as f32 / (TIMES - 1) as f32;

@@ -26,12 +26,12 @@ mod trails;
 pub use crate::model::LocalJoint;
 pub(crate) use activity::JointChange;
 pub use activity::{JointActivity, activity};
-pub use blend::{blend, blend_to_rest};
+pub use blend::{blend, blend_to_bind};
 pub use buffers::PoseBuffers;
 pub use compile::CompiledClip;
 pub use crowd::{ClipPose, CrowdPalettes};
 pub use curve::{Curve, CurvePoint, CurveSpace};
-pub use extent::{animated_bounds, extreme_points};
+pub use extent::{animated_bounds, bounds_at_rest, extreme_points};
 pub use inspect::{
     ExplainedInfluence, JointReadout, KeyRow, RowMatrix, TransformParts, VertexExplanation, explain_vertex, key_rows,
     key_table,

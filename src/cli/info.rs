@@ -39,6 +39,9 @@ JSON: an object
   handedness        \"left\" or \"right\", found from the triangles
   up_axis           \"y\" or \"z\", as the dialect suggests
   counts            materials, vertices, triangles, bones, clips
+  bones             array, in the order in which `pose` prints them
+    name            as the file has it, or null
+    parent          index of the parent in this array, or null
   materials         array of names
   maps              array: each map that a material names, in the order of the materials
     material        name of the material
@@ -153,7 +156,7 @@ fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
         return None;
     }
     let of_clips = open.compiled.iter().map(|clip| animated_bounds(&open.model, clip));
-    Some(of_clips.reduce(Aabb::union).unwrap_or(open.bind_bounds))
+    Some(of_clips.reduce(Aabb::union).unwrap_or(open.extent(None).0))
 }
 
 fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {

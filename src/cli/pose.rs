@@ -40,7 +40,8 @@ pub(super) struct Arguments {
 
 const JSON: &str = "\
 JSON: an object
-  clip        name of the clip; null for a model without clips, which is shown as it was bound
+  clip        name of the clip; null for a model without clips, which is shown at rest: as it was bound, or as its
+              glTF file has it
   time_secs   the time as asked for
   palette     array: for each bone, in the file's order, sixteen numbers, row by row, for row vectors
   positions   only with --positions: for each vertex, in the file's order, [x, y, z] after skinning,
@@ -55,6 +56,8 @@ struct Posed<'a> {
     clip: Option<&'a str>,
     time_secs: f32,
     palette: Vec<[f32; 16]>,
+    #[serde(skip)]
+    at_rest: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     positions: Option<Vec<[f32; 3]>>,
 }
@@ -89,6 +92,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
         clip,
         time_secs,
         palette,
+        at_rest: !model.skeleton.rests_in_bind_pose(),
         positions,
     };
     if arguments.json {
@@ -126,6 +130,7 @@ fn positions(model: &Model, palette: &Palette) -> Vec<[f32; 3]> {
 fn write_text(out: &mut dyn Write, posed: &Posed<'_>) -> io::Result<()> {
     match posed.clip {
         Some(clip) => writeln!(out, "{} at {} s", Plain(clip), posed.time_secs)?,
+        None if posed.at_rest => writeln!(out, "at rest")?,
         None => writeln!(out, "bind pose")?,
     }
     for (bone, matrix) in posed.palette.iter().enumerate() {

@@ -21,6 +21,8 @@ pub struct Skeleton {
     parents: Vec<Option<JointIndex>>,
     joint_from_bind: Vec<Affine3A>,
     model_from_joint: Vec<Affine3A>,
+    bind: Vec<LocalJoint>,
+    /// Empty where joints rest in the bind pose.
     rest: Vec<LocalJoint>,
     file_bones: Vec<u32>,
     joint_of_bone: Vec<JointIndex>,
@@ -58,12 +60,13 @@ impl Skeleton {
             return Err(ModelError::MatrixNotFinite { joint: joint.0 });
         }
         let joint_of_bone = inverse_order(&file_bones)?;
-        let (model_from_joint, rest) = rest_pose(&parents, &joint_from_bind);
+        let (model_from_joint, bind) = bind_pose(&parents, &joint_from_bind);
         Ok(Self {
             parents,
             joint_from_bind,
             model_from_joint,
-            rest,
+            bind,
+            rest: Vec::new(),
             file_bones,
             joint_of_bone,
             names: Vec::new(),
@@ -73,9 +76,8 @@ impl Skeleton {
     /// The same skeleton at rest elsewhere than in its bind pose: each joint relative to its parent. Joints beyond the list stay.
     #[must_use]
     pub fn with_rest(mut self, rest: &[LocalJoint]) -> Self {
-        for (joint, &rest) in self.rest.iter_mut().zip(rest) {
-            *joint = rest;
-        }
+        let beyond = self.bind.iter().skip(rest.len());
+        self.rest = rest.iter().chain(beyond).take(self.bind.len()).copied().collect();
         self
     }
 
@@ -115,7 +117,21 @@ impl Skeleton {
     /// Each joint at rest relative to its parent, where no clip says otherwise: in the bind pose, unless the file has a pose for
     /// that ([`Skeleton::with_rest`]). Shear, which has no part of its own, is dropped.
     pub fn rest(&self) -> &[LocalJoint] {
-        &self.rest
+        if self.rests_in_bind_pose() {
+            &self.bind
+        } else {
+            &self.rest
+        }
+    }
+
+    /// Whether the file has no pose for rest but the bind pose.
+    pub fn rests_in_bind_pose(&self) -> bool {
+        self.rest.is_empty()
+    }
+
+    /// Each joint of the bind pose relative to its parent. Shear, which has no part of its own, is dropped.
+    pub fn bind(&self) -> &[LocalJoint] {
+        &self.bind
     }
 
     /// Each joint of the bind pose relative to its parent: [`Skeleton::rest`] of a file that has no other.
@@ -149,7 +165,7 @@ fn inverse_order(file_bones: &[u32]) -> Result<Vec<JointIndex>, ModelError> {
 
 /// The bind pose, relative to the model and relative to each parent. Inverted in f64: offsets of real files are near
 /// rigid, but the chain of a long skeleton multiplies what is lost here.
-fn rest_pose(parents: &[Option<JointIndex>], joint_from_bind: &[Affine3A]) -> (Vec<Affine3A>, Vec<LocalJoint>) {
+fn bind_pose(parents: &[Option<JointIndex>], joint_from_bind: &[Affine3A]) -> (Vec<Affine3A>, Vec<LocalJoint>) {
     let model_from_joint: Vec<DAffine3> = joint_from_bind
         .iter()
         .map(|joint_from_bind| {
@@ -161,7 +177,7 @@ fn rest_pose(parents: &[Option<JointIndex>], joint_from_bind: &[Affine3A]) -> (V
             }
         })
         .collect();
-    let rest = parents
+    let bind = parents
         .iter()
         .zip(&model_from_joint)
         .map(|(parent, &model_from_joint_of_child)| {
@@ -172,5 +188,5 @@ fn rest_pose(parents: &[Option<JointIndex>], joint_from_bind: &[Affine3A]) -> (V
             LocalJoint::from_matrix(&(parent_from_model * model_from_joint_of_child))
         })
         .collect();
-    (model_from_joint.iter().map(DAffine3::as_affine3a).collect(), rest)
+    (model_from_joint.iter().map(DAffine3::as_affine3a).collect(), bind)
 }

@@ -39,7 +39,7 @@ pub(super) struct PoseInputs {
 }
 
 impl Actor {
-    /// One for a model that has just opened, in the bind pose. The length of crossfades stays as it was chosen.
+    /// One for a model that has just opened, at rest. The length of crossfades stays as it was chosen.
     pub(super) fn for_model(open: &OpenModel, before: &Self) -> Self {
         Self {
             mixer: Mixer::with_crossfade_of(&before.mixer),
@@ -96,10 +96,10 @@ impl Actor {
             Some(clip) => {
                 self.mixer
                     .pose(open, clip, self.player.playback.time_secs(), &mut self.pose);
-                self.pose.bring_toward_bind(skeleton, self.bind_weight);
             }
-            None => self.pose.set_bind_pose(skeleton),
+            None => self.pose.set_rest_pose(skeleton),
         }
+        self.pose.bring_toward_bind(skeleton, self.bind_weight);
     }
 
     /// Whether a clip that played before is still seen. A fade goes on to its end when playing is paused, so that a picture that

@@ -57,7 +57,7 @@ pub(super) fn joint_rows(
     };
     let found = |joint: JointIndex| {
         let bone = bones[joint.index()];
-        query.is_met_by(bone, names.get(bone))
+        query.is_met_by(bone, names.get(bone).or_else(|| skeleton.name(joint)))
     };
     // From the end, so that what is below a joint is known before it.
     let mut has_found = vec![false; bones.len()];

@@ -72,9 +72,10 @@ impl Session {
         Some(self.content.names.saved(&open.model.skeleton))
     }
 
-    /// The name that was given to a joint.
+    /// The name that a person gave to a joint, or else the file.
     pub fn joint_name(&self, joint: JointIndex) -> Option<&str> {
-        self.content.names.get(self.bone_of(joint)?)
+        let given = self.content.names.get(self.bone_of(joint)?);
+        given.or_else(|| self.open_model()?.model.skeleton.name(joint))
     }
 
     /// What a joint is called: its name, or `Bone 12` by its number in the file.

@@ -31,7 +31,8 @@ pub struct OpenModel {
     pub bind_bounds: Aabb,
     /// The model's clips, compiled for sampling, in their order.
     pub compiled: Vec<CompiledClip>,
-    bind_points: Vec<Vec3>,
+    /// The space that it needs without a clip.
+    at_rest: Extent,
     /// One for each clip of the model.
     pub(super) clip_facts: Vec<ClipFacts>,
     /// Files whose clips joined, in their order.
@@ -140,19 +141,22 @@ impl OpenModel {
             diagnostics,
             compiled,
             bind_bounds: model.bind_bounds(),
-            bind_points: anim::extreme_points(&model, None),
+            at_rest: Extent {
+                bounds: anim::bounds_at_rest(&model),
+                points: anim::extreme_points(&model, None),
+            },
             clip_facts: vec![ClipFacts::of_file(file.base_name()); model.clips.len()],
             joined: Vec::new(),
             model,
         }
     }
 
-    /// The space that a clip needs; the bind pose's without a clip.
+    /// The space that a clip needs; that of rest without a clip.
     pub fn extent(&self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
         let index = clip.unwrap_or(usize::MAX);
         match (self.compiled.get(index), self.clip_facts.get(index)) {
             (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
-            _ => (self.bind_bounds, &self.bind_points),
+            _ => (self.at_rest.bounds, &self.at_rest.points),
         }
     }
 

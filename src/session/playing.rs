@@ -154,7 +154,7 @@ impl Session {
     }
 
     /// How far the pose is brought to the bind pose: 0 as the clip has it … 1 the bind pose. See
-    /// [`crate::anim::blend_to_rest`].
+    /// [`crate::anim::blend_to_bind`].
     pub fn bind_weight(&self) -> f32 {
         self.actor.bind_weight
     }

@@ -19,6 +19,8 @@ pub struct Model<'a> {
     pub up_axis: &'static str,
     /// How much of each there is.
     pub counts: Counts,
+    /// The bones, in the order of the file.
+    pub bones: Vec<Bone<'a>>,
     /// Names of the materials, in the order of the file.
     pub materials: Vec<&'a str>,
     /// The clips, in the order of the file.
@@ -36,6 +38,15 @@ pub struct Counts {
     pub triangles: usize,
     pub bones: usize,
     pub clips: usize,
+}
+
+/// A bone.
+#[derive(Debug, Serialize)]
+pub struct Bone<'a> {
+    /// Its name, where the file has one.
+    pub name: Option<&'a str>,
+    /// Its parent's number in the file.
+    pub parent: Option<u32>,
 }
 
 /// A clip.
@@ -175,6 +186,11 @@ impl<'a> From<&'a book::Verdict> for Verdict<'a> {
 impl<'a> From<&'a OpenModel> for Model<'a> {
     fn from(open: &'a OpenModel) -> Self {
         let model = &open.model;
+        let skeleton = &model.skeleton;
+        let bones = skeleton.joint_of_bone().iter().map(|&joint| Bone {
+            name: skeleton.name(joint),
+            parent: skeleton.parents()[joint.index()].map(|parent| skeleton.file_bones()[parent.index()]),
+        });
         let clips = model.clips.iter().map(|clip| Clip {
             name: &clip.name,
             start_secs: clip.start_secs,
@@ -193,6 +209,7 @@ impl<'a> From<&'a OpenModel> for Model<'a> {
                 bones: model.skeleton.joint_count(),
                 clips: model.clips.len(),
             },
+            bones: bones.collect(),
             materials: model.materials.iter().map(|material| material.name.as_str()).collect(),
             clips: clips.collect(),
             bind_bounds: Bounds::of(&open.bind_bounds),

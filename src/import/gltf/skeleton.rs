@@ -16,6 +16,12 @@ use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::gltf::{Fault, Path, Reader, Root, fault, out_of_range};
 use crate::model::{JointIndex, LocalJoint, ModelError, Skeleton};
 
+/// Inverse bind matrices that differ by less are the same, as a part of their size: what files and f32 lose of them.
+const ROUNDING: f64 = 1e-5;
+
+/// Skins that are moved by less than this at rest stand there, as a part of their size.
+const AS_AT_REST: f64 = 1e-3;
+
 /// A mesh on a node of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct MeshUse {
@@ -269,7 +275,13 @@ pub(super) fn rig(
         joint_of_node[node as usize] = Some(joint);
     }
     let parent_of = |node: u32| nodes.parents[node as usize].and_then(|parent| joint_of_node[parent as usize]);
+    let mut model_at_rest: Vec<DAffine3> = Vec::with_capacity(order.len());
+    for &node in &order {
+        let model_from_parent = parent_of(node).map_or(DAffine3::IDENTITY, |parent| model_at_rest[parent as usize]);
+        model_at_rest.push(model_from_parent * nodes.local[node as usize].parent_from_joint().as_daffine3());
+    }
     let mut binding = Binding {
+        model_at_rest,
         parents: order.iter().map(|&node| parent_of(node)).collect(),
         rest: order.iter().map(|&node| nodes.local[node as usize]).collect(),
         joint_from_bind: vec![None; order.len()],
@@ -406,16 +418,18 @@ fn is_invertible(matrix: &DAffine3) -> bool {
     m.determinant().abs() > 1e-9 * volume && matrix.inverse().as_affine3a().is_finite()
 }
 
-/// Whether two transforms are the same but for rounding.
-fn are_same(a: &DAffine3, b: &DAffine3) -> bool {
+/// Whether two transforms are the same within a part of their size.
+fn are_same(a: &DAffine3, b: &DAffine3, tolerance: f64) -> bool {
     let greatest = |numbers: [f64; 3]| numbers.into_iter().fold(1e-30, f64::max);
     let axis = greatest([a.matrix3.x_axis, a.matrix3.y_axis, a.matrix3.z_axis].map(|axis| axis.length()));
     let reach = greatest([axis, a.translation.length(), b.translation.length()]);
-    a.matrix3.abs_diff_eq(b.matrix3, 1e-5 * axis) && a.translation.abs_diff_eq(b.translation, 1e-5 * reach)
+    a.matrix3.abs_diff_eq(b.matrix3, tolerance * axis) && a.translation.abs_diff_eq(b.translation, tolerance * reach)
 }
 
 /// Inverse bind matrices while they are found. Joints that stand in for others come behind the nodes'.
 struct Binding {
+    /// Of the nodes' joints, relative to the model.
+    model_at_rest: Vec<DAffine3>,
     parents: Vec<Option<u32>>,
     rest: Vec<LocalJoint>,
     joint_from_bind: Vec<Option<DAffine3>>,
@@ -433,18 +447,19 @@ impl Binding {
         let fits = |bind_from_mesh: &DAffine3| {
             let pairs = || shared.iter();
             is_invertible(bind_from_mesh)
-                && pairs().all(|(known, matrix)| are_same(&(*known * *bind_from_mesh), matrix))
+                && pairs().all(|(known, matrix)| are_same(&(*known * *bind_from_mesh), matrix, ROUNDING))
         };
         let differing = shared.iter().find(|(known, _)| is_invertible(known));
         let candidates = [
             Some(DAffine3::IDENTITY),
             differing.map(|(known, matrix)| known.inverse() * *matrix),
         ];
-        let bind_from_mesh = candidates
-            .into_iter()
-            .flatten()
-            .find(fits)
-            .unwrap_or(DAffine3::IDENTITY);
+        let bind_from_mesh = if shared.is_empty() {
+            self.upright(joints, matrices)
+        } else {
+            candidates.into_iter().flatten().find(fits)
+        };
+        let bind_from_mesh = bind_from_mesh.unwrap_or(DAffine3::IDENTITY);
         let mesh_from_bind = bind_from_mesh.inverse();
         let is_moved = bind_from_mesh != DAffine3::IDENTITY;
         let slots = joints.iter().zip(matrices).map(|(&joint, &matrix)| {
@@ -454,7 +469,7 @@ impl Binding {
                     self.joint_from_bind[joint as usize] = Some(wanted);
                     joint
                 }
-                Some(known) if are_same(&known, &wanted) => joint,
+                Some(known) if are_same(&known, &wanted, ROUNDING) => joint,
                 Some(_) => self.stand_in(joint, wanted),
             }
         });
@@ -462,6 +477,28 @@ impl Binding {
             joints: slots.collect(),
             bind_from_mesh,
         }
+    }
+
+    /// What brings the mesh of a skin to where it is at rest, when all its joints move it alike there, or when it is of quite
+    /// another size in the file: exporters that scale a character leave its mesh as it was. `None` where it stays as it is.
+    fn upright(&self, joints: &[u32], matrices: &[DAffine3]) -> Option<DAffine3> {
+        let at_rest = |(&joint, matrix): (&u32, &DAffine3)| self.model_at_rest[joint as usize] * *matrix;
+        let first = joints
+            .iter()
+            .zip(matrices)
+            .min_by_key(|(joint, _)| **joint)
+            .map(at_rest)?;
+        if !is_invertible(&first) || are_same(&first, &DAffine3::IDENTITY, AS_AT_REST) {
+            return None;
+        }
+        let are_alike = || {
+            joints
+                .iter()
+                .zip(matrices)
+                .all(|slot| are_same(&first, &at_rest(slot), AS_AT_REST))
+        };
+        let size = first.matrix3.determinant().abs().cbrt();
+        (!(0.5..2.0).contains(&size) || are_alike()).then_some(first)
     }
 
     /// A joint on another one, for another inverse bind matrix.

@@ -232,7 +232,7 @@ impl<'a> TreeRow<'a> {
             place,
             is_stop,
             label: session.joint_label(row.joint),
-            named: session.joint_names().get(row.bone).is_some(),
+            named: session.joint_name(row.joint).is_some(),
             selected: session.joints().selected() == Some(row.joint),
             hovered: session.joints().hovered() == Some(row.joint),
             color: color.map(|&[red, green, blue, _]| Color32::from_rgb(red, green, blue)),

@@ -1,6 +1,6 @@
 //! From the animated pose to the bind pose.
 
-use bindpose::anim::{CompiledClip, PoseBuffers, blend_to_rest, sample};
+use bindpose::anim::{CompiledClip, PoseBuffers, blend_to_bind, sample};
 use bindpose::import::m3d;
 use bindpose::model::Model;
 use glam::Affine3A;
@@ -82,7 +82,7 @@ fn a_joint_without_skin_rests_where_its_offset_says_and_its_children_come_home()
     let (model, _) = model_of(&document);
     let mut pose = PoseBuffers::default();
     sample(&CompiledClip::new(&model.clips[0]), 0.7, &mut pose.local);
-    blend_to_rest(&model.skeleton, 1.0, &mut pose.local);
+    blend_to_bind(&model.skeleton, 1.0, &mut pose.local);
     bindpose::anim::local_to_model(&model.skeleton, &pose.local, &mut pose.model);
     let heights: Vec<_> = pose.model.0.iter().map(|joint| joint.translation.y).collect();
     assert_eq!(heights, [0.0, 0.0, 2.0]);
