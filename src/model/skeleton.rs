@@ -134,11 +134,6 @@ impl Skeleton {
         &self.bind
     }
 
-    /// Each joint of the bind pose relative to its parent: [`Skeleton::rest`] of a file that has no other.
-    pub fn bind_rest(&self) -> Vec<LocalJoint> {
-        rest_pose(&self.parents, &self.joint_from_bind).1
-    }
-
     /// The file's bone number of each joint, for display and for outputs in the file's order.
     pub fn file_bones(&self) -> &[u32] {
         &self.file_bones

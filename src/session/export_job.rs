@@ -7,7 +7,7 @@ use super::export_files::Archive;
 use super::files::File;
 use super::load::Progress;
 use crate::edit::{Change, EditError, EditJob, Edited};
-use crate::export::{self, ExportError, Exported, Loss};
+use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
 use crate::format::Dialect;
 use crate::image::Image;
 use crate::model::MapSlot;
@@ -107,7 +107,8 @@ pub struct ExportJob {
 pub(super) enum State {
     /// What was changed before, and the edits.
     Edit(Vec<Change>, Box<EditJob>),
-    Write(Box<Edited>, ExportPlan),
+    /// The pictures of a `.glb` are encoded one by one first.
+    Write(Box<Edited>, EncodedMaps, ExportPlan),
     Pack(Box<Archive>, ExportPlan),
 }
 
@@ -125,7 +126,7 @@ impl ExportJob {
     pub fn plan(&self) -> Option<&ExportPlan> {
         match &self.state {
             State::Edit(..) => None,
-            State::Write(_, plan) | State::Pack(_, plan) => Some(plan),
+            State::Write(_, _, plan) | State::Pack(_, plan) => Some(plan),
         }
     }
 
@@ -147,7 +148,10 @@ impl ExportJob {
                 let [done, total] = edits.progress();
                 parts(done, total - done + 1)
             }
-            State::Write(..) => parts(1, 1),
+            State::Write(_, encoded, _) => {
+                let done = encoded.count();
+                parts(1 + done, 1 + self.images.len().saturating_sub(done))
+            }
             State::Pack(archive, _) => {
                 let [done, total] = archive.progress();
                 parts(done, total - done)
@@ -183,15 +187,19 @@ impl ExportJob {
                     let edited = edits.clone().finish();
                     changes.extend(edited.changes.iter().cloned());
                     let plan = self.planned(&edited);
-                    self.state = State::Write(Box::new(edited), plan);
+                    self.state = State::Write(Box::new(edited), EncodedMaps::default(), plan);
                 }
                 Ok(None)
             }
-            State::Write(edited, plan) => {
-                let plan = std::mem::take(plan);
+            State::Write(edited, encoded, plan) => {
+                let is_glb = self.format.dialect().is_none();
+                if is_glb && export::encode_map(&edited.model, &lent(&self.images), encoded)? {
+                    return Ok(None);
+                }
+                let (plan, encoded) = (std::mem::take(plan), std::mem::take(encoded));
                 let Exported { bytes, .. } = match self.format.dialect() {
                     Some(dialect) => export::m3d(&edited.model, &edited.names, dialect)?,
-                    None => export::glb(&edited.model, &edited.names, &lent(&self.images))?,
+                    None => export::glb_with(&edited.model, &edited.names, &lent(&self.images), encoded)?,
                 };
                 if plan.maps == 0 {
                     let name = self.file_name();
@@ -242,7 +250,7 @@ fn is_of_book(slot: MapSlot) -> bool {
 fn beside(edited: &Edited, pictures: &BTreeMap<(usize, MapSlot), File>) -> impl Iterator<Item = (String, Arc<[u8]>)> {
     let named = pictures.iter().filter_map(|(&(material, slot), file)| {
         let name = edited.model.materials.get(material)?.map_name(slot)?;
-        let name = name_in_archive(name, file);
+        let name = name_in_archive(&export::one_word(name), file);
         (is_of_book(slot) && !name.is_empty()).then(|| (name, Arc::clone(&file.bytes)))
     });
     named.collect::<BTreeMap<_, _>>().into_iter()

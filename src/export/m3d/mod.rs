@@ -226,12 +226,12 @@ fn rests_apart(model: &Model) -> Vec<Option<LocalJoint>> {
     let size = model.bind_bounds().size().length();
     let rests = model.skeleton.rest().iter();
     rests
-        .zip(model.skeleton.bind_rest())
+        .zip(model.skeleton.bind())
         .map(|(&rest, bind)| {
             let near = rest.translation.distance(bind.translation) <= REST_TOLERANCE * size
                 && rest.scale.distance(bind.scale) <= REST_TOLERANCE
                 && 1.0 - rest.rotation.dot(bind.rotation).abs() <= REST_TOLERANCE;
-            (rest != bind && !near).then_some(rest)
+            (rest != *bind && !near).then_some(rest)
         })
         .collect()
 }
