@@ -153,7 +153,8 @@ impl Session {
         let exporting = &mut self.exporting;
         let is_known = exporting.of == stamp;
         // What is being written was taken when that began, but it ends with its model.
-        if !is_known && !(exporting.saves && stamp.is_some()) {
+        let model = |stamp: &Option<Stamp>| stamp.as_ref().map(|stamp| stamp.revisions[0]);
+        if !is_known && !(exporting.saves && model(&exporting.of) == model(&stamp)) {
             (exporting.made, exporting.saves) = (Made::Nothing, false);
         }
         let job = match std::mem::take(&mut exporting.made) {

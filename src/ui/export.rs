@@ -136,8 +136,8 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
             };
         } else if let Some([from, to]) = range {
             let span = start_secs..=end_secs;
-            let typed_from = number_row(ui, "Range in", "From", "s", (from, span.clone()), (0.01, 3));
-            let typed_to = number_row(ui, "Range out", "To", "s", (to, span), (0.01, 3));
+            let typed_from = number_row(ui, "First second", "From", "s", (from, span.clone()), (0.01, 3));
+            let typed_to = number_row(ui, "Last second", "To", "s", (to, span), (0.01, 3));
             if typed_from.is_some() || typed_to.is_some() {
                 options.range = ExportRange::Secs([typed_from.unwrap_or(from), typed_to.unwrap_or(to)]);
             }

@@ -71,8 +71,8 @@ fn clips_are_chosen_and_a_range_is_of_one() {
         Some(Toggled::True),
         "it is the timeline's"
     );
-    assert_eq!(window.node("Range in").numeric_value(), Some(0.25));
-    window.click("Range out");
+    assert_eq!(window.node("First second").numeric_value(), Some(0.25));
+    window.click("Last second");
     window.press(Modifiers::COMMAND, Key::A);
     window.harness.event(Event::Text("0.5".to_owned()));
     window.press(Modifiers::NONE, Key::Enter);

@@ -89,7 +89,7 @@ fn a_job_writes_what_edits_and_formats_write_by_themselves() {
 
 #[test]
 fn a_model_of_the_books_comes_out_as_it_went_in() {
-    let session = opened(moving("a.m3d"));
+    let session = opened(still("a.m3d"));
     let file = written(&session, &options(ExportFormat::D3d12));
     let again = opened(File::new("a.m3d", file.bytes));
     let [before, after] = [&session, &again].map(|session| &session.open_model().expect("a model").model);
