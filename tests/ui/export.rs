@@ -51,7 +51,7 @@ fn what_is_lost_and_changed_is_told_before_it_is_saved() {
     let lost = window.named(|name| name.starts_with("What is lost · "));
     assert_eq!(lost.len(), 1, "a number of losses");
     window.click("Turn");
-    assert!(window.shows("What changes · 1"));
+    assert!(window.shows("What changes · 2"), "the clip, and the hand of the books");
     assert!(window.shows("1 clip is left out."));
     assert!(saved(&window).is_empty());
 }
