@@ -17,6 +17,8 @@ mod space;
 pub use edited::{Change, Edited};
 pub use error::EditError;
 
+use reduce::Reducing;
+
 use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
 
 /// What to change. The default changes nothing.
@@ -49,56 +51,158 @@ pub struct Edits {
     pub for_book: bool,
 }
 
+impl Edits {
+    /// With what the books' programs expect, where nothing else is asked: y up, characters that face as theirs do, right-handed with bones.
+    #[must_use]
+    pub fn in_space_of_the_books(mut self, model: &Model) -> Self {
+        // The demo mirrors its character alone.
+        let handedness = if model.skeleton.joint_count() > 0 {
+            Handedness::Right
+        } else {
+            Handedness::Left
+        };
+        self.handedness.get_or_insert(handedness);
+        self.up_axis.get_or_insert(UpAxis::Y);
+        self.front.get_or_insert(Front::Negative);
+        self
+    }
+}
+
 /// Makes all edits, in the order that the module's doc names. `names` are those that a person gave to bones.
 ///
 /// # Errors
 /// When an edit names what is not there or cannot be made; see [`EditError`].
 pub fn apply(model: Model, names: &JointNames, edits: &Edits) -> Result<Edited, EditError> {
-    let mut edited = Edited {
-        model,
-        names: names.clone(),
-        changes: Vec::new(),
-    };
-    if let Some(clips) = &edits.clips {
-        choose::choose_clips(&mut edited, clips)?;
+    let mut job = EditJob::new(model, names, edits.clone());
+    while job.step()? {}
+    Ok(job.finish())
+}
+
+/// All edits of [`apply`], in steps: it can run beside other work, and be dropped between two of them.
+#[derive(Clone, Debug)]
+pub struct EditJob {
+    edited: Edited,
+    edits: Edits,
+    next: Stage,
+}
+
+#[derive(Clone, Debug)]
+enum Stage {
+    Clips,
+    Reduce(Reducing),
+    Space,
+    Ended,
+}
+
+impl EditJob {
+    /// A job that has done nothing yet.
+    pub fn new(model: Model, names: &JointNames, edits: Edits) -> Self {
+        let edited = Edited {
+            model,
+            names: names.clone(),
+            changes: Vec::new(),
+        };
+        Self {
+            edited,
+            edits,
+            next: Stage::Clips,
+        }
     }
-    if edits.fix {
-        fix::fix(&mut edited);
+
+    /// What has been edited, up to the last step.
+    pub fn finish(self) -> Edited {
+        self.edited
     }
-    if let Some(range_secs) = edits.range_secs {
-        range::cut(&mut edited, range_secs)?;
+
+    /// Steps that are done, and all of them. One that thins keys may take several calls.
+    pub fn progress(&self) -> [usize; 2] {
+        let thinned = if self.edits.reduce.is_some() {
+            self.edited.model.clips.len()
+        } else {
+            0
+        };
+        let done = match &self.next {
+            Stage::Clips => 0,
+            Stage::Reduce(reducing) => 1 + reducing.done(),
+            Stage::Space => 1 + thinned,
+            Stage::Ended => 2 + thinned,
+        };
+        [done, 2 + thinned]
     }
-    if let Some(secs) = edits.close_loop_secs {
-        close_loop::close_loops(&mut edited, secs)?;
+
+    /// Does one step. Whether there is more to do.
+    ///
+    /// # Errors
+    /// As [`apply`] has them.
+    pub fn step(&mut self) -> Result<bool, EditError> {
+        match &mut self.next {
+            Stage::Clips => {
+                self.edit_clips()?;
+                self.next = match self.edits.reduce {
+                    Some(tolerance) => Stage::Reduce(Reducing::new(&self.edited, tolerance)?),
+                    None => Stage::Space,
+                };
+            }
+            Stage::Reduce(reducing) => {
+                if !reducing.step(&mut self.edited) {
+                    self.next = Stage::Space;
+                }
+            }
+            Stage::Space => {
+                self.edit_space_and_names()?;
+                self.next = Stage::Ended;
+            }
+            Stage::Ended => {}
+        }
+        Ok(!matches!(self.next, Stage::Ended))
     }
-    if let Some(tolerance) = edits.reduce {
-        reduce::reduce(&mut edited, tolerance)?;
+
+    /// All edits that come before the thinning of keys.
+    fn edit_clips(&mut self) -> Result<(), EditError> {
+        let Self { edited, edits, .. } = self;
+        if let Some(clips) = &edits.clips {
+            choose::choose_clips(edited, clips)?;
+        }
+        if edits.fix {
+            fix::fix(edited);
+        }
+        if let Some(range_secs) = edits.range_secs {
+            range::cut(edited, range_secs)?;
+        }
+        if let Some(secs) = edits.close_loop_secs {
+            close_loop::close_loops(edited, secs)?;
+        }
+        if edits.for_book {
+            for_book::check_size(&edited.model)?;
+        }
+        Ok(())
     }
-    if edits.for_book {
-        for_book::check_size(&edited.model)?;
+
+    /// All edits that come after it.
+    fn edit_space_and_names(&mut self) -> Result<(), EditError> {
+        let Self { edited, edits, .. } = self;
+        let asked = if edits.for_book {
+            edits.clone().in_space_of_the_books(&edited.model)
+        } else {
+            edits.clone()
+        };
+        let to = space::Space {
+            handedness: asked.handedness,
+            up_axis: asked.up_axis,
+            front: asked.front,
+        };
+        space::turn(edited, to);
+        let scale = edits
+            .scale
+            .or_else(|| for_book::scale(&edited.model).filter(|_| edits.for_book));
+        if let Some(factor) = scale {
+            space::scale(edited, factor)?;
+        }
+        rename::rename_clips(edited, &edits.clip_names)?;
+        rename::rename_bones(edited, &edits.bone_names)?;
+        if edits.for_book {
+            for_book::shape(edited)?;
+        }
+        Ok(())
     }
-    // The demo mirrors its character alone.
-    let of_book = if edited.model.skeleton.joint_count() > 0 {
-        Handedness::Right
-    } else {
-        Handedness::Left
-    };
-    let to = space::Space {
-        handedness: edits.handedness.or(edits.for_book.then_some(of_book)),
-        up_axis: edits.up_axis.or(edits.for_book.then_some(UpAxis::Y)),
-        front: edits.front.or(edits.for_book.then_some(Front::Negative)),
-    };
-    space::turn(&mut edited, to);
-    let scale = edits
-        .scale
-        .or_else(|| for_book::scale(&edited.model).filter(|_| edits.for_book));
-    if let Some(factor) = scale {
-        space::scale(&mut edited, factor)?;
-    }
-    rename::rename_clips(&mut edited, &edits.clip_names)?;
-    rename::rename_bones(&mut edited, &edits.bone_names)?;
-    if edits.for_book {
-        for_book::shape(&mut edited)?;
-    }
-    Ok(edited)
 }

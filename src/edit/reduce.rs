@@ -17,33 +17,73 @@ const FIRST_SHARE: f32 = 8.0;
 /// So often is a chain thinned anew before it keeps its keys.
 const MOST_ROUNDS: usize = 8;
 
-/// Thins all clips so that no joint and no tip is off by more than `tolerance` of the bind pose's diagonal at any old key.
-pub(super) fn reduce(edited: &mut Edited, tolerance: f32) -> Result<(), EditError> {
-    if !(tolerance.is_finite() && tolerance > 0.0) {
-        return Err(EditError::Nonsense {
-            what: "The tolerance of reduced keys",
-            value: tolerance,
-        });
-    }
-    let diagonal = diagonal(&edited.model);
-    let tips = tip_distances(&edited.model);
-    for clip in 0..edited.model.clips.len() {
-        let old = &edited.model.clips[clip];
-        let (new, reached) = reduced(&edited.model.skeleton, &tips, old, tolerance * diagonal);
-        if new.key_count == old.key_count {
-            continue;
+/// The thinning of all clips, in steps, so that no joint and no tip is off by more than a tolerance of the bind pose's diagonal at any
+/// old key.
+#[derive(Clone, Debug)]
+pub(super) struct Reducing {
+    diagonal: f32,
+    bound: f32,
+    tips: Vec<f32>,
+    /// Clips that are done.
+    done: usize,
+    thinning: Option<Thinning>,
+}
+
+impl Reducing {
+    pub(super) fn new(edited: &Edited, tolerance: f32) -> Result<Self, EditError> {
+        if !(tolerance.is_finite() && tolerance > 0.0) {
+            return Err(EditError::Nonsense {
+                what: "The tolerance of reduced keys",
+                value: tolerance,
+            });
         }
-        let fraction = if diagonal > 0.0 { reached / diagonal } else { 0.0 };
-        edited.changes.push(Change::new(
-            "keys-reduced",
-            format!(
-                "\"{}\" has {} keys instead of {}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
-                new.name, new.key_count, old.key_count
-            ),
-        ));
-        edited.model.clips[clip] = new;
+        let diagonal = diagonal(&edited.model);
+        Ok(Self {
+            diagonal,
+            bound: tolerance * diagonal,
+            tips: tip_distances(&edited.model),
+            done: 0,
+            thinning: None,
+        })
     }
-    Ok(())
+
+    /// Clips that are done.
+    pub(super) fn done(&self) -> usize {
+        self.done
+    }
+
+    /// Thins a clip once. Whether there is more to do.
+    pub(super) fn step(&mut self, edited: &mut Edited) -> bool {
+        let Some(old) = edited.model.clips.get(self.done) else {
+            return false;
+        };
+        let skeleton = &edited.model.skeleton;
+        let mut thinning = match self.thinning.take() {
+            Some(thinning) => thinning,
+            None => Thinning::new(skeleton, &self.tips, old, self.bound),
+        };
+        let Some((new, reached)) = thinning.round(skeleton, &self.tips, old, self.bound) else {
+            self.thinning = Some(thinning);
+            return true;
+        };
+        self.done += 1;
+        if new.key_count != old.key_count {
+            let fraction = if self.diagonal > 0.0 {
+                reached / self.diagonal
+            } else {
+                0.0
+            };
+            edited.changes.push(Change::new(
+                "keys-reduced",
+                format!(
+                    "\"{}\" has {} keys instead of {}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
+                    new.name, new.key_count, old.key_count
+                ),
+            ));
+            edited.model.clips[self.done - 1] = new;
+        }
+        true
+    }
 }
 
 /// Of the bind pose: its vertices, or its joints where there are none.
@@ -76,27 +116,42 @@ fn tip_distances(model: &Model) -> Vec<f32> {
     tips
 }
 
-/// The clip with as few keys as the bound lets it have, and how far off it is.
-fn reduced(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> (Clip, f32) {
-    let limits = Limits::new(skeleton, tips, clip, bound);
-    let mut shares = vec![FIRST_SHARE; clip.tracks.len()];
-    let mut tracks: Vec<Track> = limits.thinned(clip, &shares);
-    let times_secs = all_times(clip);
-    let old = CompiledClip::new(clip);
-    let mut rounds = 0;
-    loop {
-        let new = with_tracks(clip, tracks);
-        let off = greatest_errors(skeleton, tips, [&old, &CompiledClip::new(&new)], &times_secs);
+/// The thinning of one clip to as few keys as the bound lets it have.
+#[derive(Clone, Debug)]
+struct Thinning {
+    limits: Limits,
+    shares: Vec<f32>,
+    rounds: usize,
+    times_secs: Vec<f32>,
+    old: CompiledClip,
+}
+
+impl Thinning {
+    fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
+        Self {
+            limits: Limits::new(skeleton, tips, clip, bound),
+            shares: vec![FIRST_SHARE; clip.tracks.len()],
+            rounds: 0,
+            times_secs: all_times(clip),
+            old: CompiledClip::new(clip),
+        }
+    }
+
+    /// Thins all tracks in their shares. The new clip and how far off it is, once it keeps to the bound; before that, shares become less.
+    fn round(&mut self, skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Option<(Clip, f32)> {
+        let shares = &mut self.shares;
+        let new = with_tracks(clip, self.limits.thinned(clip, shares));
+        let off = greatest_errors(skeleton, tips, [&self.old, &CompiledClip::new(&new)], &self.times_secs);
         let reached = off.iter().copied().fold(0.0, f32::max);
         let is_over = |joint: usize| off[joint] > bound;
         if !(0..off.len()).any(is_over) || shares.iter().all(|&share| share == 0.0) {
-            return (new, reached);
+            return Some((new, reached));
         }
-        rounds += 1;
+        self.rounds += 1;
         let mut tightened = vec![1.0_f32; shares.len()];
         for joint in (0..off.len()).rev() {
             if is_over(joint) {
-                let factor = if rounds <= MOST_ROUNDS {
+                let factor = if self.rounds <= MOST_ROUNDS {
                     (0.8 * bound / off[joint]).clamp(0.1, 0.8)
                 } else {
                     0.0
@@ -110,7 +165,7 @@ fn reduced(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> (Clip,
         for (share, factor) in shares.iter_mut().zip(tightened) {
             *share *= factor;
         }
-        tracks = limits.thinned(clip, &shares);
+        None
     }
 }
 
@@ -149,6 +204,7 @@ fn apart(old: &Affine3A, new: &Affine3A, tip: f32) -> f32 {
 }
 
 /// How much each track may be off by itself.
+#[derive(Clone, Debug)]
 struct Limits {
     /// Its share of the bound, were all errors of a chain to add up.
     bounds: Vec<f32>,

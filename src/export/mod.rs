@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use crate::image::Image;
 use crate::model::MapSlot;
 
-pub use glb::{glb, glb_losses};
+pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with};
 pub use m3d::{m3d, m3d_losses, one_word};
 
 /// A written file.

@@ -588,3 +588,17 @@ fn a_missing_panel_would_be_seen() {
     }
     assert!(share_that_differs(&with, &without, TOLERANCE) > 2.0 * SHARE);
 }
+
+#[test]
+fn the_panel_that_exports() {
+    let edits = ["Export… (E)", "Format: .m3d D3D11", "Close the loop", "Reduce keys"];
+    compare(
+        "wide-dark-export",
+        &draw_after(WIDE, Theme::Dark, false, vec![], &edits),
+    );
+    let page = ["More", "Export…"];
+    compare(
+        "phone-light-export",
+        &draw_after(PHONE, Theme::Light, true, vec![], &page),
+    );
+}

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::binary::Binary;
 use super::number::{number, numbers};
-use super::pictures::{Pictures, Use};
+use super::pictures::{EncodedMaps, Pictures, Use};
 use crate::export::{ExportError, MapImages};
 use crate::model::{AlphaMode, MapSlot, Material, MaterialMap, MetallicSurface, Model, Reflectance, Sampling, Wrap};
 
@@ -25,11 +25,53 @@ pub(super) struct Materials {
     pub(super) extensions: BTreeSet<&'static str>,
 }
 
+/// The pictures that [`materials`] writes: the place of each map, and what it is for.
+pub(super) fn pictures<'a>(
+    model: &'a Model,
+    maps: &'a MapImages<'_>,
+) -> impl Iterator<Item = ((usize, MapSlot), Use)> + 'a {
+    model.materials.iter().enumerate().flat_map(move |(index, material)| {
+        let named = MapSlot::ALL.into_iter().filter(|&slot| material.map(slot).is_some());
+        let as_named = named.map(move |slot| ((index, slot), purpose(slot)));
+        let gloss = gloss(index, material, maps).map(|purpose| ((index, MapSlot::Normal), purpose));
+        as_named.chain(gloss).filter(|(place, _)| maps.contains_key(place))
+    })
+}
+
+/// What a map is used for.
+fn purpose(slot: MapSlot) -> Use {
+    match slot {
+        MapSlot::Normal => Use::Directions,
+        MapSlot::Diffuse | MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Emissive => Use::AsIs,
+    }
+}
+
+/// The roughness that the gloss of a normal map makes, where no map of roughness is; the DirectX 12 book alone reads it.
+fn gloss(index: usize, material: &Material, maps: &MapImages<'_>) -> Option<Use> {
+    let of_normal_map = maps
+        .get(&(index, MapSlot::Normal))
+        .filter(|image| image.channels().count() == 4);
+    let has_own =
+        material.map(MapSlot::MetallicRoughness).is_some() && maps.contains_key(&(index, MapSlot::MetallicRoughness));
+    match (material.reflectance, &material.normal_map, of_normal_map) {
+        (Reflectance::Fresnel { roughness, .. }, Some(_), Some(_)) if !has_own => Some(Use::Roughness {
+            roughness: roughness.clamp(0.0, 1.0).to_bits(),
+            metal: material.metallic_surface().metallic > 0.0,
+        }),
+        _ => None,
+    }
+}
+
 /// Writes all materials, and the maps that have pictures.
-pub(super) fn materials(model: &Model, maps: &MapImages<'_>, binary: &mut Binary) -> Result<Materials, ExportError> {
+pub(super) fn materials(
+    model: &Model,
+    maps: &MapImages<'_>,
+    encoded: EncodedMaps,
+    binary: &mut Binary,
+) -> Result<Materials, ExportError> {
     let mut writer = Writer {
         written: Materials::default(),
-        pictures: Pictures::default(),
+        pictures: Pictures::new(encoded),
         maps,
         has_second: !model.mesh.second_tex_coords.is_empty(),
         binary,
@@ -72,7 +114,7 @@ impl Writer<'_> {
         }
         if let Some(info) = self.info(index, material, MapSlot::MetallicRoughness)? {
             surface["metallicRoughnessTexture"] = info;
-        } else if let Some(info) = self.gloss(index, material, metallic > 0.0)? {
+        } else if let Some(info) = self.gloss(index, material)? {
             surface["metallicRoughnessTexture"] = info;
             surface["roughnessFactor"] = json!(1.0);
         }
@@ -130,25 +172,17 @@ impl Writer<'_> {
 
     /// The texture of a map that has a picture.
     fn info(&mut self, index: usize, material: &Material, slot: MapSlot) -> Result<Option<Value>, ExportError> {
-        let purpose = match slot {
-            MapSlot::Normal => Use::Directions,
-            MapSlot::Diffuse | MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Emissive => Use::AsIs,
-        };
         match material.map(slot) {
-            Some(map) => self.texture((index, slot), map, purpose, &map.name),
+            Some(map) => self.texture((index, slot), map, purpose(slot), &map.name),
             None => Ok(None),
         }
     }
 
-    /// The roughness that the gloss of a normal map makes; the DirectX 12 book alone reads it.
-    fn gloss(&mut self, index: usize, material: &Material, metal: bool) -> Result<Option<Value>, ExportError> {
-        let place = (index, MapSlot::Normal);
-        let has_gloss = self.maps.get(&place).is_some_and(|image| image.channels().count() == 4);
-        match (material.reflectance, &material.normal_map) {
-            (Reflectance::Fresnel { roughness, .. }, Some(map)) if has_gloss => {
-                let roughness = roughness.clamp(0.0, 1.0).to_bits();
+    fn gloss(&mut self, index: usize, material: &Material) -> Result<Option<Value>, ExportError> {
+        match (gloss(index, material, self.maps), &material.normal_map) {
+            (Some(purpose), Some(map)) => {
                 let name = format!("{} (roughness)", map.name);
-                self.texture(place, map, Use::Roughness { roughness, metal }, &name)
+                self.texture((index, MapSlot::Normal), map, purpose, &name)
             }
             _ => Ok(None),
         }

@@ -25,6 +25,7 @@ use binary::Binary;
 use space::Space;
 
 pub use losses::glb_losses;
+pub use pictures::EncodedMaps;
 
 const MAGIC: u32 = 0x4654_6c67;
 const JSON_CHUNK: u32 = 0x4e4f_534a;
@@ -35,6 +36,32 @@ const BINARY_CHUNK: u32 = 0x004e_4942;
 /// # Errors
 /// When a picture cannot be written, or the file would have more than 4 GiB.
 pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Exported, ExportError> {
+    glb_with(model, names, maps, EncodedMaps::default())
+}
+
+/// Encodes the next picture of such a file. Whether there was one left.
+///
+/// # Errors
+/// When a picture cannot be written.
+pub fn encode_map(model: &Model, maps: &MapImages<'_>, encoded: &mut EncodedMaps) -> Result<bool, ExportError> {
+    for (place, purpose) in material::pictures(model, maps) {
+        if encoded.encode(maps[&place], purpose)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The same file as [`glb`] writes, with pictures that were encoded before.
+///
+/// # Errors
+/// As [`glb`].
+pub fn glb_with(
+    model: &Model,
+    names: &JointNames,
+    maps: &MapImages<'_>,
+    encoded: EncodedMaps,
+) -> Result<Exported, ExportError> {
     let space = Space::of(model);
     let mut binary = Binary::default();
     let mut root = json!({
@@ -66,7 +93,7 @@ pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Ex
     }
     root["scenes"] = json!([scene]);
     let animations = animation::animations(model, &space, &mut binary);
-    let written = material::materials(model, maps, &mut binary)?;
+    let written = material::materials(model, maps, encoded, &mut binary)?;
     for (key, list) in [
         ("nodes", nodes),
         ("animations", animations),

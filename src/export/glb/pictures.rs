@@ -9,7 +9,7 @@ use crate::export::ExportError;
 use crate::image::{Channels, Image, encode_png};
 
 /// What a picture is made of a map for.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Use {
     /// Its texels as they are.
     AsIs,
@@ -24,16 +24,54 @@ pub(super) enum Use {
     },
 }
 
+/// Pictures that were encoded before their file is written, by the map's place in memory and what they are for.
+#[derive(Clone, Debug, Default)]
+pub struct EncodedMaps(HashMap<(usize, Use), Vec<u8>>);
+
+impl EncodedMaps {
+    /// Encodes a picture. Whether it was not there yet.
+    pub(super) fn encode(&mut self, image: &Image, purpose: Use) -> Result<bool, ExportError> {
+        let key = (place(image), purpose);
+        if self.0.contains_key(&key) {
+            return Ok(false);
+        }
+        self.0.insert(key, encoded(image, purpose)?);
+        Ok(true)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+}
+
+fn place(image: &Image) -> usize {
+    std::ptr::from_ref(image).addr()
+}
+
+fn encoded(image: &Image, purpose: Use) -> Result<Vec<u8>, ExportError> {
+    Ok(encode_png(&texels(image, purpose), image.width(), image.height())?)
+}
+
 /// The pictures that were written.
 #[derive(Default)]
 pub(super) struct Pictures {
     pub(super) images: Vec<Value>,
+    encoded: EncodedMaps,
     /// By the map's place in memory and what it is for.
-    made: HashMap<(*const Image, Use), usize>,
+    made: HashMap<(usize, Use), usize>,
     by_bytes: HashMap<Vec<u8>, usize>,
 }
 
 impl Pictures {
+    /// No picture yet, and some that are encoded.
+    pub(super) fn new(encoded: EncodedMaps) -> Self {
+        Self {
+            encoded,
+            ..Self::default()
+        }
+    }
+
     /// The picture of a map. Equal ones are written once, with the first name.
     pub(super) fn picture(
         &mut self,
@@ -42,11 +80,14 @@ impl Pictures {
         name: &str,
         binary: &mut Binary,
     ) -> Result<usize, ExportError> {
-        let key = (std::ptr::from_ref(image), purpose);
+        let key = (place(image), purpose);
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
-        let png = encode_png(&texels(image, purpose), image.width(), image.height())?;
+        let png = match self.encoded.0.remove(&key) {
+            Some(png) => png,
+            None => encoded(image, purpose)?,
+        };
         let index = match self.by_bytes.get(&png) {
             Some(&index) => index,
             None => {

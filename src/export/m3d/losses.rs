@@ -255,7 +255,7 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
             "phong-to-fresnel",
             phong,
             format!(
-                "{} of the DirectX 11 book: Fresnel0 is a twentieth of Specular, with Reflectivity for the rest; Roughness⁴ is 2 / (SpecPower + \
+                "{} of the DirectX 11 book: Fresnel0 is a twentieth of Specular, with Reflectivity for the rest; Roughness^4 is 2 / (SpecPower + \
                  2) (Walter and others 2007); Ambient is left out.",
                 are(phong)
             ),
@@ -267,7 +267,7 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
             fresnel,
             format!(
                 "{} not of the DirectX 11 book: Specular is twenty times Fresnel0, with Reflectivity for what is above 1; SpecPower is 2 / \
-                 Roughness⁴ − 2 (Walter and others 2007); Ambient is Diffuse.",
+                 Roughness^4 − 2 (Walter and others 2007); Ambient is Diffuse.",
                 are(fresnel)
             ),
         );
