@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use bindpose::render::device::{self, Backend};
-use bindpose::render::{MaterialImages, Renderer, Target};
+use bindpose::render::{Renderer, Target};
 use bindpose::scene::{
     Aabb, Crowd, CrowdInstance, FrameCost, FrameOptions, Light, Pass, Passes, RenderFrame, ViewMode,
 };
@@ -181,16 +181,9 @@ fn measure(backend: Backend) {
     let mut renderer = Renderer::with_samples(&gpu.device, &gpu.queue, gpu.samples);
     let open = session.open_model().expect("the input is sound");
     renderer.set_model(&open.model).expect("it is small");
-    let images = session.maps().images();
-    let images: Vec<_> = images
-        .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
-        .collect();
+    let images: Vec<_> = session.maps().images().collect();
     renderer.set_maps(&images);
-    let map_count = images
-        .iter()
-        .flat_map(|maps| [maps.diffuse, maps.normal])
-        .flatten()
-        .count();
+    let map_count = images.iter().flatten().flatten().count();
     let [width, height] = SIZE;
     let mut target = Target::with_samples(&gpu.device, width, height, gpu.samples);
 

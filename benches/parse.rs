@@ -10,10 +10,12 @@ use std::time::Duration;
 
 use bindpose::anim::CompiledClip;
 use bindpose::check;
+use bindpose::export::{MapImages, glb};
 use bindpose::format::{
     AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex, parse, write,
 };
 use bindpose::import;
+use bindpose::model::JointNames;
 use bindpose::session::{File, FileSet, LoadJob, load};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -54,6 +56,12 @@ fn parsing(criterion: &mut Criterion) {
         "loading with the books' verdicts / without",
         || drop(black_box(load(&file))),
         || drop(black_box(LoadJob::new(Arc::clone(&files), file.clone()).run())),
+    );
+    let model = import().model;
+    report_ratio(
+        "writing as .glb without maps / parsing and building",
+        || drop(black_box(import())),
+        || drop(black_box(glb(&model, &JointNames::default(), &MapImages::new()))),
     );
 }
 

@@ -1,11 +1,11 @@
-// What a surface is made of. Twin: `shaders::Material`.
+// What a surface is made of: the values that every material has. Twin: `shaders::Material`.
 
 struct Material {
     // Linear, multiplies the diffuse map.
     albedo: vec3<f32>,
     roughness: f32,
     fresnel0: vec3<f32>,
-    // Texels below this alpha are cut away; 0 keeps everything.
+    // What has less alpha than this is cut away; 0 keeps everything.
     alpha_clip: f32,
     // The diffuse colour as the books multiply it with encoded texels.
     book_albedo: vec3<f32>,
@@ -22,7 +22,3 @@ struct Material {
 }
 
 @group(3) @binding(0) var<uniform> material: Material;
-// Without such a map each is one texel that changes nothing.
-@group(3) @binding(1) var diffuse_map: texture_2d<f32>;
-@group(3) @binding(2) var normal_map: texture_2d<f32>;
-@group(3) @binding(3) var map_sampler: sampler;

@@ -37,16 +37,16 @@ fn facing_shade(point: SurfacePoint) -> f32 {
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
     switch camera.view_mode {
         case BASE_COLOR: {
-            return srgb_from_linear(material.albedo * point.diffuse_texel.rgb);
+            return srgb_from_linear(point.made.base_color);
         }
         case NORMAL_MAP: {
             if material.normal_channels == 0u {
                 return FLAT;
             }
-            let xy = point.normal_texel.rg;
+            let xy = point.made.normal_texel.rg;
             let away = xy * 2.0 - 1.0;
             let z = sqrt(max(1.0 - dot(away, away), 0.0)) * 0.5 + 0.5;
-            return vec3<f32>(xy, select(point.normal_texel.b, z, material.normal_channels == 2u));
+            return vec3<f32>(xy, select(point.made.normal_texel.b, z, material.normal_channels == 2u));
         }
         case SHADING_NORMAL: {
             return direction_color(point.normal);
@@ -59,7 +59,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             return checker(point.tex_coord) * facing_shade(point);
         }
         case ROUGHNESS: {
-            return vec3<f32>(1.0 - shininess(point));
+            return vec3<f32>(1.0 - point.made.shininess);
         }
         case MATERIAL: {
             return material.identity_srgb.rgb * facing_shade(point);

@@ -8,6 +8,9 @@ const RIM_COLOR: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
 const LEAST_ROUGHNESS: f32 = 0.08;
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
+    if point.made.is_unlit {
+        return srgb_from_linear(point.made.base_color);
+    }
     // Surfaces that face away from the key shadow themselves. The light fades out before that angle, since on coarse triangles with
     // smooth normals the map would show each triangle's edge, and jagged.
     var key_visible = 0.0;
@@ -17,16 +20,17 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         key_visible = own_light * key_arrival(point);
     }
     let surface = StudioSurface(
-        material.albedo * point.diffuse_texel.rgb,
-        material.fresnel0,
+        point.made.albedo,
+        point.made.fresnel0,
         // The alpha scales 1 - roughness, as in the book's shader. Other formats define glossiness the same way (glTF's
         // KHR_materials_pbrSpecularGlossiness: 1 - roughness).
-        max(1.0 - shininess(point), LEAST_ROUGHNESS),
+        max(1.0 - point.made.shininess, LEAST_ROUGHNESS),
         point.normal,
         point.smooth_normal,
         point.to_eye,
         point.occlusion,
     );
     let lights = StudioLights(light.to_key, KEY_COLOR, key_visible, light.to_rim, RIM_COLOR);
-    return srgb_from_linear(tone_mapped(exposed(studio_light(surface, lights), camera.exposure_stops)));
+    let radiance = studio_light(surface, lights) + point.made.emissive;
+    return srgb_from_linear(tone_mapped(exposed(radiance, camera.exposure_stops)));
 }

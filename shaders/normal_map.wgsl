@@ -1,8 +1,8 @@
 // The normal of a surface point, bent by its normal map.
 
 // `normal` is of unit length. `tangent` is in the same space and of any length; its w is the side of the bitangent. A tangent along
-// the normal leaves the normal as it is.
-fn mapped_normal(texel: vec3<f32>, normal: vec3<f32>, tangent: vec4<f32>) -> vec3<f32> {
+// the normal leaves the normal as it is. `scale` multiplies what bends it.
+fn mapped_normal(texel: vec3<f32>, scale: f32, normal: vec3<f32>, tangent: vec4<f32>) -> vec3<f32> {
     if material.normal_channels == 0u {
         return normal;
     }
@@ -20,5 +20,5 @@ fn mapped_normal(texel: vec3<f32>, normal: vec3<f32>, tangent: vec4<f32>) -> vec
     if material.normal_channels == 2u {
         z = sqrt(max(1.0 - dot(mapped.xy, mapped.xy), 0.0));
     }
-    return normalize_or(t * mapped.x + b * (mapped.y * light.normal_green_sign) + normal * z, normal);
+    return normalize_or((t * mapped.x + b * (mapped.y * light.normal_green_sign)) * scale + normal * z, normal);
 }

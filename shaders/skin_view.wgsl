@@ -4,39 +4,39 @@ struct SkinViewVertex {
     @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
     @location(1) world_normal: vec3<f32>,
-    @location(2) tex_coord: vec2<f32>,
+    @location(2) cut_place: vec3<f32>,
     @location(3) color_srgb: vec3<f32>,
 }
 
-fn skin_view_vertex(world: Skinned, tex_coord: vec2<f32>, color_srgb: vec4<f32>) -> SkinViewVertex {
+fn skin_view_vertex(world: Skinned, maps: MapVertex, color_srgb: vec4<f32>) -> SkinViewVertex {
     let clip = camera.clip_from_world * vec4<f32>(world.position, 1.0);
-    return SkinViewVertex(clip, world.position, world.normal, tex_coord, color_srgb.rgb);
+    return SkinViewVertex(clip, world.position, world.normal, cut_place(maps), color_srgb.rgb);
 }
 
 @vertex
 fn vertex_static(
     instance: Instance,
+    maps: MapVertex,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(3) tex_coord: vec2<f32>,
     @location(6) color_srgb: vec4<f32>,
 ) -> SkinViewVertex {
     let vertex = Skinned(position, normal, vec4<f32>(0.0));
-    return skin_view_vertex(in_world(instance, vertex), tex_coord, color_srgb);
+    return skin_view_vertex(in_world(instance, vertex), maps, color_srgb);
 }
 
 @vertex
 fn vertex_skinned(
     instance: Instance,
+    maps: MapVertex,
     @location(0) position: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(3) tex_coord: vec2<f32>,
     @location(4) joints: vec4<u32>,
     @location(5) weights: vec4<f32>,
     @location(6) color_srgb: vec4<f32>,
 ) -> SkinViewVertex {
     let vertex = Skinned(position, normal, vec4<f32>(0.0));
-    return skin_view_vertex(posed_in_world(instance, vertex, joints, weights), tex_coord, color_srgb);
+    return skin_view_vertex(posed_in_world(instance, vertex, joints, weights), maps, color_srgb);
 }
 
 // The exact colour where the surface faces the viewer, so that it matches the legend; darker where it turns away, to show shape.
@@ -54,8 +54,7 @@ fn fragment(vertex: SkinViewVertex) -> @location(0) vec4<f32> {
 
 @fragment
 fn fragment_cut(vertex: SkinViewVertex) -> @location(0) vec4<f32> {
-    let alpha = textureSample(diffuse_map, map_sampler, vertex.tex_coord).a;
-    if alpha < material.alpha_clip {
+    if alpha_at(vertex.cut_place) < material.alpha_clip {
         discard;
     }
     return seen_color(vertex);

@@ -1,5 +1,27 @@
 // What a pixel of the model is before any light: its maps, and its normals on the viewer's side.
 
+// What it is made of there, by its material, its maps and its vertices: `substance` gives it. Colours are linear.
+struct Substance {
+    // Of the diffuse map and the vertices; alpha is the surface's.
+    diffuse_texel: vec4<f32>,
+    normal_texel: vec4<f32>,
+    // Multiplies x and y of the normal map's directions.
+    normal_scale: f32,
+    // The diffuse colour, metal or not.
+    base_color: vec3<f32>,
+    // What comes back of light that is not mirrored.
+    albedo: vec3<f32>,
+    fresnel0: vec3<f32>,
+    // 1 - roughness. The DirectX 12 book's materials have its product with the gloss in the alpha of the normal map.
+    shininess: f32,
+    // Light of its own.
+    emissive: vec3<f32>,
+    // The fraction of the environment that the occlusion map leaves.
+    occlusion: f32,
+    // Shown in its base colour without light.
+    is_unlit: bool,
+}
+
 struct SurfacePoint {
     world_position: vec3<f32>,
     // Unit, towards the viewer.
@@ -11,22 +33,20 @@ struct SurfacePoint {
     // Interpolated from the vertices.
     tangent: vec4<f32>,
     tex_coord: vec2<f32>,
-    diffuse_texel: vec4<f32>,
-    normal_texel: vec4<f32>,
+    made: Substance,
     // Ambient occlusion: the fraction of the environment that reaches the point.
     occlusion: f32,
 }
 
 // Samples maps and takes derivatives, so every pixel of a triangle must call it.
 fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
-    let diffuse_texel = textureSample(diffuse_map, map_sampler, mesh.tex_coord);
-    let normal_texel = textureSample(normal_map, map_sampler, mesh.tex_coord);
+    let made = substance(mesh);
     let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), camera.forward);
     let side = select(-1.0, 1.0, clockwise) * mesh.front_sign;
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // Seen from behind, a bump is a dent.
-    let normal = mapped_normal(normal_texel.rgb, vertex_normal, mesh.world_tangent) * side;
+    let normal = mapped_normal(made.normal_texel.rgb, made.normal_scale, vertex_normal, mesh.world_tangent) * side;
     let in_view = mesh.clip.xy / camera.viewport_pixels;
     return SurfacePoint(
         mesh.world_position,
@@ -36,15 +56,9 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         normal,
         mesh.world_tangent,
         mesh.tex_coord,
-        diffuse_texel,
-        normal_texel,
-        textureSampleLevel(occlusion_map, environment_sampler, in_view, 0.0).r,
+        made,
+        textureSampleLevel(occlusion_map, environment_sampler, in_view, 0.0).r * made.occlusion,
     );
-}
-
-// The DirectX 12 book's shininess: (1 - roughness), times the gloss in the alpha of the normal map where it has one.
-fn shininess(point: SurfacePoint) -> f32 {
-    return (1.0 - material.roughness) * select(1.0, point.normal_texel.a, material.normal_channels == 4u);
 }
 
 // The fraction of the key light that arrives at a point, whichever way its surface faces.

@@ -29,6 +29,8 @@ pub enum Ask {
     NameBone,
     /// Read the open files again.
     ReadAgain,
+    /// Choose how to save the model as a file of another format.
+    Export,
     /// Save the view as a picture.
     SavePicture {
         /// Without the background, whatever was chosen.
@@ -466,6 +468,8 @@ actions! {
     SAVE_TRANSPARENT: Action::new(Group::Picture, &["Shift P"], "with transparent ground", "Save PNG, transparent", |_| {
         Some(Ask::SavePicture { transparent: true })
     });
+    /// Save the model as a file of another format.
+    EXPORT: Action::new(Group::Picture, &["E"], "export the model", "Export…", |_| Some(Ask::Export));
     /// Show or hide the table of keys.
     HELP: Action::new(Group::Picture, &["?"], "this table", "Keys", |_| Some(Ask::Help));
     /// Close what is on top, or clear the selection.

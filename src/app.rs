@@ -12,8 +12,8 @@ use std::task::{Context, Poll, Wake, Waker};
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
 use crate::render::{
-    Compositor, GpuAnswer, MaterialImages, Picture, PictureError, Renderer, RendererOptions, SampleCount, Target,
-    UploadError, device, watched,
+    Compositor, GpuAnswer, Picture, PictureError, Renderer, RendererOptions, SampleCount, Target, UploadError, device,
+    watched,
 };
 use crate::scene::{FrameCost, FrameOptions, Theme};
 use crate::session::{Quality, Session};
@@ -24,6 +24,8 @@ const MAX_STEP_SECS: f32 = 0.25;
 
 /// Between two pipelines that are built while nothing moves, so that input comes first.
 const PREPARE_PAUSE_SECS: f32 = 0.05;
+/// A frame spends so long on what is exported, or one step where that takes longer.
+const EXPORT_SECS: f64 = 0.008;
 /// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
 const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
 
@@ -92,10 +94,20 @@ impl App {
             ui.ctx().request_repaint();
         }
 
+        let exported = if ui.ctx().will_discard() {
+            None
+        } else {
+            self.step_export(ui.ctx(), &mut session);
+            session.take_exported()
+        };
+        if let Some(file) = &exported {
+            self.state.messages.say_exported(file);
+        }
         if !ui.ctx().will_discard() {
             self.state.announce(&session);
         }
-        let requests = self.state.take_requests();
+        let mut requests = self.state.take_requests();
+        requests.extend(exported.map(|file| Request::SaveExport(Box::new(file))));
         for request in &requests {
             if let Request::UseTheme(theme) = request {
                 ui.ctx().set_theme(match theme {
@@ -134,6 +146,17 @@ impl App {
             }
         }
         requests
+    }
+
+    /// Goes on with what is exported, for a part of a frame.
+    fn step_export(&self, ctx: &egui::Context, session: &mut Session) {
+        let begun_secs = (self.painter.now_secs)();
+        while session.step_export() {
+            ctx.request_repaint();
+            if (self.painter.now_secs)() - begun_secs > EXPORT_SECS {
+                break;
+            }
+        }
     }
 
     /// Draws the interface with the contrast that the person asks for, from the next pass on.
@@ -457,11 +480,7 @@ impl SessionPainter {
             self.materials = None;
         }
         if self.maps != Some(maps) {
-            let images = session.maps().images();
-            let images: Vec<_> = images
-                .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
-                .collect();
-            self.renderer.set_maps(&images);
+            self.renderer.set_maps(&session.maps().images().collect::<Vec<_>>());
             self.maps = Some(maps);
         }
         let materials = session.materials_revision();

@@ -42,6 +42,8 @@ pub mod cli;
 #[cfg(feature = "render")]
 pub mod contact_sheet;
 pub mod diagnostic;
+pub mod edit;
+pub mod export;
 pub mod format;
 pub mod gltf;
 pub mod image;

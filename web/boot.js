@@ -284,7 +284,7 @@ function onEvent(type, detail) {
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
   if (type === "picture") return void savePicture(detail);
-  if (type === "report") return saveFile(detail.name, detail.text, "application/sarif+json");
+  if (type === "save") return saveFile(detail.name, detail.contents, detail.type);
   if (type === "explain") return void window.open(new URL("codes.html", import.meta.url).href + "#" + detail.code, "_blank", "noopener");
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {

@@ -8,21 +8,18 @@ use crate::model::{Curve, LocalJoint, Track};
 
 /// How far straight pieces may stray from a curve, as a part of what the curve ranges over; of rotations the angle in radians. A
 /// figure's hand is then off by less than a twentieth of a pixel on a large screen.
-const MOST_ERROR: f32 = 1e-5;
+pub(crate) const MOST_ERROR: f32 = 1e-5;
 
 /// A piece between two keys is halved this often at most.
 const MOST_HALVINGS: u32 = 9;
 
 /// A track whose parts all go straight from key to key, and that strays from the given one by less than [`MOST_ERROR`]. A value that
 /// is held has a second key, which is the last number before the time of the next.
-pub(super) fn straight(track: &Track) -> Cow<'_, Track> {
+pub(crate) fn straight(track: &Track) -> Cow<'_, Track> {
     let Some(curves) = track.curves() else {
         return Cow::Borrowed(track);
     };
-    let held = |tangents: Option<bool>| tangents == Some(false);
-    let is_held = held(curves.translation.as_ref().map(|curve| curve.tangents().is_some()))
-        || held(curves.rotation.as_ref().map(|curve| curve.tangents().is_some()))
-        || held(curves.scale.as_ref().map(|curve| curve.tangents().is_some()));
+    let is_held = curves.holds();
     let ranges = Ranges {
         translation: curves.translation.as_ref().map_or(0.0, range),
         scale: curves.scale.as_ref().map_or(0.0, range),

@@ -15,9 +15,8 @@ const WORTH_WHILE: f64 = 0.1;
 pub(super) fn note_still_tracks(model: &Model, clip_lines: &[u32], diagnostics: &mut Diagnostics) {
     for (index, clip) in (0u32..).zip(&model.clips) {
         let still = || clip.tracks.iter().filter(|track| is_still(track));
-        let surplus: usize = still().map(|track| track.key_count() - 1).sum();
         let keys: usize = clip.tracks.iter().map(Track::key_count).sum();
-        if surplus > 0 && surplus as f64 >= WORTH_WHILE * keys as f64 {
+        if let Some(surplus) = surplus_keys(clip) {
             diagnostics.add(
                 &codes::KEYS_ALL_EQUAL,
                 Place::of(Subject::Clip(index), clip_lines),
@@ -31,10 +30,20 @@ pub(super) fn note_still_tracks(model: &Model, clip_lines: &[u32], diagnostics: 
     }
 }
 
+/// How many keys of still bones could be left out of a clip, where that is worth while.
+pub(crate) fn surplus_keys(clip: &Clip) -> Option<usize> {
+    let still = clip.tracks.iter().filter(|track| is_still(track));
+    let surplus: usize = still.map(|track| track.key_count() - 1).sum();
+    let keys: usize = clip.tracks.iter().map(Track::key_count).sum();
+    (surplus > 0 && surplus as f64 >= WORTH_WHILE * keys as f64).then_some(surplus)
+}
+
 /// Whether all keys of a track are equal, and they are more than a few.
-fn is_still(track: &Track) -> bool {
+pub(crate) fn is_still(track: &Track) -> bool {
     let all = 1..track.key_count();
-    track.key_count() > FEW_KEYS && all.into_iter().all(|key| track.key(key) == track.key(0))
+    track.key_count() > FEW_KEYS
+        && track.curves().is_none()
+        && all.into_iter().all(|key| track.key(key) == track.key(0))
 }
 
 /// A clip is meant to loop when it ends, all bones together, within this fraction of the way that they come from their first keys. A

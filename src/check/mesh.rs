@@ -11,23 +11,35 @@ use crate::model::{Aabb, Mesh};
 /// `f32`, so a lesser height is a rounding error.
 const LEAST_HEIGHT: f64 = 1e-6;
 
-/// Notes triangles without area, and vertices that no triangle uses.
-pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+/// The triangles without area, in their order.
+pub(crate) fn flat_triangles(mesh: &Mesh) -> impl Iterator<Item = u32> {
     let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
     let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
-    let mut used = vec![false; mesh.vertex_count()];
-    let (mut flat, mut unused) = (Tally::default(), Tally::default());
-    for (triangle, corners) in triangles(mesh) {
-        for vertex in corners {
-            used[vertex as usize] = true;
-        }
-        if is_flat(
+    let is_flat = move |corners: [u32; 3]| {
+        is_flat(
             corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3()),
             least_height,
-        ) {
-            flat.add(triangle);
-        }
+        )
+    };
+    triangles(mesh)
+        .filter(move |(_, corners)| is_flat(*corners))
+        .map(|(triangle, _)| triangle)
+}
+
+/// Of each vertex, whether it is a corner of a triangle.
+pub(crate) fn used_vertices(mesh: &Mesh) -> Vec<bool> {
+    let mut used = vec![false; mesh.vertex_count()];
+    for &vertex in &mesh.indices {
+        used[vertex as usize] = true;
     }
+    used
+}
+
+/// Notes triangles without area, and vertices that no triangle uses.
+pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let used = used_vertices(mesh);
+    let (mut flat, mut unused) = (Tally::default(), Tally::default());
+    flat_triangles(mesh).for_each(|triangle| flat.add(triangle));
     for (vertex, _) in (0u32..).zip(used).filter(|(_, used)| !used) {
         unused.add(vertex);
     }
@@ -79,12 +91,25 @@ fn is_flat([a, b, c]: [DVec3; 3], least_height: f64) -> bool {
 /// edge with any number of triangles costs no more than others. Vertices count as the same by their number, not by their place: a mesh
 /// may well be sewn together of sheets that touch.
 pub(super) fn note_repeated(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let mut by_corners = by_corners(mesh);
+    let repeated: Vec<u32> = repeated(&by_corners).map(|(_, triangle)| triangle).collect();
+    note_same_corners(repeated, lines, diagnostics);
+    by_corners.dedup_by_key(|(corners, _)| *corners);
+    note_crowded_edges(by_corners, lines, diagnostics);
+}
+
+/// Each triangle that has the vertices of another one before, after that one.
+pub(crate) fn repeated_triangles(mesh: &Mesh) -> Vec<(u32, u32)> {
+    repeated(&by_corners(mesh)).collect()
+}
+
+/// Triangles with their corners in order, sorted by these. One with equal corners is no triangle; it is told of elsewhere.
+fn by_corners(mesh: &Mesh) -> Vec<([u32; 3], u32)> {
     let mut by_corners: Vec<([u32; 3], u32)> = triangles(mesh)
         .map(|(triangle, mut corners)| {
             corners.sort_unstable();
             (corners, triangle)
         })
-        // One with equal corners is no triangle; it is told of elsewhere.
         .filter(|([a, b, c], _)| a != b && b != c)
         .collect();
     // As one number each they are sorted faster.
@@ -93,23 +118,29 @@ pub(super) fn note_repeated(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diag
             .into_iter()
             .fold(0_u128, |number, part| number << 32 | u128::from(part))
     });
+    by_corners
+}
+
+fn repeated(by_corners: &[([u32; 3], u32)]) -> impl Iterator<Item = (u32, u32)> {
     let pairs = by_corners.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-    let mut repeated: Vec<u32> = pairs.map(|pair| pair[1].1).collect();
-    if !repeated.is_empty() {
-        repeated.sort_unstable();
-        let mut tally = Tally::default();
-        repeated.into_iter().for_each(|triangle| tally.add(triangle));
-        diagnostics.add(
-            &codes::TRIANGLES_REPEATED,
-            Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
-            format!(
-                "{} the same three vertices as another one before.",
-                counted(tally.count, "triangle has", "triangles have")
-            ),
-        );
-        by_corners.dedup_by_key(|(corners, _)| *corners);
+    pairs.map(|pair| (pair[0].1, pair[1].1))
+}
+
+fn note_same_corners(mut repeated: Vec<u32>, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    if repeated.is_empty() {
+        return;
     }
-    note_crowded_edges(by_corners, lines, diagnostics);
+    repeated.sort_unstable();
+    let mut tally = Tally::default();
+    repeated.into_iter().for_each(|triangle| tally.add(triangle));
+    diagnostics.add(
+        &codes::TRIANGLES_REPEATED,
+        Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
+        format!(
+            "{} the same three vertices as another one before.",
+            counted(tally.count, "triangle has", "triangles have")
+        ),
+    );
 }
 
 /// Takes different triangles with their corners in order.

@@ -11,6 +11,10 @@ mod rig;
 pub mod sarif;
 mod texture;
 
+pub(crate) use keys::{is_still, surplus_keys};
+pub(crate) use mesh::{flat_triangles, repeated_triangles, used_vertices};
+pub(crate) use texture::tangents_against;
+
 use crate::anim::CompiledClip;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::collect::Diagnostics;

@@ -179,7 +179,6 @@ struct Region {
 struct LogicalLocation {
     name: String,
     kind: &'static str,
-    index: u32,
 }
 
 fn rule(code: &'static str) -> Rule {
@@ -207,7 +206,6 @@ fn logical_location(subject: Subject) -> LogicalLocation {
     LogicalLocation {
         name: format!("{kind} {index}"),
         kind,
-        index,
     }
 }
 

@@ -50,10 +50,26 @@ fn ends_of_equal_coords(mesh: &Mesh) -> Vec<u32> {
     ends
 }
 
-/// Warns of tangents whose sign says that the texture is mirrored where it is not, or the other way round. Only vertices of normal maps
+/// Warns of tangents whose sign contradicts the texture coordinates.
+pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let mut against = Tally::default();
+    tangents_against(model).for_each(|vertex| against.add(vertex));
+    if against.count > 0 {
+        diagnostics.add(
+            &codes::TANGENT_SIGN_AGAINST_UV,
+            Place::of_rows(&against, Subject::Vertex, &lines.tangent_lines()),
+            format!(
+                "{} a tangent whose sign contradicts the texture coordinates.",
+                counted(against.count, "vertex has", "vertices have")
+            ),
+        );
+    }
+}
+
+/// Vertices whose tangent's sign says that the texture is mirrored where it is not, or the other way round. Only vertices of normal maps
 /// are looked at, and only those of which every triangle contradicts the sign: where mirrored and other triangles share a vertex, no
 /// sign is right, and the seam is too thin to be seen.
-pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
     let mesh = &model.mesh;
     let (mut accused, mut cleared) = (vec![false; mesh.vertex_count()], vec![false; mesh.vertex_count()]);
     let (triangles, _) = mesh.indices.as_chunks::<3>();
@@ -71,22 +87,10 @@ pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &m
             cleared[vertex] |= !is_against;
         }
     }
-    let mut against = Tally::default();
-    for (vertex, (accused, cleared)) in (0u32..).zip(accused.into_iter().zip(cleared)) {
-        if accused && !cleared {
-            against.add(vertex);
-        }
-    }
-    if against.count > 0 {
-        diagnostics.add(
-            &codes::TANGENT_SIGN_AGAINST_UV,
-            Place::of_rows(&against, Subject::Vertex, &lines.tangent_lines()),
-            format!(
-                "{} a tangent whose sign contradicts the texture coordinates.",
-                counted(against.count, "vertex has", "vertices have")
-            ),
-        );
-    }
+    let vertices = (0u32..).zip(accused.into_iter().zip(cleared));
+    vertices
+        .filter(|(_, (accused, cleared))| *accused && !*cleared)
+        .map(|(vertex, _)| vertex)
 }
 
 /// The triangles of subsets with a normal map, each once.

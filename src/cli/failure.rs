@@ -8,6 +8,8 @@ use super::diagnostic::write_diagnostic;
 use super::text::Plain;
 use crate::check::report::OneLine;
 use crate::contact_sheet::SheetError;
+use crate::edit::EditError;
+use crate::export::ExportError;
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
 use crate::render::{GpuError, PictureError, UploadError};
@@ -85,6 +87,13 @@ pub(super) enum Failure {
     Picture(#[from] PictureError),
     #[error("{0}")]
     Encode(#[from] EncodeError),
+    #[error("{}: {error}", named(path))]
+    Edit { path: PathBuf, error: EditError },
+    #[error("{0}")]
+    Export(#[from] ExportError),
+    /// A file that was read would be overwritten.
+    #[error("{} is read; name another file to write", named(path))]
+    OwnInput { path: PathBuf },
     #[error("{} cannot be written: {reason}", named(path))]
     Unwritable { path: PathBuf, reason: io::Error },
     #[error("the result cannot be written: {0}")]
@@ -94,6 +103,15 @@ pub(super) enum Failure {
 }
 
 impl Failure {
+    /// An edit of a file that cannot be made.
+    pub(super) fn edit(path: &Path, error: EditError) -> Self {
+        let path = path.to_owned();
+        match error {
+            EditError::UnknownClip { asked, known } => Self::UnknownClip { path, asked, known },
+            error => Self::Edit { path, error },
+        }
+    }
+
     /// Writes it to `err`, and returns how bad it is.
     pub(super) fn report(&self, err: &mut dyn Write) -> Outcome {
         // When standard error is closed too, only the exit code can tell.
@@ -105,7 +123,11 @@ impl Failure {
             _ => {
                 let _ = writeln!(err, "error: {}", Plain(&self.to_string()));
                 match self {
-                    Self::Overflows { .. } => Outcome::FileHasErrors,
+                    Self::Overflows { .. }
+                    | Self::Edit {
+                        error: EditError::Overflows | EditError::TooManyBones { .. } | EditError::TooManyVertices { .. },
+                        ..
+                    } => Outcome::FileHasErrors,
                     _ => Outcome::Failed,
                 }
             }

@@ -5,11 +5,13 @@
 
 mod appearance;
 mod check;
+mod convert;
 mod diagnostic;
 mod failure;
 mod in_order;
 mod info;
 mod input;
+mod map_files;
 mod output;
 mod paths;
 mod pose;
@@ -48,6 +50,7 @@ enum Command {
     Check(check::Arguments),
     Pose(pose::Arguments),
     Render(render::Arguments),
+    Convert(Box<convert::Arguments>),
 }
 
 /// Runs the command with the arguments of this process.
@@ -80,6 +83,7 @@ fn run(command: &Command, out: &mut dyn Write, err: &mut dyn Write) -> Result<Ou
         Command::Check(arguments) => return check::run(arguments, out, err),
         Command::Pose(arguments) => pose::run(arguments, out)?,
         Command::Render(arguments) => return render::run(arguments, out, err),
+        Command::Convert(arguments) => return convert::run(arguments, out, err),
     }
     Ok(Outcome::Fine)
 }

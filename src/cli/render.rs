@@ -18,7 +18,7 @@ use super::textures::{Folders, Textures, Wanted, read_sky, write_missing};
 use crate::contact_sheet::ContactSheet;
 use crate::image::encode_png;
 use crate::render::device::{self, Gpu};
-use crate::render::{MaterialImages, PictureTarget, Renderer, watched};
+use crate::render::{PictureTarget, Renderer, watched};
 use crate::scene::{Background, Shot, Theme, ViewPreset};
 use crate::session::{
     CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Series, Session,
@@ -288,11 +288,7 @@ impl Painter {
             let uploaded = session
                 .open_model()
                 .map_or(Ok(()), |open| renderer.set_model(&open.model));
-            let images = session.maps().images();
-            let images: Vec<_> = images
-                .map(|[diffuse, normal, ..]| MaterialImages { diffuse, normal })
-                .collect();
-            renderer.set_maps(&images);
+            renderer.set_maps(&session.maps().images().collect::<Vec<_>>());
             renderer.set_sky(session.sky().map(|image| &**image));
             (renderer, uploaded)
         });

@@ -173,7 +173,8 @@ impl Textures {
         all
     }
 
-    fn path<'a>(&'a self, file: &'a File) -> &'a Path {
+    /// Where a picture lies.
+    pub(super) fn path<'a>(&'a self, file: &'a File) -> &'a Path {
         self.paths
             .get(&file.path)
             .map_or(Path::new(&file.path), PathBuf::as_path)

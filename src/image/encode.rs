@@ -2,6 +2,8 @@
 
 use std::io::Cursor;
 
+use super::Image;
+
 /// A picture could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("the picture could not be written as PNG: {0}")]
@@ -25,9 +27,59 @@ pub fn encode_png(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, Enc
     Ok(bytes.into_inner())
 }
 
+/// The bytes of a DDS file with all levels of a flat picture, of its first face otherwise: blue, green, red and alpha, 8 bits each, in
+/// the header that the books' loaders know. Levels that the picture lacks are not made: see [`Image::with_mips`].
+pub fn encode_dds(image: &Image) -> Vec<u8> {
+    const HEADER_SIZE: u32 = 124;
+    const PIXEL_FORMAT_SIZE: u32 = 32;
+    // Caps, height, width, pitch, pixel format; and the count of mips.
+    const FLAGS: u32 = 0x100f | 0x2_0000;
+    const RGB_WITH_ALPHA: u32 = 0x41;
+    const TEXTURE: u32 = 0x1000;
+    const COMPLEX_WITH_MIPS: u32 = 0x40_0008;
+    let levels = image.level_count();
+    let mut header = [0_u32; 32];
+    header[0] = u32::from_le_bytes(*b"DDS ");
+    header[1] = HEADER_SIZE;
+    header[2] = FLAGS;
+    header[3] = image.height();
+    header[4] = image.width();
+    header[5] = 4 * image.width();
+    header[7] = levels;
+    header[19] = PIXEL_FORMAT_SIZE;
+    header[20] = RGB_WITH_ALPHA;
+    header[22] = 32;
+    header[23..27].copy_from_slice(&[0x00ff_0000, 0x0000_ff00, 0x0000_00ff, 0xff00_0000]);
+    header[27] = if levels > 1 {
+        TEXTURE | COMPLEX_WITH_MIPS
+    } else {
+        TEXTURE
+    };
+    let mut bytes: Vec<u8> = header.into_iter().flat_map(u32::to_le_bytes).collect();
+    for level in 0..levels {
+        let mut texels = image.to_rgba8(0, level).unwrap_or_default();
+        texels.chunks_exact_mut(4).for_each(|texel| texel.swap(0, 2));
+        bytes.extend_from_slice(&texels);
+    }
+    bytes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::{MapKind, decode};
+
+    #[test]
+    fn a_dds_reads_back_with_all_its_levels() -> Result<(), Box<dyn std::error::Error>> {
+        let texels = (0..4 * 6 * 3).map(|byte| byte as u8 * 3).collect();
+        let image = Image::from_rgba8(6, 3, texels, "test")?.with_mips(MapKind::Data);
+        let read = decode(&encode_dds(&image), "map.dds")?;
+        assert_eq!((read.level_count(), read.has_alpha()), (3, true));
+        for level in 0..3 {
+            assert_eq!(read.to_rgba8(0, level), image.to_rgba8(0, level));
+        }
+        Ok(())
+    }
 
     #[test]
     fn a_png_reads_back_to_its_pixels() -> Result<(), Box<dyn std::error::Error>> {

@@ -21,7 +21,7 @@ mod picture;
 mod raster;
 pub(crate) mod srgb;
 
-pub use encode::{EncodeError, encode_png};
+pub use encode::{EncodeError, encode_dds, encode_png};
 pub use error::{FileKind, ImageError, ImageErrorKind, Layer};
 pub use format::{Channels, ImageFormat, MAX_SIDE};
 pub use mips::MapKind;

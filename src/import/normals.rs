@@ -14,6 +14,15 @@ pub(super) fn is_direction(vector: Vec3) -> bool {
     vector.is_finite() && vector.as_dvec3().length() > LEAST_LENGTH
 }
 
+/// A direction at unit length. One that is as near to it as numbers are stays, so that a second time changes nothing.
+pub(super) fn at_unit_length(direction: Vec3) -> Vec3 {
+    let length = direction.as_dvec3().length();
+    if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
+        return direction;
+    }
+    (direction.as_dvec3() / length).as_vec3()
+}
+
 /// Makes the normals of a mesh unit vectors. Those that are zero or not finite become the mean of the triangles around, weighted
 /// by their area; a vertex without such triangles gets +y. `vertex_lines` has the line of each vertex in the file; it may be
 /// empty.
@@ -43,12 +52,11 @@ pub(super) fn mend_normals(
         Vec::new()
     };
     for (index, normal) in mesh.normals.iter_mut().enumerate() {
-        let direction = if is_direction(*normal) {
-            normal.as_dvec3()
+        *normal = if is_direction(*normal) {
+            at_unit_length(*normal)
         } else {
-            computed[index]
+            computed[index].try_normalize().unwrap_or(DVec3::Y).as_vec3()
         };
-        *normal = direction.try_normalize().unwrap_or(DVec3::Y).as_vec3();
     }
 }
 
@@ -81,7 +89,7 @@ pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Hande
         // A corner without a normal says nothing; the others still do.
         let normals = corners.map(|vertex| mesh.normals[vertex]);
         let known = normals.into_iter().filter(|&normal| is_direction(normal));
-        let normal: DVec3 = known.map(Vec3::as_dvec3).sum();
+        let normal: DVec3 = known.map(|normal| at_unit_length(normal).as_dvec3()).sum();
         let side = facing(corners.map(|vertex| mesh.positions[vertex])).dot(normal);
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);

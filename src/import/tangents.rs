@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3, Vec4};
 
-use super::normals::is_direction;
+use super::normals::{at_unit_length, is_direction};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::model::Mesh;
@@ -28,7 +28,7 @@ pub(super) fn mend_tangents(mesh: &mut Mesh, lines: impl Fn() -> Vec<u32>, diagn
         let direction = tangent.truncate();
         *tangent = if is_direction(direction) {
             let sign = if tangent.w < 0.0 { -1.0 } else { 1.0 };
-            direction.as_dvec3().normalize().as_vec3().extend(sign)
+            at_unit_length(direction).extend(sign)
         } else {
             axes[index].tangent(mesh.normals[index])
         };

@@ -127,6 +127,25 @@ pub struct Curves {
 }
 
 impl Curves {
+    /// Whether each part that has a curve is held from key to key, or follows a spline.
+    fn are_splines(&self) -> [Option<bool>; 3] {
+        [
+            self.translation.as_ref().map(|curve| curve.tangents.is_some()),
+            self.rotation.as_ref().map(|curve| curve.tangents.is_some()),
+            self.scale.as_ref().map(|curve| curve.tangents.is_some()),
+        ]
+    }
+
+    /// Whether a part is held from key to key.
+    pub fn holds(&self) -> bool {
+        self.are_splines().contains(&Some(false))
+    }
+
+    /// Whether a part follows a spline.
+    pub fn bends(&self) -> bool {
+        self.are_splines().contains(&Some(true))
+    }
+
     /// Whether all parts go straight.
     pub fn is_empty(&self) -> bool {
         self.translation.is_none() && self.rotation.is_none() && self.scale.is_none()

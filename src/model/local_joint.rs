@@ -36,12 +36,12 @@ impl LocalJoint {
     /// The parts of a matrix. Shear is dropped. A matrix that flattens space keeps only its translation.
     pub(crate) fn from_matrix(parent_from_joint: &DAffine3) -> Self {
         let translation = parent_from_joint.translation.as_vec3();
+        let translation = if translation.is_finite() {
+            translation
+        } else {
+            Vec3::ZERO
+        };
         if parent_from_joint.matrix3.determinant() == 0.0 || !parent_from_joint.is_finite() {
-            let translation = if translation.is_finite() {
-                translation
-            } else {
-                Vec3::ZERO
-            };
             return Self {
                 translation,
                 ..Self::IDENTITY

@@ -69,9 +69,21 @@ impl Material {
     /// The alpha below which the books cut.
     pub const ALPHA_CLIP: f32 = 0.1;
 
+    /// Blended with less alpha nothing is seen of a surface: half a step of eight bits.
+    pub const LEAST_BLENDED_ALPHA: f32 = 0.5 / 255.0;
+
     /// Whether alpha cuts it.
     pub fn is_cut(&self) -> bool {
         matches!(self.alpha, AlphaMode::Mask { .. })
+    }
+
+    /// What has less alpha than this is not there: it is not drawn, and looked through. 0 where alpha does nothing.
+    pub fn least_alpha(&self) -> f32 {
+        match self.alpha {
+            AlphaMode::Opaque => 0.0,
+            AlphaMode::Mask { cutoff } => cutoff,
+            AlphaMode::Blend => Self::LEAST_BLENDED_ALPHA,
+        }
     }
 
     /// The map of a slot, when it names one.

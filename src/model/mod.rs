@@ -13,6 +13,7 @@ mod material;
 mod mesh;
 mod mirror;
 mod names;
+mod reflectance;
 mod skeleton;
 mod space;
 mod track;
@@ -28,6 +29,7 @@ pub use material::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampl
 pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
 pub(crate) use names::unique as unique_names;
+pub use reflectance::{FresnelSurface, MetallicSurface, PhongSurface, roughness_from_power};
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Front, Handedness, UpAxis, world_from_model};
 pub use track::Track;

@@ -197,9 +197,13 @@ impl Track {
     }
 }
 
-/// The rotation at unit length; `None` when it has no direction.
+/// The rotation at unit length; `None` when it has no direction. One that is as near to it as numbers are stays, so that a second
+/// time changes nothing.
 pub(crate) fn unit(rotation: Quat) -> Option<Quat> {
     let exact = rotation.as_dquat();
     let length = exact.length();
+    if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
+        return Some(rotation);
+    }
     (length.is_finite() && length > 1e-12).then(|| (exact / length).as_quat())
 }

@@ -139,7 +139,7 @@ impl GeometryMap {
         let mut pass = begin_pass(encoder, TimedPass::Geometry, targets);
         pass.set_bind_group(0, frame_group, &[]);
         pass.set_bind_group(2, nothing, &[]);
-        model.draw(&mut pass, posed, Cut::Hard, ModelDraw::Geometry);
+        model.draw(&mut pass, posed, [Cut::Hard; 2], ModelDraw::Geometry);
     }
 }
 

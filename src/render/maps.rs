@@ -6,22 +6,19 @@ use std::sync::{Arc, Weak};
 
 use super::buffers::Queue;
 use crate::image::{Image, ImageFormat, MapKind};
+use crate::model::MapSlot;
+use crate::scene::map_kind;
 
-/// The images of one material's maps, as far as they are there, with their mips. The same `Arc` is the same image.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct MaterialImages<'a> {
-    /// Colours, sRGB; alpha cuts where the material says so.
-    pub diffuse: Option<&'a Arc<Image>>,
-    /// Directions, linear.
-    pub normal: Option<&'a Arc<Image>>,
-}
+/// The images of one material's maps, as far as they are there, with their mips, in the order of [`MapSlot::ALL`]. The same `Arc` is
+/// the same image.
+pub type MaterialImages<'a> = [Option<&'a Arc<Image>>; MapSlot::ALL.len()];
 
 /// An image by its address, and how it is read.
 type Key = (usize, MapKind);
 
 /// The uploaded images.
 pub(super) struct MapTextures {
-    /// One white texel: changes no colour, and no normal, as none is read from it.
+    /// One white texel: multiplies by 1, and changes no normal, as none is read from it.
     white: wgpu::TextureView,
     held: HashMap<Key, Held>,
 }
@@ -42,11 +39,9 @@ impl MapTextures {
 
     /// Frees the images that are in none of these maps, then uploads the missing ones. Returns how many it uploaded.
     pub(super) fn update(&mut self, device: &wgpu::Device, queue: &Queue, maps: &[MaterialImages<'_>]) -> usize {
-        let of_slots = maps
-            .iter()
-            .flat_map(|maps| [(maps.diffuse, MapKind::Diffuse), (maps.normal, MapKind::Normal)]);
+        let of_slots = maps.iter().flat_map(|images| MapSlot::ALL.into_iter().zip(images));
         let wanted: HashMap<Key, &Arc<Image>> = of_slots
-            .filter_map(|(image, kind)| image.map(|image| (key(image, kind), image)))
+            .filter_map(|(slot, image)| image.map(|image| (key(image, map_kind(slot)), image)))
             .collect();
         self.held.retain(|key, _| wanted.contains_key(key));
         let mut uploaded = 0;
@@ -63,8 +58,8 @@ impl MapTextures {
     }
 
     /// What a material binds for an image of the last [`MapTextures::update`]; one white texel without an image.
-    pub(super) fn view(&self, image: Option<&Arc<Image>>, kind: MapKind) -> &wgpu::TextureView {
-        let held = image.and_then(|image| self.held.get(&key(image, kind)));
+    pub(super) fn view(&self, image: Option<&Arc<Image>>, slot: MapSlot) -> &wgpu::TextureView {
+        let held = image.and_then(|image| self.held.get(&key(image, map_kind(slot))));
         held.map_or(&self.white, |held| &held.view)
     }
 

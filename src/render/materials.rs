@@ -1,12 +1,18 @@
 //! The materials of a model in GPU memory: for each the values that shaders read, and a bind group with its maps. A white texel
 //! stands in for a missing map.
 
+use std::collections::HashMap;
+
+use glam::Affine2;
+
 use super::buffers::{Queue, UploadError, Uploader, bind_group};
 use super::device::is_software;
 use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
-use crate::image::{Channels, MapKind};
-use crate::model::{AlphaMode, Material, Reflectance};
+use super::recipe::{Alpha, Maps};
+use crate::image::Channels;
+use crate::model::{AlphaMode, MapSlot, Material, Reflectance, Sampling, Wrap};
+use crate::shaders::MapPlace;
 use crate::{scene, shaders};
 
 /// Samples along the longer side of a pixel's footprint, where the device supports it: floors stay sharp far away.
@@ -16,34 +22,52 @@ const ANISOTROPY: u16 = 8;
 /// dielectrics that they stand for.
 const PHONG_TO_FRESNEL: f32 = 0.05;
 
+/// What is blended with less alpha than this casts no shadow, and does not stand in the way of ambient light.
+const LEAST_SOLID_ALPHA: f32 = 0.5;
+
 /// The materials in the model's order, each with a bind group for group 3.
 pub(super) struct GpuMaterials {
     materials: Vec<Material>,
+    /// Whether vertices have colours, with alpha.
+    has_colors: bool,
+    /// Two slots for each material: its values, and what it says about all maps.
     uniforms: wgpu::Buffer,
-    /// Distance between materials in their buffer.
+    /// Size of a slot.
     stride: u32,
-    sampler: wgpu::Sampler,
+    samplers: HashMap<SamplerKey, wgpu::Sampler>,
+    /// For each material the maps that it has.
+    maps: Vec<BoundMaps>,
     bound: Vec<BoundMaterial>,
+}
+
+struct BoundMaps {
+    views: [wgpu::TextureView; MapSlot::ALL.len()],
+    facts: MapFacts,
 }
 
 struct BoundMaterial {
     group: wgpu::BindGroup,
-    maps: MapFacts,
-    is_cut: bool,
+    kind: (Alpha, Maps),
+    is_thin: bool,
 }
 
+/// Along u and v; whether texels have hard edges.
+type SamplerKey = ([Wrap; 2], bool);
+
 impl GpuMaterials {
-    /// Uploads them without maps.
+    /// Uploads them without maps. `has_colors`: the mesh has colours of vertices.
     pub(super) fn upload(
         uploader: &Uploader<'_>,
         layouts: &Layouts,
         textures: &MapTextures,
         materials: &[Material],
+        has_colors: bool,
     ) -> Result<Self, UploadError> {
         let (device, queue) = (uploader.device, uploader.queue);
         let alignment = uploader.limits.min_uniform_buffer_offset_alignment;
-        let stride = (size_of::<shaders::Material>() as u32).next_multiple_of(alignment);
-        let bytes = materials.len() * stride as usize;
+        let slot = size_of::<shaders::Material>().max(size_of::<shaders::MaterialMaps>());
+        let stride = (slot as u32).next_multiple_of(alignment);
+        let bytes = 2 * materials.len() * stride as usize;
         let uniforms = uploader.upload(
             "materials",
             wgpu::BufferUsages::UNIFORM,
@@ -52,9 +76,11 @@ impl GpuMaterials {
         )?;
         let mut gpu_materials = Self {
             materials: materials.to_vec(),
+            has_colors,
             uniforms,
             stride,
-            sampler: sampler(device),
+            samplers: HashMap::new(),
+            maps: Vec::new(),
             bound: Vec::new(),
         };
         gpu_materials.set_maps(device, queue, layouts, textures, &[]);
@@ -71,44 +97,79 @@ impl GpuMaterials {
         maps: &[MaterialImages<'_>],
     ) {
         let maps = maps.iter().copied().chain(std::iter::repeat(MaterialImages::default()));
-        let mut bound = Vec::with_capacity(self.materials.len());
-        for (index, images) in (0..self.materials.len()).zip(maps) {
-            let diffuse = textures.view(images.diffuse, MapKind::Diffuse);
-            let normal = textures.view(images.normal, MapKind::Normal);
-            bound.push(BoundMaterial {
-                group: self.group(device, layouts, index, diffuse, normal),
-                maps: MapFacts::of(images),
-                is_cut: false,
-            });
-        }
-        self.bound = bound;
-        self.write(queue);
+        let of_materials = maps.take(self.materials.len());
+        self.maps = of_materials
+            .map(|images| BoundMaps {
+                views: MapSlot::ALL.map(|slot| textures.view(images[slot as usize], slot).clone()),
+                facts: MapFacts::of(images),
+            })
+            .collect();
+        self.bind_all(device, queue, layouts);
     }
 
     /// Replaces the values of the materials, in their order; their maps stay.
-    pub(super) fn set_values(&mut self, queue: &Queue, materials: &[Material]) {
+    pub(super) fn set_values(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &Queue,
+        layouts: &Layouts,
+        materials: &[Material],
+    ) {
         for (material, values) in self.materials.iter_mut().zip(materials) {
             material.clone_from(values);
         }
-        self.write(queue);
+        self.bind_all(device, queue, layouts);
     }
 
-    fn write(&mut self, queue: &Queue) {
-        let mut bytes = vec![0; self.materials.len() * self.stride as usize];
-        let slots = bytes.chunks_exact_mut(self.stride as usize);
-        for (((index, material), bound), slot) in self.materials.iter().enumerate().zip(&mut self.bound).zip(slots) {
-            let uniform = material_uniform(index, material, bound.maps);
-            slot[..size_of_val(&uniform)].copy_from_slice(bytemuck::bytes_of(&uniform));
-            bound.is_cut = uniform.alpha_clip > 0.0;
+    /// Writes the values of all, and binds them with their maps.
+    fn bind_all(&mut self, device: &wgpu::Device, queue: &Queue, layouts: &Layouts) {
+        let mut bytes = vec![0; 2 * self.materials.len() * self.stride as usize];
+        let mut slots = bytes.chunks_exact_mut(self.stride as usize);
+        let mut write = |uniform: &[u8]| {
+            if let Some(slot) = slots.next() {
+                slot[..uniform.len()].copy_from_slice(uniform);
+            }
+        };
+        self.bound.clear();
+        for (index, (material, maps)) in self.materials.iter().zip(&self.maps).enumerate() {
+            let uniform = material_uniform(index, material, maps.facts, self.has_colors);
+            let kind = (
+                alpha(material, &uniform, maps.facts, self.has_colors),
+                maps_of(material, self.has_colors),
+            );
+            let maps_uniform = maps_uniform(material, &uniform, maps.facts, kind.0);
+            write(bytemuck::bytes_of(&uniform));
+            write(bytemuck::bytes_of(&maps_uniform));
+            for slot in MapSlot::ALL {
+                let key = sampler_key(material, slot);
+                self.samplers.entry(key).or_insert_with(|| sampler(device, key));
+            }
+            self.bound.push(BoundMaterial {
+                group: self.group(device, layouts, index, kind.1),
+                kind,
+                is_thin: kind.0 == Alpha::Blended && material.opacity < LEAST_SOLID_ALPHA,
+            });
         }
         queue.write_buffer(&self.uniforms, 0, &bytes);
     }
 
-    /// Whether alpha cuts a material.
-    pub(super) fn is_cut(&self, material: u32) -> bool {
+    /// What alpha does to a material, and which maps it reads.
+    pub(super) fn kind(&self, material: u32) -> (Alpha, Maps) {
         self.bound
             .get(material as usize)
-            .is_some_and(|material| material.is_cut)
+            .map_or((Alpha::Whole, Maps::Two), |material| material.kind)
+    }
+
+    /// Whether so much shows through all of it that nothing of it casts a shadow.
+    pub(super) fn is_thin(&self, material: u32) -> bool {
+        self.bound
+            .get(material as usize)
+            .is_some_and(|material| material.is_thin)
+    }
+
+    /// Whether some read all maps.
+    pub(super) fn read_all_maps(&self) -> bool {
+        self.bound.iter().any(|material| material.kind.1 == Maps::All)
     }
 
     pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, material: u32) {
@@ -117,49 +178,76 @@ impl GpuMaterials {
         }
     }
 
-    fn group(
-        &self,
-        device: &wgpu::Device,
-        layouts: &Layouts,
-        index: usize,
-        diffuse: &wgpu::TextureView,
-        normal: &wgpu::TextureView,
-    ) -> wgpu::BindGroup {
-        let uniform = wgpu::BufferBinding {
-            buffer: &self.uniforms,
-            offset: index as u64 * u64::from(self.stride),
-            size: std::num::NonZeroU64::new(size_of::<shaders::Material>() as u64),
+    fn group(&self, device: &wgpu::Device, layouts: &Layouts, index: usize, maps: Maps) -> wgpu::BindGroup {
+        use wgpu::BindingResource::{Buffer, Sampler, TextureView};
+        let uniform = |slot: usize, size: usize| {
+            Buffer(wgpu::BufferBinding {
+                buffer: &self.uniforms,
+                offset: (2 * index + slot) as u64 * u64::from(self.stride),
+                size: std::num::NonZeroU64::new(size as u64),
+            })
         };
-        let resources = [
-            wgpu::BindingResource::Buffer(uniform),
-            wgpu::BindingResource::TextureView(diffuse),
-            wgpu::BindingResource::TextureView(normal),
-            wgpu::BindingResource::Sampler(&self.sampler),
-        ];
-        bind_group(device, "material", &layouts.material, resources)
+        let (material, views) = (&self.materials[index], &self.maps[index].views);
+        let sampler = |slot| Sampler(&self.samplers[&sampler_key(material, slot)]);
+        let values = uniform(0, size_of::<shaders::Material>());
+        match maps {
+            Maps::Two => {
+                let [diffuse, normal] = [MapSlot::Diffuse, MapSlot::Normal].map(|slot| &views[slot as usize]);
+                let resources = [
+                    values,
+                    TextureView(diffuse),
+                    TextureView(normal),
+                    sampler(MapSlot::Diffuse),
+                ];
+                bind_group(device, "material", &layouts.material, resources)
+            }
+            Maps::All => {
+                let mut resources = vec![values, uniform(1, size_of::<shaders::MaterialMaps>())];
+                for slot in MapSlot::ALL {
+                    resources.extend([TextureView(&views[slot as usize]), sampler(slot)]);
+                }
+                bind_group(device, "material with all maps", &layouts.material_all, resources)
+            }
+        }
     }
 }
 
-/// Repeats, trilinear. Devices without anisotropic filtering treat the number as 1. It is off on software devices, where it would
-/// cost many times as much as the rest of the frame.
-fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
+fn sampler_key(material: &Material, slot: MapSlot) -> SamplerKey {
+    let sampling = material.map(slot).map(|map| map.sampling).unwrap_or_default();
+    (sampling.wrap, sampling.nearest)
+}
+
+/// Trilinear. Devices without anisotropic filtering treat the number as 1. It is off on software devices, where it would cost many
+/// times as much as the rest of the frame.
+fn sampler(device: &wgpu::Device, (wrap, nearest): SamplerKey) -> wgpu::Sampler {
     let is_software = is_software(&device.adapter_info());
+    let [address_mode_u, address_mode_v] = wrap.map(|wrap| match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+    });
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some("maps"),
-        address_mode_u: wgpu::AddressMode::Repeat,
-        address_mode_v: wgpu::AddressMode::Repeat,
-        mag_filter: wgpu::FilterMode::Linear,
+        address_mode_u,
+        address_mode_v,
+        mag_filter: if nearest {
+            wgpu::FilterMode::Nearest
+        } else {
+            wgpu::FilterMode::Linear
+        },
         min_filter: wgpu::FilterMode::Linear,
         mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        anisotropy_clamp: if is_software { 1 } else { ANISOTROPY },
+        // Only linear filters may be anisotropic.
+        anisotropy_clamp: if is_software || nearest { 1 } else { ANISOTROPY },
         ..Default::default()
     })
 }
 
-/// What a material's uniform depends on in its maps.
+/// What a material's uniforms depend on in its maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct MapFacts {
-    has_diffuse: bool,
+struct MapFacts {
+    /// A bit for each map, in the order of [`MapSlot::ALL`].
+    present: u32,
     /// Of the diffuse map.
     has_alpha: bool,
     /// Of the normal map: 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
@@ -167,11 +255,12 @@ pub(super) struct MapFacts {
 }
 
 impl MapFacts {
-    pub(super) fn of(images: MaterialImages<'_>) -> Self {
+    fn of(images: MaterialImages<'_>) -> Self {
+        let present = |slot: MapSlot| u32::from(images[slot as usize].is_some()) << slot as u32;
         Self {
-            has_diffuse: images.diffuse.is_some(),
-            has_alpha: images.diffuse.is_some_and(|image| image.has_alpha()),
-            normal_channels: match images.normal {
+            present: MapSlot::ALL.into_iter().map(present).sum(),
+            has_alpha: images[MapSlot::Diffuse as usize].is_some_and(|image| image.has_alpha()),
+            normal_channels: match images[MapSlot::Normal as usize] {
                 Some(image) if image.channels() == Channels::RedGreen => 2,
                 Some(image) if image.has_alpha() => 4,
                 Some(_) => 3,
@@ -181,15 +270,50 @@ impl MapFacts {
     }
 }
 
+/// Which maps a material reads. Those of a .m3d file say nothing that two maps, sampled as the books do, do not show.
+fn maps_of(material: &Material, has_colors: bool) -> Maps {
+    let is_sampled_otherwise = |slot| {
+        let map = material.map(slot);
+        map.is_some_and(|map| map.sampling != Sampling::default())
+    };
+    let says_more = has_colors
+        || matches!(material.reflectance, Reflectance::MetallicRoughness { .. })
+        || material.alpha == AlphaMode::Blend
+        || material.opacity != 1.0
+        || material.unlit
+        || material.emissive != [0.0; 3]
+        || material.normal_scale != 1.0
+        || [MapSlot::MetallicRoughness, MapSlot::Occlusion, MapSlot::Emissive]
+            .into_iter()
+            .any(|slot| material.map(slot).is_some())
+        || [MapSlot::Diffuse, MapSlot::Normal]
+            .into_iter()
+            .any(is_sampled_otherwise);
+    if says_more { Maps::All } else { Maps::Two }
+}
+
+/// What alpha does to a material whose uniform this is.
+fn alpha(material: &Material, uniform: &shaders::Material, maps: MapFacts, has_colors: bool) -> Alpha {
+    match material.alpha {
+        AlphaMode::Mask { .. } if uniform.alpha_clip > 0.0 => Alpha::Cut,
+        AlphaMode::Blend if maps.has_alpha || has_colors || material.opacity < 1.0 => Alpha::Blended,
+        AlphaMode::Opaque | AlphaMode::Mask { .. } | AlphaMode::Blend => Alpha::Whole,
+    }
+}
+
 /// The uniform of the material with this index, which depends on the maps that are there.
-pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts) -> shaders::Material {
+fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_colors: bool) -> shaders::Material {
     let unit = |color: [f32; 3]| color.map(|channel| channel.clamp(0.0, 1.0));
-    let stand_in = scene::stand_in_color(index, material).filter(|_| !maps.has_diffuse);
+    let has_diffuse = maps.present & 1 << MapSlot::Diffuse as u32 != 0;
+    let stand_in = scene::stand_in_color(index, material).filter(|_| !has_diffuse);
+    let varies = maps.has_alpha || has_colors;
+    let least_alpha = material.least_alpha();
     let common = shaders::Material {
         albedo: stand_in.unwrap_or(unit(material.diffuse)),
-        alpha_clip: match material.alpha {
-            AlphaMode::Mask { cutoff } if maps.has_alpha => cutoff,
-            _ => 0.0,
+        alpha_clip: if varies || material.opacity < least_alpha {
+            least_alpha
+        } else {
+            0.0
         },
         book_albedo: stand_in.map_or(unit(material.diffuse), |color| color.map(srgb_from_linear)),
         normal_channels: maps.normal_channels,
@@ -202,9 +326,10 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
             roughness: roughness.clamp(0.0, 1.0),
             ..common
         },
-        Reflectance::MetallicRoughness { metallic, roughness } => shaders::Material {
-            fresnel0: unit(material.diffuse).map(|channel| 0.04 + (channel - 0.04) * metallic.clamp(0.0, 1.0)),
+        // Shaders take Fresnel0 from the diffuse colour and the metalness of each point. Alpha of the normal map is no gloss.
+        Reflectance::MetallicRoughness { roughness, .. } => shaders::Material {
             roughness: roughness.clamp(0.0, 1.0),
+            normal_channels: maps.normal_channels.min(3),
             ..common
         },
         Reflectance::Phong {
@@ -228,6 +353,51 @@ pub(super) fn material_uniform(index: usize, material: &Material, maps: MapFacts
             reflectivity: unit(reflectivity),
             ..common
         },
+    }
+}
+
+/// What a material says about all maps, beside its uniform.
+fn maps_uniform(
+    material: &Material,
+    uniform: &shaders::Material,
+    maps: MapFacts,
+    alpha: Alpha,
+) -> shaders::MaterialMaps {
+    let is_blended = alpha == Alpha::Blended;
+    shaders::MaterialMaps {
+        places: MapSlot::ALL.map(|slot| {
+            let sampling = material.map(slot).map(|map| map.sampling).unwrap_or_default();
+            map_place(sampling.map_from_mesh, sampling.second_tex_coords)
+        }),
+        emissive: material.emissive.map(|channel| channel.max(0.0)),
+        opacity: material.opacity.clamp(0.0, 1.0),
+        metallic: match material.reflectance {
+            Reflectance::MetallicRoughness { metallic, .. } => metallic.clamp(0.0, 1.0),
+            Reflectance::Fresnel { .. } | Reflectance::Phong { .. } => 0.0,
+        },
+        normal_scale: material.normal_scale,
+        occlusion_strength: material.occlusion_strength.clamp(0.0, 1.0),
+        least_solid_alpha: if is_blended {
+            LEAST_SOLID_ALPHA
+        } else {
+            uniform.alpha_clip
+        },
+        present: maps.present,
+        has_map_alpha: u32::from(maps.has_alpha),
+        is_metallic_roughness: u32::from(matches!(material.reflectance, Reflectance::MetallicRoughness { .. })),
+        is_unlit: u32::from(material.unlit),
+        // Both sides of anything else are drawn; of glass the other side would show through as a second layer.
+        is_single_sided: u32::from(is_blended && !material.double_sided),
+        ..Default::default()
+    }
+}
+
+fn map_place(map_from_mesh: Affine2, second_tex_coords: bool) -> MapPlace {
+    let (matrix, moved) = (map_from_mesh.matrix2, map_from_mesh.translation);
+    let second = if second_tex_coords { 1.0 } else { 0.0 };
+    MapPlace {
+        u: [matrix.x_axis.x, matrix.y_axis.x, moved.x, second],
+        v: [matrix.x_axis.y, matrix.y_axis.y, moved.y, 0.0],
     }
 }
 

@@ -8,6 +8,7 @@
 //! Only what WebGL2 has is used: no storage buffers and no compute. Joint matrices come from a texture, and textures that are drawn
 //! into and then read have eight bits a channel.
 
+mod blending;
 mod buffers;
 mod composite;
 pub mod device;
@@ -52,7 +53,7 @@ use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
 use overlays::Overlays;
 use pipelines::Pipelines;
-use recipe::{Cut, Draw, ModelDraw, Shading};
+use recipe::{Cut, Draw, Maps, ModelDraw, Shading};
 use timing::{FrameEncoder, FrameTimer};
 
 /// What a renderer is made for.
@@ -200,16 +201,20 @@ impl Renderer {
         let Some(model) = &mut self.model else { return 0 };
         self.shape.replace();
         let uploaded = self.maps.update(device, queue, maps);
-        model
-            .materials
-            .set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
+        model.set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
         uploaded
     }
 
     /// Replaces the values of the model's materials, in their order; their maps stay. Does nothing without a model.
     pub fn set_materials(&mut self, materials: &[Material]) {
+        let Common {
+            device,
+            queue,
+            pipelines,
+            ..
+        } = &self.common;
         if let Some(model) = &mut self.model {
-            model.materials.set_values(&self.common.queue, materials);
+            model.set_materials(device, queue, &pipelines.layouts, materials);
             self.shape.replace();
         }
     }
@@ -254,7 +259,7 @@ impl Renderer {
 
     fn unprepared(&self) -> Option<Draw> {
         let model = self.model.as_ref()?;
-        let wanted = Draw::within_reach(model.bones.is_some(), model.has_cut_submeshes());
+        let wanted = Draw::within_reach(model.bones.is_some(), &model.kinds());
         wanted.into_iter().find(|draw| !self.common.pipelines.has(*draw))
     }
 
@@ -393,6 +398,9 @@ impl Renderer {
         } = &self.common;
         // A background covers all that the model leaves, but smooth edges store no alpha: it is there from the beginning.
         let has_background = options.background != Background::None;
+        let is_lit = options.view_mode == ViewMode::Lit;
+        // Colours of the skin are the own instance's alone.
+        let colored = frame.vertex_colors.is_some();
         let mut pass = target.begin_pass(
             encoder,
             if has_background {
@@ -415,14 +423,11 @@ impl Renderer {
             if let Some((model, own)) = model
                 && begin_part(&mut pass, part)
             {
-                let shading = match options.view_mode {
-                    ViewMode::Lit => Shading::Lit(part.0),
-                    _ => Shading::Inspect,
-                };
+                let shading = if is_lit { Shading::Lit(part.0) } else { Shading::Inspect };
                 // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
                 let cut = if has_background { Cut::Smooth } else { Cut::Hard };
-                // Colours of vertices are the own instance's alone.
-                let colored = frame.vertex_colors.is_some();
+                // A property that is seen through another could not be read off: blended surfaces show theirs alone.
+                let of_blended = if is_lit { Cut::OpaquePart } else { cut };
                 let instances = if colored {
                     self.instances.crowd_in_sight()
                 } else {
@@ -430,11 +435,13 @@ impl Renderer {
                 };
                 if instances.count > 0 {
                     let (_, posed) = with((model, own), instances);
-                    model.draw(&mut pass, posed, cut, |cut| ModelDraw::Mesh(shading, cut));
+                    model.draw(&mut pass, posed, [cut, of_blended], |cut, maps| {
+                        ModelDraw::Mesh(shading, cut, maps)
+                    });
                 }
                 if colored {
                     pass.set_bind_group(2, nothing, &[]);
-                    model.draw(&mut pass, own, Cut::Hard, ModelDraw::SkinView);
+                    model.draw(&mut pass, own, [Cut::Hard; 2], ModelDraw::SkinView);
                 }
             }
         }
@@ -446,6 +453,20 @@ impl Renderer {
                     pass.set_bind_group(1, nothing, &[]);
                     pass.draw(0..3, 0..1);
                 }
+            }
+        }
+        // After the background, which shows through it.
+        let blended = model
+            .filter(|_| is_lit)
+            .map(|(model, _)| model.blended(frame, !colored));
+        for part in parts.iter().rev() {
+            if let (Some(model), Some(order)) = (model, &blended)
+                && !order.is_empty()
+                && begin_part(&mut pass, part)
+            {
+                let (model, posed) = with(model, self.instances.in_sight());
+                let draw = ModelDraw::Mesh(Shading::Lit(part.0), Cut::Blended, Maps::All);
+                model.draw_blended(&mut pass, posed, order, draw);
             }
         }
         for part in parts {

@@ -3,15 +3,20 @@
 use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 
+use glam::Vec4;
+
+use super::blending::{Center, farthest_first};
 use super::buffers::{Queue, UploadError, Uploader};
 use super::instances::{BoneTexture, InstanceRange};
-use super::maps::MapTextures;
+use super::maps::{MapTextures, MaterialImages};
 use super::materials::GpuMaterials;
-use super::pipelines::{COLOR_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, POSITION_SLOT, Pipelines, SURFACE_SLOT};
-use super::recipe::{Cut, Draw, ModelDraw};
+use super::pipelines::{
+    COLOR_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, MORE_MAPS_SLOT, POSITION_SLOT, Pipelines, SURFACE_SLOT,
+};
+use super::recipe::{Alpha, Cut, Draw, Maps, ModelDraw};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, winding};
-use crate::model::{Mesh, Model};
-use crate::scene::VertexColors;
+use crate::model::{Material, Mesh, Model};
+use crate::scene::{RenderFrame, VertexColors};
 use crate::shaders;
 
 /// How a model is drawn in a pass.
@@ -32,9 +37,13 @@ pub(super) struct GpuModel {
     positions: wgpu::Buffer,
     surface: wgpu::Buffer,
     influences: Option<wgpu::Buffer>,
+    /// Colours and second texture coordinates, when a material reads all maps.
+    more_maps: Option<wgpu::Buffer>,
     indices: wgpu::Buffer,
-    pub(super) materials: GpuMaterials,
+    materials: GpuMaterials,
     ranges: Vec<DrawRange>,
+    /// Of each range.
+    centers: Vec<Center>,
     /// The indices, kept for the edges.
     triangles: Vec<u32>,
     edges: OnceCell<Edges>,
@@ -75,12 +84,21 @@ impl GpuModel {
         });
         let is_skinned = joints > 0 && !mesh.influences.is_empty();
         let vertex = wgpu::BufferUsages::VERTEX;
-        let materials = GpuMaterials::upload(&uploader, layouts, textures, &model.materials)?;
+        let has_colors = !mesh.colors.is_empty();
+        let materials = GpuMaterials::upload(&uploader, layouts, textures, &model.materials, has_colors)?;
+        let has_more = has_colors || !mesh.second_tex_coords.is_empty() || materials.read_all_maps();
+        let ranges = draw_ranges(mesh, model.materials.len());
         Ok(Self {
             positions: uploader.upload("positions", vertex, mesh.vertex_count(), positions)?,
             surface: uploader.upload("vertices", vertex, mesh.vertex_count(), surface)?,
             influences: if is_skinned {
                 Some(uploader.upload("influences", vertex, mesh.influences.len(), influences)?)
+            } else {
+                None
+            },
+            more_maps: if has_more {
+                let vertices = (0..mesh.vertex_count()).map(|vertex| more_maps_vertex(mesh, vertex));
+                Some(uploader.upload("colours", vertex, mesh.vertex_count(), vertices)?)
             } else {
                 None
             },
@@ -91,7 +109,8 @@ impl GpuModel {
                 mesh.indices.iter().copied(),
             )?,
             materials,
-            ranges: draw_ranges(mesh, model.materials.len()),
+            centers: Center::of(mesh, &ranges, joints),
+            ranges,
             triangles: mesh.indices.clone(),
             edges: OnceCell::new(),
             vertex_count: mesh.vertex_count(),
@@ -100,6 +119,36 @@ impl GpuModel {
             winding: winding(mesh),
             drawn_vertices: Cell::new(0),
         })
+    }
+
+    /// See [`Renderer::set_maps`](super::Renderer::set_maps). `textures` was updated with the same maps.
+    pub(super) fn set_maps(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &Queue,
+        layouts: &Layouts,
+        textures: &MapTextures,
+        maps: &[MaterialImages<'_>],
+    ) {
+        self.materials.set_maps(device, queue, layouts, textures, maps);
+    }
+
+    /// Replaces the values of the materials, in their order; their maps stay.
+    pub(super) fn set_materials(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &Queue,
+        layouts: &Layouts,
+        materials: &[Material],
+    ) {
+        self.materials.set_values(device, queue, layouts, materials);
+        if self.more_maps.is_none() && self.materials.read_all_maps() {
+            let (usage, limits) = (wgpu::BufferUsages::VERTEX, device.limits());
+            let uploader = Uploader { device, queue, limits };
+            let white = std::iter::repeat_n(more_maps_vertex(&Mesh::default(), 0), self.vertex_count);
+            // It is smaller than the vertices that are there.
+            self.more_maps = uploader.upload("colours", usage, self.vertex_count, white).ok();
+        }
     }
 
     /// Uploads colours of the vertices, if their revision is another one.
@@ -124,30 +173,38 @@ impl GpuModel {
         self.colors = Some((colors.revision, buffer));
     }
 
-    /// Draws every visible submesh with its material. `cut` is how those with alpha are cut; `draw` says what to draw for a cut.
-    /// The caller sets group 0, and group 2 where it is read.
+    /// Draws every visible submesh with its material. The cuts are of those with holes, and of blended ones; `draw` says what to draw
+    /// for a cut. The caller sets group 0, and group 2 where it is read.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         posed: Posed<'_>,
-        cut: Cut,
-        draw: impl Fn(Cut) -> ModelDraw,
+        [cut, of_blended]: [Cut; 2],
+        draw: impl Fn(Cut, Maps) -> ModelDraw,
     ) {
         let mut drawn = Drawn::default();
-        for (is_cut, cut) in [(false, Cut::Whole), (true, cut)] {
+        let alphas = [
+            (Alpha::Whole, Cut::Whole),
+            (Alpha::Cut, cut),
+            (Alpha::Blended, of_blended),
+        ];
+        let kinds = alphas
+            .into_iter()
+            .flat_map(|(alpha, cut)| [Maps::Two, Maps::All].map(|maps| ((alpha, maps), cut)));
+        for (kind, cut) in kinds {
             let mut ranges = self
                 .in_view(posed.hidden)
-                .filter(|range| self.materials.is_cut(range.material) == is_cut)
+                .filter(|range| self.materials.kind(range.material) == kind)
                 .peekable();
             if ranges.peek().is_some() {
-                self.bind(pass, posed, draw(cut));
+                self.bind(pass, posed, draw(cut, kind.1));
             }
             for range in ranges {
                 // All cut triangles are drawn: one may be seen through the holes of another.
-                let parts = if is_cut {
-                    drawn.missing(&range.indices)
-                } else {
+                let parts = if kind.0 == Alpha::Whole {
                     drawn.add(&range.indices)
+                } else {
+                    drawn.missing(&range.indices)
                 };
                 if !parts.is_empty() {
                     self.materials.bind(pass, range.material);
@@ -159,29 +216,68 @@ impl GpuModel {
         }
     }
 
-    /// Draws all visible triangles without their materials, in as few draws as possible. The caller sets group 0.
+    /// Instances and ranges to blend, the farthest first; without `own`, those of the crowd alone.
+    pub(super) fn blended(&self, frame: &RenderFrame<'_>, own: bool) -> Vec<(u32, usize)> {
+        let is_blended = |range: usize| {
+            let range = &self.ranges[range];
+            !is_hidden(frame.hidden_submeshes, range.submesh) && self.materials.kind(range.material).0 == Alpha::Blended
+        };
+        farthest_first(frame, &self.centers, is_blended, own)
+    }
+
+    /// Draws what [`GpuModel::blended`] found of these instances. The caller sets groups 0 and 2.
+    pub(super) fn draw_blended(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        posed: Posed<'_>,
+        order: &[(u32, usize)],
+        draw: ModelDraw,
+    ) {
+        if !order.is_empty() {
+            self.bind(pass, posed, draw);
+        }
+        for &(instance, range) in order {
+            let range = &self.ranges[range];
+            pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instance));
+            self.materials.bind(pass, range.material);
+            self.count(range.indices.len() as u64);
+            pass.draw_indexed(range.indices.clone(), 0, 0..1);
+        }
+    }
+
+    /// Draws all visible triangles without their materials, in as few draws as possible; for contact without those that much shows
+    /// through. The caller sets group 0.
     pub(super) fn draw_shape(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
         self.bind(pass, posed, draw);
         let mut shape = Drawn::default();
         for range in self.in_view(posed.hidden) {
-            shape.add(&range.indices);
+            if draw != ModelDraw::Contact || !self.materials.is_thin(range.material) {
+                shape.add(&range.indices);
+            }
         }
         for range in shape.ranges() {
             self.draw_indices(pass, posed, range);
         }
     }
 
-    /// Whether the alpha of a map cuts some of it.
-    pub(super) fn has_cut_submeshes(&self) -> bool {
-        self.ranges.iter().any(|range| self.materials.is_cut(range.material))
+    /// What alpha does to its materials, and which maps they read: each kind once.
+    pub(super) fn kinds(&self) -> Vec<(Alpha, Maps)> {
+        let mut kinds = Vec::new();
+        for kind in self.ranges.iter().map(|range| self.materials.kind(range.material)) {
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+            }
+        }
+        kinds
     }
 
     /// Draws what casts a shadow. The caller sets group 0.
     pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
-        if self.has_cut_submeshes() {
-            self.draw(pass, posed, Cut::Hard, ModelDraw::Caster);
+        let is_holed = |range: &DrawRange| self.materials.kind(range.material).0 != Alpha::Whole;
+        if self.ranges.iter().any(is_holed) {
+            self.draw(pass, posed, [Cut::Hard; 2], ModelDraw::Caster);
         } else {
-            self.draw_shape(pass, posed, ModelDraw::Caster(Cut::Whole));
+            self.draw_shape(pass, posed, ModelDraw::Caster(Cut::Whole, Maps::Two));
         }
     }
 
@@ -273,6 +369,9 @@ impl GpuModel {
         if let (true, Some((_, colors))) = (draw.reads_colors(), &self.colors) {
             pass.set_vertex_buffer(COLOR_SLOT, colors.slice(..));
         }
+        if let (Some(Maps::All), Some(more_maps)) = (draw.maps(), &self.more_maps) {
+            pass.set_vertex_buffer(MORE_MAPS_SLOT, more_maps.slice(..));
+        }
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
     }
 }
@@ -286,5 +385,17 @@ fn surface_vertex(mesh: &Mesh, vertex: usize) -> shaders::SurfaceVertex {
         normal: mesh.normals.get(vertex).copied().unwrap_or_default().to_array(),
         tangent: mesh.tangents.get(vertex).copied().unwrap_or_default().to_array(),
         tex_coord: mesh.tex_coords.get(vertex).copied().unwrap_or_default().to_array(),
+    }
+}
+
+/// White where the mesh has no colours.
+fn more_maps_vertex(mesh: &Mesh, vertex: usize) -> shaders::MoreMapsVertex {
+    let color = mesh.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
+    let second = mesh.second_tex_coords.get(vertex).copied().unwrap_or_default();
+    shaders::MoreMapsVertex {
+        color: color
+            .to_array()
+            .map(|channel| (channel.clamp(0.0, 1.0) * 65535.0).round() as u16),
+        second_tex_coord: second.to_array(),
     }
 }

@@ -5,10 +5,11 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::instances::BoneTexture;
-use super::recipe::{Cut, Draw, ModelDraw, Recipe};
+use super::recipe::{Draw, Maps, ModelDraw, Recipe};
 use super::target::SampleCount;
+use crate::model::MapSlot;
 use crate::scene::OverlayVertex;
-use crate::shaders::{self, InfluenceVertex, Instance, PositionVertex, Program, SurfaceVertex};
+use crate::shaders::{self, InfluenceVertex, Instance, MoreMapsVertex, PositionVertex, Program, SurfaceVertex};
 
 /// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
@@ -17,7 +18,10 @@ pub(super) struct Layouts {
     pub(super) frame: wgpu::BindGroupLayout,
     pub(super) bones: wgpu::BindGroupLayout,
     pub(super) lighting: wgpu::BindGroupLayout,
+    /// Of materials that read two maps.
     pub(super) material: wgpu::BindGroupLayout,
+    /// Of materials that read all maps.
+    pub(super) material_all: wgpu::BindGroupLayout,
     /// A colour and a length.
     pub(super) line: wgpu::BindGroupLayout,
     /// Normals and depth in view, and the occlusion to be blurred.
@@ -84,6 +88,15 @@ impl Layouts {
                     filtering,
                 ],
             ),
+            material_all: layout("material with all maps", &{
+                let map = [flat(filtered), filtering];
+                let mut entries = vec![
+                    (fragment, uniform::<shaders::Material>()),
+                    (vertex | fragment, uniform::<shaders::MaterialMaps>()),
+                ];
+                entries.extend(MapSlot::ALL.into_iter().flat_map(|_| map));
+                entries
+            }),
             line: layout("line", &[(vertex | fragment, uniform::<shaders::Line>())]),
             occlusion: layout("occlusion", &[flat(filtered), flat(filtered)]),
             texels: layout("texels", &[flat(filtered)]),
@@ -123,9 +136,11 @@ pub(super) const POSITION_SLOT: u32 = 1;
 pub(super) const SURFACE_SLOT: u32 = 2;
 pub(super) const INFLUENCE_SLOT: u32 = 3;
 pub(super) const COLOR_SLOT: u32 = 4;
+pub(super) const MORE_MAPS_SLOT: u32 = 5;
 
 const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Float32x3];
 const SURFACE: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![1 => Float32x3, 2 => Float32x4, 3 => Float32x2];
+const MORE_MAPS: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![13 => Unorm16x4, 14 => Float32x2];
 const INFLUENCES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
 const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Uint32, 12 => Float32
@@ -216,6 +231,7 @@ impl Pipelines {
         let surface = buffer(size_of::<SurfaceVertex>(), step, &SURFACE);
         let influences = buffer(size_of::<InfluenceVertex>(), step, &INFLUENCES);
         let colors = buffer(size_of::<[u8; 4]>(), step, &VERTEX_COLOR);
+        let more_maps = buffer(size_of::<MoreMapsVertex>(), step, &MORE_MAPS);
         let buffers = match draw {
             Draw::Model { draw, skinned } => vec![
                 instances,
@@ -223,6 +239,7 @@ impl Pipelines {
                 surface.filter(|_| draw.reads_surface()),
                 influences.filter(|_| skinned),
                 colors.filter(|_| draw.reads_colors()),
+                more_maps.filter(|_| draw.maps() == Some(Maps::All)),
             ],
             Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
             _ => Vec::new(),
@@ -266,20 +283,27 @@ impl Pipelines {
             bones,
             lighting,
             material,
+            material_all,
             line,
             occlusion,
             texels,
             nothing,
         } = &self.layouts;
         match draw {
-            Draw::Model { draw, .. } => match draw {
-                ModelDraw::Mesh(..) => vec![frame, bones, lighting, material],
-                ModelDraw::Caster(Cut::Whole) | ModelDraw::Contact | ModelDraw::Highlight => vec![frame, bones],
-                ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::SkinView(_) => {
-                    vec![frame, bones, nothing, material]
+            Draw::Model { draw, .. } => {
+                let material = draw.maps().map(|maps| match maps {
+                    Maps::Two => material,
+                    Maps::All => material_all,
+                });
+                match (draw, material) {
+                    (ModelDraw::Mesh(..), Some(material)) => vec![frame, bones, lighting, material],
+                    (_, Some(material)) => vec![frame, bones, nothing, material],
+                    (ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents, None) => {
+                        vec![frame, bones, nothing, line]
+                    }
+                    (_, None) => vec![frame, bones],
                 }
-                ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents => vec![frame, bones, nothing, line],
-            },
+            }
             Draw::Backdrop => vec![frame, nothing, lighting],
             Draw::World { .. } => vec![frame, nothing, nothing, line],
             Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, occlusion],

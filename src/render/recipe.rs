@@ -11,26 +11,62 @@ pub(super) enum Shading {
     Inspect,
 }
 
-/// How the alpha of a diffuse map cuts holes.
+/// What of a material its program reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Maps {
+    /// The diffuse and the normal map, both sampled as the books do: all that a .m3d file has.
+    Two,
+    /// Five maps, each sampled in a way of its own, and colours of vertices: all that a glTF file has.
+    All,
+}
+
+/// What alpha does to a material, as it is with its maps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Alpha {
+    /// Nothing.
+    Whole,
+    /// It cuts holes.
+    Cut,
+    /// It blends with what is behind.
+    Blended,
+}
+
+impl Alpha {
+    /// How a material is drawn under a light, over a background.
+    fn cuts_when_lit(self) -> impl Iterator<Item = Cut> {
+        let cuts: &[Cut] = match self {
+            Self::Whole => &[Cut::Whole],
+            Self::Cut => &[Cut::Smooth],
+            Self::Blended => &[Cut::OpaquePart, Cut::Blended],
+        };
+        cuts.iter().copied()
+    }
+}
+
+/// Which pixels alpha leaves of what is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Cut {
-    /// Not at all.
+    /// All.
     Whole,
     /// Whole pixels.
     Hard,
     /// With smooth edges, over an opaque background: alpha chooses the samples of a pixel and is not stored. With one sample a
     /// pixel it is [`Cut::Hard`].
     Smooth,
+    /// Those of a blended material that are opaque.
+    OpaquePart,
+    /// The others of it, blended over what is there.
+    Blended,
 }
 
 /// What is drawn of the model's triangles or vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ModelDraw {
-    Mesh(Shading, Cut),
+    Mesh(Shading, Cut, Maps),
     /// The model in the colours of its vertices.
-    SkinView(Cut),
-    Caster(Cut),
-    Geometry(Cut),
+    SkinView(Cut, Maps),
+    Caster(Cut, Maps),
+    Geometry(Cut, Maps),
     Contact,
     Edges,
     Normals,
@@ -41,12 +77,23 @@ pub(super) enum ModelDraw {
 impl ModelDraw {
     /// Whether it reads normals, tangents or texture coordinates of vertices, not positions alone.
     pub(super) fn reads_surface(self) -> bool {
-        !matches!(self, Self::Caster(Cut::Whole) | Self::Contact | Self::Edges)
+        !matches!(self, Self::Caster(Cut::Whole, _) | Self::Contact | Self::Edges)
     }
 
-    /// Whether it reads colours of vertices.
+    /// Whether it reads colours of vertices that were made from the skin.
     pub(super) fn reads_colors(self) -> bool {
-        matches!(self, Self::SkinView(_))
+        matches!(self, Self::SkinView(..))
+    }
+
+    /// Which maps it reads; none where it reads no material.
+    pub(super) fn maps(self) -> Option<Maps> {
+        match self {
+            Self::Caster(Cut::Whole, _) => None,
+            Self::Mesh(_, _, maps) | Self::SkinView(_, maps) | Self::Caster(_, maps) | Self::Geometry(_, maps) => {
+                Some(maps)
+            }
+            Self::Contact | Self::Edges | Self::Normals | Self::Tangents | Self::Highlight => None,
+        }
     }
 }
 
@@ -74,9 +121,10 @@ impl Draw {
     /// Whether it is drawn into the picture itself, not into a map that the picture reads.
     pub(super) fn is_in_picture(self) -> bool {
         match self {
-            Self::Model { draw, .. } => {
-                !matches!(draw, ModelDraw::Caster(_) | ModelDraw::Geometry(_) | ModelDraw::Contact)
-            }
+            Self::Model { draw, .. } => !matches!(
+                draw,
+                ModelDraw::Caster(..) | ModelDraw::Geometry(..) | ModelDraw::Contact
+            ),
             Self::Backdrop | Self::World { .. } => true,
             Self::Occlusion(_)
             | Self::OcclusionBlurRows
@@ -87,14 +135,23 @@ impl Draw {
     }
 
     /// What one key or the pointer may ask for while a model is open, in a picture with a background, the likeliest first: what the
-    /// pointer marks, the other light, view modes, wires, bones, weights, normals.
-    pub(super) fn within_reach(skinned: bool, has_cuts: bool) -> Vec<Self> {
-        let cuts = |cut| [Cut::Whole, cut].into_iter().take(if has_cuts { 2 } else { 1 });
-        let mesh = |shading| cuts(Cut::Smooth).map(move |cut| ModelDraw::Mesh(shading, cut));
+    /// pointer marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials.
+    pub(super) fn within_reach(skinned: bool, kinds: &[(Alpha, Maps)]) -> Vec<Self> {
+        let cuts = |cut| {
+            kinds.iter().map(move |&(alpha, maps)| match alpha {
+                Alpha::Whole => (Cut::Whole, maps),
+                Alpha::Cut | Alpha::Blended => (cut, maps),
+            })
+        };
         let of_model = |draw| Self::Model { draw, skinned };
         let mut draws = vec![of_model(ModelDraw::Highlight)];
         for light in Light::ALL {
-            draws.extend(mesh(Shading::Lit(light)).map(of_model));
+            let mesh = move |cut, maps| of_model(ModelDraw::Mesh(Shading::Lit(light), cut, maps));
+            draws.extend(
+                kinds
+                    .iter()
+                    .flat_map(|&(alpha, maps)| alpha.cuts_when_lit().map(move |cut| mesh(cut, maps))),
+            );
             draws.push(Self::Occlusion(light));
         }
         draws.extend([
@@ -102,10 +159,11 @@ impl Draw {
             Self::ContactBlurRows,
             Self::ContactBlurColumns,
         ]);
-        draws.extend(mesh(Shading::Inspect).map(of_model));
+        let inspected = cuts(Cut::Smooth).map(|(cut, maps)| ModelDraw::Mesh(Shading::Inspect, cut, maps));
+        draws.extend(inspected.map(of_model));
         draws.push(of_model(ModelDraw::Edges));
         draws.extend([WorldShape::Triangles, WorldShape::Lines].map(|shape| Self::World { shape, through: true }));
-        draws.extend(cuts(Cut::Hard).map(ModelDraw::SkinView).map(of_model));
+        draws.extend(cuts(Cut::Hard).map(|(cut, maps)| of_model(ModelDraw::SkinView(cut, maps))));
         draws.push(of_model(ModelDraw::Normals));
         draws
     }
@@ -208,35 +266,49 @@ impl Recipe {
             samples,
         };
         match draw {
-            ModelDraw::Mesh(shading, cut) => {
-                let program = match shading {
-                    Shading::Lit(Light::Studio) => shaders::MESH_STUDIO,
-                    Shading::Lit(Light::Book) => shaders::MESH_BOOK,
-                    Shading::Inspect => shaders::MESH_INSPECT,
+            ModelDraw::Mesh(shading, cut, maps) => {
+                let program = match (shading, maps) {
+                    (Shading::Lit(Light::Studio), Maps::Two) => shaders::MESH_STUDIO,
+                    (Shading::Lit(Light::Studio), Maps::All) => shaders::MESH_STUDIO_ALL,
+                    (Shading::Lit(Light::Book), Maps::Two) => shaders::MESH_BOOK,
+                    (Shading::Lit(Light::Book), Maps::All) => shaders::MESH_BOOK_ALL,
+                    (Shading::Inspect, Maps::Two) => shaders::MESH_INSPECT,
+                    (Shading::Inspect, Maps::All) => shaders::MESH_INSPECT_ALL,
                 };
                 let smooth = cut == Cut::Smooth && picture != SampleCount::One;
                 let fragment = match cut {
                     Cut::Whole => "fragment",
                     Cut::Smooth if smooth => "fragment_cut_smooth",
                     Cut::Hard | Cut::Smooth => "fragment_cut",
+                    Cut::OpaquePart => "fragment_opaque_part",
+                    Cut::Blended => "fragment_blended",
                 };
+                let is_blended = cut == Cut::Blended;
                 let color = wgpu::ColorTargetState {
                     write_mask: if smooth {
                         wgpu::ColorWrites::COLOR
                     } else {
                         wgpu::ColorWrites::ALL
                     },
+                    blend: is_blended.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                     ..COLOR_FORMAT.into()
                 };
                 Recipe {
                     alpha_to_coverage: smooth,
+                    // What is blended hides nothing of what is blended after it; a decal may lie in the surface that it is on.
+                    depth: Some(if is_blended {
+                        depth(false, wgpu::CompareFunction::LessEqual)
+                    } else {
+                        depth(true, wgpu::CompareFunction::Less)
+                    }),
                     ..solid(program, Some(fragment), Some(color), picture.count())
                 }
             }
-            ModelDraw::Caster(cut) => {
-                let (program, fragment) = match cut {
-                    Cut::Whole => (shaders::CASTER, None),
-                    Cut::Hard | Cut::Smooth => (shaders::CASTER_CUT, Some("fragment")),
+            ModelDraw::Caster(cut, maps) => {
+                let (program, fragment) = match (cut, maps) {
+                    (Cut::Whole, _) => (shaders::CASTER, None),
+                    (_, Maps::Two) => (shaders::CASTER_CUT, Some("fragment")),
+                    (_, Maps::All) => (shaders::CASTER_CUT_ALL, Some("fragment")),
                 };
                 let mut recipe = solid(program, fragment, None, 1);
                 recipe.depth = Some(wgpu::DepthStencilState {
@@ -245,21 +317,21 @@ impl Recipe {
                 });
                 recipe
             }
-            ModelDraw::Geometry(cut) => {
-                let fragment = match cut {
-                    Cut::Whole => "fragment",
-                    Cut::Hard | Cut::Smooth => "fragment_cut",
+            ModelDraw::Geometry(cut, maps) => {
+                let program = match maps {
+                    Maps::Two => shaders::MESH_GEOMETRY,
+                    Maps::All => shaders::MESH_GEOMETRY_ALL,
                 };
-                solid(shaders::MESH_GEOMETRY, Some(fragment), Some(GEOMETRY_FORMAT.into()), 1)
+                solid(program, Some(hard_fragment(cut)), Some(GEOMETRY_FORMAT.into()), 1)
             }
-            ModelDraw::SkinView(cut) => {
-                let fragment = match cut {
-                    Cut::Whole => "fragment",
-                    Cut::Hard | Cut::Smooth => "fragment_cut",
+            ModelDraw::SkinView(cut, maps) => {
+                let program = match maps {
+                    Maps::Two => shaders::SKIN_VIEW,
+                    Maps::All => shaders::SKIN_VIEW_ALL,
                 };
                 solid(
-                    shaders::SKIN_VIEW,
-                    Some(fragment),
+                    program,
+                    Some(hard_fragment(cut)),
                     Some(COLOR_FORMAT.into()),
                     picture.count(),
                 )
@@ -312,6 +384,11 @@ impl Recipe {
             samples: samples.count(),
         }
     }
+}
+
+/// The entry point of programs that cut whole pixels or nothing.
+fn hard_fragment(cut: Cut) -> &'static str {
+    if cut == Cut::Whole { "fragment" } else { "fragment_cut" }
 }
 
 fn depth(write: bool, compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {

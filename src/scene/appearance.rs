@@ -1,6 +1,17 @@
 //! How a model appears: theme, light, view mode, background, lines over it, and which passes are drawn. Plain data.
 
+use crate::image::MapKind;
+use crate::model::MapSlot;
 use crate::modes::modes;
+
+/// What the texels of a map are.
+pub fn map_kind(slot: MapSlot) -> MapKind {
+    match slot {
+        MapSlot::Diffuse | MapSlot::Emissive => MapKind::Diffuse,
+        MapSlot::Normal => MapKind::Normal,
+        MapSlot::MetallicRoughness | MapSlot::Occlusion => MapKind::Data,
+    }
+}
 
 modes! {
     /// Colours of the page, the backdrop and the grid.
@@ -54,13 +65,14 @@ modes! {
         /// Texture coordinates, as a checker of 8 × 8 fields a tile with u as red and v as green.
         TexCoords = "uv", "Texture coordinates";
         /// Roughness, black smooth … white rough, with the gloss in the alpha of normal maps: 1 − (1 − roughness) × alpha, as
-        /// both lights take it. For materials of the DirectX 11 book: what their power comes to.
+        /// both lights take it. For materials of the DirectX 11 book: what their power comes to. For those of glTF the number times the
+        /// map's green.
         Roughness = "roughness", "Roughness";
         /// A colour of its own for each material.
         Material = "material", "Material";
         /// Distance from the viewer, near white … far black.
         Depth = "depth", "Depth";
-        /// Ambient occlusion: black where none of the environment is seen … white where all is.
+        /// Ambient occlusion, times the occlusion map: black where none of the environment is seen … white where all is.
         AmbientOcclusion = "ao", "Ambient occlusion";
         /// How much of the first light arrives, without the surface's angle to it.
         Shadow = "shadow", "Shadow";

@@ -18,7 +18,7 @@ mod skin_colors;
 mod tint;
 
 pub use crate::model::Aabb;
-pub use appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
+pub use appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode, map_kind};
 pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
 pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones, draw_marked_bones};
 pub use bones::{Bone, Bones};
@@ -29,7 +29,7 @@ pub use frame::{
 };
 pub use framing::{Insets, swept_about_y};
 pub use ground::Ground;
-pub use pick::{Hit, pick, tex_coord_at};
+pub use pick::{Hit, pick, value_at};
 pub use ray::Ray;
 pub use shots::{Frames, MOST_SHOTS, Shot};
 pub use sight::Sight;

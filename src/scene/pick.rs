@@ -1,6 +1,6 @@
 //! The first triangle that a ray hits.
 
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Vec3};
 
 use super::Ray;
 use crate::model::Mesh;
@@ -100,12 +100,15 @@ fn nearest_corner(corners: [u32; 3], in_ray: [Vec3; 3], distance: f32) -> u32 {
     corners[index]
 }
 
-/// Texture coordinates of a hit, interpolated between the corners as the renderer does.
-pub fn tex_coord_at(mesh: &Mesh, hit: &Hit) -> Vec2 {
+/// What the vertices of a mesh have, at a hit: interpolated between the corners as the renderer does. Without values it is 0.
+pub fn value_at<T>(mesh: &Mesh, of_vertices: &[T], hit: &Hit) -> T
+where
+    T: Copy + std::ops::Mul<f32, Output = T> + std::iter::Sum,
+{
     let corners = mesh.indices.as_chunks::<3>().0.get(hit.triangle);
     let corners = corners.into_iter().flatten();
     let weights = corners.zip(hit.barycentric.to_array());
     weights
-        .filter_map(|(&corner, weight)| Some(*mesh.tex_coords.get(corner as usize)? * weight))
+        .filter_map(|(&corner, weight)| Some(*of_vertices.get(corner as usize)? * weight))
         .sum()
 }

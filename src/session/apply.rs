@@ -47,6 +47,7 @@ impl Session {
             }
             Command::Quality(command) => self.quality.apply(command),
             Command::Crowd(command) => self.apply_to_crowd(command),
+            Command::Export(command) => self.apply_to_export(command),
             Command::History(command) => self.apply_to_history(command),
             Command::SetHandedness(handedness) => {
                 self.view.handedness = handedness;

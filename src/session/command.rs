@@ -2,6 +2,7 @@
 
 use super::camera::CameraCommand;
 use super::crowd::CrowdCommand;
+use super::exporting::ExportCommand;
 use super::history::HistoryCommand;
 use super::look::LookCommand;
 use super::materials::MaterialCommand;
@@ -37,6 +38,8 @@ pub enum Command {
     Quality(QualityCommand),
     /// Several instances of the model.
     Crowd(CrowdCommand),
+    /// Writing a file of another format.
+    Export(ExportCommand),
     /// Undo and redo.
     History(HistoryCommand),
 
@@ -73,6 +76,7 @@ groups! {
     Material(MaterialCommand),
     Quality(QualityCommand),
     Crowd(CrowdCommand),
+    Export(ExportCommand),
     History(HistoryCommand),
 }
 
@@ -82,7 +86,7 @@ impl Command {
     pub(super) fn is_undoable(&self) -> bool {
         !matches!(
             self,
-            Self::History(_) | Self::Crowd(_) | Self::Name(NameCommand::Import(_))
+            Self::History(_) | Self::Crowd(_) | Self::Export(_) | Self::Name(NameCommand::Import(_))
         )
     }
 }

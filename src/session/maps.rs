@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::image::{self, Image, MapKind};
 use crate::model::{MapSlot, Material};
+use crate::scene::map_kind;
 
 use super::files::File;
 use super::textures::{Checklist, MaterialMaps, find_maps, map_diagnostics, unused_diagnostic};
@@ -202,13 +203,13 @@ impl Maps {
         let mut of_kinds: [Option<Arc<Image>>; MapKind::ALL.len()] = Default::default();
         for (slot, image) in MapSlot::ALL.into_iter().zip(&before) {
             if let Some(image) = image {
-                of_kinds[kind_of(slot) as usize] = Some(Arc::clone(image));
+                of_kinds[map_kind(slot) as usize] = Some(Arc::clone(image));
             }
         }
         MapSlot::ALL.map(|slot| {
-            let of_kind = &mut of_kinds[kind_of(slot) as usize];
+            let of_kind = &mut of_kinds[map_kind(slot) as usize];
             self.is_used_as(index, slot)
-                .then(|| Arc::clone(of_kind.get_or_insert_with(|| with_mips(kind_of(slot)))))
+                .then(|| Arc::clone(of_kind.get_or_insert_with(|| with_mips(map_kind(slot)))))
                 .or_else(|| before[slot as usize].clone())
         })
     }
@@ -326,15 +327,6 @@ impl Maps {
     /// Pictures that could not be read, names that fit several files, and pictures of the last drop that fit none.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
-    }
-}
-
-/// What the texels of a map are.
-fn kind_of(slot: MapSlot) -> MapKind {
-    match slot {
-        MapSlot::Diffuse | MapSlot::Emissive => MapKind::Diffuse,
-        MapSlot::Normal => MapKind::Normal,
-        MapSlot::MetallicRoughness | MapSlot::Occlusion => MapKind::Data,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::{Material, Reflectance};
+use crate::model::{AlphaMode, Material, Reflectance};
 
 /// The greatest specular exponent that can be asked for: a highlight a few pixels wide.
 pub const MAX_SPEC_POWER: f32 = 1024.0;
@@ -129,7 +129,20 @@ fn with_values(material: &Material, wanted: &Material) -> Material {
             },
             (of_one_book, _of_the_other) => of_one_book,
         },
-        alpha: wanted.alpha,
+        alpha: match wanted.alpha {
+            AlphaMode::Mask { cutoff } if !cutoff.is_finite() => material.alpha,
+            alpha => alpha,
+        },
+        opacity: number(material.opacity, wanted.opacity, 1.0),
+        emissive: color(material.emissive, wanted.emissive),
+        occlusion_strength: number(material.occlusion_strength, wanted.occlusion_strength, 1.0),
+        normal_scale: if wanted.normal_scale.is_finite() {
+            wanted.normal_scale
+        } else {
+            material.normal_scale
+        },
+        double_sided: wanted.double_sided,
+        unlit: wanted.unlit,
         ..material.clone()
     }
 }
@@ -149,7 +162,6 @@ fn number(current: f32, wanted: f32, greatest: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::AlphaMode;
 
     const CUT: AlphaMode = AlphaMode::Mask { cutoff: 0.1 };
 
@@ -192,6 +204,47 @@ mod tests {
             ..phong(0.1, 16.0)
         };
         assert_eq!(with_values(&phong(0.1, 16.0), &of_the_other_book), phong(0.1, 16.0));
+    }
+
+    #[test]
+    fn what_gltf_has_comes_over_too_and_light_above_one_stays() {
+        let of_file = Material {
+            reflectance: Reflectance::MetallicRoughness {
+                metallic: 0.5,
+                roughness: 0.5,
+            },
+            emissive: [5.0, 0.0, 0.0],
+            ..Material::default()
+        };
+        let wanted = Material {
+            reflectance: Reflectance::MetallicRoughness {
+                metallic: 2.0,
+                roughness: 0.25,
+            },
+            opacity: 0.5,
+            alpha: AlphaMode::Blend,
+            double_sided: true,
+            unlit: true,
+            emissive: [5.0, 7.0, 0.5],
+            normal_scale: -2.0,
+            occlusion_strength: f32::NAN,
+            ..of_file.clone()
+        };
+        let expected = Material {
+            reflectance: Reflectance::MetallicRoughness {
+                metallic: 1.0,
+                roughness: 0.25,
+            },
+            emissive: [5.0, 1.0, 0.5],
+            occlusion_strength: 1.0,
+            ..wanted.clone()
+        };
+        assert_eq!(with_values(&of_file, &wanted), expected);
+        let endless = Material {
+            alpha: AlphaMode::Mask { cutoff: f32::NAN },
+            ..of_file.clone()
+        };
+        assert_eq!(with_values(&of_file, &endless), of_file);
     }
 
     #[test]

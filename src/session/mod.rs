@@ -10,6 +10,9 @@ mod content;
 mod crowd;
 mod crowd_cache;
 mod event;
+mod export_files;
+mod export_job;
+mod exporting;
 mod files;
 mod framing;
 mod going_back;
@@ -55,6 +58,8 @@ pub use changes::Changes;
 pub use command::Command;
 pub use crowd::CrowdCommand;
 pub use event::Event;
+pub use export_job::{ExportFormat, ExportJob, ExportPlan, ExportRefusal, ExportStep, ExportedFile};
+pub use exporting::{Export, ExportCommand, ExportOptions, ExportRange};
 pub use files::{File, FileSet};
 pub use history::{History, HistoryCommand};
 pub use instances::{CrowdState, MAX_CROWD};
@@ -83,6 +88,7 @@ use actor::Actor;
 use changes::Revisions;
 use content::Content;
 use crowd_cache::CrowdCache;
+use exporting::Exporting;
 use instances::Instances;
 use overlays::OverlayCache;
 use picking::Picker;
@@ -115,6 +121,7 @@ pub struct Session {
     /// Of the frame that was drawn last.
     cost: FrameCost,
     history: History,
+    exporting: Exporting,
     /// Made from the parts above, and from nothing else.
     caches: Caches,
     revisions: Revisions,

@@ -9,8 +9,8 @@ use super::maps::Maps;
 use super::submeshes::Submeshes;
 use crate::anim::{self, Palette};
 use crate::image::Image;
-use crate::model::{MapSlot, Material, Mesh};
-use crate::scene::{Hit, Ray, pick, tex_coord_at};
+use crate::model::{MapSlot, Material, Mesh, Wrap};
+use crate::scene::{Hit, Ray, pick, value_at};
 
 /// Buffers that are kept from pick to pick.
 #[derive(Clone, Debug, Default)]
@@ -50,7 +50,7 @@ impl Picker {
         // Before the search, which asks them in the midst of its triangles.
         for submesh in open.iter().flat_map(|open| &open.model.mesh.submeshes) {
             let material = submesh.material as usize;
-            if materials.get(material).is_some_and(Material::is_cut) {
+            if materials.get(material).is_some_and(may_be_clear) {
                 self.cutouts.decode(material, maps);
             }
         }
@@ -108,15 +108,21 @@ impl Picker {
     ) -> Option<Hit> {
         let mesh = &content.open.as_ref()?.model.mesh;
         let materials = &content.materials;
-        let alpha_clips = |material: usize| materials.get(material).is_some_and(Material::is_cut);
         let cutouts = &self.cutouts;
         let is_solid = |hit: &Hit| {
-            let material = mesh.submeshes[hit.submesh].material as usize;
-            let is_cut = || alpha_clips(material) && cutouts.is_cut(material, tex_coord_at(mesh, hit));
-            submeshes.is_visible(hit.submesh) && !is_cut()
+            let index = mesh.submeshes[hit.submesh].material as usize;
+            let is_clear = |material: &Material| {
+                may_be_clear(material) && cutouts.alpha(index, material, mesh, hit) < material.least_alpha()
+            };
+            submeshes.is_visible(hit.submesh) && !materials.get(index).is_some_and(is_clear)
         };
         pick(mesh, positions, world_from_model, ray, &mut self.in_ray, is_solid)
     }
+}
+
+/// Whether one may look through places of it.
+fn may_be_clear(material: &Material) -> bool {
+    material.least_alpha() > 0.0
 }
 
 /// The nearest of what a ray meets of some instances, with whose it is. `entered` has the distances at which it comes into their
@@ -159,9 +165,27 @@ impl Cutouts {
         self.of_materials.entry(material).or_insert_with(alpha);
     }
 
-    fn is_cut(&self, material: usize, tex_coord: Vec2) -> bool {
-        let alpha = self.of_materials.get(&material).and_then(Option::as_ref);
-        alpha.is_some_and(|alpha| alpha.nearest(tex_coord) < Material::ALPHA_CLIP)
+    /// The alpha of a material at a hit: its own times those of the vertices and of its map.
+    fn alpha(&self, index: usize, material: &Material, mesh: &Mesh, hit: &Hit) -> f32 {
+        let of_vertices = if mesh.colors.is_empty() {
+            1.0
+        } else {
+            value_at(mesh, &mesh.colors, hit).w
+        };
+        let of_map = self
+            .of_materials
+            .get(&index)
+            .and_then(Option::as_ref)
+            .map_or(1.0, |map| {
+                let sampling = material
+                    .map(MapSlot::Diffuse)
+                    .map(|map| map.sampling)
+                    .unwrap_or_default();
+                let first = value_at(mesh, &mesh.tex_coords, hit);
+                let second = value_at(mesh, &mesh.second_tex_coords, hit);
+                map.nearest(sampling.tex_coords(first, second), sampling.wrap)
+            });
+        material.opacity * of_vertices * of_map
     }
 }
 
@@ -186,11 +210,18 @@ impl Alpha {
         })
     }
 
-    /// The texel at texture coordinates, which repeat; 0…1.
-    fn nearest(&self, tex_coord: Vec2) -> f32 {
-        let index =
-            |coordinate: f32, side: usize| (((coordinate - coordinate.floor()) * side as f32) as usize).min(side - 1);
-        let (column, row) = (index(tex_coord.x, self.width), index(tex_coord.y, self.height));
+    /// The texel at texture coordinates; 0…1.
+    fn nearest(&self, tex_coord: Vec2, [along_u, along_v]: [Wrap; 2]) -> f32 {
+        let index = |coordinate: f32, wrap, side: usize| {
+            let inside = match wrap {
+                Wrap::Repeat => coordinate - coordinate.floor(),
+                Wrap::Mirror => 1.0 - (coordinate.rem_euclid(2.0) - 1.0).abs(),
+                Wrap::Clamp => coordinate,
+            };
+            ((inside * side as f32) as usize).min(side - 1)
+        };
+        let column = index(tex_coord.x, along_u, self.width);
+        let row = index(tex_coord.y, along_v, self.height);
         f32::from(self.texels[row * self.width + column]) / 255.0
     }
 }
@@ -233,21 +264,26 @@ mod tests {
     }
 
     #[test]
-    fn alpha_is_that_of_the_texel_and_repeats() {
+    fn alpha_is_that_of_the_texel_and_goes_on_as_its_map_says() {
         let rgba = [0, 64, 128, 255].map(|alpha| [9, 9, 9, alpha]).concat();
         let image = Image::from_rgba8(2, 2, rgba, "by hand").expect("two by two");
         let alpha = Alpha::of(&image).expect("it has alpha");
-        for (x, y, value) in [
-            (0.25, 0.25, 0),
-            (0.75, 0.25, 64),
-            (-0.75, 3.75, 128),
-            (0.999, -0.001, 255),
-            (f32::NAN, f32::INFINITY, 0),
+        use Wrap::{Clamp, Mirror, Repeat};
+        for (x, y, wrap, value) in [
+            (0.25, 0.25, Repeat, 0),
+            (0.75, 0.25, Repeat, 64),
+            (-0.75, 3.75, Repeat, 128),
+            (0.999, -0.001, Repeat, 255),
+            (f32::NAN, f32::INFINITY, Repeat, 0),
+            (-0.75, 1.25, Mirror, 255),
+            (1.75, 2.25, Mirror, 0),
+            (-9.0, 9.0, Clamp, 128),
+            (9.0, f32::NAN, Clamp, 64),
         ] {
             assert_eq!(
-                alpha.nearest(Vec2::new(x, y)),
+                alpha.nearest(Vec2::new(x, y), [wrap; 2]),
                 f32::from(value as u8) / 255.0,
-                "{x} {y}"
+                "{x} {y} {wrap:?}"
             );
         }
     }

@@ -90,6 +90,35 @@ pub struct Material {
     pub identity_srgb: [f32; 4],
 }
 
+/// Twin of `MapPlace` in `all_maps.wgsl`: the rows of a 2×3 matrix. The first row's w is 1 for the second texture coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in all_maps.wgsl, where each is used")]
+pub struct MapPlace {
+    pub u: [f32; 4],
+    pub v: [f32; 4],
+}
+
+/// Twin of `MaterialMaps` in `all_maps.wgsl`, which says what each member means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in all_maps.wgsl, where each is used")]
+pub struct MaterialMaps {
+    pub places: [MapPlace; 5],
+    pub emissive: [f32; 3],
+    pub opacity: f32,
+    pub metallic: f32,
+    pub normal_scale: f32,
+    pub occlusion_strength: f32,
+    pub least_solid_alpha: f32,
+    pub present: u32,
+    pub has_map_alpha: u32,
+    pub is_metallic_roughness: u32,
+    pub is_unlit: u32,
+    pub is_single_sided: u32,
+    pub unused: [u32; 3],
+}
+
 /// Twin of `Environment` in `environment.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
@@ -141,6 +170,16 @@ pub struct SurfaceVertex {
     pub tangent: [f32; 4],
     /// Location 3.
     pub tex_coord: [f32; 2],
+}
+
+/// What a vertex has besides where materials read all maps: shader locations 13 and 14.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct MoreMapsVertex {
+    /// Location 13, linear, 16 bits a channel for 0…1.
+    pub color: [u16; 4],
+    /// Location 14.
+    pub second_tex_coord: [f32; 2],
 }
 
 /// What a skinned vertex has besides: shader locations 4 and 5. Indices have 32 bits, as a skeleton may have more than

@@ -6,8 +6,8 @@
 mod layout;
 
 pub use layout::{
-    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, Light, Line, Material, PositionVertex,
-    SurfaceVertex,
+    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, Light, Line, MapPlace, Material, MaterialMaps,
+    MoreMapsVertex, PositionVertex, SurfaceVertex,
 };
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
@@ -79,33 +79,62 @@ macro_rules! programs {
 programs! {
     /// The model under the studio light.
     MESH_STUDIO "mesh-studio" [
-        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
-        "environment" "pbr" "studio" "tone_map" "mesh_studio" "mesh"
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "two_maps" "normal_map" "mesh_vertex"
+        "mesh_two_maps" "surface" "environment" "pbr" "studio" "tone_map" "mesh_studio" "mesh"
+    ]
+
+    /// The same with all maps.
+    MESH_STUDIO_ALL "mesh-studio-all" [
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "all_maps" "normal_map" "mesh_vertex"
+        "mesh_all_maps" "surface" "environment" "pbr" "studio" "tone_map" "mesh_studio" "mesh" "mesh_blended"
     ]
 
     /// The model under the light of the books' demos.
     MESH_BOOK "mesh-book" [
-        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "surface"
-        "environment" "book" "mesh_book" "mesh"
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "two_maps" "normal_map" "mesh_vertex"
+        "mesh_two_maps" "surface" "environment" "book" "mesh_book" "mesh"
+    ]
+
+    /// The same with all maps.
+    MESH_BOOK_ALL "mesh-book-all" [
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "all_maps" "normal_map" "mesh_vertex"
+        "mesh_all_maps" "surface" "environment" "book" "mesh_book" "mesh" "mesh_blended"
     ]
 
     /// One property of the model's surface, without light.
     MESH_INSPECT "mesh-inspect" [
-        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "normal_map" "mesh_vertex" "environment"
-        "surface" "mesh_inspect" "mesh"
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "two_maps" "normal_map" "mesh_vertex"
+        "mesh_two_maps" "environment" "surface" "mesh_inspect" "mesh"
+    ]
+
+    /// The same with all maps.
+    MESH_INSPECT_ALL "mesh-inspect-all" [
+        "camera" "light" "skinning" "instance" "color" "lighting" "shadow" "material" "all_maps" "normal_map" "mesh_vertex"
+        "mesh_all_maps" "environment" "surface" "mesh_inspect" "mesh"
     ]
 
     /// The model in colours of its vertices.
-    SKIN_VIEW "skin-view" ["camera" "skinning" "instance" "color" "material" "skin_view"]
+    SKIN_VIEW "skin-view" ["camera" "skinning" "instance" "color" "material" "two_maps" "skin_view"]
+
+    /// The same with all maps.
+    SKIN_VIEW_ALL "skin-view-all" ["camera" "skinning" "instance" "color" "material" "all_maps" "skin_view"]
 
     /// The model's depth from the key light.
     CASTER "caster" ["light" "skinning" "instance" "caster"]
 
     /// The same for materials that alpha cuts.
-    CASTER_CUT "caster-cut" ["light" "skinning" "instance" "material" "caster_cut"]
+    CASTER_CUT "caster-cut" ["light" "skinning" "instance" "material" "two_maps" "caster_cut"]
+
+    /// The same with all maps.
+    CASTER_CUT_ALL "caster-cut-all" ["light" "skinning" "instance" "material" "all_maps" "caster_cut"]
 
     /// Normals and depth of what is in view.
-    MESH_GEOMETRY "mesh-geometry" ["camera" "skinning" "instance" "material" "geometry" "mesh_geometry"]
+    MESH_GEOMETRY "mesh-geometry" ["camera" "skinning" "instance" "material" "two_maps" "geometry" "mesh_geometry"]
+
+    /// The same with all maps.
+    MESH_GEOMETRY_ALL "mesh-geometry-all" [
+        "camera" "skinning" "instance" "material" "all_maps" "geometry" "mesh_geometry"
+    ]
 
     /// Ambient occlusion of the DirectX 12 book.
     OCCLUSION_BOOK "occlusion-book" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_book"]

@@ -52,6 +52,8 @@ pub(super) enum Icon {
     Cube,
     /// Open files.
     Open,
+    /// Save as another format.
+    Export,
     /// The other theme, dark or light.
     Contrast,
     /// Light on the model.
@@ -209,6 +211,11 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
                 (1.8, 12.8),
             ]);
             painter.circle_stroke(at(8.0, 8.7), 2.4, stroke);
+        }
+        Icon::Export => {
+            line(&[(3.0, 9.5), (3.0, 13.0), (13.0, 13.0), (13.0, 9.5)]);
+            line(&[(8.0, 2.6), (8.0, 10.0)]);
+            line(&[(5.0, 7.2), (8.0, 10.2), (11.0, 7.2)]);
         }
         Icon::Eye => {
             arc(8.0, 11.54, 7.14, -1.67, -0.33);

@@ -8,7 +8,7 @@ use super::textures::{holds, picture_row};
 use super::theme::{MARGIN, ROW_HEIGHT, Tokens};
 use super::widgets::{
     Slider, color_button, control_size, hint_beside, is_touch, number_field, paint_elided, rule, section_name,
-    section_with_action, selected_heading, switch_row, value_row,
+    section_with_action, segmented, selected_heading, switch_row, value_row,
 };
 use super::wording::{capital, grouped};
 use crate::model::{AlphaMode, MapSlot, Material, Reflectance};
@@ -112,6 +112,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
             color_row(ui, "Diffuse", &mut edited.diffuse);
             part_row(ui, "Metallic", metallic);
             part_row(ui, "Roughness", roughness);
+            return of_gltf(ui, material, edited);
         }
         Reflectance::Phong {
             ambient,
@@ -128,6 +129,50 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
     }
     if switch_row(ui, "Alpha clip", "", material.is_cut()).clicked() {
         edited.alpha = AlphaMode::clipped(!material.is_cut());
+    }
+    (edited != *material).then_some(edited)
+}
+
+/// The values that a glTF file has and the books have not, as far as they do something here, for a material that is being edited.
+fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Material> {
+    color_row(ui, "Emissive", &mut edited.emissive);
+    if material.normal_map.is_some() {
+        row(ui, "Normal scale", |ui, height| {
+            let size = vec2(ui.available_width(), height);
+            let scale = edited.normal_scale;
+            if let Some(number) = number_field(ui, "Normal scale: number", size, scale, -8.0..=8.0, (0.01, 2)) {
+                edited.normal_scale = number;
+            }
+        });
+    }
+    if material.occlusion_map.is_some() {
+        part_row(ui, "Occlusion", &mut edited.occlusion_strength);
+    }
+    let mask = match material.alpha {
+        AlphaMode::Mask { .. } => material.alpha,
+        // glTF's own cutoff.
+        AlphaMode::Opaque | AlphaMode::Blend => AlphaMode::Mask { cutoff: 0.5 },
+    };
+    let modes = [
+        (AlphaMode::Opaque, "Opaque"),
+        (mask, "Mask"),
+        (AlphaMode::Blend, "Blend"),
+    ];
+    if let Some(alpha) = segmented(ui, "Alpha", &modes, Some(material.alpha)) {
+        edited.alpha = alpha;
+    }
+    if let AlphaMode::Mask { cutoff } = &mut edited.alpha {
+        part_row(ui, "Cutoff", cutoff);
+    }
+    if material.alpha != AlphaMode::Opaque {
+        part_row(ui, "Opacity", &mut edited.opacity);
+    }
+    // Of other surfaces both sides are seen in any case.
+    if material.alpha == AlphaMode::Blend && switch_row(ui, "Both sides", "", material.double_sided).clicked() {
+        edited.double_sided = !material.double_sided;
+    }
+    if switch_row(ui, "Unlit", "", material.unlit).clicked() {
+        edited.unlit = !material.unlit;
     }
     (edited != *material).then_some(edited)
 }

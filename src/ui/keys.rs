@@ -2,6 +2,8 @@
 
 use egui::{Event, Key, Modifiers, Ui};
 
+use super::export;
+use super::layout;
 use super::state::UiState;
 use super::viewport::{self, FLIGHT_KEYS};
 use crate::actions::{self, Action, Ask};
@@ -27,8 +29,8 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
                 let is_controls = control_focused && matches!(key, Key::Space | Key::Enter);
                 let has_shut = popover_open && key == Key::Escape;
                 let is_menus = popover_open && control_focused && is_arrow(key);
-                // This key flies forward while the view is held.
-                let flies = key == Key::W && ui.input(|input| input.pointer.secondary_down());
+                // These keys fly while the view is held.
+                let flies = is_flight_key(key) && ui.input(|input| input.pointer.secondary_down());
                 action_of(key, modifiers)
                     // A held key goes on stepping, but switches or asks only once.
                     .filter(|action| (action.repeats || !held) && !is_controls && !is_menus && !has_shut && !flies)
@@ -41,6 +43,10 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
             carry_out(ask, ui, session, state, commands);
         }
     }
+}
+
+fn is_flight_key(key: Key) -> bool {
+    FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key)
 }
 
 /// In a popover the focus moves with the arrows.
@@ -111,6 +117,7 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, session: &Session, state: &mut UiStat
         Ask::NameBone => state.skeleton.rename_selected(ui, session),
         Ask::ReadAgain => state.read_again(),
         Ask::SavePicture { transparent } => state.save_picture(ui, transparent),
+        Ask::Export => export::ask(state, layout::is_wide(ui.max_rect())),
     }
 }
 
@@ -171,8 +178,7 @@ fn clears_selection(session: &Session) -> Option<Command> {
 /// Whether the viewer uses a key, so that the browser must not act on it too.
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     let plain = !modifiers.command && !modifiers.alt;
-    let flies = FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key);
-    key == Key::Escape || (plain && flies) || action_of(key, modifiers).is_some()
+    key == Key::Escape || (plain && is_flight_key(key)) || action_of(key, modifiers).is_some()
 }
 
 #[cfg(test)]

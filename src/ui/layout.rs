@@ -16,7 +16,8 @@ use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
 use super::widgets::TextButton;
 use super::wording::grouped;
 use super::{
-    error_card, findings, focus, help, inspector, light, model_panel, overlays, picture, timeline, toolbar, widgets,
+    error_card, export, findings, focus, help, inspector, light, model_panel, overlays, picture, timeline, toolbar,
+    widgets,
 };
 use crate::actions;
 use crate::session::{Command, LoadError, Session};
@@ -378,6 +379,7 @@ fn page_title(page: SheetPage, session: &Session, state: &UiState) -> &'static s
         SheetPage::Overlays => "Lines over the model",
         SheetPage::ViewFrom => "View from",
         SheetPage::Picture => "Picture",
+        SheetPage::Export => "Export",
         SheetPage::Timeline => "Timeline",
     }
 }
@@ -437,6 +439,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
             toolbar::view_from_items(ui, session, commands);
         }
         SheetPage::Picture => picture::show(ui, session, state),
+        SheetPage::Export => export::show(ui, session, state, commands),
         SheetPage::Skeleton | SheetPage::Timeline => {}
     });
 }

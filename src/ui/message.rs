@@ -6,6 +6,8 @@ use super::icons::Icon;
 use super::panel::Panel;
 use super::theme::Tokens;
 use super::widgets::{TextButton, control_size, push_button};
+use super::wording::bytes;
+use crate::session::ExportedFile;
 
 /// How long a message is shown. The time begins anew while the pointer is over it or one of its buttons has the focus.
 const SHOWN_SECS: f64 = 6.0;
@@ -40,6 +42,12 @@ impl Messages {
     /// Shows that a picture was saved, and offers to save it elsewhere.
     pub fn say_saved(&mut self, name: &str, [width, height]: [u32; 2]) {
         self.show_next(format!("Saved {name}, {width} × {height}"), true);
+    }
+
+    /// Says that a file was saved.
+    pub fn say_exported(&mut self, file: &ExportedFile) {
+        let size = bytes(file.bytes.len() as u64);
+        self.say(format!("Saved {}, {size}", file.name));
     }
 
     fn show_next(&mut self, words: String, saves_picture: bool) {

@@ -5,6 +5,7 @@ mod chips;
 mod cost;
 mod crowd;
 mod error_card;
+mod export;
 mod findings;
 mod focus;
 mod help;
@@ -103,6 +104,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.timeline.update(session);
     state.offers_frame &= !session.is_framed() && session.open_model().is_some();
     let (mut free, uncovered) = layout::show(ui, session, state, &mut commands);
+    export::settle(ui, session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
     if let Some(bottom) = chips::show(ui, session, uncovered, &mut commands)
         && !layout::is_wide(window)

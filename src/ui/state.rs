@@ -16,7 +16,7 @@ use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
-use crate::session::Session;
+use crate::session::{ExportOptions, ExportedFile, Session};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
@@ -47,6 +47,8 @@ pub enum Request {
     SaveReport,
     /// Show the page of codes at this one.
     ExplainCode(&'static str),
+    /// Save a file that was written.
+    SaveExport(Box<ExportedFile>),
     /// Have a screen reader speak.
     Announce(Announcement),
 }
@@ -81,6 +83,8 @@ pub enum SheetPage {
     ViewFrom,
     /// A picture as a file.
     Picture,
+    /// The model as a file of another format.
+    Export,
     /// Dope sheet and curves.
     Timeline,
 }
@@ -124,6 +128,7 @@ pub struct UiState {
     pub(super) picture: PictureChoice,
     /// The contact sheet that is being drawn.
     pub(super) drawn_sheet: Option<DrawnSheet>,
+    pub(super) export: ExportChoice,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,
@@ -289,4 +294,17 @@ impl PictureChoice {
         let pixels = |side: f32| (side.round() as u32).clamp(1, MAX_PICTURE_SIDE);
         self.size.unwrap_or([pixels(window.x), pixels(window.y)])
     }
+}
+
+/// How to export, for the model that is open.
+#[derive(Debug, Default)]
+pub(super) struct ExportChoice {
+    pub(super) options: ExportOptions,
+    pub(super) of_model: u64,
+    /// The lists of changes and losses that are shown whole.
+    pub(super) unfolded: [bool; 2],
+    /// A key asked for it.
+    pub(super) asked: bool,
+    /// It is shown in this pass.
+    pub(super) shown: bool,
 }

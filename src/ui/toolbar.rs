@@ -1,7 +1,7 @@
 //! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
 //! help.
 
-use egui::{Color32, Label, Rangef, RectAlign, RichText, Role, Ui, WidgetInfo, vec2};
+use egui::{Color32, Label, Popup, Rangef, RectAlign, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::cost::SteadyCost;
 use super::icons::Icon;
@@ -15,7 +15,7 @@ use super::widgets::{
     menu_item, pressed_chip, push_button, section_name, untold_icon_button, valued_menu_item,
 };
 use super::wording::shortened_front;
-use super::{light, overlays, picture};
+use super::{export, light, overlays, picture};
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
@@ -72,6 +72,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
         popover(ui, &camera, 224.0, |ui| picture::show(ui, session, state));
+        export_button(ui, session, state, commands);
         theme_button(ui, state);
         open_button(ui, state);
         if icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open).clicked() {
@@ -155,6 +156,16 @@ fn open_button(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
+fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let button = push_button(ui, Icon::Export, &actions::EXPORT.hint());
+    if std::mem::take(&mut state.export.asked) {
+        Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
+    }
+    popover(ui, &button, export::WIDTH, |ui| {
+        export::show(ui, session, state, commands)
+    });
+}
+
 /// The name of the other theme, and its request.
 fn other_theme(ui: &Ui) -> (&'static str, Request) {
     if ui.visuals().dark_mode {
@@ -228,6 +239,7 @@ fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
         ("Lines over the model", "", SheetPage::Overlays),
         ("View from…", "", SheetPage::ViewFrom),
         ("Picture…", "", SheetPage::Picture),
+        ("Export…", "", SheetPage::Export),
     ];
     for (label, in_force, page) in pages {
         if valued_menu_item(ui, label, in_force, state.sheet == Some(page)).clicked() {

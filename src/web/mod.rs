@@ -9,6 +9,7 @@ mod arguments;
 mod backend;
 mod contrast;
 mod drawing;
+mod exporting;
 mod joint_names;
 mod mirror;
 mod opening;

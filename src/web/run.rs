@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 use std::sync::mpsc;
 
-use js_sys::Function;
+use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebglLoseContext};
 
@@ -305,11 +305,16 @@ impl Shell {
             (report_name(&session), text)
         };
         let Some(text) = text else { return };
-        let report = [("name", name.as_str().into()), ("text", text.into())];
-        self.shared.emit("report", &object(report));
+        self.save_file(&name, text.into(), "application/sarif+json");
         if let Some(app) = self.app.borrow_mut().as_mut() {
             app.report_was_saved(&name);
         }
+    }
+
+    /// Hands a file, as text or bytes, to the page, which saves it.
+    fn save_file(&self, name: &str, contents: JsValue, kind: &str) {
+        let file = [("name", name.into()), ("contents", contents), ("type", kind.into())];
+        self.shared.emit("save", &object(file));
     }
 
     /// Draws a picture and hands it to the page, which saves it. A message says so.
@@ -393,6 +398,10 @@ impl eframe::App for Shell {
                 Request::SavePictureAs => self.save_picture_as(),
                 Request::SaveReport => self.save_report(),
                 Request::ExplainCode(code) => self.shared.emit("explain", &object([("code", code.into())])),
+                Request::SaveExport(file) => {
+                    let bytes = Uint8Array::from(file.bytes.as_slice());
+                    self.save_file(&file.name, bytes.into(), file.media_type());
+                }
                 Request::Announce(Announcement { text, assertive }) => {
                     let detail = object([("text", text.into()), ("assertive", assertive.into())]);
                     self.shared.emit("announce", &detail);

@@ -34,7 +34,7 @@ impl Viewer {
     /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)`
     /// hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
-    /// `picturefailed` (`{message}`), `report` (`{name, text}`: a SARIF file to save), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
+    /// `picturefailed` (`{message}`), `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
     /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {

@@ -258,17 +258,17 @@ fn page() -> String {
             .map(|code| format!("<a href=\"#{0}\">{0}</a>", code.name))
             .collect();
         let links = links.join(" ");
-        write!(
+        writeln!(
             page,
-            "<li><a href=\"#group-{index}\">{title}</a> <span>{links}</span></li>\n"
+            "<li><a href=\"#group-{index}\">{title}</a> <span>{links}</span></li>"
         )
         .expect("a string");
     }
     page.push_str("</ul></nav>\n");
     for (index, (title, codes)) in GROUPS.iter().enumerate() {
-        write!(
+        writeln!(
             page,
-            "\n<section aria-labelledby=\"group-{index}\">\n<h2 id=\"group-{index}\">{title}</h2>\n"
+            "\n<section aria-labelledby=\"group-{index}\">\n<h2 id=\"group-{index}\">{title}</h2>"
         )
         .expect("a string");
         for code in *codes {

@@ -24,13 +24,17 @@ fn codes(run: Run) -> Vec<Value> {
     findings.iter().map(|finding| finding["code"].clone()).collect()
 }
 
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
+fn skipped(why: &str) {
+    eprintln!("skipped: {why}");
+}
+
 #[test]
 fn a_map_that_the_system_does_not_let_us_read_is_a_finding() {
     // A file that can be opened, by anybody, and not be read.
     let unreadable = "/proc/self/mem";
     if !fs::metadata(unreadable).is_ok_and(|file| file.is_file()) {
-        eprintln!("skipped: there is no {unreadable} here");
-        return;
+        return skipped("there is no /proc/self/mem");
     }
     let folder = scratch("unreadable");
     fs::create_dir_all(&folder).expect("can be made");
@@ -64,13 +68,12 @@ fn a_folder_inside_that_cannot_be_listed_is_skipped() {
     let folder = scratch("closed");
     let inner = folder.join("inner");
     fs::create_dir_all(&inner).expect("can be made");
-    fs::set_permissions(&inner, Permissions::from_mode(0)).expect("is ours");
+    fs::set_permissions(&inner, Permissions::from_mode(0o000)).expect("is ours");
     let is_listed = fs::read_dir(&inner).is_ok();
     let run = check(folder.to_str().expect("UTF-8"));
     fs::set_permissions(&inner, Permissions::from_mode(0o700)).expect("is ours");
     if is_listed {
-        eprintln!("skipped: this user may list every folder");
-        return;
+        return skipped("this user may list every folder");
     }
     assert!(
         run.err

@@ -3,6 +3,7 @@
 mod appearance;
 mod check;
 mod codes;
+mod convert;
 mod folders;
 mod info;
 mod pipe;

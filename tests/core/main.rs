@@ -6,6 +6,8 @@ mod chains;
 mod check;
 mod codes;
 mod documents;
+mod edit;
+mod export;
 mod format;
 mod gltf;
 #[path = "../common/gltf.rs"]

@@ -2,6 +2,7 @@
 
 mod clips;
 mod crowd;
+mod exporting;
 mod folders;
 mod going_back;
 mod history;

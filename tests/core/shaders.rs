@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line, Material, PROGRAMS,
-    PositionVertex, Program, SurfaceVertex,
+    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line, Material,
+    MaterialMaps, MoreMapsVertex, PROGRAMS, PositionVertex, Program, SurfaceVertex,
 };
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -55,29 +55,59 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
             "mesh-studio/fragment",
             "mesh-studio/fragment_cut",
             "mesh-studio/fragment_cut_smooth",
+            "mesh-studio-all/vertex_static",
+            "mesh-studio-all/vertex_skinned",
+            "mesh-studio-all/fragment",
+            "mesh-studio-all/fragment_cut",
+            "mesh-studio-all/fragment_cut_smooth",
+            "mesh-studio-all/fragment_opaque_part",
+            "mesh-studio-all/fragment_blended",
             "mesh-book/vertex_static",
             "mesh-book/vertex_skinned",
             "mesh-book/fragment",
             "mesh-book/fragment_cut",
             "mesh-book/fragment_cut_smooth",
+            "mesh-book-all/vertex_static",
+            "mesh-book-all/vertex_skinned",
+            "mesh-book-all/fragment",
+            "mesh-book-all/fragment_cut",
+            "mesh-book-all/fragment_cut_smooth",
+            "mesh-book-all/fragment_opaque_part",
+            "mesh-book-all/fragment_blended",
             "mesh-inspect/vertex_static",
             "mesh-inspect/vertex_skinned",
             "mesh-inspect/fragment",
             "mesh-inspect/fragment_cut",
             "mesh-inspect/fragment_cut_smooth",
+            "mesh-inspect-all/vertex_static",
+            "mesh-inspect-all/vertex_skinned",
+            "mesh-inspect-all/fragment",
+            "mesh-inspect-all/fragment_cut",
+            "mesh-inspect-all/fragment_cut_smooth",
             "skin-view/vertex_static",
             "skin-view/vertex_skinned",
             "skin-view/fragment",
             "skin-view/fragment_cut",
+            "skin-view-all/vertex_static",
+            "skin-view-all/vertex_skinned",
+            "skin-view-all/fragment",
+            "skin-view-all/fragment_cut",
             "caster/vertex_static",
             "caster/vertex_skinned",
             "caster-cut/vertex_static",
             "caster-cut/vertex_skinned",
             "caster-cut/fragment",
+            "caster-cut-all/vertex_static",
+            "caster-cut-all/vertex_skinned",
+            "caster-cut-all/fragment",
             "mesh-geometry/vertex_static",
             "mesh-geometry/vertex_skinned",
             "mesh-geometry/fragment",
             "mesh-geometry/fragment_cut",
+            "mesh-geometry-all/vertex_static",
+            "mesh-geometry-all/vertex_skinned",
+            "mesh-geometry-all/fragment",
+            "mesh-geometry-all/fragment_cut",
             "occlusion-book/vertex",
             "occlusion-book/fragment",
             "occlusion-studio/vertex",
@@ -198,6 +228,20 @@ fn twins() -> BTreeMap<String, Layout> {
             reflectivity,
             identity_srgb,
         }),
+        twin!(MaterialMaps {
+            places,
+            emissive,
+            opacity,
+            metallic,
+            normal_scale,
+            occlusion_strength,
+            least_solid_alpha,
+            present,
+            has_map_alpha,
+            is_metallic_roughness,
+            is_unlit,
+            is_single_sided,
+        }),
         twin!(Environment {
             sh,
             turn_cos,
@@ -244,8 +288,24 @@ fn uniforms_fit_the_smallest_block_of_webgl2() {
         size_of::<Light>(),
         size_of::<Ground>(),
         size_of::<Material>(),
+        size_of::<MaterialMaps>(),
     ] {
         assert!(bytes <= SMALLEST_BLOCK);
+    }
+}
+
+/// What WebGL2 promises: textures that a fragment shader reads, and attributes of a vertex.
+#[test]
+fn programs_stay_within_what_webgl2_has() {
+    const MOST: usize = 16;
+    for program in PROGRAMS {
+        let (module, _) = compile(program);
+        let is_texture = |(_, variable): &(_, &naga::GlobalVariable)| {
+            let inner = &module.types[variable.ty].inner;
+            matches!(inner, naga::TypeInner::Image { .. }) && variable.binding.is_some_and(|place| place.group > 1)
+        };
+        let textures = module.global_variables.iter().filter(is_texture).count();
+        assert!(textures <= MOST, "{}: {textures} textures", program.name);
     }
 }
 
@@ -256,6 +316,7 @@ fn vertices_are_packed_and_within_the_least_stride() {
     assert_eq!(size_of::<PositionVertex>(), 3 * 4);
     assert_eq!(size_of::<SurfaceVertex>(), (3 + 4 + 2) * 4);
     assert_eq!(size_of::<InfluenceVertex>(), (4 + 4) * 4);
+    assert_eq!(size_of::<MoreMapsVertex>(), 4 * 2 + 2 * 4);
     assert_eq!(size_of::<Instance>(), (3 * 4 + 4 + 1 + 1) * 4);
     assert!(size_of::<SurfaceVertex>() <= LEAST_STRIDE);
     // The stream holds each instance twice.

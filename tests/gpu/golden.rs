@@ -8,6 +8,7 @@ use bindpose::scene::{
 };
 use bindpose::session::{CameraCommand, File, FileCommand, PlayCommand, Session};
 
+use crate::gltf_materials::{GltfMaps, gltf_still_life};
 use crate::gpu::{Gpu, Picture};
 use crate::scenes::{FRONT, Scene, bent_tube, card};
 use crate::still_life::{StillLifeMaps, still_life};
@@ -130,6 +131,20 @@ on_both_backends! {
         scene.highlighted = Some(4);
         scene.hidden = vec![false, true];
         compare_picture(gpu, "still-life-split-lines", &easel.draw(&scene));
+    }
+    fn what_gltf_has_in_both_lights(gpu) {
+        let (mut scene, maps) = (gltf_still_life(), GltfMaps::new());
+        let mut easel = gpu.easel(&scene, &maps.images(), [300, 180]);
+        for light in Light::ALL {
+            scene.options.light = light;
+            compare_picture(gpu, &format!("gltf-still-life-{}", light.name()), &easel.draw(&scene));
+        }
+        scene.options.view_mode = ViewMode::Roughness;
+        compare_picture(gpu, "gltf-still-life-roughness", &easel.draw(&scene));
+        scene.options.view_mode = ViewMode::Lit;
+        scene.options.light = Light::Studio;
+        scene.camera.yaw_radians += std::f32::consts::PI;
+        compare_picture(gpu, "gltf-still-life-behind", &easel.draw(&scene));
     }
     /// The sample, as the page opens: in the middle of a step, both lights.
     fn figure_in_the_middle_of_a_step(gpu) {

@@ -28,6 +28,7 @@ mod alpha_clip;
 mod big_picture;
 mod book_light;
 mod crowd;
+mod gltf_materials;
 mod golden;
 mod gpu;
 mod kept_maps;

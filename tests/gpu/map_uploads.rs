@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use bindpose::model::Submesh;
+use bindpose::image::Image;
+use bindpose::model::{MapSlot, Submesh};
 use bindpose::render::MaterialImages;
 
 use crate::scenes::{Scene, material};
-use crate::textures::{HEIGHT, WIDTH, card_once, plain};
+use crate::textures::{HEIGHT, WIDTH, card_once, diffuse, images, plain};
 
 /// The card with a material for each of its two triangles.
 fn halves() -> Scene {
@@ -22,11 +23,15 @@ fn halves() -> Scene {
     scene
 }
 
+fn of(diffuse: Option<&Arc<Image>>) -> MaterialImages<'_> {
+    images(diffuse.map(|image| (MapSlot::Diffuse, image)))
+}
+
 on_both_backends! {
     fn one_new_map_goes_up_alone_and_the_others_stay(gpu) {
         let scene = halves();
         let [red, green, blue] = [[200, 20, 20, 255], [20, 200, 20, 255], [20, 20, 200, 255]].map(plain);
-        let maps = |first, second| [first, second].map(|diffuse| MaterialImages { diffuse, normal: None });
+        let maps = |first, second| [of(first), of(second)];
         let mut renderer = gpu.renderer();
         let mut target = gpu.target(WIDTH, HEIGHT);
         renderer.set_model(&scene.model).expect("small");
@@ -41,7 +46,7 @@ on_both_backends! {
         assert_eq!(gpu.read(&target), expected);
 
         assert_eq!(renderer.set_maps(&maps(Some(&red), None)), 1, "what was given up goes up again");
-        let as_both = [MaterialImages { diffuse: Some(&red), normal: Some(&red) }];
+        let as_both = [images([(MapSlot::Diffuse, &red), (MapSlot::Normal, &red)])];
         assert_eq!(renderer.set_maps(&as_both), 1, "read in another way it is another texture");
         renderer.clear_model();
         assert_eq!(renderer.set_maps(&as_both), 0, "no model");
@@ -55,7 +60,7 @@ on_both_backends! {
         for grey in 0..20 {
             let image = plain([grey * 10, 0, 0, 255]);
             assert_eq!(Arc::strong_count(&image), 1);
-            let maps = [MaterialImages { diffuse: Some(&image), normal: None }];
+            let maps = diffuse(&image);
             assert_eq!(renderer.set_maps(&maps), 1);
         }
     }

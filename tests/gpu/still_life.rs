@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::Image;
-use bindpose::model::{AlphaMode, Material, Mesh, Model, Reflectance, Submesh};
+use bindpose::model::{AlphaMode, MapSlot, Material, Mesh, Model, Reflectance, Submesh};
 use bindpose::render::MaterialImages;
 use glam::{Vec2, Vec3};
 
@@ -103,15 +103,15 @@ impl StillLifeMaps {
     /// In the order of the still life's materials.
     pub(crate) fn images(&self) -> [MaterialImages<'_>; 6] {
         let mut images = [MaterialImages::default(); 6];
-        images[0].diffuse = Some(&self.grid);
-        images[2].diffuse = Some(&self.holes);
-        images[4].normal = Some(&self.ripples);
+        images[0][MapSlot::Diffuse as usize] = Some(&self.grid);
+        images[2][MapSlot::Diffuse as usize] = Some(&self.holes);
+        images[4][MapSlot::Normal as usize] = Some(&self.ripples);
         images
     }
 }
 
 /// A submesh with the next material.
-fn add_ball(mesh: &mut Mesh, center: Vec3, radius: f32) {
+pub(crate) fn add_ball(mesh: &mut Mesh, center: Vec3, radius: f32) {
     let first = mesh.positions.len() as u32;
     for ring in 0..=RINGS {
         let v = ring as f32 / RINGS as f32;

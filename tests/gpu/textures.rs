@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::{Image, MapKind, decode};
-use bindpose::model::{Mesh, Model, Submesh};
+use bindpose::model::{MapSlot, Mesh, Model, Submesh};
 use bindpose::render::MaterialImages;
 use bindpose::scene::{Projection, linear_from_srgb8};
 use glam::{Vec2, Vec3};
@@ -24,6 +24,11 @@ pub(crate) fn square(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Imag
 /// The same of directions.
 pub(crate) fn directions(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Image> {
     Arc::new(texels(side, texel).with_mips(MapKind::Normal))
+}
+
+/// The same of numbers.
+pub(crate) fn numbers(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Arc<Image> {
+    Arc::new(texels(side, texel).with_mips(MapKind::Data))
 }
 
 /// The same texel everywhere, which needs no mips.
@@ -105,17 +110,20 @@ pub(crate) fn card_once() -> Scene {
 }
 
 pub(crate) fn diffuse(image: &Arc<Image>) -> [MaterialImages<'_>; 1] {
-    [MaterialImages {
-        diffuse: Some(image),
-        normal: None,
-    }]
+    [images([(MapSlot::Diffuse, image)])]
 }
 
 pub(crate) fn normal(image: &Arc<Image>) -> [MaterialImages<'_>; 1] {
-    [MaterialImages {
-        diffuse: None,
-        normal: Some(image),
-    }]
+    [images([(MapSlot::Normal, image)])]
+}
+
+/// The images of a material that has these maps alone.
+pub(crate) fn images<'a>(maps: impl IntoIterator<Item = (MapSlot, &'a Arc<Image>)>) -> MaterialImages<'a> {
+    let mut images = MaterialImages::default();
+    for (slot, image) in maps {
+        images[slot as usize] = Some(image);
+    }
+    images
 }
 
 /// Where on the card a pixel's middle lies, 0 … 1 from its top left; `None` off the card and at its very edge.

@@ -13,6 +13,7 @@ mod crowd;
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod documents;
 mod dope_sheet;
+mod export;
 mod file_menu;
 mod findings;
 mod focus;

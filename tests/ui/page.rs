@@ -33,6 +33,12 @@ impl Page {
         for command in ui::show(ui, &mut self.session, &mut self.state) {
             self.session.apply(command);
         }
+        while self.session.step_export() {
+            ui.ctx().request_repaint();
+        }
+        if let Some(file) = self.session.take_exported() {
+            self.requests.push(Request::SaveExport(Box::new(file)));
+        }
         self.requests.extend(self.state.take_requests());
         self.was_moving = self.session.is_moving();
         if self.was_moving {

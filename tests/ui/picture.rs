@@ -257,6 +257,13 @@ fn modes_that_are_on_and_a_message() {
 }
 
 #[test]
+fn a_blended_material_of_gltf() {
+    let then = vec![FileCommand::Add(vec![crate::submeshes::leaf_and_glass()]).into()];
+    let picture = draw_after(WIDE, Theme::Dark, false, then, &["Glass, 1 triangle"]);
+    compare("wide-dark-gltf-material", &picture);
+}
+
+#[test]
 fn a_finding_that_leads_to_a_vertex() {
     let clicks = ["Findings: ", "warning weights-not-normalized"];
     let then = || vec![FileCommand::Add(crate::findings::files()).into()];
@@ -580,4 +587,18 @@ fn a_missing_panel_would_be_seen() {
         }
     }
     assert!(share_that_differs(&with, &without, TOLERANCE) > 2.0 * SHARE);
+}
+
+#[test]
+fn the_panel_that_exports() {
+    let edits = ["Export… (E)", "Format: .m3d D3D11", "Close the loop", "Reduce keys"];
+    compare(
+        "wide-dark-export",
+        &draw_after(WIDE, Theme::Dark, false, vec![], &edits),
+    );
+    let page = ["More", "Export…"];
+    compare(
+        "phone-light-export",
+        &draw_after(PHONE, Theme::Light, true, vec![], &page),
+    );
 }

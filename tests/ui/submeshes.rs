@@ -1,7 +1,7 @@
 //! The list of subsets and the inspector of the one that is selected.
 
 use bindpose::format::{Dialect, Document, Reflectance as FileReflectance};
-use bindpose::model::Reflectance;
+use bindpose::model::{AlphaMode, Reflectance};
 use bindpose::session::File;
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, pos2};
 
@@ -281,6 +281,41 @@ fn numbers_of_the_inspector_stand_still() {
         type_number(&mut window, "Diffuse: red", number);
         assert_eq!(places(&window), before, "{number}");
     }
+}
+
+/// Two triangles: one that alpha cuts, one that is blended.
+pub(crate) fn leaf_and_glass() -> File {
+    File::new(
+        "leaf-and-glass.gltf",
+        include_bytes!("../fixtures/gltf/leaf-and-glass.gltf").to_vec(),
+    )
+}
+
+#[test]
+fn a_material_of_gltf_has_the_values_that_do_something() {
+    let mut window = window(WIDE, vec![leaf_and_glass()]);
+    let material = |window: &Window, index: usize| window.session().materials()[index].clone();
+    window.click("Leaf, 1 triangle");
+    assert!(window.shows("Metallic") && window.shows("Cutoff") && window.shows("Emissive: green"));
+    assert!(!window.shows("Both sides") && !window.shows("Normal scale") && !window.shows("Alpha clip"));
+    type_number(&mut window, "Emissive: green", "0.5");
+    assert_eq!(material(&window, 0).emissive, [0.0, 0.5, 0.0]);
+    window.click("Alpha: Opaque");
+    assert_eq!(material(&window, 0).alpha, AlphaMode::Opaque);
+    assert!(!window.shows("Cutoff") && !window.shows("Opacity"));
+    window.click("Alpha: Mask");
+    assert_eq!(material(&window, 0).alpha, AlphaMode::Mask { cutoff: 0.5 });
+    window.click("Unlit");
+    assert!(material(&window, 0).unlit);
+    window.click("Reset");
+    assert_eq!(material(&window, 0).alpha, AlphaMode::Mask { cutoff: 0.3 });
+    assert!(!material(&window, 0).unlit);
+
+    window.click("Clear the selection");
+    window.click("Glass, 1 triangle");
+    assert!(window.shows("Opacity") && !window.shows("Cutoff"));
+    window.click("Both sides");
+    assert!(material(&window, 1).double_sided);
 }
 
 #[test]

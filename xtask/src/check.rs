@@ -25,6 +25,14 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
         native(&mut steps, &absent)?;
     }
     let page = page(&mut steps)?;
+    if !options.browser_alone {
+        // The core's tests have written the files.
+        steps.step("Written models, read by others", || {
+            Line::new("node")
+                .args(["--test", "--test-reporter=spec", "tests/browser/exported.js"])
+                .run()
+        })?;
+    }
     let (here, elsewhere): (Vec<BrowserRun>, Vec<BrowserRun>) =
         options.browsers.iter().partition(|run| run.browser.is_run_here());
     let tests = BrowserTests {

@@ -1,6 +1,6 @@
 //! What the books' demos cannot show, or show otherwise than it is meant, though their loaders read it.
 
-use super::demo::{Book, DEMO_CLIP, MOST_BONES};
+use super::demo::{Book, DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::collect::counted;
 use crate::diagnostic::{Code, codes};
 use crate::format::{Document, Vertex};
@@ -27,16 +27,6 @@ pub struct Limit {
     /// Whether the demo ends of it before it shows anything.
     pub ends: bool,
 }
-
-/// Vertices that 16-bit indices name.
-const MOST_VERTICES: usize = 1 << 16;
-
-/// The demos scale their character by this, since their soldier is 72 units high.
-const SCALE: f32 = 0.05;
-
-/// Heights in the demos' units between which a character is seen as a whole and not as a dot: a quarter of the soldier's 3.6 to four times
-/// as much. The camera begins 15 units away.
-const SEEN_HEIGHTS: [f32; 2] = [0.9, 14.4];
 
 /// A fourth weight may differ by this from what the shader makes of it: files have six digits.
 const WEIGHT_TOLERANCE: f32 = 1e-3;
@@ -225,7 +215,7 @@ impl Limits {
         }
     }
 
-    /// The demos mirror z, since their soldier is right-handed, and scale by [`SCALE`].
+    /// The demos mirror z, since their soldier is right-handed, and scale by [`DEMO_SCALE`].
     fn space(&mut self, document: &Document, handedness: Option<Handedness>) {
         if handedness == Some(Handedness::Left) {
             self.add(
@@ -238,11 +228,11 @@ impl Limits {
         let [least, most] = heights.fold([f32::INFINITY, f32::NEG_INFINITY], |[least, most], height| {
             [least.min(height), most.max(height)]
         });
-        let height = (most - least) * SCALE;
+        let height = (most - least) * DEMO_SCALE;
         let [small, large] = SEEN_HEIGHTS;
         if height.is_finite() && !(small..=large).contains(&height) {
             let message = format!(
-                "The demo scales by {SCALE}: the model is {} high in its file and {} there, beside a soldier of 3.6.",
+                "The demo scales by {DEMO_SCALE}: the model is {} high in its file and {} there, beside a soldier of 3.6.",
                 rounded(most - least),
                 rounded(height)
             );

@@ -11,7 +11,7 @@ mod row;
 mod shows;
 mod stream;
 
-pub use demo::{Book, DEMO_CLIP, MOST_BONES};
+pub use demo::{Book, DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
 pub use row::Row;

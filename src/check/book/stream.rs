@@ -102,6 +102,10 @@ impl<'a> Stream<'a> {
         let Some(word) = self.word(format_args!("the label {label} of {row}")) else {
             return;
         };
+        // As nearly all of them are written.
+        if word.text.strip_suffix(b":") == Some(label.as_bytes()) {
+            return;
+        }
         let is = |label: &str| {
             let named = word
                 .text

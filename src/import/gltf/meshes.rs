@@ -471,7 +471,13 @@ impl Builder<'_> {
         let mut quiet = Diagnostics::default();
         mesh.check().map_err(|rule| Box::new(rule.diagnostic()))?;
         mend_normals(mesh, Handedness::Right, &[], &mut quiet);
+        let computed = mesh.tangents.iter().map(|tangent| !is_direction(tangent.truncate()));
+        let computed: Vec<bool> = computed.collect();
         mend_tangents(mesh, Vec::new, &mut quiet);
+        // The green of glTF's normal maps points against v, and so do the bitangents of tangents that a file has.
+        for (tangent, _) in mesh.tangents.iter_mut().zip(computed).filter(|(_, computed)| *computed) {
+            tangent.w = -tangent.w;
+        }
         Ok(self.mesh)
     }
 }

@@ -46,7 +46,13 @@ pub(super) fn influences_from_document(
 
 /// Weights that sum to 1, or four zeros.
 fn normalized(index: u32, stored: [f32; 4], mended: &mut Mended) -> [f32; 4] {
-    let usable = stored.map(|weight| if weight.is_finite() { weight.max(0.0) } else { 0.0 });
+    let usable = stored.map(|weight| {
+        if weight.is_finite() && weight > 0.0 {
+            weight
+        } else {
+            0.0
+        }
+    });
     if usable != stored {
         mended.invalid.add(index);
     }
@@ -58,6 +64,10 @@ fn normalized(index: u32, stored: [f32; 4], mended: &mut Mended) -> [f32; 4] {
     }
     if (sum - 1.0).abs() > f64::from(SUM_TOLERANCE) {
         mended.off_sum.add(index);
+    }
+    // A sum that is as near to 1 as numbers are stays, so that a second time changes nothing.
+    if (sum - 1.0).abs() <= f64::from(f32::EPSILON) {
+        return usable;
     }
     usable.map(|weight| (f64::from(weight) / sum) as f32)
 }

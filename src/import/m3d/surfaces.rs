@@ -60,7 +60,7 @@ pub(super) fn submeshes_from_document(
             ),
         );
     }
-    note_coverage(&submeshes, triangle_count, diagnostics);
+    note_coverage(&submeshes, triangle_count, lines, diagnostics);
     note_relative_indices(document, lines, diagnostics);
     submeshes
 }
@@ -90,7 +90,7 @@ fn clamped(
 }
 
 /// Triangles in no range are not drawn; triangles in several are drawn again.
-fn note_coverage(submeshes: &[Submesh], triangle_count: u32, diagnostics: &mut Diagnostics) {
+fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let mut ranges: Vec<(u32, u32)> = submeshes
         .iter()
         .filter(|submesh| submesh.triangle_count > 0)
@@ -98,17 +98,26 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, diagnostics: &mut D
         .collect();
     ranges.sort_unstable();
     let (mut drawn_to, mut undrawn, mut again) = (0, 0, 0_u64);
+    let (mut first_undrawn, mut first_again) = (None, None);
     for (start, end) in ranges {
-        undrawn += start.saturating_sub(drawn_to);
-        again += u64::from(drawn_to.min(end).saturating_sub(start));
+        if start > drawn_to {
+            undrawn += start - drawn_to;
+            first_undrawn.get_or_insert(drawn_to);
+        }
+        let shared = drawn_to.min(end).saturating_sub(start);
+        if shared > 0 {
+            again += u64::from(shared);
+            first_again.get_or_insert(start);
+        }
         drawn_to = drawn_to.max(end);
     }
     undrawn += triangle_count - drawn_to;
+    let place = |first: u32| Place::of(Subject::Triangle(first), &lines.triangles);
     if undrawn > 0 {
         let belong = counted(undrawn as usize, "triangle belongs", "triangles belong");
         diagnostics.add(
             &codes::TRIANGLES_UNDRAWN,
-            Place::default(),
+            place(first_undrawn.unwrap_or(drawn_to)),
             format!("{belong} to no subset; not drawn."),
         );
     }
@@ -120,7 +129,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, diagnostics: &mut D
         );
         diagnostics.add(
             &codes::TRIANGLES_SHARED,
-            Place::default(),
+            place(first_again.unwrap_or_default()),
             format!("{belong} to more than one subset."),
         );
     }

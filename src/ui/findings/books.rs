@@ -113,11 +113,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
     }
 }
 
-/// `the D3D12 book's program reads it`, for all verdicts.
+/// `the D3D12 book's program reads it`, for all verdicts. One that reads it and then ends shows nothing.
 pub(super) fn who_reads(verdicts: &[Verdict]) -> String {
-    let all: Vec<_> = newest_first(verdicts).filter(|verdict| verdict.reads()).collect();
+    let all: Vec<_> = newest_first(verdicts)
+        .filter(|verdict| verdict.reads() && !verdict.ends)
+        .collect();
     match all[..] {
-        [] => "neither book's program reads it".to_owned(),
+        [] => "but neither book's program shows it".to_owned(),
         [only] => format!("the {}'s program reads it", only.book.label()),
         _ => "both books' programs read it".to_owned(),
     }

@@ -28,7 +28,10 @@ impl Goal {
             }
             Subject::Vertex(vertex) => ((vertex as usize) < mesh.vertex_count()).then(|| Self::vertex(vertex)),
             // A triangle cannot be selected; its first corner can.
-            Subject::Triangle(triangle) => Some(Self::vertex(*mesh.indices.get(triangle as usize * 3)?)),
+            Subject::Triangle(triangle) => Some(Self {
+                words: format!("Triangle {}", grouped(triangle as usize)),
+                ..Self::vertex(*mesh.indices.get(triangle as usize * 3)?)
+            }),
             Subject::Subset(submesh) => {
                 let submesh = submesh as usize;
                 (submesh < mesh.submeshes.len()).then(|| Self::submesh(session, submesh, format!("Subset {submesh}")))

@@ -62,7 +62,7 @@ fn found(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, 
     ui.add_space(GAP);
     let listed = state.findings.filter.of(&all);
     if listed.is_empty() {
-        ui.label(RichText::new("No finding has these words.").color(Tokens::of(ui).muted));
+        ui.label(RichText::new("No finding fits what is chosen above.").color(Tokens::of(ui).muted));
     } else {
         rows(ui, session, open, &listed, state, commands);
     }

@@ -1,0 +1,514 @@
+//! `bindpose convert`: a model as a file of another format, changed on the way.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde::Serialize;
+
+use super::failure::{Failure, Outcome};
+use super::input::{self, one_of};
+use super::map_files::{self, MapFile};
+use super::paths;
+use super::text::{Plain, grouped};
+use super::textures::{Folders, Textures, Wanted};
+use crate::check::book::Book;
+use crate::diagnostic::{Severity, codes};
+use crate::edit::{self, Change, Edited, Edits};
+use crate::export::{self, Exported, Loss, MapImages};
+use crate::format::Dialect;
+use crate::import::FileFormat;
+use crate::model::{Front, Handedness, JointNames, MapSlot, Model, UpAxis};
+use crate::session::{self, File, Maps, OpenModel};
+
+/// Write a model as another file, changed as asked.
+///
+/// The ends of the names say the formats: .m3d is the text of the books, .glb is binary glTF. What changes and what the format cannot
+/// hold is told; all losses are known before anything is written.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = OUTPUT)]
+pub(super) struct Arguments {
+    /// Model to read, or - for standard input.
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    /// File to write: .m3d or .glb.
+    #[arg(value_name = "OUT")]
+    output: PathBuf,
+    /// Which book's .m3d is written [default: that of IN, else d3d12].
+    #[arg(long, value_name = "BOOK", value_parser = one_of(&Book::ALL, Book::name))]
+    dialect: Option<Book>,
+    /// Keep these clips only, named with commas between.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    clips: Option<Vec<String>>,
+    /// Mend what check names and can be mended without a choice.
+    ///
+    /// Triangles without area and repeated ones go, and vertices that nothing uses; signs of tangents follow the texture coordinates;
+    /// bones that keep still have one key.
+    #[arg(long)]
+    fix: bool,
+    /// Keep this part of the only clip, in seconds of its own time. The cuts get keys.
+    #[arg(long, value_name = "IN..OUT", value_parser = range, allow_hyphen_values = true)]
+    range: Option<[f32; 2]>,
+    /// Ease the end of each clip back into its first pose, over so many seconds.
+    ///
+    /// The way from the last pose to the first is added bone by bone, first little, then all of it (3u² − 2u³).
+    #[arg(long, value_name = "SECS", value_parser = input::seconds, allow_negative_numbers = true)]
+    close_loop: Option<f32>,
+    /// Leave keys out while all joints and their tips stay within this fraction of the model's size.
+    ///
+    /// The size is the diagonal of the bind pose; they are compared in the model's space at all old keys.
+    #[arg(long, value_name = "TOLERANCE", value_parser = number, allow_negative_numbers = true)]
+    reduce: Option<f32>,
+    /// Multiply all lengths.
+    #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
+    scale: Option<f32>,
+    /// Which axis points up in OUT [default for .m3d: y].
+    #[arg(long, value_name = "AXIS", value_parser = one_of(&UpAxis::ALL, UpAxis::name))]
+    up: Option<UpAxis>,
+    /// Handedness of OUT [default for .m3d: right for a skinned model, left for others, as in the books].
+    #[arg(long, value_name = "HAND", value_parser = one_of(&Handedness::ALL, Handedness::name))]
+    hand: Option<Handedness>,
+    /// Rename a clip; may be given more than once.
+    #[arg(long, value_name = "OLD=NEW", value_parser = renamed)]
+    rename: Vec<(String, String)>,
+    /// Name a bone by its number; may be given more than once.
+    #[arg(long, value_name = "N=NAME", value_parser = named_bone)]
+    rename_bone: Vec<(u32, String)>,
+    /// Bring it into the shape that the books' demo shows.
+    ///
+    /// Right-handed, y up, of a height that is seen; one root as bone 0, children after their parents, 96 bones at most; keys for each
+    /// bone from 0 s on; names of one word, and a clip Take1. Maps are written as DDS with mips into --textures-out.
+    #[arg(long)]
+    for_book: bool,
+    /// Look for maps in this folder and in those in it; may be given more than once.
+    #[arg(long, value_name = "DIR")]
+    textures: Vec<PathBuf>,
+    /// Write the maps that were found into this folder, and name them so in the .m3d: PNG, or DDS with --for-book.
+    #[arg(long, value_name = "DIR")]
+    textures_out: Option<PathBuf>,
+    /// What makes the exit code 1, with nothing written.
+    #[arg(long, value_name = "WHAT")]
+    deny: Option<Deny>,
+    /// Print JSON; see below for its keys.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Deny {
+    /// Anything that OUT cannot hold.
+    Losses,
+}
+
+const OUTPUT: &str = "\
+Edits are made in this order: clips, fix, range, close-loop, reduce, scale, up and hand, rename.
+
+JSON: an object
+  input, output   the paths as given
+  format          \"m3d\" or \"glb\"
+  dialect         \"d3d11\" or \"d3d12\"; null for .glb
+  changes         array: what is otherwise than in IN, in the order of the edits; code and message of each
+  losses          array: what OUT does not hold, or holds otherwise; code, message and count of each
+  bytes           size of OUT; 0 where nothing was written
+
+IN is never overwritten. OUT is written beside its place and then put there, so it is whole or not there.
+
+Exit codes:
+  0  OUT was written
+  1  IN has errors or is too large for --for-book; or --deny losses, and there are some: nothing was written
+  2  wrong use, or a file cannot be read or written";
+
+/// The result.
+#[derive(Debug, Serialize)]
+struct Converted<'a> {
+    input: String,
+    output: String,
+    format: &'static str,
+    dialect: Option<&'static str>,
+    changes: Vec<Told<'a>>,
+    losses: Vec<Lost<'a>>,
+    bytes: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct Told<'a> {
+    code: &'a str,
+    message: &'a str,
+}
+
+#[derive(Debug, Serialize)]
+struct Lost<'a> {
+    code: &'a str,
+    message: &'a str,
+    count: usize,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Target {
+    M3d(Dialect),
+    Glb,
+}
+
+pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
+    check_use(arguments)?;
+    refuse_own_input(&arguments.output, [arguments.input.as_path()])?;
+    let open = read(&arguments.input)?;
+    let target = arguments.target(open.format)?;
+    // What was mended while it was read is written as mended.
+    let mut changes: Vec<Change> = mended(&open);
+    let Edited {
+        mut model,
+        names,
+        changes: of_edits,
+    } = edit::apply(
+        open.model.clone(),
+        &JointNames::default(),
+        &arguments.edits(target, &open.model),
+    )
+    .map_err(|error| Failure::edit(&arguments.input, error))?;
+    changes.extend(of_edits);
+
+    let folders = Folders::walk(&arguments.textures, err)?;
+    let mut textures = Textures::of(&folders, &model.materials, Wanted::Maps);
+    textures.write_warnings(err)?;
+    let mut maps = if arguments.for_book {
+        Maps::default()
+    } else {
+        Maps::without_mips()
+    };
+    let pictures = std::mem::take(&mut textures.pictures).into_iter();
+    maps.add(&model.materials, pictures.chain(open.pictures.iter().cloned()));
+    let mut map_files = Vec::new();
+    let mut losses = Vec::new();
+    if let Some(folder) = &arguments.textures_out {
+        map_files = map_files::name_maps(&mut model, &maps, arguments.for_book, &mut changes, &mut losses)?;
+        let beside = arguments.input.parent().unwrap_or(Path::new(""));
+        let sources = maps.pictures().iter();
+        let sources: Vec<PathBuf> = sources
+            .flat_map(|file| [textures.path(file).to_owned(), beside.join(&file.path)])
+            .chain([arguments.input.clone()])
+            .collect();
+        for file in &map_files {
+            refuse_own_input(&folder.join(&file.name), sources.iter().map(PathBuf::as_path))?;
+        }
+    } else if target != Target::Glb {
+        losses.extend(unwritten_maps(&open, &maps, &model));
+        if arguments.for_book && target == Target::M3d(Dialect::D3d12) {
+            losses.extend(maps_not_dds(&model));
+        }
+    }
+    let Exported {
+        bytes,
+        losses: of_format,
+    } = match target {
+        Target::M3d(dialect) => export::m3d(&model, &names, dialect)?,
+        Target::Glb => export::glb(&model, &names, &images(&model, &maps))?,
+    };
+    losses.extend(of_format);
+    let is_denied = arguments.deny == Some(Deny::Losses) && !losses.is_empty();
+    if !is_denied {
+        if let Some(folder) = &arguments.textures_out {
+            write_maps(folder, &map_files)?;
+        }
+        write_whole(&arguments.output, &bytes)?;
+    }
+    let converted = Converted {
+        input: arguments.input.display().to_string(),
+        output: arguments.output.display().to_string(),
+        format: target.name(),
+        dialect: target.dialect(),
+        changes: changes.iter().map(Told::from).collect(),
+        losses: losses.iter().map(Lost::from).collect(),
+        bytes: if is_denied { 0 } else { bytes.len() },
+    };
+    if arguments.json {
+        serde_json::to_writer_pretty(&mut *out, &converted)?;
+        writeln!(out)?;
+    } else {
+        write_text(out, &converted)?;
+    }
+    if is_denied {
+        out.flush()?;
+        writeln!(err, "error: nothing was written, since something would be lost")?;
+        return Ok(Outcome::FileHasErrors);
+    }
+    Ok(Outcome::Fine)
+}
+
+impl Target {
+    fn name(self) -> &'static str {
+        match self {
+            Self::M3d(_) => "m3d",
+            Self::Glb => "glb",
+        }
+    }
+
+    fn dialect(self) -> Option<&'static str> {
+        match self {
+            Self::M3d(dialect) => Some(dialect.as_str()),
+            Self::Glb => None,
+        }
+    }
+}
+
+impl From<Book> for Dialect {
+    fn from(book: Book) -> Self {
+        match book {
+            Book::D3d11 => Self::D3d11,
+            Book::D3d12 => Self::D3d12,
+        }
+    }
+}
+
+impl Arguments {
+    fn writes_glb(&self) -> bool {
+        has_extension(&self.output, "glb")
+    }
+
+    fn target(&self, of_input: FileFormat) -> Result<Target, Failure> {
+        if self.writes_glb() {
+            return Ok(Target::Glb);
+        }
+        let own = match of_input {
+            FileFormat::M3d(Dialect::D3d11) => Dialect::D3d11,
+            _ => Dialect::D3d12,
+        };
+        Ok(Target::M3d(self.dialect.map_or(own, Dialect::from)))
+    }
+
+    fn edits(&self, target: Target, model: &Model) -> Edits {
+        // A .glb is brought into its one space as it is written.
+        let of_m3d = target != Target::Glb;
+        let of_books = if model.skeleton.joint_count() > 0 {
+            Handedness::Right
+        } else {
+            Handedness::Left
+        };
+        Edits {
+            clips: self.clips.clone(),
+            fix: self.fix,
+            range_secs: self.range,
+            close_loop_secs: self.close_loop,
+            reduce: self.reduce,
+            scale: self.scale,
+            up_axis: self.up.or(of_m3d.then_some(UpAxis::Y)),
+            handedness: self.hand.or(of_m3d.then_some(of_books)),
+            front: of_m3d.then_some(Front::Negative),
+            clip_names: self.rename.clone(),
+            bone_names: self.rename_bone.clone(),
+            for_book: self.for_book,
+        }
+    }
+}
+
+/// Refuses what does not go together.
+fn check_use(arguments: &Arguments) -> Result<(), Failure> {
+    let refused = |is_one: bool, why: &str| {
+        if is_one {
+            Err(Failure::WrongUse(why.to_owned()))
+        } else {
+            Ok(())
+        }
+    };
+    let writes_glb = arguments.writes_glb();
+    refused(
+        !writes_glb && !has_extension(&arguments.output, "m3d"),
+        "OUT ends in .m3d or .glb, which says its format",
+    )?;
+    let only_m3d = [
+        (arguments.dialect.is_some(), "--dialect"),
+        (arguments.for_book, "--for-book"),
+        (arguments.textures_out.is_some(), "--textures-out"),
+        (arguments.up == Some(UpAxis::Z), "--up z"),
+        (arguments.hand == Some(Handedness::Left), "--hand left"),
+    ];
+    for (is_given, option) in only_m3d {
+        refused(
+            writes_glb && is_given,
+            &format!("{option} is for .m3d; a .glb is right-handed, has y up and holds its maps"),
+        )?;
+    }
+    let of_book = [
+        (arguments.up == Some(UpAxis::Z), "--up z"),
+        (arguments.hand == Some(Handedness::Left), "--hand left"),
+    ];
+    for (is_given, option) in of_book {
+        refused(
+            arguments.for_book && is_given,
+            &format!("{option} does not go with --for-book, whose demo has one space"),
+        )?;
+    }
+    Ok(())
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}
+
+/// The model and the files beside it that it names.
+fn read(path: &Path) -> Result<OpenModel, Failure> {
+    let bytes = paths::read(path)?;
+    let file = File::new("model.m3d", bytes);
+    session::load_beside(&file, &|name| input::beside(path, name)).map_err(|error| Failure::Refused {
+        path: path.to_owned(),
+        error,
+    })
+}
+
+/// What was mended while the model was read, as changes. Findings of the checks are none.
+fn mended(open: &OpenModel) -> Vec<Change> {
+    let is_check = |code: &str| {
+        let groups = [codes::OF_MESH_AND_RIG, codes::OF_MOTION];
+        groups.iter().any(|group| group.iter().any(|row| row.name == code))
+    };
+    let warnings = open.diagnostics.iter();
+    warnings
+        .filter(|diagnostic| diagnostic.severity == Severity::Warning && !is_check(diagnostic.code))
+        .map(|diagnostic| Change {
+            code: diagnostic.code,
+            message: diagnostic.message.clone(),
+        })
+        .collect()
+}
+
+/// Maps that lie inside the input and of which a `.m3d` keeps the names alone.
+fn unwritten_maps(open: &OpenModel, maps: &Maps, model: &Model) -> Option<Loss> {
+    let materials = 0..model.materials.len();
+    let slots = materials.flat_map(|material| MapSlot::ALL.map(|slot| maps.file(material, slot)));
+    let inside = slots.flatten().filter(|file| open.pictures.contains(file)).count();
+    (inside > 0).then(|| Loss {
+        code: "maps-not-written",
+        message: "Maps of the input are named and not written; --textures-out DIR writes them.".to_owned(),
+        count: inside,
+    })
+}
+
+/// Maps that the D3D12 book's demo does not read.
+fn maps_not_dds(model: &Model) -> Option<Loss> {
+    let names = session::named_maps(&model.materials).map(|(_, _, name)| name);
+    let count = names.filter(|name| !has_extension(Path::new(name), "dds")).count();
+    (count > 0).then(|| Loss {
+        code: codes::BOOK_MAP_FORMAT.name,
+        message: "Maps are not named as DDS, which the demo needs; --textures-out DIR writes them so.".to_owned(),
+        count,
+    })
+}
+
+fn images<'a>(model: &Model, maps: &'a Maps) -> MapImages<'a> {
+    let slots = (0..model.materials.len()).flat_map(|material| MapSlot::ALL.map(|slot| (material, slot)));
+    slots
+        .filter_map(|(material, slot)| Some(((material, slot), &**maps.image(material, slot)?)))
+        .collect()
+}
+
+/// Refuses to write one of the files that were read.
+fn refuse_own_input<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+    // A file that is not there is none of them.
+    let Ok(there) = fs::canonicalize(output) else {
+        return Ok(());
+    };
+    let is_input = inputs
+        .into_iter()
+        .any(|input| fs::canonicalize(input).is_ok_and(|input| input == there));
+    if is_input {
+        return Err(Failure::OwnInput {
+            path: output.to_owned(),
+        });
+    }
+    Ok(())
+}
+
+fn write_maps(folder: &Path, files: &[MapFile]) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|reason| Failure::Unwritable {
+        path: folder.to_owned(),
+        reason,
+    })?;
+    files
+        .iter()
+        .try_for_each(|file| write_whole(&folder.join(&file.name), &file.bytes))
+}
+
+/// Writes beside the place and renames, so that a file is whole or not there.
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    written.map_err(|reason| {
+        // It may not even have been made.
+        let _ = fs::remove_file(&beside);
+        Failure::Unwritable {
+            path: path.to_owned(),
+            reason,
+        }
+    })
+}
+
+impl<'a> From<&'a Change> for Told<'a> {
+    fn from(change: &'a Change) -> Self {
+        Self {
+            code: change.code,
+            message: &change.message,
+        }
+    }
+}
+
+impl<'a> From<&'a Loss> for Lost<'a> {
+    fn from(loss: &'a Loss) -> Self {
+        Self {
+            code: loss.code,
+            message: &loss.message,
+            count: loss.count,
+        }
+    }
+}
+
+fn write_text(out: &mut dyn Write, converted: &Converted<'_>) -> io::Result<()> {
+    for change in &converted.changes {
+        writeln!(out, "change[{}]: {}", change.code, Plain(change.message))?;
+    }
+    for loss in &converted.losses {
+        writeln!(out, "loss[{}]: {}", loss.code, Plain(loss.message))?;
+    }
+    if converted.bytes > 0 {
+        writeln!(out, "{}: {} bytes", converted.output, grouped(converted.bytes))?;
+    }
+    Ok(())
+}
+
+/// `0.5..2`, as an argument.
+fn range(text: &str) -> Result<[f32; 2], String> {
+    let wrong = || "a range is two numbers of seconds, such as 0.5..2".to_owned();
+    let (from, to) = text.split_once("..").ok_or_else(wrong)?;
+    let [from, to] = [from, to].map(input::seconds);
+    match (from, to) {
+        (Ok(from), Ok(to)) if from < to => Ok([from, to]),
+        _ => Err(wrong()),
+    }
+}
+
+/// A number above 0, as an argument.
+fn number(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("it is a number above 0".into()),
+    }
+}
+
+fn renamed(text: &str) -> Result<(String, String), String> {
+    let names = text
+        .split_once('=')
+        .filter(|(old, new)| !old.is_empty() && !new.is_empty());
+    let (old, new) = names.ok_or("it is OLD=NEW")?;
+    Ok((old.to_owned(), new.to_owned()))
+}
+
+fn named_bone(text: &str) -> Result<(u32, String), String> {
+    let parts = text
+        .split_once('=')
+        .and_then(|(bone, name)| Some((bone.parse().ok()?, name)));
+    let (bone, name) = parts.ok_or("it is N=NAME, with the number of the bone in the file")?;
+    Ok((bone, name.to_owned()))
+}

@@ -1,0 +1,42 @@
+//! What comes out of edits.
+
+use crate::model::{Clip, JointNames, Model, Track};
+
+/// Something that came out otherwise than it was.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// Stable name of its kind. What check names has check's code.
+    pub code: &'static str,
+    /// One sentence.
+    pub message: String,
+}
+
+impl Change {
+    pub(super) fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+        }
+    }
+}
+
+/// A changed model.
+#[derive(Clone, Debug)]
+pub struct Edited {
+    /// The model.
+    pub model: Model,
+    /// Names of its bones, by their numbers in the model as it is now.
+    pub names: JointNames,
+    /// What is otherwise than before, in the order of the edits.
+    pub changes: Vec<Change>,
+}
+
+/// The clip with other tracks.
+pub(super) fn with_tracks(clip: &Clip, tracks: Vec<Track>) -> Clip {
+    Clip::new(clip.name.clone(), tracks)
+}
+
+/// `1 key`, `2 keys`.
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}

@@ -1,0 +1,208 @@
+//! Changes to a model before it is written: functions from a [`Model`] to a [`Model`], each in a file of its own.
+//!
+//! [`apply`] makes all that [`Edits`] ask for, in one order: choose, fix, range, close, reduce, scale and axes, rename, and last what the
+//! books' demo needs. Each thing that came out otherwise than it was is a [`Change`]; what changes nothing is none.
+
+mod choose;
+mod close_loop;
+mod edited;
+mod error;
+mod fix;
+mod for_book;
+mod range;
+mod reduce;
+mod rename;
+mod space;
+
+pub use edited::{Change, Edited};
+pub use error::EditError;
+
+use reduce::Reducing;
+
+use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
+
+/// What to change. The default changes nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Edits {
+    /// Names of the clips to keep; `None` keeps all.
+    pub clips: Option<Vec<String>>,
+    /// Mends what [`check`](crate::check) names and can be mended without a choice.
+    pub fix: bool,
+    /// The part of the only clip to keep, from and to, in seconds of its own time.
+    pub range_secs: Option<[f32; 2]>,
+    /// Seconds at the end of each clip over which it is brought back to its first pose.
+    pub close_loop_secs: Option<f32>,
+    /// How far joints and their tips may be moved by keys that are left out, as a fraction of the bind pose's diagonal.
+    pub reduce: Option<f32>,
+    /// Factor of all lengths, above 0.
+    pub scale: Option<f32>,
+    /// The up axis to come out with.
+    pub up_axis: Option<UpAxis>,
+    /// The handedness to come out with.
+    pub handedness: Option<Handedness>,
+    /// Which way characters are to face, as formats have it.
+    pub front: Option<Front>,
+    /// New names of clips: the old one and the new one.
+    pub clip_names: Vec<(String, String)>,
+    /// New names of bones, by their numbers in the file.
+    pub bone_names: Vec<(u32, String)>,
+    /// Brings it into the shape that the books' demo shows: right-handed, y up, of a height that is seen, one root as bone 0, children
+    /// after their parents, keys for each bone from 0 s on, names of one word and the demo's clip among them.
+    pub for_book: bool,
+}
+
+impl Edits {
+    /// With what the books' programs expect, where nothing else is asked: y up, characters that face as theirs do, right-handed with bones.
+    #[must_use]
+    pub fn in_space_of_the_books(mut self, model: &Model) -> Self {
+        // The demo mirrors its character alone.
+        let handedness = if model.skeleton.joint_count() > 0 {
+            Handedness::Right
+        } else {
+            Handedness::Left
+        };
+        self.handedness.get_or_insert(handedness);
+        self.up_axis.get_or_insert(UpAxis::Y);
+        self.front.get_or_insert(Front::Negative);
+        self
+    }
+}
+
+/// Makes all edits, in the order that the module's doc names. `names` are those that a person gave to bones.
+///
+/// # Errors
+/// When an edit names what is not there or cannot be made; see [`EditError`].
+pub fn apply(model: Model, names: &JointNames, edits: &Edits) -> Result<Edited, EditError> {
+    let mut job = EditJob::new(model, names, edits.clone());
+    while job.step()? {}
+    Ok(job.finish())
+}
+
+/// All edits of [`apply`], in steps: it can run beside other work, and be dropped between two of them.
+#[derive(Clone, Debug)]
+pub struct EditJob {
+    edited: Edited,
+    edits: Edits,
+    next: Stage,
+}
+
+#[derive(Clone, Debug)]
+enum Stage {
+    Clips,
+    Reduce(Reducing),
+    Space,
+    Ended,
+}
+
+impl EditJob {
+    /// A job that has done nothing yet.
+    pub fn new(model: Model, names: &JointNames, edits: Edits) -> Self {
+        let edited = Edited {
+            model,
+            names: names.clone(),
+            changes: Vec::new(),
+        };
+        Self {
+            edited,
+            edits,
+            next: Stage::Clips,
+        }
+    }
+
+    /// What has been edited, up to the last step.
+    pub fn finish(self) -> Edited {
+        self.edited
+    }
+
+    /// Steps that are done, and all of them. One that thins keys may take several calls.
+    pub fn progress(&self) -> [usize; 2] {
+        let thinned = if self.edits.reduce.is_some() {
+            self.edited.model.clips.len()
+        } else {
+            0
+        };
+        let done = match &self.next {
+            Stage::Clips => 0,
+            Stage::Reduce(reducing) => 1 + reducing.done(),
+            Stage::Space => 1 + thinned,
+            Stage::Ended => 2 + thinned,
+        };
+        [done, 2 + thinned]
+    }
+
+    /// Does one step. Whether there is more to do.
+    ///
+    /// # Errors
+    /// As [`apply`] has them.
+    pub fn step(&mut self) -> Result<bool, EditError> {
+        match &mut self.next {
+            Stage::Clips => {
+                self.edit_clips()?;
+                self.next = match self.edits.reduce {
+                    Some(tolerance) => Stage::Reduce(Reducing::new(&self.edited, tolerance)?),
+                    None => Stage::Space,
+                };
+            }
+            Stage::Reduce(reducing) => {
+                if !reducing.step(&mut self.edited) {
+                    self.next = Stage::Space;
+                }
+            }
+            Stage::Space => {
+                self.edit_space_and_names()?;
+                self.next = Stage::Ended;
+            }
+            Stage::Ended => {}
+        }
+        Ok(!matches!(self.next, Stage::Ended))
+    }
+
+    /// All edits that come before the thinning of keys.
+    fn edit_clips(&mut self) -> Result<(), EditError> {
+        let Self { edited, edits, .. } = self;
+        if let Some(clips) = &edits.clips {
+            choose::choose_clips(edited, clips)?;
+        }
+        if edits.fix {
+            fix::fix(edited);
+        }
+        if let Some(range_secs) = edits.range_secs {
+            range::cut(edited, range_secs)?;
+        }
+        if let Some(secs) = edits.close_loop_secs {
+            close_loop::close_loops(edited, secs)?;
+        }
+        if edits.for_book {
+            for_book::check_size(&edited.model)?;
+        }
+        Ok(())
+    }
+
+    /// All edits that come after it.
+    fn edit_space_and_names(&mut self) -> Result<(), EditError> {
+        let Self { edited, edits, .. } = self;
+        let asked = if edits.for_book {
+            edits.clone().in_space_of_the_books(&edited.model)
+        } else {
+            edits.clone()
+        };
+        let to = space::Space {
+            handedness: asked.handedness,
+            up_axis: asked.up_axis,
+            front: asked.front,
+        };
+        space::turn(edited, to);
+        let scale = edits
+            .scale
+            .or_else(|| for_book::scale(&edited.model).filter(|_| edits.for_book));
+        if let Some(factor) = scale {
+            space::scale(edited, factor)?;
+        }
+        rename::rename_clips(edited, &edits.clip_names)?;
+        rename::rename_bones(edited, &edits.bone_names)?;
+        if edits.for_book {
+            for_book::shape(edited)?;
+        }
+        Ok(())
+    }
+}

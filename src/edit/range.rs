@@ -1,0 +1,117 @@
+//! Keeps a part of a clip, with keys at the cuts.
+
+use super::edited::{Change, Edited, with_tracks};
+use super::error::EditError;
+use crate::model::{Clip, Curve, CurveValue, Curves, ModelError, Track};
+
+/// Cuts the only clip to a range of its own time, which stays as it is.
+pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditError> {
+    let [clip] = &mut edited.model.clips[..] else {
+        return Err(EditError::RangeNeedsOneClip {
+            clips: edited.model.clips.len(),
+        });
+    };
+    let [from, to] = range_secs;
+    if !(clip.start_secs <= from && from < to && to <= clip.end_secs) {
+        return Err(EditError::RangeOutside {
+            clip: clip.name.clone(),
+            from,
+            to,
+            start_secs: clip.start_secs,
+            end_secs: clip.end_secs,
+        });
+    }
+    if from == clip.start_secs && to == clip.end_secs {
+        return Ok(());
+    }
+    *clip = part(clip, range_secs).map_err(|_| EditError::Overflows)?;
+    edited.changes.push(Change::new(
+        "range-cut",
+        format!("\"{}\" is cut to {from} s … {to} s.", clip.name),
+    ));
+    Ok(())
+}
+
+fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, ModelError> {
+    let mut tracks = clip
+        .tracks
+        .iter()
+        .map(|track| part_of_track(track, range_secs))
+        .collect::<Result<Vec<Track>, _>>()?;
+    // Where all keep still, one of them says how long.
+    if tracks.iter().all(|track| track.key_count() == 1)
+        && let Some(keyed) = tracks.iter_mut().find(|track| track.has_keys())
+    {
+        *keyed = Track::new(range_secs.map(|secs| (secs, keyed.key(0))))?;
+    }
+    Ok(with_tracks(clip, tracks))
+}
+
+fn part_of_track(track: &Track, range_secs: [f32; 2]) -> Result<Track, ModelError> {
+    if !track.has_keys() {
+        return Ok(track.clone());
+    }
+    let [from, to] = range_secs;
+    let times_secs = track.times_secs();
+    if track.curves().is_none() && (track.end_secs() <= from || to <= track.start_secs()) {
+        return Track::new([(from, track.at(from))]);
+    }
+    let inner = inside(times_secs, range_secs).map(|key| (times_secs[key], track.key(key)));
+    let ends = [(from, track.at(from)), (to, track.at(to))];
+    let cut = Track::new(ends[..1].iter().copied().chain(inner).chain(ends[1..].iter().copied()))?;
+    let Some(curves) = track.curves() else {
+        return Ok(cut);
+    };
+    let of = |curve: &Option<Curve<_>>| curve.as_ref().map(|curve| part_of_curve(curve, range_secs)).transpose();
+    let rotation = curves.rotation.as_ref();
+    Ok(cut.with_curves(Curves {
+        translation: of(&curves.translation)?,
+        rotation: rotation.map(|curve| part_of_curve(curve, range_secs)).transpose()?,
+        scale: of(&curves.scale)?,
+    }))
+}
+
+/// The keys that lie between two times.
+fn inside(times_secs: &[f32], [from, to]: [f32; 2]) -> std::ops::Range<usize> {
+    let first = times_secs.partition_point(|&secs| secs <= from);
+    first..times_secs.partition_point(|&secs| secs < to).max(first)
+}
+
+fn part_of_curve<T: CurveValue>(curve: &Curve<T>, range_secs: [f32; 2]) -> Result<Curve<T>, ModelError> {
+    let [from, to] = range_secs;
+    let inner = inside(curve.times_secs(), range_secs).map(|key| curve.times_secs()[key]);
+    let times_secs = [from].into_iter().chain(inner).chain([to]);
+    if curve.tangents().is_none() {
+        return Curve::step(times_secs.map(|secs| (secs, curve.value_at(secs))));
+    }
+    // A piece of a cubic is the cubic with its own slopes at the ends.
+    Curve::cubic(times_secs.map(|secs| (secs, curve.value_at(secs), slopes_at(curve, secs))))
+}
+
+/// How steeply a cubic curve comes to a time and goes on from it, a second. Outside its keys it keeps still.
+fn slopes_at<T: CurveValue>(curve: &Curve<T>, secs: f32) -> [T; 2] {
+    let (times_secs, values) = (curve.times_secs(), curve.values());
+    let still = values[0] * 0.0;
+    let Some(tangents) = curve.tangents() else {
+        return [still; 2];
+    };
+    let next = times_secs.partition_point(|&key_secs| key_secs <= secs);
+    let last = times_secs.len() - 1;
+    if let Some(key) = next.checked_sub(1).filter(|&key| times_secs[key] == secs) {
+        let [slope_in, slope_out] = tangents[key];
+        return [
+            if key == 0 { still } else { slope_in },
+            if key == last { still } else { slope_out },
+        ];
+    }
+    if next == 0 || next > last {
+        return [still; 2];
+    }
+    let length_secs = f64::from(times_secs[next]) - f64::from(times_secs[next - 1]);
+    let t = (f64::from(secs) - f64::from(times_secs[next - 1])) / length_secs;
+    let slope = values[next - 1] * (6.0 * (t * t - t) / length_secs) as f32
+        + tangents[next - 1][1] * (3.0 * t * t - 4.0 * t + 1.0) as f32
+        + values[next] * (6.0 * (t - t * t) / length_secs) as f32
+        + tangents[next][0] * (3.0 * t * t - 2.0 * t) as f32;
+    [slope; 2]
+}

@@ -1,0 +1,293 @@
+//! Leaves keys out that say little.
+//!
+//! Each track is thinned by itself (Ramer–Douglas–Peucker) in a bound of its own: its share of what the joints of its chain may do
+//! together. Then the poses at all old keys are compared, in the model's space; chains that came too far off are thinned again in
+//! less, and what does not fit in the end keeps its keys. So the bound holds whatever the shares were.
+
+use glam::Affine3A;
+
+use super::edited::{Change, Edited, with_tracks};
+use super::error::EditError;
+use crate::anim::{CompiledClip, PoseBuffers};
+use crate::model::{Aabb, Clip, LocalJoint, Model, Skeleton, Track};
+
+/// Errors of a chain's joints rarely point the same way, so shares begin greater than what is safe.
+const FIRST_SHARE: f32 = 8.0;
+
+/// So often is a chain thinned anew before it keeps its keys.
+const MOST_ROUNDS: usize = 8;
+
+/// The thinning of all clips, in steps, so that no joint and no tip is off by more than a tolerance of the bind pose's diagonal at any
+/// old key.
+#[derive(Clone, Debug)]
+pub(super) struct Reducing {
+    diagonal: f32,
+    bound: f32,
+    tips: Vec<f32>,
+    /// Clips that are done.
+    done: usize,
+    thinning: Option<Thinning>,
+}
+
+impl Reducing {
+    pub(super) fn new(edited: &Edited, tolerance: f32) -> Result<Self, EditError> {
+        if !(tolerance.is_finite() && tolerance > 0.0) {
+            return Err(EditError::Nonsense {
+                what: "The tolerance of reduced keys",
+                value: tolerance,
+            });
+        }
+        let diagonal = diagonal(&edited.model);
+        Ok(Self {
+            diagonal,
+            bound: tolerance * diagonal,
+            tips: tip_distances(&edited.model),
+            done: 0,
+            thinning: None,
+        })
+    }
+
+    /// Clips that are done.
+    pub(super) fn done(&self) -> usize {
+        self.done
+    }
+
+    /// Thins a clip once. Whether there is more to do.
+    pub(super) fn step(&mut self, edited: &mut Edited) -> bool {
+        let Some(old) = edited.model.clips.get(self.done) else {
+            return false;
+        };
+        let skeleton = &edited.model.skeleton;
+        let mut thinning = match self.thinning.take() {
+            Some(thinning) => thinning,
+            None => Thinning::new(skeleton, &self.tips, old, self.bound),
+        };
+        let Some((new, reached)) = thinning.round(skeleton, &self.tips, old, self.bound) else {
+            self.thinning = Some(thinning);
+            return true;
+        };
+        self.done += 1;
+        if new.key_count != old.key_count {
+            let fraction = if self.diagonal > 0.0 {
+                reached / self.diagonal
+            } else {
+                0.0
+            };
+            edited.changes.push(Change::new(
+                "keys-reduced",
+                format!(
+                    "\"{}\" has {} keys instead of {}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
+                    new.name, new.key_count, old.key_count
+                ),
+            ));
+            edited.model.clips[self.done - 1] = new;
+        }
+        true
+    }
+}
+
+/// Of the bind pose: its vertices, or its joints where there are none.
+fn diagonal(model: &Model) -> f32 {
+    let joints = model.skeleton.bind_model_from_joint().iter();
+    let bounds = match model.bind_bounds() {
+        bounds if bounds.is_empty() => Aabb::from_points(joints.map(|joint| joint.translation.into())),
+        bounds => bounds,
+    };
+    bounds.size().length()
+}
+
+/// How far what hangs on each joint itself reaches from it: its children at rest, and its vertices by their weights.
+fn tip_distances(model: &Model) -> Vec<f32> {
+    let skeleton = &model.skeleton;
+    let mut tips = vec![0.0_f32; skeleton.joint_count()];
+    for (joint, parent) in skeleton.parents().iter().enumerate() {
+        if let Some(parent) = parent {
+            tips[parent.index()] = tips[parent.index()].max(skeleton.rest()[joint].translation.length());
+        }
+    }
+    for (position, influences) in model.mesh.positions.iter().zip(&model.mesh.influences) {
+        for (&joint, &weight) in influences.joints.iter().zip(&influences.weights) {
+            if weight > 0.0 {
+                let in_joint = skeleton.joint_from_bind()[joint as usize].transform_point3(*position);
+                tips[joint as usize] = tips[joint as usize].max(in_joint.length() * weight);
+            }
+        }
+    }
+    tips
+}
+
+/// The thinning of one clip to as few keys as the bound lets it have.
+#[derive(Clone, Debug)]
+struct Thinning {
+    limits: Limits,
+    shares: Vec<f32>,
+    rounds: usize,
+    times_secs: Vec<f32>,
+    old: CompiledClip,
+}
+
+impl Thinning {
+    fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
+        Self {
+            limits: Limits::new(skeleton, tips, clip, bound),
+            shares: vec![FIRST_SHARE; clip.tracks.len()],
+            rounds: 0,
+            times_secs: all_times(clip),
+            old: CompiledClip::new(clip),
+        }
+    }
+
+    /// Thins all tracks in their shares. The new clip and how far off it is, once it keeps to the bound; before that, shares become less.
+    fn round(&mut self, skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Option<(Clip, f32)> {
+        let shares = &mut self.shares;
+        let new = with_tracks(clip, self.limits.thinned(clip, shares));
+        let off = greatest_errors(skeleton, tips, [&self.old, &CompiledClip::new(&new)], &self.times_secs);
+        let reached = off.iter().copied().fold(0.0, f32::max);
+        let is_over = |joint: usize| off[joint] > bound;
+        if !(0..off.len()).any(is_over) || shares.iter().all(|&share| share == 0.0) {
+            return Some((new, reached));
+        }
+        self.rounds += 1;
+        let mut tightened = vec![1.0_f32; shares.len()];
+        for joint in (0..off.len()).rev() {
+            if is_over(joint) {
+                let factor = if self.rounds <= MOST_ROUNDS {
+                    (0.8 * bound / off[joint]).clamp(0.1, 0.8)
+                } else {
+                    0.0
+                };
+                tightened[joint] = tightened[joint].min(factor);
+            }
+            if let Some(parent) = skeleton.parents()[joint] {
+                tightened[parent.index()] = tightened[parent.index()].min(tightened[joint]);
+            }
+        }
+        for (share, factor) in shares.iter_mut().zip(tightened) {
+            *share *= factor;
+        }
+        None
+    }
+}
+
+/// Every time at which some joint has a key, to the bit.
+fn all_times(clip: &Clip) -> Vec<f32> {
+    let keyed = clip.tracks.iter().filter(|track| track.has_keys());
+    let mut times_secs: Vec<f32> = keyed.flat_map(Track::times_secs).copied().collect();
+    times_secs.sort_by(f32::total_cmp);
+    times_secs.dedup();
+    times_secs
+}
+
+/// For each joint how far it, or a tip of it, is off at most.
+fn greatest_errors(skeleton: &Skeleton, tips: &[f32], [old, new]: [&CompiledClip; 2], times_secs: &[f32]) -> Vec<f32> {
+    let mut poses = [PoseBuffers::for_skeleton(skeleton), PoseBuffers::for_skeleton(skeleton)];
+    let mut greatest = vec![0.0_f32; skeleton.joint_count()];
+    for &secs in times_secs {
+        poses[0].evaluate(skeleton, old, secs);
+        poses[1].evaluate(skeleton, new, secs);
+        let joints = poses[0].model.0.iter().zip(&poses[1].model.0);
+        for ((greatest, (old, new)), &tip) in greatest.iter_mut().zip(joints).zip(tips) {
+            *greatest = greatest.max(apart(old, new, tip));
+        }
+    }
+    greatest
+}
+
+/// How far apart two places of a joint are: its own, and what is `tip` away from it along each axis.
+fn apart(old: &Affine3A, new: &Affine3A, tip: f32) -> f32 {
+    let moved = new.translation - old.translation;
+    let turned = (new.matrix3 - old.matrix3) * tip;
+    let tips = [turned.x_axis, turned.y_axis, turned.z_axis];
+    tips.into_iter()
+        .map(|turned| (moved + turned).length())
+        .fold(moved.length(), f32::max)
+}
+
+/// How much each track may be off by itself.
+#[derive(Clone, Debug)]
+struct Limits {
+    /// Its share of the bound, were all errors of a chain to add up.
+    bounds: Vec<f32>,
+    /// How far what hangs on the joint reaches, its whole branch stretched out.
+    reaches: Vec<f32>,
+}
+
+impl Limits {
+    fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
+        let parents = skeleton.parents();
+        let is_thinned = |track: &Track| track.key_count() > 2 && track.curves().is_none();
+        let own: Vec<u32> = clip.tracks.iter().map(|track| u32::from(is_thinned(track))).collect();
+        let (mut above, mut below) = (own.clone(), own.clone());
+        for (joint, parent) in parents.iter().enumerate() {
+            if let Some(parent) = parent {
+                above[joint] += above[parent.index()];
+            }
+        }
+        let mut reaches = tips.to_vec();
+        for (joint, parent) in parents.iter().enumerate().rev() {
+            if let Some(parent) = parent.map(|parent| parent.index()) {
+                below[parent] = below[parent].max(own[parent] + below[joint]);
+                let lengths = clip.tracks[joint].translations().iter().map(|way| way.length());
+                reaches[parent] = reaches[parent].max(reaches[joint] + lengths.fold(0.0, f32::max));
+            }
+        }
+        let chain = |joint: usize| above[joint] + below[joint] - own[joint];
+        Self {
+            bounds: (0..own.len()).map(|joint| bound / chain(joint).max(1) as f32).collect(),
+            reaches,
+        }
+    }
+
+    fn thinned(&self, clip: &Clip, shares: &[f32]) -> Vec<Track> {
+        let tracks = clip.tracks.iter().zip(shares).enumerate();
+        tracks
+            .map(|(joint, (track, &share))| {
+                if share == 0.0 || track.key_count() <= 2 || track.curves().is_some() {
+                    return track.clone();
+                }
+                let kept = kept_keys(track, self.reaches[joint], self.bounds[joint] * share);
+                let keys = kept.into_iter().map(|key| (track.times_secs()[key], track.key(key)));
+                // Keys of a track make a track.
+                Track::new(keys).unwrap_or_else(|_| track.clone())
+            })
+            .collect()
+    }
+}
+
+/// Keys of a track between which no other one is off by more than `bound`. A part that is halved often at its ends is halved in its
+/// middle, so that the time stays near linear.
+fn kept_keys(track: &Track, reach: f32, bound: f32) -> Vec<usize> {
+    let last = track.key_count() - 1;
+    let mut kept = vec![false; last + 1];
+    (kept[0], kept[last]) = (true, true);
+    let mut open = vec![(0, last, 0)];
+    while let Some((from, to, depth)) = open.pop() {
+        let ends = [from, to].map(|key| (track.times_secs()[key], track.key(key)));
+        let off = |key: usize| off_by(&ends, track.times_secs()[key], &track.key(key), reach);
+        let worst = (from + 1..to)
+            .map(|key| (key, off(key)))
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((worst, error)) = worst else { continue };
+        if error <= bound {
+            continue;
+        }
+        let at = if depth < 48 { worst } else { from.midpoint(to) };
+        kept[at] = true;
+        open.extend([(from, at, depth + 1), (at, to, depth + 1)]);
+    }
+    (0..=last).filter(|&key| kept[key]).collect()
+}
+
+/// How far what hangs on a joint is off where a key is left out between two others.
+fn off_by(ends: &[(f32, LocalJoint); 2], secs: f32, key: &LocalJoint, reach: f32) -> f32 {
+    let [(from_secs, from), (to_secs, to)] = ends;
+    let part = ((f64::from(secs) - f64::from(*from_secs)) / (f64::from(*to_secs) - f64::from(*from_secs))) as f32;
+    let translation = from.translation.lerp(to.translation, part);
+    let rotation = from.rotation.slerp(to.rotation, part);
+    let scale = from.scale.lerp(to.scale, part);
+    let chord = (rotation - key.rotation)
+        .length()
+        .min((rotation + key.rotation).length());
+    let stretch = (scale - key.scale).abs().max_element();
+    translation.distance(key.translation) + (2.0 * chord + stretch) * reach
+}

@@ -1,0 +1,282 @@
+//! Size, handedness, up axis and front: geometry, skeleton, keys and curves are turned together, so that the picture in the world is the
+//! same, or larger.
+//!
+//! The order of a triangle's corners stays, since what is mirrored winds the other way round by itself. Only where the triangles wind as
+//! in the other hand, as those of glTF do, they are turned round: in a `.m3d` the winding is all that tells the hand.
+
+use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A, Vec4};
+
+use super::edited::{Change, Edited, with_tracks};
+use super::error::EditError;
+use crate::model::{
+    Curve, CurveValue, Curves, Front, Handedness, JointIndex, LocalJoint, Model, ModelError, Skeleton, Track, UpAxis,
+    world_from_model,
+};
+
+/// The space to come out with; `None` leaves what is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Space {
+    pub(super) handedness: Option<Handedness>,
+    pub(super) up_axis: Option<UpAxis>,
+    pub(super) front: Option<Front>,
+}
+
+/// Turns a model into another space. The world sees the same.
+pub(super) fn turn(edited: &mut Edited, to: Space) {
+    let model = &edited.model;
+    let (handedness, up_axis, front) = (model.handedness, model.up_axis, model.front);
+    let Space {
+        handedness: handedness_asked,
+        up_axis: to_up_axis,
+        front: to_front,
+    } = to;
+    let (to_handedness, to_up_axis) = (handedness_asked.unwrap_or(handedness), to_up_axis.unwrap_or(up_axis));
+    let to_front = to_front.unwrap_or(front);
+    let world_from_new = world_from_model(to_handedness, to_up_axis, to_front);
+    // Axes are exchanged and turned round, no more: the inverse is exact.
+    let new_from_old = world_from_new.matrix3.transpose() * world_from_model(handedness, up_axis, front).matrix3;
+    if new_from_old != Mat3A::IDENTITY {
+        let exact = Map::new(new_from_old, 1.0).model(&mut edited.model);
+        debug_assert!(exact.is_ok(), "numbers change their sign and their place");
+    }
+    let model = &mut edited.model;
+    (model.handedness, model.up_axis, model.front) = (to_handedness, to_up_axis, to_front);
+    let turned_round = handedness_asked.is_some() && winds_against(model);
+    if turned_round {
+        let (triangles, _) = model.mesh.indices.as_chunks_mut::<3>();
+        triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    }
+    let mut change = |is_one: bool, code, message: String| {
+        if is_one {
+            edited.changes.push(Change::new(code, message));
+        }
+    };
+    change(
+        to_up_axis != up_axis,
+        "up-axis-changed",
+        format!("{} is up, not {}.", to_up_axis.name(), up_axis.name()),
+    );
+    change(
+        to_handedness != handedness,
+        "handedness-changed",
+        format!(
+            "It is {}-handed, not {}-handed.",
+            to_handedness.name(),
+            handedness.name()
+        ),
+    );
+    change(
+        turned_round,
+        "winding-changed",
+        "Triangles wind the other way round, as the hand asks for.".to_owned(),
+    );
+    change(
+        to_front != front,
+        "front-changed",
+        "It is turned round, to face where the format's characters do.".to_owned(),
+    );
+}
+
+/// Whether most triangles wind as in the other hand: where fronts are clockwise, normals point to the side that the corners go round by
+/// the left hand.
+fn winds_against(model: &Model) -> bool {
+    let mesh = &model.mesh;
+    let (triangles, _) = mesh.indices.as_chunks::<3>();
+    let mut left_less_right = 0_i64;
+    for corners in triangles {
+        let [a, b, c] = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+        let normal: Vec3 = corners.iter().map(|&vertex| mesh.normals[vertex as usize]).sum();
+        let side = (b - a).cross(c - a).dot(normal.as_dvec3());
+        left_less_right += i64::from(side > 0.0) - i64::from(side < 0.0);
+    }
+    match model.handedness {
+        Handedness::Left => left_less_right < 0,
+        Handedness::Right => left_less_right > 0,
+    }
+}
+
+/// Multiplies all lengths.
+pub(super) fn scale(edited: &mut Edited, factor: f32) -> Result<(), EditError> {
+    if !(factor.is_finite() && factor > 0.0) {
+        return Err(EditError::Nonsense {
+            what: "The factor of a scale",
+            value: factor,
+        });
+    }
+    if factor == 1.0 {
+        return Ok(());
+    }
+    Map::new(Mat3A::IDENTITY, factor)
+        .model(&mut edited.model)
+        .map_err(|_| EditError::Overflows)?;
+    edited.changes.push(Change::new(
+        "scaled",
+        format!("All lengths are multiplied by {factor}."),
+    ));
+    Ok(())
+}
+
+/// From a space into another: axes are exchanged and turned round, then all lengths are multiplied.
+struct Map {
+    axes: Mat3A,
+    factor: f32,
+    /// 1, or −1 where it mirrors.
+    sign: f32,
+}
+
+impl Map {
+    fn new(axes: Mat3A, factor: f32) -> Self {
+        Self {
+            axes,
+            factor,
+            sign: axes.determinant(),
+        }
+    }
+
+    fn model(&self, model: &mut Model) -> Result<(), ModelError> {
+        let mesh = &mut model.mesh;
+        for position in &mut mesh.positions {
+            *position = self.point(*position);
+        }
+        for normal in &mut mesh.normals {
+            *normal = self.direction(*normal);
+        }
+        for tangent in &mut mesh.tangents {
+            // A mirror turns the cross product of normal and tangent round.
+            *tangent = self.direction(tangent.truncate()).extend(tangent.w * self.sign);
+        }
+        mesh.check()?;
+        model.skeleton = self.skeleton(&model.skeleton)?;
+        for clip in &mut model.clips {
+            let tracks: Result<Vec<Track>, _> = clip.tracks.iter().map(|track| self.track(track)).collect();
+            *clip = with_tracks(clip, tracks?);
+        }
+        Ok(())
+    }
+
+    fn skeleton(&self, skeleton: &Skeleton) -> Result<Skeleton, ModelError> {
+        let joint_from_bind = skeleton.joint_from_bind().iter().map(|matrix| self.matrix(matrix));
+        let rest: Vec<LocalJoint> = skeleton.rest().iter().map(|joint| self.joint(joint)).collect();
+        let turned = Skeleton::new(
+            skeleton.parents().to_vec(),
+            joint_from_bind.collect(),
+            skeleton.file_bones().to_vec(),
+        )?;
+        Ok(turned.with_rest(&rest).with_names(names_of(skeleton).collect()))
+    }
+
+    fn track(&self, track: &Track) -> Result<Track, ModelError> {
+        if !track.has_keys() {
+            return Ok(Track::at_rest(self.joint(&track.key(0))));
+        }
+        let keys = (0..track.key_count()).map(|key| (track.times_secs()[key], self.joint(&track.key(key))));
+        let turned = Track::new(keys)?;
+        let Some(curves) = track.curves() else {
+            return Ok(turned);
+        };
+        let same = |secs| secs;
+        let translation = curves.translation.as_ref();
+        let rotation = curves.rotation.as_ref();
+        let scale = curves.scale.as_ref();
+        Ok(turned.with_curves(Curves {
+            translation: translation
+                .map(|curve| mapped(curve, same, |value| self.point(value)))
+                .transpose()?,
+            rotation: rotation
+                .map(|curve| mapped(curve, same, |value| self.quaternion(value)))
+                .transpose()?,
+            scale: scale
+                .map(|curve| mapped(curve, same, |value| self.scale(value)))
+                .transpose()?,
+        }))
+    }
+
+    /// A matrix of the old space, there and back.
+    fn matrix(&self, matrix: &Affine3A) -> Affine3A {
+        Affine3A {
+            matrix3: self.axes * matrix.matrix3 * self.axes.transpose(),
+            translation: self.axes * matrix.translation * self.factor,
+        }
+    }
+
+    fn joint(&self, joint: &LocalJoint) -> LocalJoint {
+        LocalJoint {
+            rotation: Quat::from_vec4(self.quaternion(joint.rotation.into())),
+            translation: self.point(joint.translation),
+            scale: self.scale(joint.scale),
+        }
+    }
+
+    fn point(&self, point: Vec3) -> Vec3 {
+        self.direction(point) * self.factor
+    }
+
+    fn direction(&self, direction: Vec3) -> Vec3 {
+        (self.axes * Vec3A::from(direction)).into()
+    }
+
+    /// The axis of a turn is no direction: a mirror turns it round once more.
+    fn quaternion(&self, value: Vec4) -> Vec4 {
+        (self.direction(value.truncate()) * self.sign).extend(value.w)
+    }
+
+    /// Factors along axes change their places, not their signs.
+    fn scale(&self, scale: Vec3) -> Vec3 {
+        Mat3::from_cols(
+            self.axes.x_axis.abs().into(),
+            self.axes.y_axis.abs().into(),
+            self.axes.z_axis.abs().into(),
+        ) * scale
+    }
+}
+
+/// The same keys, sooner. Of keys whose times become one the first is kept.
+pub(super) fn shifted(track: &Track, sooner_secs: f32) -> Result<Track, ModelError> {
+    let mut last = None;
+    let keys = (0..track.key_count()).filter_map(|key| {
+        let secs = track.times_secs()[key] - sooner_secs;
+        let is_after = last.is_none_or(|last| secs > last);
+        last = Some(secs);
+        is_after.then(|| (secs, track.key(key)))
+    });
+    let shifted = Track::new(keys)?;
+    let Some(curves) = track.curves() else {
+        return Ok(shifted);
+    };
+    let sooner = |secs| secs - sooner_secs;
+    let rotation = curves.rotation.as_ref();
+    let of = |curve: &Option<Curve<Vec3>>| {
+        curve
+            .as_ref()
+            .map(|curve| mapped(curve, sooner, |value| value))
+            .transpose()
+    };
+    Ok(shifted.with_curves(Curves {
+        translation: of(&curves.translation)?,
+        rotation: rotation.map(|curve| mapped(curve, sooner, |value| value)).transpose()?,
+        scale: of(&curves.scale)?,
+    }))
+}
+
+/// The file's names of all joints; an empty one stands for none.
+pub(super) fn names_of(skeleton: &Skeleton) -> impl Iterator<Item = String> {
+    let joints = (0..skeleton.joint_count() as u32).map(JointIndex);
+    joints.map(|joint| skeleton.name(joint).unwrap_or_default().to_owned())
+}
+
+/// A curve with other times and values. Values and slopes are mapped alike, so `value` is linear.
+fn mapped<T: CurveValue>(
+    curve: &Curve<T>,
+    time: impl Fn(f32) -> f32,
+    value: impl Fn(T) -> T,
+) -> Result<Curve<T>, ModelError> {
+    let times_secs = curve.times_secs().iter().map(|secs| time(*secs));
+    let keys = times_secs.zip(curve.values().iter().map(|one| value(*one)));
+    match curve.tangents() {
+        None => Curve::step(keys),
+        Some(tangents) => {
+            let slopes = tangents.iter().map(|slopes| slopes.map(&value));
+            Curve::cubic(keys.zip(slopes).map(|((secs, value), slopes)| (secs, value, slopes)))
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What glTF does not hold.
+
+use super::animation::has_keys;
+use super::skeleton::is_unweighted;
+use crate::diagnostic::collect::counted;
+use crate::export::losses::Losses;
+use crate::export::{Loss, MapImages};
+use crate::model::{MapSlot, Model};
+
+/// What a `.glb` file does not hold of a model, or holds otherwise.
+pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
+    let mut losses = Losses::default();
+    let mesh = &model.mesh;
+    let drawn = drawn_triangles(model);
+    let undrawn = drawn.iter().filter(|drawn| !**drawn).count();
+    losses.add(
+        "triangles-undrawn",
+        undrawn,
+        format!(
+            "{} left out, since no subset draws them.",
+            counted(undrawn, "triangle is", "triangles are")
+        ),
+    );
+    let empty = mesh
+        .submeshes
+        .iter()
+        .filter(|submesh| submesh.triangle_count == 0)
+        .count();
+    losses.add(
+        "subsets-empty",
+        empty,
+        format!(
+            "{} left out, which have no triangles.",
+            counted(empty, "subset is", "subsets are")
+        ),
+    );
+    let unweighted = mesh
+        .influences
+        .iter()
+        .filter(|influences| is_unweighted(influences))
+        .count();
+    losses.add(
+        "vertices-unweighted",
+        unweighted,
+        format!(
+            "{} moved by no bone; a joint that stands still is added to hold them.",
+            counted(unweighted, "vertex is", "vertices are")
+        ),
+    );
+    let early = model
+        .clips
+        .iter()
+        .filter(|clip| has_keys(clip) && clip.start_secs < 0.0)
+        .count();
+    losses.add(
+        "negative-times",
+        early,
+        format!(
+            "{} before 0 s, where glTF has no time; moved to begin there.",
+            counted(early, "clip begins", "clips begin")
+        ),
+    );
+    let still = model.clips.iter().filter(|clip| !has_keys(clip)).count();
+    losses.add(
+        "clips-without-keys",
+        still,
+        format!("{} no keys; left out.", counted(still, "clip has", "clips have")),
+    );
+    let missing = (0..)
+        .zip(&model.materials)
+        .flat_map(|(index, material)| {
+            let named = MapSlot::ALL
+                .into_iter()
+                .filter(|&slot| material.map_name(slot).is_some());
+            named.map(move |slot| (index, slot))
+        })
+        .filter(|place| !maps.contains_key(place))
+        .count();
+    losses.add(
+        "maps-missing",
+        missing,
+        format!(
+            "{} left out, since there is no picture.",
+            counted(missing, "map is", "maps are")
+        ),
+    );
+    losses.0
+}
+
+/// Whether a submesh draws each triangle.
+fn drawn_triangles(model: &Model) -> Vec<bool> {
+    let mut drawn = vec![false; model.mesh.triangle_count()];
+    for submesh in &model.mesh.submeshes {
+        let first = submesh.triangle_start as usize;
+        drawn[first..first + submesh.triangle_count as usize].fill(true);
+    }
+    drawn
+}

@@ -1,0 +1,144 @@
+//! A model in glTF's binary form.
+//!
+//! ```text
+//! mesh       a primitive for each submesh, over accessors that all share; corners against the clock, as glTF has them
+//! skeleton   a node for each bone, in the file's order; one above them where there are several roots, since a skin wants one
+//! clips      an animation each; keys at the model's times, held values as STEP, splines as CUBICSPLINE
+//! materials  metallic-roughness, with what the books say in `extras.bindpose`; maps as PNG, each picture once
+//! ```
+
+mod animation;
+mod binary;
+mod geometry;
+mod losses;
+mod material;
+mod number;
+mod pictures;
+mod skeleton;
+mod space;
+
+use serde_json::{Value, json};
+
+use super::{ExportError, Exported, MapImages};
+use crate::model::{JointNames, Model};
+use binary::Binary;
+use space::Space;
+
+pub use losses::glb_losses;
+pub use pictures::EncodedMaps;
+
+const MAGIC: u32 = 0x4654_6c67;
+const JSON_CHUNK: u32 = 0x4e4f_534a;
+const BINARY_CHUNK: u32 = 0x004e_4942;
+
+/// Writes a model as a `.glb` file, right-handed and y up, facing +z; lengths stay. `names` are names that a person gave to bones.
+///
+/// # Errors
+/// When a picture cannot be written, or the file would have more than 4 GiB.
+pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Exported, ExportError> {
+    glb_with(model, names, maps, EncodedMaps::default())
+}
+
+/// Encodes the next picture of such a file. Whether there was one left.
+///
+/// # Errors
+/// When a picture cannot be written.
+pub fn encode_map(model: &Model, maps: &MapImages<'_>, encoded: &mut EncodedMaps) -> Result<bool, ExportError> {
+    for (place, purpose) in material::pictures(model, maps) {
+        if encoded.encode(maps[&place], purpose)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The same file as [`glb`] writes, with pictures that were encoded before.
+///
+/// # Errors
+/// As [`glb`].
+pub fn glb_with(
+    model: &Model,
+    names: &JointNames,
+    maps: &MapImages<'_>,
+    encoded: EncodedMaps,
+) -> Result<Exported, ExportError> {
+    let space = Space::of(model);
+    let mut binary = Binary::default();
+    let mut root = json!({
+        "asset": { "version": "2.0", "generator": concat!("Bindpose ", env!("CARGO_PKG_VERSION")) },
+        "scene": 0,
+    });
+    let bones = skeleton::bones(model, names, &space, &mut binary);
+    let mut nodes = bones.nodes;
+    let mut scene_nodes = bones.roots;
+    let mesh = geometry::mesh(model, &space, bones.unmoving, &mut binary);
+    if let Some(mesh) = mesh {
+        root["meshes"] = json!([mesh]);
+        let mut node = json!({ "mesh": 0 });
+        if let Some(skin) = &bones.skin {
+            node["skin"] = json!(0);
+            root["skins"] = json!([skin]);
+        }
+        scene_nodes.push(nodes.len());
+        nodes.push(node);
+    }
+    let mut scene = json!({});
+    if !scene_nodes.is_empty() {
+        scene["nodes"] = json!(scene_nodes);
+    }
+    if !space.is_same() {
+        scene["extras"] = json!({ "bindpose": {
+            "handedness": model.handedness.name(), "up": model.up_axis.name(),
+        }});
+    }
+    root["scenes"] = json!([scene]);
+    let animations = animation::animations(model, &space, &mut binary);
+    let written = material::materials(model, maps, encoded, &mut binary)?;
+    for (key, list) in [
+        ("nodes", nodes),
+        ("animations", animations),
+        ("materials", written.materials),
+        ("textures", written.textures),
+        ("samplers", written.samplers),
+        ("images", written.images),
+        (
+            "extensionsUsed",
+            written.extensions.iter().map(|name| json!(name)).collect(),
+        ),
+        ("accessors", std::mem::take(&mut binary.accessors)),
+        ("bufferViews", std::mem::take(&mut binary.views)),
+    ] {
+        if !list.is_empty() {
+            root[key] = Value::Array(list);
+        }
+    }
+    if !binary.bytes.is_empty() {
+        root["buffers"] = json!([{ "byteLength": binary.bytes.len() }]);
+    }
+    Ok(Exported {
+        bytes: container(&root, binary.bytes)?,
+        losses: glb_losses(model, maps),
+    })
+}
+
+/// The chunks of a `.glb` file.
+fn container(root: &Value, mut binary: Vec<u8>) -> Result<Vec<u8>, ExportError> {
+    let mut text = root.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    binary.resize(binary.len().next_multiple_of(4), 0);
+    let chunks = [(JSON_CHUNK, text), (BINARY_CHUNK, binary)];
+    let chunks = || chunks.iter().filter(|(_, bytes)| !bytes.is_empty());
+    let length = 12 + chunks().map(|(_, bytes)| 8 + bytes.len()).sum::<usize>();
+    let length = u32::try_from(length).map_err(|_| ExportError::TooLarge)?;
+    let mut file = Vec::with_capacity(length as usize);
+    let mut whole = |numbers: &[u32], bytes: &[u8]| {
+        numbers.iter().for_each(|number| file.extend(number.to_le_bytes()));
+        file.extend_from_slice(bytes);
+    };
+    whole(&[MAGIC, 2, length], &[]);
+    for (kind, bytes) in chunks() {
+        // No chunk is longer than the file.
+        whole(&[bytes.len() as u32, *kind], bytes);
+    }
+    Ok(file)
+}

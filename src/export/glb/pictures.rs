@@ -1,0 +1,159 @@
+//! Maps as PNG pictures, each once.
+
+use std::collections::HashMap;
+
+use serde_json::{Value, json};
+
+use super::binary::{Binary, Target};
+use crate::export::ExportError;
+use crate::image::{Channels, Image, encode_png};
+
+/// What a picture is made of a map for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Use {
+    /// Its texels as they are.
+    AsIs,
+    /// A direction in red, green and blue; z follows from x and y where the map has none.
+    Directions,
+    /// Roughness in green: 1 − (1 − roughness) × alpha of a normal map, as both lights take it. Metalness in blue.
+    Roughness {
+        /// Bits of the roughness that the map changes.
+        roughness: u32,
+        /// Whether it is a metal.
+        metal: bool,
+    },
+}
+
+/// Pictures that were encoded before their file is written, by the map's place in memory and what they are for.
+#[derive(Clone, Debug, Default)]
+pub struct EncodedMaps(HashMap<(usize, Use), Vec<u8>>);
+
+impl EncodedMaps {
+    /// Encodes a picture. Whether it was not there yet.
+    pub(super) fn encode(&mut self, image: &Image, purpose: Use) -> Result<bool, ExportError> {
+        let key = (place(image), purpose);
+        if self.0.contains_key(&key) {
+            return Ok(false);
+        }
+        self.0.insert(key, encoded(image, purpose)?);
+        Ok(true)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+}
+
+fn place(image: &Image) -> usize {
+    std::ptr::from_ref(image).addr()
+}
+
+fn encoded(image: &Image, purpose: Use) -> Result<Vec<u8>, ExportError> {
+    Ok(encode_png(&texels(image, purpose), image.width(), image.height())?)
+}
+
+/// The pictures that were written.
+#[derive(Default)]
+pub(super) struct Pictures {
+    pub(super) images: Vec<Value>,
+    encoded: EncodedMaps,
+    /// By the map's place in memory and what it is for.
+    made: HashMap<(usize, Use), usize>,
+    by_bytes: HashMap<Vec<u8>, usize>,
+}
+
+impl Pictures {
+    /// No picture yet, and some that are encoded.
+    pub(super) fn new(encoded: EncodedMaps) -> Self {
+        Self {
+            encoded,
+            ..Self::default()
+        }
+    }
+
+    /// The picture of a map. Equal ones are written once, with the first name.
+    pub(super) fn picture(
+        &mut self,
+        image: &Image,
+        purpose: Use,
+        name: &str,
+        binary: &mut Binary,
+    ) -> Result<usize, ExportError> {
+        let key = (place(image), purpose);
+        if let Some(&made) = self.made.get(&key) {
+            return Ok(made);
+        }
+        let png = match self.encoded.0.remove(&key) {
+            Some(png) => png,
+            None => encoded(image, purpose)?,
+        };
+        let index = match self.by_bytes.get(&png) {
+            Some(&index) => index,
+            None => {
+                let view = binary.view(&png, Target::Other);
+                self.images
+                    .push(json!({ "bufferView": view, "mimeType": "image/png", "name": name }));
+                self.by_bytes.insert(png, self.images.len() - 1);
+                self.images.len() - 1
+            }
+        };
+        self.made.insert(key, index);
+        Ok(index)
+    }
+}
+
+/// RGBA, 8 bits a channel.
+fn texels(image: &Image, purpose: Use) -> Vec<u8> {
+    let mut texels = image.to_rgba8(0, 0).unwrap_or_default();
+    match purpose {
+        Use::AsIs => {}
+        Use::Directions => {
+            for texel in texels.chunks_exact_mut(4) {
+                if image.channels() == Channels::RedGreen {
+                    texel[2] = third(texel[0], texel[1]);
+                }
+                texel[3] = u8::MAX;
+            }
+        }
+        Use::Roughness { roughness, metal } => {
+            let shininess = 1.0 - f32::from_bits(roughness);
+            for texel in texels.chunks_exact_mut(4) {
+                let roughness = 1.0 - shininess * f32::from(texel[3]) / 255.0;
+                let metalness = if metal { u8::MAX } else { 0 };
+                texel.copy_from_slice(&[u8::MAX, (roughness * 255.0).round() as u8, metalness, u8::MAX]);
+            }
+        }
+    }
+    texels
+}
+
+/// The z of a unit direction, as bytes tell it.
+fn third(x: u8, y: u8) -> u8 {
+    let [x, y] = [x, y].map(|byte| f32::from(byte) / 255.0 * 2.0 - 1.0);
+    let z = (1.0 - x * x - y * y).max(0.0).sqrt();
+    ((z * 0.5 + 0.5) * 255.0).round() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_of_two_numbers_gets_its_third() {
+        assert_eq!(third(128, 128), 255);
+        assert_eq!(third(255, 128), 128);
+        assert_eq!(third(255, 255), 128);
+    }
+
+    #[test]
+    fn gloss_becomes_roughness() {
+        let image = Image::from_rgba8(3, 1, vec![1, 2, 3, 0, 1, 2, 3, 255, 1, 2, 3, 128], "test");
+        let purpose = Use::Roughness {
+            roughness: 0.5_f32.to_bits(),
+            metal: false,
+        };
+        let found = texels(&image.expect("a sound picture"), purpose);
+        assert_eq!(found, [255, 255, 0, 255, 255, 128, 0, 255, 255, 191, 0, 255]);
+    }
+}

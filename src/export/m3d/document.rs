@@ -1,0 +1,215 @@
+//! What a file of the books' format says of a model.
+
+use std::collections::HashSet;
+
+use crate::anim::straight;
+use crate::format::{self, AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Reflectance, Subset, Vertex};
+use crate::model::{FresnelSurface, JointIndex, LocalJoint, MapSlot, Material, Model, PhongSurface, Submesh, Track};
+
+/// A joint this near to its place in the bind pose, in sizes of the model, is there: matrices lose as much.
+const REST_TOLERANCE: f32 = 1e-5;
+
+/// A name as the loaders read it: up to the first blank.
+pub fn one_word(name: &str) -> String {
+    let words: Vec<&str> = name
+        .split(char::is_whitespace)
+        .filter(|word| !word.is_empty())
+        .collect();
+    let word = words.join("_");
+    // The brace would be taken for the one that opens a clip.
+    match word.strip_suffix('{') {
+        Some(start) => format!("{start}_"),
+        None => word,
+    }
+}
+
+/// Names as single words, told apart.
+fn words<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut taken = HashSet::new();
+    names
+        .map(|name| {
+            let wish = match one_word(name) {
+                word if word.is_empty() => "_".to_owned(),
+                word => word,
+            };
+            let mut free = wish.clone();
+            let mut number = 2;
+            while !taken.insert(free.clone()) {
+                free = format!("{wish}_{number}");
+                number += 1;
+            }
+            free
+        })
+        .collect()
+}
+
+/// The materials in the order of the subsets, since subset i is drawn with material i.
+pub(super) fn of_subsets(model: &Model) -> impl Iterator<Item = &Material> {
+    let materials = model.mesh.submeshes.iter().map(|submesh| submesh.material as usize);
+    materials.map(|material| &model.materials[material])
+}
+
+/// Whether a file of the dialect says the name of a material.
+pub(super) fn names_materials(dialect: Dialect) -> bool {
+    dialect == Dialect::D3d12
+}
+
+pub(super) fn document(model: &Model, dialect: Dialect) -> Document {
+    let skinned = model.skeleton.joint_count() > 0;
+    let rests = rests_apart(model);
+    let material_names = words(of_subsets(model).map(|material| material.name.as_str()));
+    let clip_names = words(model.clips.iter().map(|clip| clip.name.as_str()));
+    let materials = of_subsets(model).zip(material_names);
+    let subsets = (0u32..).zip(&model.mesh.submeshes);
+    Document {
+        dialect,
+        materials: materials
+            .map(|(of_model, name)| material(of_model, name, dialect, skinned))
+            .collect(),
+        subsets: subsets.map(|(id, submesh)| subset(model, id, submesh)).collect(),
+        vertices: (0..model.mesh.vertex_count())
+            .map(|index| vertex(model, index))
+            .collect(),
+        triangles: model
+            .mesh
+            .indices
+            .chunks_exact(3)
+            .map(|corners| [corners[0], corners[1], corners[2]])
+            .collect(),
+        bone_offsets: in_file_order(model).map(|joint| offset(model, joint)).collect(),
+        bone_parents: in_file_order(model).map(|joint| parent_bone(model, joint)).collect(),
+        clips: model
+            .clips
+            .iter()
+            .zip(clip_names)
+            .map(|(clip, name)| AnimationClip {
+                name,
+                bones: in_file_order(model)
+                    .map(|joint| keys(&clip.tracks[joint.index()], rests[joint.index()].as_ref()))
+                    .collect(),
+            })
+            .collect(),
+    }
+}
+
+fn in_file_order(model: &Model) -> impl Iterator<Item = JointIndex> {
+    model.skeleton.joint_of_bone().iter().copied()
+}
+
+fn parent_bone(model: &Model, joint: JointIndex) -> i32 {
+    let parent = model.skeleton.parents()[joint.index()];
+    parent.map_or(-1, |parent| model.skeleton.file_bones()[parent.index()].cast_signed())
+}
+
+/// Row vectors, row by row, are the columns of our column-vector matrix.
+fn offset(model: &Model, joint: JointIndex) -> [f32; 16] {
+    glam::Mat4::from(model.skeleton.joint_from_bind()[joint.index()]).to_cols_array()
+}
+
+fn material(material: &Material, name: String, dialect: Dialect, skinned: bool) -> format::Material {
+    let (diffuse, reflectance) = match dialect {
+        Dialect::D3d12 => {
+            let FresnelSurface {
+                diffuse,
+                fresnel0,
+                roughness,
+            } = material.fresnel_surface();
+            (diffuse, Reflectance::Fresnel { fresnel0, roughness })
+        }
+        Dialect::D3d11 | Dialect::Imm => {
+            let PhongSurface {
+                diffuse,
+                ambient,
+                specular,
+                spec_power,
+                reflectivity,
+            } = material.phong_surface();
+            let reflectance = Reflectance::Phong {
+                ambient,
+                specular,
+                spec_power,
+                reflectivity,
+            };
+            (diffuse, reflectance)
+        }
+    };
+    let map = |slot| material.map_name(slot).map(one_word);
+    format::Material {
+        name: if names_materials(dialect) { name } else { String::new() },
+        diffuse,
+        reflectance,
+        alpha_clip: material.is_cut(),
+        type_name: if skinned { "Skinned" } else { "Normal" }.to_owned(),
+        diffuse_map: map(MapSlot::Diffuse),
+        normal_map: map(MapSlot::Normal),
+    }
+}
+
+fn subset(model: &Model, id: u32, submesh: &Submesh) -> Subset {
+    let corners = 3 * submesh.triangle_start as usize..3 * (submesh.triangle_start + submesh.triangle_count) as usize;
+    let corners = &model.mesh.indices[corners];
+    let first = corners.iter().min().copied().unwrap_or_default();
+    let end = corners.iter().max().map_or(first, |last| last + 1);
+    Subset {
+        id,
+        vertex_start: first,
+        vertex_count: end - first,
+        face_start: submesh.triangle_start,
+        face_count: submesh.triangle_count,
+    }
+}
+
+fn vertex(model: &Model, index: usize) -> Vertex {
+    let mesh = &model.mesh;
+    let influences = mesh.influences.get(index).copied().unwrap_or_default();
+    let bone = |slot: usize| match influences.weights[slot] {
+        0.0 => 0,
+        _ => model.skeleton.file_bones()[influences.joints[slot] as usize],
+    };
+    Vertex {
+        position: mesh.positions[index].to_array(),
+        tangent: mesh.tangents[index].to_array(),
+        normal: mesh.normals[index].to_array(),
+        tex_coords: mesh.tex_coords[index].to_array(),
+        blend_weights: influences.weights,
+        blend_indices: std::array::from_fn(bone),
+    }
+}
+
+/// The keys of a joint. One that a clip leaves at rest elsewhere than in the bind pose gets a key there, since the format knows no
+/// other rest.
+fn keys(track: &Track, rest_apart: Option<&LocalJoint>) -> BoneAnimation {
+    let keyframes = if track.has_keys() {
+        let track = straight(track);
+        (0..track.key_count())
+            .map(|key| keyframe(track.times_secs()[key], track.key(key)))
+            .collect()
+    } else {
+        rest_apart.map(|&rest| keyframe(0.0, rest)).into_iter().collect()
+    };
+    BoneAnimation { keyframes }
+}
+
+fn keyframe(time_secs: f32, joint: LocalJoint) -> Keyframe {
+    Keyframe {
+        time_secs,
+        translation: joint.translation.to_array(),
+        scale: joint.scale.to_array(),
+        rotation: joint.rotation.to_array(),
+    }
+}
+
+/// The rest of each joint that is not where the bind pose has it.
+pub(super) fn rests_apart(model: &Model) -> Vec<Option<LocalJoint>> {
+    let size = model.bind_bounds().size().length();
+    let rests = model.skeleton.rest().iter();
+    rests
+        .zip(model.skeleton.bind().iter().copied())
+        .map(|(&rest, bind)| {
+            let near = rest.translation.distance(bind.translation) <= REST_TOLERANCE * size
+                && rest.scale.distance(bind.scale) <= REST_TOLERANCE
+                && 1.0 - rest.rotation.dot(bind.rotation).abs() <= REST_TOLERANCE;
+            (rest != bind && !near).then_some(rest)
+        })
+        .collect()
+}

@@ -1,0 +1,49 @@
+//! A model as a file: the books' text format, and glTF's binary form.
+//!
+//! What a format cannot hold is a [`Loss`]. All losses are known before anything is written.
+
+mod glb;
+mod losses;
+mod m3d;
+
+use std::collections::BTreeMap;
+
+use crate::image::Image;
+use crate::model::MapSlot;
+
+pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with};
+pub use m3d::{m3d, m3d_losses, one_word};
+
+/// A written file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// What it does not hold, or holds otherwise.
+    pub losses: Vec<Loss>,
+}
+
+/// Something of a model that a file does not hold, or holds otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loss {
+    /// Its name for programs, for example `vertex-colors`.
+    pub code: &'static str,
+    /// One sentence for people.
+    pub message: String,
+    /// How many parts of the model it is about.
+    pub count: usize,
+}
+
+/// Why no file was written.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// A picture could not be written.
+    #[error(transparent)]
+    Picture(#[from] crate::image::EncodeError),
+    /// The sizes of a file's parts are written in 32 bits.
+    #[error("The file would have more than 4 GiB.")]
+    TooLarge,
+}
+
+/// Decoded pictures by the material and what it uses them for. What is not there is left out of a `.glb`.
+pub type MapImages<'a> = BTreeMap<(usize, MapSlot), &'a Image>;

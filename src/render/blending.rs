@@ -1,0 +1,130 @@
+//! In which order submeshes are blended over what is behind them: the farthest first.
+
+use glam::{Affine3A, Vec3, Vec4};
+
+use super::triangles::DrawRange;
+use crate::model::Mesh;
+use crate::scene::RenderFrame;
+
+/// The mean of a submesh's corners in any pose. Blending with weights is linear, so that a sum for each joint is enough.
+pub(super) struct Center {
+    /// Sums over the corners that no joint moves: positions, and w for their count. All sums are divided by the count of all corners.
+    still: Vec4,
+    /// Joints with the same sums, each corner times its weight.
+    of_joints: Vec<(u32, Vec4)>,
+}
+
+impl Center {
+    /// Of each range.
+    pub(super) fn of(mesh: &Mesh, ranges: &[DrawRange], joint_count: usize) -> Vec<Self> {
+        let mut sums = vec![Vec4::ZERO; joint_count];
+        let of_range = |range: &DrawRange| {
+            let corners = &mesh.indices[range.indices.start as usize..range.indices.end as usize];
+            let part = 1.0 / corners.len().max(1) as f32;
+            let mut still = Vec4::ZERO;
+            for &corner in corners {
+                let position = mesh.positions[corner as usize].extend(1.0) * part;
+                let influences = mesh.influences.get(corner as usize).copied().unwrap_or_default();
+                if influences.weights == [0.0; 4] {
+                    still += position;
+                }
+                for (joint, weight) in influences.joints.into_iter().zip(influences.weights) {
+                    if let Some(sum) = sums.get_mut(joint as usize) {
+                        *sum += position * weight;
+                    }
+                }
+            }
+            let moved = (0..).zip(&mut sums).filter(|(_, sum)| **sum != Vec4::ZERO);
+            Self {
+                still,
+                of_joints: moved.map(|(joint, sum)| (joint, std::mem::take(sum))).collect(),
+            }
+        };
+        ranges.iter().map(of_range).collect()
+    }
+
+    /// In model space, posed by a palette; in bind space when it is empty.
+    fn posed(&self, palette: &[Affine3A]) -> Vec3 {
+        let moved = self.of_joints.iter().map(|(joint, sum)| {
+            let model_from_bind = palette.get(*joint as usize).unwrap_or(&Affine3A::IDENTITY);
+            model_from_bind.matrix3 * sum.truncate() + Vec3::from(model_from_bind.translation) * sum.w
+        });
+        self.still.truncate() + moved.sum::<Vec3>()
+    }
+}
+
+/// Instances in sight and ranges, the farthest first, by where their centres lie along the view. Equally far ones are in the order of
+/// the file. `is_blended` says which ranges; without `own`, the frame's own instance is left out.
+pub(super) fn farthest_first(
+    frame: &RenderFrame<'_>,
+    centers: &[Center],
+    is_blended: impl Fn(usize) -> bool,
+    own: bool,
+) -> Vec<(u32, usize)> {
+    let ranges: Vec<usize> = (0..centers.len()).filter(|&range| is_blended(range)).collect();
+    if ranges.is_empty() {
+        return Vec::new();
+    }
+    let joints = frame.palette.0.len();
+    let crowd = frame.crowd.instances.iter().take(frame.crowd.in_sight).map(|instance| {
+        let start = instance.palette as usize * joints;
+        let palette = frame.crowd.palettes.get(start..start + joints);
+        (instance.world_from_model, palette.unwrap_or_default())
+    });
+    let instances = std::iter::once((frame.world_from_model, &frame.palette.0[..])).chain(crowd);
+    let forward = frame.camera.forward();
+    let mut order = Vec::new();
+    for (instance, (world_from_model, palette)) in (0..).zip(instances).skip(usize::from(!own)) {
+        order.extend(ranges.iter().map(|&range| {
+            let center = world_from_model.transform_point3(centers[range].posed(palette));
+            (center.dot(forward), (instance, range))
+        }));
+    }
+    order.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    order.into_iter().map(|(_, which)| which).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Quat;
+
+    use super::*;
+    use crate::anim::{Palette, skin_positions};
+    use crate::model::Influences;
+
+    #[test]
+    fn a_centre_is_the_mean_of_the_posed_corners() {
+        let influences = |joints: [u32; 4], weights: [f32; 4]| Influences { joints, weights };
+        let mesh = Mesh {
+            positions: vec![Vec3::X, Vec3::new(2.0, 3.0, -1.0), Vec3::Z, Vec3::new(-4.0, 0.5, 2.0)],
+            influences: vec![
+                influences([0, 1, 0, 0], [0.25, 0.75, 0.0, 0.0]),
+                influences([1, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]),
+                influences([0; 4], [0.0; 4]),
+                influences([0, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]),
+            ],
+            indices: vec![0, 1, 2, 0, 2, 3],
+            ..Mesh::default()
+        };
+        let ranges = [0..3, 0..6].map(|indices| DrawRange {
+            submesh: 0,
+            indices,
+            vertices: 0..4,
+            material: 0,
+        });
+        let palette = Palette(vec![
+            Affine3A::from_rotation_translation(Quat::from_rotation_y(0.7), Vec3::new(1.0, -2.0, 0.5)),
+            Affine3A::from_scale_rotation_translation(Vec3::splat(1.5), Quat::from_rotation_x(-1.2), Vec3::Y),
+        ]);
+        let mut posed = Vec::new();
+        skin_positions(&mesh, &palette, &mut posed);
+        for (range, center) in ranges.iter().zip(Center::of(&mesh, &ranges, 2)) {
+            let corners = &mesh.indices[range.indices.start as usize..range.indices.end as usize];
+            let mean = |positions: &[Vec3]| {
+                corners.iter().map(|&corner| positions[corner as usize]).sum::<Vec3>() / corners.len() as f32
+            };
+            assert!(center.posed(&palette.0).distance(mean(&posed)) < 1e-5);
+            assert!(center.posed(&[]).distance(mean(&mesh.positions)) < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! Writing what is open as a file of another format: what is asked, what would be otherwise, and the work, which somebody does in steps.
+
+use super::Session;
+use super::export_job::{ExportFormat, ExportJob, ExportPlan, ExportStep, ExportedFile, State};
+use super::load::Progress;
+use crate::edit::{Change, EditJob, Edits};
+use crate::model::MapSlot;
+
+/// How a model is to be written.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ExportOptions {
+    /// The format.
+    pub format: ExportFormat,
+    /// Names of the clips to keep; `None` keeps all.
+    pub clips: Option<Vec<String>>,
+    /// The part of the only clip to keep.
+    pub range: ExportRange,
+    /// Seconds at the end of each clip over which it is brought back to its first pose.
+    pub close_loop_secs: Option<f32>,
+    /// How far joints may be moved by keys that are left out, as a fraction of the bind pose's diagonal.
+    pub reduce: Option<f32>,
+    /// Brings it into the shape that the books' demo needs. A format of the books alone can have it.
+    pub for_book: bool,
+}
+
+/// The part of a clip that is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ExportRange {
+    /// The timeline's, where one is set and its clip is the only one; else all of it.
+    #[default]
+    Timeline,
+    /// All of it.
+    Whole,
+    /// From and to, in seconds.
+    Secs([f32; 2]),
+}
+
+/// A command about writing a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExportCommand {
+    /// Works out what a file of these options would be. `None` ends that, and what is being written.
+    Plan(Option<Box<ExportOptions>>),
+    /// Writes it.
+    Save,
+    /// Stops writing; what would be otherwise stays known.
+    Cancel,
+}
+
+/// What is planned or written. A copy of a session writes nothing.
+#[derive(Debug, Default)]
+pub(super) struct Exporting {
+    options: Option<ExportOptions>,
+    made: Made,
+    /// What it is made of.
+    of: Option<Stamp>,
+    saves: bool,
+    written: Option<ExportedFile>,
+}
+
+impl Clone for Exporting {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// How far it is made.
+#[derive(Debug, Default)]
+enum Made {
+    #[default]
+    Nothing,
+    Job(Box<ExportJob>),
+    Refused(String),
+}
+
+/// What a file depends on, to compare.
+#[derive(Clone, Debug, PartialEq)]
+struct Stamp {
+    format: ExportFormat,
+    edits: Edits,
+    revisions: [u64; 5],
+    clip_count: usize,
+}
+
+/// What is known of a file that is planned or written.
+#[derive(Clone, Copy, Debug)]
+pub struct Export<'a> {
+    /// What is asked.
+    pub options: &'a ExportOptions,
+    /// What would be otherwise; `None` while it is worked out.
+    pub plan: Option<&'a ExportPlan>,
+    /// Why it cannot be written.
+    pub refusal: Option<&'a str>,
+    /// How far it is, while it is written.
+    pub saving: Option<Progress>,
+}
+
+impl Session {
+    pub(super) fn apply_to_export(&mut self, command: ExportCommand) {
+        match command {
+            ExportCommand::Plan(options) => {
+                let options = options.map(|options| *options);
+                if self.exporting.options != options {
+                    self.exporting = Exporting {
+                        options,
+                        ..Exporting::default()
+                    };
+                }
+            }
+            ExportCommand::Save => self.exporting.saves = self.exporting.options.is_some(),
+            ExportCommand::Cancel => {
+                let exporting = &mut self.exporting;
+                if std::mem::take(&mut exporting.saves) {
+                    (exporting.made, exporting.of) = (Made::Nothing, None);
+                }
+            }
+        }
+    }
+
+    /// What is planned or written; `None` when nobody asked for it, and without a model.
+    pub fn export(&self) -> Option<Export<'_>> {
+        let Exporting {
+            options, made, saves, ..
+        } = &self.exporting;
+        self.open_model()?;
+        let options = options.as_ref()?;
+        let (plan, refusal, progress) = match made {
+            Made::Nothing => (None, None, Progress { done: 0, total: 1 }),
+            Made::Job(job) => (job.plan(), None, job.progress()),
+            Made::Refused(refusal) => (None, Some(refusal.as_str()), Progress { done: 0, total: 1 }),
+        };
+        Some(Export {
+            options,
+            plan,
+            refusal,
+            saving: saves.then_some(progress),
+        })
+    }
+
+    /// The name of the file that is planned.
+    pub fn export_name(&self) -> Option<String> {
+        match &self.exporting.made {
+            Made::Job(job) => Some(job.file_name()),
+            _ => None,
+        }
+    }
+
+    /// Does one step of what is planned or written, for what is open now. Whether there was one to do.
+    pub fn step_export(&mut self) -> bool {
+        let Some(options) = self.exporting.options.clone() else {
+            return false;
+        };
+        let stamp = self.stamp(&options);
+        let exporting = &mut self.exporting;
+        let is_known = exporting.of == stamp;
+        // What is being written was taken when that began, but it ends with its model.
+        let model = |stamp: &Option<Stamp>| stamp.as_ref().map(|stamp| stamp.revisions[0]);
+        if !is_known && !(exporting.saves && model(&exporting.of) == model(&stamp)) {
+            (exporting.made, exporting.saves) = (Made::Nothing, false);
+        }
+        let job = match std::mem::take(&mut exporting.made) {
+            Made::Nothing => {
+                self.exporting.of = stamp;
+                self.export_job(&options).map(Box::new)
+            }
+            Made::Job(job) if exporting.saves || job.plan().is_none() => Some(job),
+            idle => {
+                (exporting.made, exporting.saves) = (idle, false);
+                None
+            }
+        };
+        let Some(job) = job else { return false };
+        let exporting = &mut self.exporting;
+        match job.step() {
+            ExportStep::Working(job) => exporting.made = Made::Job(job),
+            ExportStep::Ended(Ok(file)) => {
+                // A job ends with its file. What the next one would be is planned anew.
+                (exporting.written, exporting.saves) = (Some(*file), false);
+            }
+            ExportStep::Ended(Err(refusal)) => {
+                (exporting.made, exporting.saves) = (Made::Refused(refusal.to_string()), false);
+            }
+        }
+        true
+    }
+
+    /// The file that was written since the last call.
+    pub fn take_exported(&mut self) -> Option<ExportedFile> {
+        self.exporting.written.take()
+    }
+
+    /// A job that writes what is open as one sees it: with the materials that were edited, the names that were given, and the handedness
+    /// and up axis that were chosen. `None` without a model.
+    pub fn export_job(&self, options: &ExportOptions) -> Option<ExportJob> {
+        let open = self.open_model()?;
+        let mut model = open.model.clone();
+        let edited = (0..model.materials.len())
+            .filter(|&material| self.is_edited(material))
+            .count();
+        model.materials = self.materials().to_vec();
+        (model.handedness, model.up_axis) = (self.handedness(), self.up_axis());
+        let changes = (edited > 0).then(|| Change {
+            code: "materials-edited",
+            message: match edited {
+                1 => "1 material is written as it was edited here.".to_owned(),
+                count => format!("{count} materials are written as they were edited here."),
+            },
+        });
+        let maps = self.maps();
+        let places = || (0..model.materials.len()).flat_map(|material| MapSlot::ALL.map(|slot| (material, slot)));
+        let images = places().filter_map(|place| Some((place, maps.image(place.0, place.1)?.clone())));
+        let files = places().filter_map(|place| Some((place, maps.file(place.0, place.1)?.clone())));
+        let name = open.file.base_name();
+        Some(ExportJob {
+            stem: name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned(),
+            format: options.format,
+            images: images.collect(),
+            pictures: files.collect(),
+            state: State::Edit(
+                changes.into_iter().collect(),
+                Box::new(EditJob::new(model, self.joint_names(), self.edits(options))),
+            ),
+        })
+    }
+
+    /// What is edited before it is written.
+    fn edits(&self, options: &ExportOptions) -> Edits {
+        let is_of_book = options.format.dialect().is_some();
+        let edits = Edits {
+            clips: options.clips.clone(),
+            range_secs: match options.range {
+                ExportRange::Timeline => self.timeline_range(options.clips.as_deref()),
+                ExportRange::Whole => None,
+                ExportRange::Secs(range_secs) => Some(range_secs),
+            },
+            close_loop_secs: options.close_loop_secs,
+            reduce: options.reduce,
+            for_book: options.for_book && is_of_book,
+            ..Edits::default()
+        };
+        match self.open_model() {
+            Some(open) if is_of_book => edits.in_space_of_the_books(&open.model),
+            _ => edits,
+        }
+    }
+
+    /// The timeline's range, where its clip is the only one of these.
+    pub fn timeline_range(&self, clips: Option<&[String]>) -> Option<[f32; 2]> {
+        let shown = self.clip()?;
+        let is_only = match clips {
+            Some(names) => names == [shown.name.as_str()],
+            None => self.content.clip_count() == 1,
+        };
+        self.playback().range_secs().filter(|_| is_only)
+    }
+
+    fn stamp(&self, options: &ExportOptions) -> Option<Stamp> {
+        self.open_model()?;
+        let revisions = &self.revisions;
+        Some(Stamp {
+            format: options.format,
+            edits: self.edits(options),
+            revisions: [
+                revisions.model,
+                revisions.clips,
+                revisions.materials,
+                revisions.maps,
+                revisions.names,
+            ],
+            clip_count: self.content.clip_count(),
+        })
+    }
+}

@@ -1,0 +1,334 @@
+//! Saves the model as a file of another format: what is kept of it, what that changes, and what the format does not hold.
+
+use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, Ui, vec2};
+
+use super::panel::popover_gap;
+use super::state::{SheetPage, UiState};
+use super::theme::{CONTROL_RADIUS, Tokens};
+use super::widgets::{
+    MenuLine, TextButton, control_size, menu_item, number_field, section_name, section_with_labelled_action, segmented,
+    switch_row,
+};
+use super::wording::counted;
+use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
+
+/// Width of the popover.
+pub(super) const WIDTH: f32 = 320.0;
+/// More sentences of a list than this are folded.
+const MOST_SENTENCES: usize = 4;
+/// What a switch begins with.
+const LOOP_SECS: f32 = 0.2;
+const TOLERANCE: f32 = 0.001;
+/// Width of a number that is typed.
+const FIELD_WIDTH: f32 = 76.0;
+/// Width of the button that stops writing.
+const CANCEL_WIDTH: f32 = 74.0;
+
+/// The popover's contents.
+pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let choice = &mut state.export;
+    section_name(ui, "Export");
+    let Some(open) = session.open_model() else {
+        ui.label(RichText::new("Nothing is open. Drop a model, then export it here.").color(Tokens::of(ui).muted));
+        return;
+    };
+    if choice.of_model != session.model_revision() {
+        choice.of_model = session.model_revision();
+        let names = |name: &String| open.model.clips.iter().any(|clip| clip.name == *name);
+        // The same file, read again, keeps its choice.
+        if choice
+            .options
+            .clips
+            .as_ref()
+            .is_some_and(|clips| !clips.iter().all(names))
+        {
+            (choice.options.clips, choice.options.range) = (None, ExportRange::default());
+        }
+    }
+    choice.shown = true;
+    let is_saving = session.export().is_some_and(|export| export.saving.is_some());
+    ui.add_enabled_ui(!is_saving, |ui| {
+        let formats = ExportFormat::ALL.map(|format| (format, format.label()));
+        if let Some(format) = segmented(ui, "Format", &formats, Some(choice.options.format)) {
+            choice.options.format = format;
+        }
+        ui.add_space(6.0);
+        clip_list(ui, session, &mut choice.options);
+        edits(ui, session, &mut choice.options);
+    });
+    if session.export().is_none_or(|export| *export.options != choice.options) {
+        let options = Some(Box::new(choice.options.clone()));
+        commands.push(ExportCommand::Plan(options).into());
+    }
+    popover_gap(ui);
+    let export = session.export().filter(|export| *export.options == choice.options);
+    outcome(ui, export, &mut choice.unfolded);
+    ui.add_space(8.0);
+    save_row(ui, session, export, commands);
+}
+
+/// A line for each clip, to keep it or leave it out.
+fn clip_list(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
+    let Some(open) = session.open_model() else { return };
+    let clips = &open.model.clips;
+    if clips.len() < 2 {
+        return;
+    }
+    let is_kept = |options: &ExportOptions, name: &str| {
+        let kept = options.clips.as_ref();
+        kept.is_none_or(|kept| kept.iter().any(|kept| kept == name))
+    };
+    let (all, label) = match options.clips {
+        None => ("None", "Export no clip"),
+        Some(_) => ("All", "Export all clips"),
+    };
+    if section_with_labelled_action(ui, "Clips", Some((all, label))) {
+        options.clips = match options.clips {
+            None => Some(Vec::new()),
+            Some(_) => None,
+        };
+    }
+    for clip in clips {
+        let on = is_kept(options, &clip.name);
+        if menu_item(ui, &clip.name, MenuLine::Switch(on)).clicked() {
+            let kept = |name: &str| is_kept(options, name) != (name == clip.name);
+            let names: Vec<String> = clips
+                .iter()
+                .map(|clip| &clip.name)
+                .filter(|name| kept(name))
+                .cloned()
+                .collect();
+            options.clips = (names.len() < clips.len()).then_some(names);
+        }
+    }
+    ui.add_space(6.0);
+}
+
+/// The only clip that is kept: its first and last time.
+fn only_clip(session: &Session, options: &ExportOptions) -> Option<[f32; 2]> {
+    let clips = &session.open_model()?.model.clips;
+    let clip = match &options.clips {
+        Some(names) => match names.as_slice() {
+            [name] => clips.iter().find(|clip| clip.name == *name)?,
+            _ => return None,
+        },
+        None if clips.len() == 1 => clips.first()?,
+        None => return None,
+    };
+    (clip.duration_secs() > 0.0).then_some([clip.start_secs, clip.end_secs])
+}
+
+/// Switches for what is edited before it is written, each with its numbers.
+fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
+    let has_clips = session.open_model().is_some_and(|open| !open.model.clips.is_empty());
+    let keeps_some = options.clips.as_ref().is_none_or(|clips| !clips.is_empty());
+    if let Some([start_secs, end_secs]) = only_clip(session, options) {
+        let of_timeline = session.timeline_range(options.clips.as_deref());
+        let range = match options.range {
+            ExportRange::Timeline => of_timeline,
+            ExportRange::Whole => None,
+            ExportRange::Secs(range) => Some(range),
+        };
+        if switch_row(ui, "Only a range", "", range.is_some()).clicked() {
+            options.range = match range {
+                Some(_) => ExportRange::Whole,
+                None => of_timeline.map_or(ExportRange::Secs([start_secs, end_secs]), |_| ExportRange::Timeline),
+            };
+        } else if let Some([from, to]) = range {
+            let span = start_secs..=end_secs;
+            let typed_from = number_row(ui, "First second", "From", "s", (from, span.clone()), (0.01, 3));
+            let typed_to = number_row(ui, "Last second", "To", "s", (to, span), (0.01, 3));
+            if typed_from.is_some() || typed_to.is_some() {
+                options.range = ExportRange::Secs([typed_from.unwrap_or(from), typed_to.unwrap_or(to)]);
+            }
+        }
+    } else if let ExportRange::Secs(_) = options.range {
+        // A range is of one clip.
+        options.range = ExportRange::Timeline;
+    }
+    if has_clips && keeps_some {
+        let closes = switch_row(ui, "Close the loop", "", options.close_loop_secs.is_some())
+            .on_hover_text("The end of each clip is eased into its first pose");
+        if closes.clicked() {
+            options.close_loop_secs = match options.close_loop_secs {
+                Some(_) => None,
+                None => Some(LOOP_SECS),
+            };
+        } else if let Some(secs) = options.close_loop_secs {
+            let typed = number_row(ui, "Seconds of the easing", "Over", "s", (secs, 0.01..=10.0), (0.01, 2));
+            options.close_loop_secs = typed.or(Some(secs));
+        }
+        let reduces = switch_row(ui, "Reduce keys", "", options.reduce.is_some())
+            .on_hover_text("Keys are left out as long as no bone and no tip of one moves farther than this");
+        if reduces.clicked() {
+            options.reduce = match options.reduce {
+                Some(_) => None,
+                None => Some(TOLERANCE),
+            };
+        } else if let Some(tolerance) = options.reduce {
+            let percent = tolerance * 100.0;
+            let typed = number_row(
+                ui,
+                "Tolerance in % of the size",
+                "Off by",
+                "%",
+                (percent, 0.001..=5.0),
+                (0.005, 3),
+            );
+            options.reduce = Some(typed.map_or(tolerance, |percent| percent / 100.0));
+        }
+    }
+    if options.format.dialect().is_some() {
+        let demo = switch_row(ui, "For the book's demo", "", options.for_book)
+            .on_hover_text("Size, names, bones and keys as the books' programs need them");
+        if demo.clicked() {
+            options.for_book = !options.for_book;
+        }
+    }
+}
+
+/// A label, a number that is dragged or typed, its unit.
+fn number_row(
+    ui: &mut Ui,
+    name: &str,
+    label: &str,
+    unit: &str,
+    (value, range): (f32, std::ops::RangeInclusive<f32>),
+    step: (f32, usize),
+) -> Option<f32> {
+    let color = Tokens::of(ui).muted;
+    let size = vec2(ui.available_width(), control_size(ui));
+    let row = ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.add_sized(vec2(14.0, size.y), Label::new(RichText::new(unit).color(color)));
+        let typed = number_field(ui, name, vec2(FIELD_WIDTH, size.y), value, range, step);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.add_space(12.0);
+            ui.label(RichText::new(label).color(color));
+        });
+        typed
+    });
+    row.inner
+}
+
+/// What would be otherwise, or why it cannot be.
+fn outcome(ui: &mut Ui, export: Option<Export<'_>>, unfolded: &mut [bool; 2]) {
+    let tokens = Tokens::of(ui);
+    if let Some(refusal) = export.and_then(|export| export.refusal) {
+        section_name(ui, "Cannot be written");
+        sentence(ui, refusal, tokens.error);
+        return;
+    }
+    let Some(plan) = export.and_then(|export| export.plan) else {
+        section_name(ui, "What is lost");
+        sentence(ui, "This is being worked out.", tokens.faint);
+        return;
+    };
+    let [all_losses, all_changes] = unfolded;
+    let losses: Vec<&str> = plan.losses.iter().map(|loss| loss.message.as_str()).collect();
+    let changes: Vec<&str> = plan.changes.iter().map(|change| change.message.as_str()).collect();
+    if losses.is_empty() {
+        section_name(ui, "What is lost");
+        sentence(ui, "Nothing.", tokens.faint);
+    } else {
+        sentences(ui, "What is lost", &losses, tokens.warning, all_losses);
+    }
+    if !changes.is_empty() {
+        ui.add_space(6.0);
+        sentences(ui, "What changes", &changes, tokens.accent, all_changes);
+    }
+    if plan.maps > 0 {
+        ui.add_space(6.0);
+        let (count, verb) = (
+            counted(plan.maps, "texture"),
+            if plan.maps == 1 { "comes" } else { "come" },
+        );
+        let words = format!("{count} {verb} along in a .zip.");
+        ui.label(RichText::new(words).color(tokens.muted));
+    }
+}
+
+/// A list of sentences below its name and their number. A long one is folded.
+fn sentences(ui: &mut Ui, name: &str, list: &[&str], color: Color32, all: &mut bool) {
+    let folds = list.len() > MOST_SENTENCES;
+    let title = format!("{name} · {}", list.len());
+    let (words, label) = if *all {
+        ("Fewer", format!("{name}: show fewer"))
+    } else {
+        ("All", format!("{name}: show all"))
+    };
+    if section_with_labelled_action(ui, &title, folds.then_some((words, label.as_str()))) {
+        *all = !*all;
+    }
+    let most = if *all { list.len() } else { MOST_SENTENCES };
+    for words in list.iter().take(most) {
+        sentence(ui, words, color);
+    }
+}
+
+/// A sentence behind a dot.
+fn sentence(ui: &mut Ui, words: &str, color: Color32) {
+    let text = Tokens::of(ui).text;
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        let (rect, _) = ui.allocate_exact_size(vec2(6.0, 17.0), Sense::hover());
+        ui.painter().circle_filled(rect.center(), 2.5, color);
+        ui.add(Label::new(RichText::new(words).color(text)).wrap());
+    });
+}
+
+/// The button that saves; while that goes on, how far it is, and a button that stops it.
+fn save_row(ui: &mut Ui, session: &Session, export: Option<Export<'_>>, commands: &mut Vec<Command>) {
+    if let Some(progress) = export.and_then(|export| export.saving) {
+        let tokens = Tokens::of(ui);
+        let part = progress.done as f32 / progress.total.max(1) as f32;
+        ui.horizontal(|ui| {
+            let width = ui.available_width() - CANCEL_WIDTH - ui.spacing().item_spacing.x;
+            let words = RichText::new(format!("Writing {:.0} %", part * 100.0)).color(tokens.text);
+            ui.add(
+                ProgressBar::new(part)
+                    .desired_width(width)
+                    .desired_height(control_size(ui))
+                    .corner_radius(CONTROL_RADIUS)
+                    .fill(tokens.accent_ground)
+                    .text(words),
+            );
+            let cancel = TextButton::new("Cancel", "Cancel the export").width(Rangef::point(CANCEL_WIDTH));
+            if cancel.show(ui).clicked() {
+                commands.push(ExportCommand::Cancel.into());
+            }
+        });
+        return;
+    }
+    let name = session.export_name().unwrap_or_default();
+    let words = format!("Save {name}");
+    let words = words.trim_end();
+    let is_ready = export.is_some_and(|export| export.plan.is_some());
+    let width = Rangef::point(ui.available_width());
+    ui.add_enabled_ui(is_ready, |ui| {
+        if TextButton::new(words, words).width(width).show(ui).clicked() {
+            commands.push(ExportCommand::Save.into());
+        }
+    });
+}
+
+/// Opens it for a key, in a narrow window as a page of the sheet; where it is open, it shuts.
+pub(super) fn ask(state: &mut UiState, is_wide: bool) {
+    if is_wide {
+        state.export.asked = true;
+        return;
+    }
+    let shown = state.sheet == Some(SheetPage::Export);
+    state.sheet = (!shown).then_some(SheetPage::Export);
+}
+
+/// Ends what is planned when it was shut. What is being written goes on, unless Esc shut it.
+pub(super) fn settle(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    if std::mem::take(&mut state.export.shown) {
+        return;
+    }
+    let Some(export) = session.export() else { return };
+    let escaped = ui.input(|input| input.key_pressed(egui::Key::Escape));
+    if export.saving.is_none() || escaped {
+        commands.push(ExportCommand::Plan(None).into());
+    }
+}

@@ -1,0 +1,530 @@
+//! `bindpose convert`: what it writes, what it tells, what it refuses.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+use serde_json::Value;
+
+use crate::program::{FIGURE, Run, bindpose, fixture, run, scratch, shared};
+
+/// A path in a folder of one test.
+fn out(test: &str, name: &str) -> String {
+    let folder = scratch(&format!("convert_{test}_{name}.d"));
+    std::fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    folder.join(name).to_str().expect("UTF-8").to_owned()
+}
+
+/// Converts, and gives what it tells.
+fn convert(input: &str, output: &str, options: &[&str]) -> Value {
+    let fine = run([&["convert", input, output, "--json"], options].concat()).fine();
+    serde_json::from_str(&fine).expect("JSON")
+}
+
+fn codes(list: &Value) -> Vec<&str> {
+    let list = list.as_array().expect("a list").iter();
+    list.map(|one| one["code"].as_str().expect("a code")).collect()
+}
+
+fn info(file: &str) -> Value {
+    run(["info", file, "--json"]).json()
+}
+
+fn clip_names(file: &str) -> Vec<String> {
+    let info = info(file);
+    let clips = info["clips"].as_array().expect("clips").iter();
+    clips
+        .map(|clip| clip["name"].as_str().expect("a name").to_owned())
+        .collect()
+}
+
+/// The positions of all vertices.
+fn positions(file: &str, clip: &str, secs: f64) -> Vec<[f64; 3]> {
+    let secs = secs.to_string();
+    let posed = run(["pose", file, "--clip", clip, "--time", &secs, "--json", "--positions"]).json();
+    serde_json::from_value(posed["positions"].clone()).expect("positions")
+}
+
+/// Lengths from each vertex to the next, which no turn of space changes.
+fn lengths(positions: &[[f64; 3]]) -> Vec<f64> {
+    let length = |pair: &[[f64; 3]]| {
+        (0..3)
+            .map(|axis| (pair[0][axis] - pair[1][axis]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    positions.windows(2).map(length).collect()
+}
+
+fn assert_alike(old: &[f64], new: &[f64], factor: f64, tolerance: f64) {
+    assert_eq!(old.len(), new.len());
+    for (old, new) in old.iter().zip(new) {
+        assert!((old * factor - new).abs() <= tolerance, "{old} × {factor} became {new}");
+    }
+}
+
+/// That a book's program reads a file and shows it.
+fn assert_book_shows(file: &str, clip_is_shown: bool) {
+    let checked = run(["check", file, "--book", "all", "--json"]).json();
+    for book in ["d3d11", "d3d12"] {
+        let verdict = &checked[0]["book"][book];
+        let own = info(file)["dialect"] == book;
+        if own {
+            assert_eq!(verdict["reads"], true, "{file}: {verdict}");
+            assert_eq!(verdict["ends"], false, "{file}: {verdict}");
+            let shows = if clip_is_shown {
+                "The model in \"Take1\"."
+            } else {
+                "The model."
+            };
+            assert_eq!(verdict["shows"], shows, "{file}: {verdict}");
+        }
+    }
+}
+
+#[test]
+fn a_model_that_needs_no_change_is_the_same_after_it() {
+    let output = out("same", "figure.m3d");
+    let told = convert(FIGURE, &output, &["--hand", "left"]);
+    assert_eq!(codes(&told["changes"]), [""; 0]);
+    assert_eq!(codes(&told["losses"]), [""; 0]);
+    for clip in clip_names(FIGURE) {
+        let (old, new) = (positions(FIGURE, &clip, 0.3), positions(&output, &clip, 0.3));
+        assert_eq!(old, new, "{clip}");
+    }
+    let again = out("same", "again.m3d");
+    convert(&output, &again, &["--hand", "left"]);
+    let read = |path: &str| std::fs::read(path).expect("was written");
+    assert_eq!(read(&output), read(&again));
+    assert_eq!(read(&output).len() as u64, told["bytes"].as_u64().expect("a size"));
+}
+
+#[test]
+fn json_has_its_keys_and_no_others() {
+    let output = out("json", "figure.glb");
+    let told = convert(FIGURE, &output, &["--clips", "Walk", "--scale", "2"]);
+    let mut keys: Vec<_> = told
+        .as_object()
+        .expect("an object")
+        .keys()
+        .map(String::as_str)
+        .collect();
+    keys.sort_unstable();
+    assert_eq!(
+        keys,
+        ["bytes", "changes", "dialect", "format", "input", "losses", "output"]
+    );
+    assert_eq!(
+        (&told["input"], &told["output"]),
+        (&Value::from(FIGURE), &Value::from(output.as_str()))
+    );
+    assert_eq!((&told["format"], &told["dialect"]), (&Value::from("glb"), &Value::Null));
+    for change in told["changes"].as_array().expect("a list") {
+        assert_eq!(change.as_object().expect("an object").len(), 2, "{change}");
+        assert!(change["code"].is_string() && change["message"].is_string());
+    }
+    let losses = told["losses"].as_array().expect("a list");
+    assert!(!losses.is_empty(), "maps have no pictures here");
+    for loss in losses {
+        assert_eq!(loss.as_object().expect("an object").len(), 3, "{loss}");
+        assert!(loss["count"].as_u64().is_some_and(|count| count > 0), "{loss}");
+    }
+    let m3d = convert(FIGURE, &out("json", "figure.m3d"), &["--dialect", "d3d11"]);
+    assert_eq!(
+        (&m3d["format"], &m3d["dialect"]),
+        (&Value::from("m3d"), &Value::from("d3d11"))
+    );
+}
+
+#[test]
+fn a_glb_is_read_again_with_the_same_lengths() {
+    let output = out("glb", "figure.glb");
+    convert(FIGURE, &output, &[]);
+    assert_eq!(info(&output)["counts"], info(FIGURE)["counts"]);
+    let back = out("glb", "back.m3d");
+    convert(&output, &back, &[]);
+    for file in [&output, &back] {
+        assert_eq!(info(file)["handedness"], "right", "{file}");
+    }
+    for clip in ["Walk", "Run", "Wave", "Idle"] {
+        let old = lengths(&positions(FIGURE, clip, 0.4));
+        for file in [&output, &back] {
+            assert_alike(&old, &lengths(&positions(file, clip, 0.4)), 1.0, 1e-3);
+        }
+    }
+}
+
+#[test]
+fn text_tells_changes_losses_and_bytes() {
+    let output = out("text", "figure.glb");
+    let printed = run([
+        "convert", FIGURE, &output, "--clips", "Walk,Run", "--rename", "Run=Dash",
+    ])
+    .fine();
+    let lines: Vec<_> = printed.lines().collect();
+    assert_eq!(lines[0], "change[clips-chosen]: 2 clips are left out.");
+    assert_eq!(lines[1], "change[clip-renamed]: Clip \"Run\" is named \"Dash\".");
+    assert!(
+        lines.iter().any(|line| line.starts_with("loss[maps-missing]: ")),
+        "{printed}"
+    );
+    let last = lines.last().expect("lines");
+    assert!(
+        last.starts_with(&format!("{output}: ")) && last.ends_with(" bytes"),
+        "{last}"
+    );
+}
+
+#[test]
+fn clips_are_chosen_cut_and_renamed() {
+    let output = out("clips", "walk.m3d");
+    let options = [
+        "--clips",
+        "Walk",
+        "--range",
+        "0.25..0.75",
+        "--rename",
+        "Walk=Step",
+        "--hand",
+        "left",
+    ];
+    let told = convert(FIGURE, &output, &options);
+    assert_eq!(codes(&told["changes"]), ["clips-chosen", "range-cut", "clip-renamed"]);
+    let clip = &info(&output)["clips"][0];
+    assert_eq!(
+        (clip["start_secs"].as_f64(), clip["end_secs"].as_f64()),
+        (Some(0.25), Some(0.75))
+    );
+    for secs in [0.25, 0.4, 0.75] {
+        let (old, new) = (positions(FIGURE, "Walk", secs), positions(&output, "Step", secs));
+        for (old, new) in old.iter().zip(&new) {
+            assert!(
+                (0..3).all(|axis| (old[axis] - new[axis]).abs() < 1e-3),
+                "{old:?} became {new:?} at {secs} s"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_loop_is_closed() {
+    let file = fixture("good/bones_child_first.m3d");
+    let output = out("loop", "wave.m3d");
+    let told = convert(&file, &output, &["--close-loop", "0.25", "--hand", "left"]);
+    assert!(codes(&told["changes"]).contains(&"loop-closed"), "{told}");
+    let (first, last) = (positions(&output, "Wave", 0.0), positions(&output, "Wave", 0.5));
+    for (first, last) in first.iter().zip(&last) {
+        assert!((0..3).all(|axis| (first[axis] - last[axis]).abs() < 1e-5));
+    }
+}
+
+#[test]
+fn keys_are_reduced_and_the_error_told() {
+    let output = out("reduce", "figure.m3d");
+    let told = convert(FIGURE, &output, &["--reduce", "0.001", "--hand", "left"]);
+    let changes = told["changes"].as_array().expect("a list");
+    assert_eq!(changes.len(), 4);
+    for change in changes {
+        assert_eq!(change["code"], "keys-reduced");
+        let message = change["message"].as_str().expect("a message");
+        let error = message
+            .split("more than ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
+        let error: f64 = error.expect("an error").parse().expect("a number");
+        assert!(error <= 0.001, "{message}");
+    }
+    let size = |file: &str| std::fs::metadata(file).expect("is there").len();
+    assert!(size(&output) < size(FIGURE));
+}
+
+#[test]
+fn spaces_turn_and_lengths_grow() {
+    let old = lengths(&positions(FIGURE, "Walk", 0.4));
+    let turns: [(&[&str], f64, &str, &str); 4] = [
+        (&["--hand", "left"], 1.0, "left", "handedness"),
+        (&["--hand", "right"], 1.0, "right", "handedness"),
+        (&["--scale", "3"], 3.0, "y", "up_axis"),
+        (&["--up", "y", "--scale", "0.5"], 0.5, "y", "up_axis"),
+    ];
+    for (number, (options, factor, value, key)) in turns.into_iter().enumerate() {
+        let output = out("space", &format!("{number}.m3d"));
+        convert(FIGURE, &output, options);
+        assert_eq!(info(&output)[key], value, "{options:?}");
+        assert_alike(&old, &lengths(&positions(&output, "Walk", 0.4)), factor, 1e-3 * factor);
+    }
+    let output = out("space", "up.m3d");
+    let told = convert(FIGURE, &output, &["--up", "z"]);
+    assert!(
+        codes(&told["losses"]).contains(&"up-axis"),
+        "the books read it with y up: {told}"
+    );
+}
+
+#[test]
+fn bones_are_named_in_glb_and_not_in_m3d() {
+    let glb = out("bones", "figure.glb");
+    let told = convert(FIGURE, &glb, &["--rename-bone", "0=Hips", "--rename-bone", "1=Spine"]);
+    assert_eq!(codes(&told["changes"]), ["bone-renamed"; 2]);
+    let bytes = std::fs::read(&glb).expect("was written");
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.contains("\"Hips\"") && text.contains("\"Spine\""));
+    let m3d = convert(FIGURE, &out("bones", "figure.m3d"), &["--rename-bone", "0=Hips"]);
+    assert_eq!(m3d["losses"].as_array().expect("a list").len(), 1, "{m3d}");
+}
+
+#[test]
+fn what_was_mended_is_a_change() {
+    let told = convert(&fixture("good/keys_unsorted.m3d"), &out("mended", "keys.m3d"), &[]);
+    assert!(codes(&told["changes"]).contains(&"keys-not-sorted"), "{told}");
+    let fixed = out("mended", "fixed.m3d");
+    let flat = fixture("check/triangles-without-area.m3d");
+    let told = convert(&flat, &fixed, &["--fix"]);
+    assert!(codes(&told["changes"]).contains(&"triangles-without-area"), "{told}");
+    assert!(!run(["check", &fixed]).fine().contains("triangles-without-area"));
+}
+
+#[test]
+fn losses_that_are_denied_write_nothing() {
+    let output = out("deny", "figure.glb");
+    let denied = run(["convert", FIGURE, &output, "--deny", "losses", "--json"]);
+    assert_eq!(denied.code, Some(1));
+    assert_eq!(
+        denied.err,
+        "error: nothing was written, since something would be lost\n"
+    );
+    assert_eq!(denied.json()["bytes"], 0);
+    let folder = Path::new(&output).parent().expect("a folder");
+    assert_eq!(std::fs::read_dir(folder).expect("is there").count(), 0);
+    let output = out("deny", "figure.m3d");
+    let fine = run(["convert", FIGURE, &output, "--deny", "losses"]);
+    assert_eq!(fine.code, Some(0), "{fine:?}");
+}
+
+#[test]
+fn its_input_is_never_overwritten() {
+    let input = out("own", "figure.m3d");
+    std::fs::copy(FIGURE, &input).expect("can be copied");
+    let before = std::fs::read(&input).expect("is there");
+    let folder = Path::new(&input).parent().expect("a folder");
+    let roundabout = folder
+        .join("..")
+        .join(folder.file_name().expect("a name"))
+        .join("figure.m3d");
+    let mut names = vec![PathBuf::from(&input), roundabout];
+    #[cfg(unix)]
+    {
+        let link = folder.join("link.m3d");
+        std::os::unix::fs::symlink(&input, &link).expect("can be linked");
+        names.push(link);
+    }
+    for name in names {
+        let refused = run(["convert", &input, name.to_str().expect("UTF-8"), "--scale", "2"]);
+        assert_eq!((refused.code, refused.out.as_str()), (Some(2), ""));
+        assert!(
+            refused.err.contains("is read; name another file to write"),
+            "{}",
+            refused.err
+        );
+        assert_eq!(std::fs::read(&input).expect("is there"), before);
+    }
+}
+
+#[test]
+fn standard_input_is_read() {
+    let output = out("stdin", "figure.m3d");
+    let mut command = bindpose();
+    command
+        .args(["convert", "-", &output])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped());
+    let mut child = command.spawn().expect("the binary was built for this test");
+    let bytes = std::fs::read(FIGURE).expect("is there");
+    let mut stdin = child.stdin.take().expect("was asked for");
+    stdin.write_all(&bytes).expect("it reads");
+    drop(stdin);
+    assert!(child.wait().expect("it ends").success());
+    assert_eq!(info(&output)["counts"], info(FIGURE)["counts"]);
+}
+
+#[test]
+fn wrong_use_says_what_is_wrong_and_writes_nothing() {
+    let m3d = out("wrong", "out.m3d");
+    let glb = out("wrong", "out.glb");
+    let none = out("wrong", "out.obj");
+    let lost = format!("{m3d}/no/such/out.m3d");
+    let cases: [(&str, &[&str], &str); 19] = [
+        (&none, &[], "OUT ends in .m3d or .glb"),
+        (&glb, &["--dialect", "d3d11"], "--dialect is for .m3d"),
+        (&glb, &["--for-book"], "--for-book is for .m3d"),
+        (&glb, &["--textures-out", "x"], "--textures-out is for .m3d"),
+        (&glb, &["--hand", "left"], "--hand left is for .m3d"),
+        (
+            &m3d,
+            &["--for-book", "--hand", "left"],
+            "--hand left does not go with --for-book",
+        ),
+        (&m3d, &["--range", "2"], "such as 0.5..2"),
+        (&m3d, &["--range", "2..1"], "such as 0.5..2"),
+        (
+            &m3d,
+            &["--range", "0..0.5"],
+            "A range is of one clip, and there are 4; choose one.",
+        ),
+        (&m3d, &["--clips", "Walk", "--range", "0..9"], "is not inside \"Walk\""),
+        (&m3d, &["--clips", "Swim"], "there is no clip \"Swim\""),
+        (
+            &m3d,
+            &["--clips", "Run", "--close-loop", "5"],
+            "its end cannot be eased over 5 s",
+        ),
+        (&m3d, &["--reduce", "0"], "a number above 0"),
+        (&m3d, &["--scale", "-1"], "a number above 0"),
+        (&m3d, &["--rename", "Walk"], "OLD=NEW"),
+        (
+            &m3d,
+            &["--rename", "Walk=Run"],
+            "A clip cannot be named \"Run\": another one is.",
+        ),
+        (&m3d, &["--rename-bone", "900=Tail"], "There is no bone 900"),
+        (&m3d, &["--dialect", "imm"], "d3d11, d3d12"),
+        (&lost, &[], "cannot be written"),
+    ];
+    for (output, options, told) in cases {
+        let run = run([&["convert", FIGURE, output], options].concat());
+        assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{options:?}: {run:?}");
+        assert!(run.err.contains(told), "{options:?}: {}", run.err);
+        assert!(!Path::new(output).exists(), "{options:?}");
+    }
+    let unread = run(["convert", "no/such/model.m3d", &m3d]);
+    assert_eq!((unread.code, unread.out.as_str()), (Some(2), ""));
+    let refused = run(["convert", &fixture("bad/count_not_a_number.m3d"), &m3d]);
+    assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""), "{refused:?}");
+    assert!(!Path::new(&m3d).exists());
+}
+
+#[test]
+fn maps_are_written_as_png_and_named() {
+    let output = out("png", "figure.m3d");
+    let folder = scratch("convert_png_maps");
+    let sample = Path::new(FIGURE).parent().expect("a folder").to_str().expect("UTF-8");
+    let folder_name = folder.to_str().expect("UTF-8");
+    let told = convert(FIGURE, &output, &["--textures", sample, "--textures-out", folder_name]);
+    assert!(codes(&told["changes"]).contains(&"maps-written"), "{told}");
+    let found = run(["info", &output, "--textures", folder_name, "--json"]).json();
+    let maps = found["maps"].as_array().expect("maps");
+    assert!(!maps.is_empty());
+    for map in maps {
+        assert_eq!(map["state"], "found", "{map}");
+        assert!(map["name"].as_str().expect("a name").ends_with(".png"), "{map}");
+    }
+    let twice = run([
+        "convert",
+        FIGURE,
+        &output,
+        "--textures",
+        folder_name,
+        "--textures-out",
+        folder_name,
+    ]);
+    assert_eq!(twice.code, Some(2), "maps that are read are not overwritten: {twice:?}");
+}
+
+#[test]
+fn a_figure_for_the_book_is_shown_by_its_demo() {
+    let sample = Path::new(FIGURE).parent().expect("a folder").to_str().expect("UTF-8");
+    let turned = out("book", "turned.m3d");
+    convert(
+        FIGURE,
+        &turned,
+        &["--hand", "left", "--scale", "0.01", "--rename", "Walk=Walk about"],
+    );
+    for (number, input) in [FIGURE, &turned].into_iter().enumerate() {
+        for dialect in ["d3d11", "d3d12"] {
+            let output = out("book", &format!("{number}_{dialect}.m3d"));
+            let folder = scratch(&format!("convert_book_{number}_{dialect}"));
+            let folder = folder.to_str().expect("UTF-8");
+            let options = [
+                "--for-book",
+                "--dialect",
+                dialect,
+                "--textures",
+                sample,
+                "--textures-out",
+                folder,
+            ];
+            convert(input, &output, &options);
+            assert_book_shows(&output, true);
+            let checked = run([
+                "check",
+                &output,
+                "--book",
+                dialect,
+                "--textures",
+                folder,
+                "--deny",
+                "book",
+            ]);
+            assert_eq!(checked.code, Some(0), "{checked:?}");
+            for entry in std::fs::read_dir(folder).expect("was made") {
+                let bytes = std::fs::read(entry.expect("can be listed").path()).expect("can be read");
+                assert!(bytes.starts_with(b"DDS "));
+                assert!(bytes[28] > 1, "it has mips");
+            }
+        }
+    }
+}
+
+#[test]
+fn fixtures_for_the_book_are_shown_or_refused_with_a_reason() {
+    for (number, input) in crate::program::fixtures("good").into_iter().enumerate() {
+        let input = input.to_str().expect("UTF-8").to_owned();
+        let counts = info(&input)["counts"].clone();
+        if counts["materials"] == 0 || counts["triangles"] == 0 {
+            continue;
+        }
+        let output = out("books", &format!("{number}.m3d"));
+        let folder = scratch(&format!("convert_books_{number}"));
+        let folder = folder.to_str().expect("UTF-8");
+        let run: Run = run(["convert", &input, &output, "--for-book", "--textures-out", folder]);
+        match run.code {
+            Some(0) => assert_book_shows(&output, counts["bones"] != 0),
+            code => assert!(code == Some(1) && run.err.contains("error"), "{input}: {run:?}"),
+        }
+    }
+}
+
+#[test]
+fn real_files_go_every_way() {
+    let names = [
+        "d3d12/soldier",
+        "d3d11/base",
+        "d3d11/stairs",
+        "d3d11/rock",
+        "d3d11/tree",
+        "imm/column",
+    ];
+    for name in names {
+        let Some(input) = shared(&format!("models/{name}.m3d")) else {
+            continue;
+        };
+        let stem = name.replace('/', "_");
+        let [m3d, glb, back, book] =
+            ["m3d", "glb", "back.m3d", "book.m3d"].map(|end| out("real", &format!("{stem}.{end}")));
+        convert(&input, &m3d, &[]);
+        convert(&input, &glb, &[]);
+        convert(&glb, &back, &[]);
+        let folder = scratch(&format!("convert_real_{stem}"));
+        convert(
+            &input,
+            &book,
+            &["--for-book", "--textures-out", folder.to_str().expect("UTF-8")],
+        );
+        let counts = info(&input)["counts"].clone();
+        for file in [&m3d, &back] {
+            assert_eq!(info(file)["counts"]["triangles"], counts["triangles"], "{file}");
+        }
+        assert_book_shows(&m3d, name == "d3d12/soldier");
+        assert_book_shows(&book, counts["bones"] != 0);
+    }
+}

@@ -1,0 +1,118 @@
+//! Parts of clips.
+
+use bindpose::edit::{EditError, Edits};
+use bindpose::model::{Clip, Model, Track};
+use proptest::prelude::*;
+
+use super::{apart, curved, edit, seen, size, spread, try_edit};
+use crate::documents::model_of;
+use crate::rigs;
+
+fn range(from: f32, to: f32) -> Edits {
+    Edits {
+        range_secs: Some([from, to]),
+        ..Edits::default()
+    }
+}
+
+/// Models of one clip each.
+fn model(number: usize) -> Model {
+    let document = match number {
+        0 => return curved(),
+        1 => rigs::rig(12, vec![rigs::ragged("one", 12)]),
+        _ => rigs::rig(4, vec![rigs::even("one", 4, 3.0, 9, 4.0)]),
+    };
+    model_of(&document).0
+}
+
+proptest! {
+    #[test]
+    fn a_part_has_the_same_poses_at_all_its_times(number in 0_usize..3, from in 0.0_f32..1.0, to in 0.0_f32..1.0) {
+        let model = model(number);
+        let whole = &model.clips[0];
+        let [from, to] = [from.min(to), from.max(to)].map(|part| whole.start_secs + part * whole.duration_secs());
+        prop_assume!(to - from > 0.01);
+        let cut = edit(&model, &range(from, to)).model;
+        let part = &cut.clips[0];
+        prop_assert_eq!((part.start_secs, part.end_secs), (from, to));
+        let times: Vec<f32> = spread(part).chain(super::key_times(part)).collect();
+        for secs in times {
+            let off = apart(&seen(&model, 0, secs).positions, &seen(&cut, 0, secs).positions);
+            // Both clips are made of arcs; where a curve is cut, of other ones.
+            prop_assert!(off <= 5e-5 * size(&model), "{off} at {secs} s of {from} s … {to} s");
+        }
+    }
+}
+
+#[test]
+fn the_cuts_are_keys_and_curves_stay_curves() {
+    let model = curved();
+    let cut = edit(&model, &range(0.5, 1.25)).model;
+    for (new, old) in cut.clips[0].tracks.iter().zip(&model.clips[0].tracks) {
+        for secs in [0.5, 1.25] {
+            let key = new.times_secs().iter().position(|&key_secs| key_secs == secs);
+            let key = key.expect("a cut is a key");
+            assert!(new.key(key).rotation.abs_diff_eq(old.at(secs).rotation, 1e-6));
+            assert_eq!(new.key(key).translation, old.at(secs).translation);
+            assert_eq!(new.key(key).scale, old.at(secs).scale);
+        }
+        assert_eq!(new.curves().is_some(), old.curves().is_some());
+        for step in 0..=100 {
+            let secs = 0.5 + 0.0075 * step as f32;
+            let (new, old) = (new.at(secs), old.at(secs));
+            assert!(new.translation.abs_diff_eq(old.translation, 1e-6), "at {secs} s");
+            assert!(new.scale.abs_diff_eq(old.scale, 1e-6), "at {secs} s");
+            assert!(new.rotation.angle_between(old.rotation) < 1e-3, "at {secs} s");
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_begins_after_the_cut_keeps_still_until_then() {
+    let model = curved();
+    let cut = edit(&model, &range(0.1, 1.75)).model;
+    for secs in [0.1, 0.15, 0.24, 1.51, 1.6, 1.75] {
+        for (new, old) in cut.clips[0].tracks.iter().zip(&model.clips[0].tracks) {
+            assert!(
+                new.at(secs).translation.abs_diff_eq(old.at(secs).translation, 1e-6),
+                "at {secs} s"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_still_clip_keeps_the_length_of_its_part() {
+    let (mut model, _) = model_of(&rigs::rig(3, vec![rigs::even("one", 3, 0.0, 5, 4.0)]));
+    let key = model.clips[0].tracks[0].key(0);
+    let still = Track::new([(0.0, key), (1.0, key)]).expect("two keys");
+    model.clips[0] = Clip::new(
+        "one",
+        vec![Track::at_rest(key), still, Track::new([(0.5, key)]).expect("a key")],
+    );
+    let cut = edit(&model, &range(0.25, 0.75)).model;
+    assert_eq!((cut.clips[0].start_secs, cut.clips[0].end_secs), (0.25, 0.75));
+    assert!(!cut.clips[0].tracks[0].has_keys());
+}
+
+#[test]
+fn the_whole_is_no_change() {
+    let model = curved();
+    let clip = &model.clips[0];
+    let edited = edit(&model, &range(clip.start_secs, clip.end_secs));
+    assert_eq!(edited.changes, []);
+    assert_eq!(edited.model.clips, model.clips);
+}
+
+#[test]
+fn ranges_that_make_no_sense_are_refused() {
+    for (from, to) in [(0.5, 0.5), (1.0, 0.5), (-0.1, 1.0), (0.0, 2.1), (f32::NAN, 1.0)] {
+        let refused = try_edit(&curved(), &range(from, to)).expect_err("no range");
+        assert!(matches!(refused, EditError::RangeOutside { .. }), "{refused}");
+    }
+    let refused = try_edit(&rigs::model(3), &range(0.5, 0.6)).expect_err("three clips");
+    assert_eq!(
+        refused.to_string(),
+        "A range is of one clip, and there are 3; choose one."
+    );
+}

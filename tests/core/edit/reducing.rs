@@ -1,0 +1,137 @@
+//! Keys that are left out.
+
+use bindpose::anim::{CompiledClip, PoseBuffers};
+use bindpose::edit::{EditError, Edits};
+use bindpose::model::{Clip, Model};
+use glam::Vec3A;
+use proptest::prelude::*;
+
+use super::{curved, edit, figure, key_times, size, swaying, try_edit};
+use crate::documents::model_of;
+use crate::rigs;
+
+fn reduce(tolerance: f32) -> Edits {
+    Edits {
+        reduce: Some(tolerance),
+        ..Edits::default()
+    }
+}
+
+/// Where each joint is, and where the places of its children at rest are when they hang on it stiffly.
+fn places(model: &Model, clip: &CompiledClip, secs: f32, pose: &mut PoseBuffers) -> Vec<Vec3A> {
+    pose.evaluate(&model.skeleton, clip, secs);
+    let joints = pose.model.0.iter().map(|joint| joint.translation);
+    let children = model
+        .skeleton
+        .parents()
+        .iter()
+        .enumerate()
+        .filter_map(|(child, parent)| {
+            let tip = model.skeleton.rest()[child].translation;
+            Some(pose.model.0[parent.as_ref()?.index()].transform_point3a(tip.into()))
+        });
+    joints.chain(children).collect()
+}
+
+/// How far joints and tips are off at most, at every key of the old clip.
+fn greatest_error(model: &Model, old: &Clip, new: &Clip) -> f32 {
+    let (old_lanes, new_lanes) = (CompiledClip::new(old), CompiledClip::new(new));
+    let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+    let errors = key_times(old).into_iter().map(|secs| {
+        let before = places(model, &old_lanes, secs, &mut pose);
+        let after = places(model, &new_lanes, secs, &mut pose);
+        before
+            .iter()
+            .zip(&after)
+            .map(|(a, b)| a.distance(*b))
+            .fold(0.0, f32::max)
+    });
+    errors.fold(0.0, f32::max)
+}
+
+fn check(model: &Model, tolerance: f32) -> usize {
+    let edited = edit(model, &reduce(tolerance));
+    let mut left_out = 0;
+    for (old, new) in model.clips.iter().zip(&edited.model.clips) {
+        let off = greatest_error(model, old, new);
+        assert!(
+            off <= tolerance * size(model),
+            "{}: {off} of {}",
+            old.name,
+            tolerance * size(model)
+        );
+        assert_eq!((old.start_secs, old.end_secs), (new.start_secs, new.end_secs));
+        for (old, new) in old.tracks.iter().zip(&new.tracks) {
+            let is_old = |secs: &f32| old.times_secs().contains(secs);
+            assert!(new.times_secs().iter().all(is_old), "no key is new");
+        }
+        left_out += old.key_count - new.key_count;
+    }
+    left_out
+}
+
+#[test]
+fn joints_and_tips_stay_within_the_tolerance_at_every_old_key() {
+    let sway = model_of(&swaying(24, 4.0)).0;
+    for model in [figure(), sway, rigs::model(30), curved()] {
+        let mut before = 0;
+        for tolerance in [1e-5, 1e-4, 1e-3, 1e-2, 0.1] {
+            let left_out = check(&model, tolerance);
+            assert!(left_out >= before, "a wider tolerance leaves out no fewer keys");
+            before = left_out;
+        }
+    }
+}
+
+#[test]
+fn a_dense_clip_keeps_a_part_of_its_keys() {
+    let (model, _) = model_of(&swaying(12, 4.0));
+    let keys = model.clips[0].key_count;
+    let left_out = check(&model, 1e-2);
+    assert!(left_out * 3 > keys, "{left_out} of {keys} keys are left out");
+}
+
+#[test]
+fn the_error_that_is_told_is_the_one_that_is_there() {
+    let (model, _) = model_of(&swaying(12, 4.0));
+    let edited = edit(&model, &reduce(1e-3));
+    let [change] = &edited.changes[..] else {
+        panic!("one change: {:?}", edited.changes)
+    };
+    let told = change
+        .message
+        .split("by more than ")
+        .nth(1)
+        .and_then(|rest| rest.split(' ').next());
+    let told: f32 = told
+        .and_then(|told| told.parse().ok())
+        .expect("the message has the error");
+    let is = greatest_error(&model, &model.clips[0], &edited.model.clips[0]) / size(&model);
+    // The edit looks at more tips than this test does.
+    assert!(is <= told * 1.01 && told <= 1e-3, "{is} is told as {told}");
+    assert_eq!(change.code, "keys-reduced");
+}
+
+#[test]
+fn two_keys_of_a_straight_way_are_enough() {
+    let (model, _) = model_of(&rigs::rig(1, vec![rigs::even("way", 1, 0.0, 400, 30.0)]));
+    let edited = edit(&model, &reduce(1e-4));
+    assert_eq!(edited.model.clips[0].tracks[0].times_secs().len(), 2);
+}
+
+#[test]
+fn a_tolerance_that_is_none_is_refused() {
+    for tolerance in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let refused = try_edit(&curved(), &reduce(tolerance)).expect_err("no tolerance");
+        assert!(matches!(refused, EditError::Nonsense { .. }), "{refused}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn random_rigs_stay_within_their_tolerance(bones in 1_u32..40, exponent in -5.0_f32..-1.0) {
+        let (model, _) = model_of(&rigs::rig(bones, vec![rigs::ragged("ragged", bones), rigs::even("even", bones, 1.0, 90, 30.0)]));
+        check(&model, 10.0_f32.powf(exponent));
+    }
+}

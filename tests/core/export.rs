@@ -1,0 +1,5 @@
+//! Models as files.
+
+mod glb;
+mod m3d;
+mod others;

@@ -1,0 +1,335 @@
+//! Models in glTF's binary form.
+
+use bindpose::export::{MapImages, glb, glb_losses};
+use bindpose::format::{Document, LineMap};
+use bindpose::image::{self, Image};
+use bindpose::import::m3d::from_document;
+use bindpose::model::{
+    AlphaMode, Curve, Curves, Front, Handedness, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Track,
+    UpAxis, Wrap,
+};
+use glam::{Affine2, Quat, Vec2, Vec3, Vec4};
+use serde_json::{Value, json};
+
+use crate::documents::{arm, quad, reordered};
+
+fn model(document: &Document) -> Model {
+    from_document(document, &LineMap::default()).expect("it is sound").0
+}
+
+/// Small models, each with something that a file may have.
+pub(super) fn models() -> Vec<(String, Model)> {
+    let mut roots = arm();
+    roots.bone_parents = vec![-1, -1, 0];
+    let mut early = model(&arm());
+    let keys = [-2.5, 0.25].map(|time_secs| (time_secs, LocalJoint::IDENTITY));
+    early.clips[0].tracks[0] = Track::new(keys).expect("sound keys");
+    early.clips[0] = bindpose::model::Clip::new("early", early.clips[0].tracks.clone());
+    let mut unweighted = model(&arm());
+    unweighted.mesh.influences[3] = Default::default();
+    let mut twice = model(&arm());
+    twice.mesh.influences[4].joints = [1, 1, 2, 1];
+    twice.mesh.influences[4].weights = [0.25, 0.25, 0.25, 0.25];
+    let mut lying = model(&arm());
+    lying.up_axis = UpAxis::Z;
+    lying.handedness = Handedness::Right;
+    [
+        ("quad", model(&quad())),
+        ("arm", model(&arm())),
+        ("arm-backwards", model(&reordered(&arm(), &[2, 0, 1]))),
+        ("arm-of-two-roots", model(&roots)),
+        ("arm-early", early),
+        ("arm-unweighted", unweighted),
+        ("arm-named-twice", twice),
+        ("arm-lying", lying),
+        ("arm-of-curves", curved()),
+        ("arm-rich", rich()),
+        ("arm-unlit", unlit()),
+    ]
+    .map(|(name, model)| (name.to_owned(), model))
+    .into()
+}
+
+/// The arm with held values and splines.
+fn curved() -> Model {
+    let mut model = model(&arm());
+    let turned = |angle: f32| Vec4::from(Quat::from_rotation_z(angle));
+    let step = Curve::step([(0.0, Vec3::Y), (0.5, Vec3::Y * 1.5), (1.0, Vec3::Y)]).expect("sound keys");
+    let slope = [Vec4::new(0.0, 0.0, 0.5, 0.0); 2];
+    let cubic = Curve::cubic([0.0, 0.5, 1.0].map(|time_secs| (time_secs, turned(time_secs), slope)));
+    let keys = [(0.0, 1.0), (0.5, 1.5), (1.0, 1.0)].map(|(time_secs, height)| {
+        let joint = LocalJoint {
+            translation: Vec3::Y * height,
+            rotation: Quat::from_rotation_z(time_secs),
+            ..LocalJoint::IDENTITY
+        };
+        (time_secs, joint)
+    });
+    let track = Track::new(keys).expect("sound keys");
+    model.clips[0].tracks[1] = track.clone().with_curves(Curves {
+        translation: Some(step),
+        ..Curves::default()
+    });
+    model.clips[0].tracks[2] = track.with_curves(Curves {
+        rotation: Some(cubic.expect("sound keys")),
+        ..Curves::default()
+    });
+    model
+}
+
+/// The arm with all that a material and a vertex can have.
+fn rich() -> Model {
+    let mut model = model(&arm());
+    let vertex_count = model.mesh.vertex_count();
+    (model.handedness, model.front) = (Handedness::Right, Front::Positive);
+    model.mesh.colors = vec![Vec4::new(1.0, 0.5, 0.25, 1.0); vertex_count];
+    model.mesh.second_tex_coords = vec![Vec2::splat(0.5); vertex_count];
+    let mut material = Material {
+        name: "gold".into(),
+        diffuse: [1.0, 0.5, 0.25],
+        opacity: 0.5,
+        reflectance: Reflectance::MetallicRoughness {
+            metallic: 0.75,
+            roughness: 0.25,
+        },
+        alpha: AlphaMode::Blend,
+        double_sided: true,
+        unlit: false,
+        emissive: [2.0, 0.5, 0.0],
+        normal_scale: 0.5,
+        occlusion_strength: 0.25,
+        diffuse_map: Some("gold.png".into()),
+        normal_map: Some("bumps.png".into()),
+        metallic_roughness_map: Some("shine.png".into()),
+        occlusion_map: Some("hollows.png".into()),
+        emissive_map: Some("glow.png".into()),
+    };
+    if let Some(map) = &mut material.diffuse_map {
+        map.sampling.wrap = [Wrap::Clamp, Wrap::Mirror];
+        map.sampling.second_tex_coords = true;
+        map.sampling.nearest = true;
+        map.sampling.map_from_mesh =
+            Affine2::from_scale_angle_translation(Vec2::splat(2.0), -0.5, Vec2::new(0.25, 0.5));
+    }
+    model.materials[0] = material;
+    let names = ["hip", "", "hand"].map(str::to_owned).to_vec();
+    model.skeleton = model.skeleton.with_names(names);
+    model
+}
+
+fn unlit() -> Model {
+    let mut model = rich();
+    model.materials[0].unlit = true;
+    model
+}
+
+/// The JSON and the binary chunk of a file.
+fn chunks(bytes: &[u8]) -> (Value, Vec<u8>) {
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize;
+    assert_eq!((&bytes[..4], word(4), word(8)), (&b"glTF"[..], 2, bytes.len()));
+    let json = &bytes[20..20 + word(12)];
+    let rest = &bytes[20 + word(12)..];
+    let root = serde_json::from_slice(json).expect("it is JSON");
+    (root, rest.get(8..).unwrap_or_default().to_vec())
+}
+
+fn written(model: &Model, maps: &MapImages<'_>) -> (Value, Vec<u8>) {
+    chunks(
+        &glb(model, &JointNames::default(), maps)
+            .expect("it can be written")
+            .bytes,
+    )
+}
+
+fn picture(texels: &[[u8; 4]]) -> Image {
+    let width = texels.len() as u32;
+    Image::from_rgba8(width, 1, texels.as_flattened().to_vec(), "test").expect("a sound picture")
+}
+
+#[test]
+fn each_submesh_is_a_primitive_over_shared_vertices() {
+    let mut document = quad();
+    document.materials.push(document.materials[0].clone());
+    document.subsets = vec![crate::documents::subset(0, 1), crate::documents::subset(1, 1)];
+    let (root, _) = written(&model(&document), &MapImages::default());
+    let primitives = root["meshes"][0]["primitives"].as_array().expect("primitives");
+    assert_eq!(primitives.len(), 2);
+    assert_eq!(primitives[0]["attributes"], primitives[1]["attributes"]);
+    assert_eq!(
+        [&primitives[0]["material"], &primitives[1]["material"]],
+        [&json!(0), &json!(1)]
+    );
+    assert_eq!(root.get("skins"), None);
+}
+
+#[test]
+fn indices_run_against_the_clock_in_sixteen_bits() {
+    let (root, binary) = written(&model(&quad()), &MapImages::default());
+    let indices = root["meshes"][0]["primitives"][0]["indices"].as_u64().expect("indices") as usize;
+    let accessor = &root["accessors"][indices];
+    assert_eq!(accessor["componentType"], 5123);
+    let view = &root["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];
+    let start = view["byteOffset"].as_u64().expect("a place") as usize;
+    let found: Vec<u8> = binary[start..start + 12].iter().step_by(2).copied().collect();
+    assert_eq!(found, [0, 2, 1, 0, 3, 2]);
+}
+
+#[test]
+fn bones_are_nodes_in_the_files_order_with_their_names() {
+    let backwards = model(&reordered(&arm(), &[2, 0, 1]));
+    let mut names = JointNames::default();
+    names.set(1, "hip");
+    let bytes = glb(&backwards, &names, &MapImages::default())
+        .expect("it can be written")
+        .bytes;
+    let (root, _) = chunks(&bytes);
+    assert_eq!(root["skins"][0]["joints"], json!([0, 1, 2]));
+    assert_eq!(root["nodes"][1]["name"], "hip");
+    assert_eq!(root["nodes"][1]["children"], json!([2]));
+    assert_eq!(root["nodes"][2]["children"], json!([0]));
+    assert_eq!(root["nodes"][0]["extras"]["bindpose"]["bone"], 0);
+    assert_eq!(root["nodes"][0].get("name"), None);
+}
+
+#[test]
+fn several_roots_get_a_node_above_them() {
+    let (_, model) = models().swap_remove(3);
+    let (root, _) = written(&model, &MapImages::default());
+    assert_eq!(root["skins"][0]["joints"], json!([0, 1, 2]));
+    assert_eq!(root["nodes"][3], json!({ "name": "skeleton", "children": [0, 1] }));
+    assert_eq!(root["scenes"][0]["nodes"], json!([3, 4]));
+}
+
+#[test]
+fn materials_of_the_books_keep_their_values_in_extras() {
+    let (root, _) = written(&model(&arm()), &MapImages::default());
+    let material = &root["materials"][0];
+    assert_eq!(
+        material["extras"]["bindpose"],
+        json!({
+            "reflectance": "fresnel", "diffuse": [0.5, 0.5, 0.5], "fresnel0": [0.05, 0.05, 0.05], "roughness": 0.5,
+            "alphaClip": false, "diffuseMap": null, "normalMap": null,
+        })
+    );
+    assert_eq!(material["pbrMetallicRoughness"]["metallicFactor"], 0.0);
+    assert_eq!(
+        root["scenes"][0]["extras"]["bindpose"],
+        json!({ "handedness": "left", "up": "y" })
+    );
+}
+
+#[test]
+fn the_words_of_gltf_come_out_as_they_went_in() {
+    let image = picture(&[[1, 2, 3, 255]]);
+    let maps: MapImages<'_> = MapSlot::ALL.into_iter().map(|slot| ((0, slot), &image)).collect();
+    let (root, _) = written(&rich(), &maps);
+    let material = &root["materials"][0];
+    assert_eq!(material.get("extras"), None);
+    assert_eq!(root["scenes"][0].get("extras"), None);
+    assert_eq!(material["pbrMetallicRoughness"]["metallicFactor"], 0.75);
+    assert_eq!(
+        material["pbrMetallicRoughness"]["baseColorFactor"],
+        json!([1.0, 0.5, 0.25, 0.5])
+    );
+    assert_eq!(material["emissiveFactor"], json!([1.0, 0.25, 0.0]));
+    assert_eq!(
+        material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"],
+        2.0
+    );
+    assert_eq!(
+        (&material["alphaMode"], &material["doubleSided"]),
+        (&json!("BLEND"), &json!(true))
+    );
+    assert_eq!(
+        (
+            &material["normalTexture"]["scale"],
+            &material["occlusionTexture"]["strength"]
+        ),
+        (&json!(0.5), &json!(0.25))
+    );
+    let color = &material["pbrMetallicRoughness"]["baseColorTexture"];
+    assert_eq!(color["texCoord"], 1);
+    let transform = &color["extensions"]["KHR_texture_transform"];
+    assert_eq!(
+        (&transform["offset"], &transform["rotation"]),
+        (&json!([0.25, 0.5]), &json!(0.5))
+    );
+    let extensions = ["KHR_materials_emissive_strength", "KHR_texture_transform"];
+    assert_eq!(root["extensionsUsed"], json!(extensions));
+    let (root, _) = written(&unlit(), &maps);
+    assert_eq!(
+        root["extensionsUsed"],
+        json!(["KHR_materials_unlit", "KHR_texture_transform"])
+    );
+    // One picture for all, sampled in two ways.
+    let counts = ["images", "samplers", "textures"].map(|list| root[list].as_array().map_or(0, Vec::len));
+    assert_eq!(counts, [1, 2, 2]);
+}
+
+#[test]
+fn gloss_of_a_normal_map_becomes_roughness() -> Result<(), Box<dyn std::error::Error>> {
+    let mut document = arm();
+    document.materials[0].normal_map = Some("bumps.dds".into());
+    let bumps = picture(&[[128, 128, 255, 255], [255, 128, 128, 0]]);
+    let maps = MapImages::from([((0, MapSlot::Normal), &bumps)]);
+    let (root, binary) = written(&model(&document), &maps);
+    let surface = &root["materials"][0]["pbrMetallicRoughness"];
+    assert_eq!(surface["roughnessFactor"], 1.0);
+    let decoded: Vec<_> = root["images"]
+        .as_array()
+        .expect("pictures")
+        .iter()
+        .map(|image| {
+            let view = &root["bufferViews"][image["bufferView"].as_u64().expect("a view") as usize];
+            let [start, length] =
+                ["byteOffset", "byteLength"].map(|key| view[key].as_u64().expect("a number") as usize);
+            let picture = image::decode(&binary[start..start + length], "map.png").expect("a picture");
+            (image["name"].clone(), picture.to_rgba8(0, 0).expect("texels"))
+        })
+        .collect();
+    assert_eq!(
+        decoded,
+        [
+            (json!("bumps.dds (roughness)"), vec![255, 128, 0, 255, 255, 255, 0, 255]),
+            (json!("bumps.dds"), vec![128, 128, 255, 255, 255, 128, 128, 255]),
+        ]
+    );
+    Ok(())
+}
+
+#[test]
+fn curves_stay_what_they_are() {
+    let (root, _) = written(&curved(), &MapImages::default());
+    let samplers = root["animations"][0]["samplers"].as_array().expect("samplers");
+    let ways: Vec<_> = samplers
+        .iter()
+        .filter_map(|sampler| sampler["interpolation"].as_str())
+        .collect();
+    assert_eq!(ways, ["STEP", "CUBICSPLINE"]);
+}
+
+#[test]
+fn what_gltf_does_not_hold_is_said() {
+    let by_name = |name: &str| {
+        models()
+            .into_iter()
+            .find(|(named, _)| named == name)
+            .expect("it is there")
+            .1
+    };
+    for (name, code) in [
+        ("arm-early", "negative-times"),
+        ("arm-unweighted", "vertices-unweighted"),
+        ("arm-rich", "maps-missing"),
+    ] {
+        let losses = glb_losses(&by_name(name), &MapImages::default());
+        let codes: Vec<_> = losses.iter().map(|loss| loss.code).collect();
+        assert_eq!(codes, [code]);
+        assert!(
+            crate::documents::is_sentence(&losses[0].message),
+            "{}",
+            losses[0].message
+        );
+    }
+    assert_eq!(glb_losses(&by_name("arm"), &MapImages::default()), []);
+}

@@ -1,0 +1,317 @@
+//! Exporting what is open: what is known before, the file, and its steps.
+
+use std::io::{Cursor, Read as _};
+
+use bindpose::edit::{self, Edits};
+use bindpose::export;
+use bindpose::format::Dialect;
+use bindpose::image::encode_png;
+use bindpose::model::JointNames;
+use bindpose::session::{
+    ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportStep, ExportedFile, File, FileCommand,
+    MaterialCommand, NameCommand, PlayCommand, Session,
+};
+
+use super::models::{document, file, moving, still};
+use super::opened;
+
+fn options(format: ExportFormat) -> ExportOptions {
+    ExportOptions {
+        format,
+        ..ExportOptions::default()
+    }
+}
+
+fn written(session: &Session, options: &ExportOptions) -> ExportedFile {
+    let job = session.export_job(options).expect("a model is open");
+    job.run().expect("it can be written")
+}
+
+fn plan(session: &mut Session, options: ExportOptions) {
+    session.apply(ExportCommand::Plan(Some(Box::new(options))));
+    while session.step_export() {}
+}
+
+fn only(clip: &str) -> Option<Vec<String>> {
+    Some(vec![clip.to_owned()])
+}
+
+/// A box with a map of one red texel.
+fn mapped() -> Session {
+    let mut document = document();
+    document.materials[0].diffuse_map = Some("coats/red.dds".to_owned());
+    let png = encode_png(&[255, 0, 0, 255], 1, 1).expect("a picture");
+    let mut session = Session::new(false);
+    let files = vec![file("box.m3d", &document), File::new("somewhere/RED.png", png)];
+    session.apply(FileCommand::Add(files));
+    assert_eq!(session.maps().used().count(), 1);
+    session
+}
+
+#[test]
+fn a_job_writes_what_edits_and_formats_write_by_themselves() {
+    let session = opened(moving("a.m3d"));
+    let model = session.open_model().expect("a model").model.clone();
+    let names = JointNames::default();
+    let edits = Edits {
+        clips: only("Turn"),
+        range_secs: Some([0.75, 1.5]),
+        close_loop_secs: Some(0.25),
+        reduce: Some(0.01),
+        ..Edits::default()
+    };
+    let asked = |format| ExportOptions {
+        format,
+        clips: only("Turn"),
+        range: ExportRange::Secs([0.75, 1.5]),
+        close_loop_secs: Some(0.25),
+        reduce: Some(0.01),
+        for_book: false,
+    };
+    let edited = edit::apply(model.clone(), &names, &edits).expect("it can be edited");
+    let glb = export::glb(&edited.model, &edited.names, &export::MapImages::new()).expect("it can be written");
+    let file = written(&session, &asked(ExportFormat::Glb));
+    assert_eq!((file.name.as_str(), file.bytes), ("a.glb", glb.bytes));
+    assert_eq!((file.plan.losses, file.plan.changes), (glb.losses, edited.changes));
+
+    let edits = edits.in_space_of_the_books(&model);
+    let edited = edit::apply(model, &names, &edits).expect("it can be edited");
+    for (format, dialect) in [
+        (ExportFormat::D3d12, Dialect::D3d12),
+        (ExportFormat::D3d11, Dialect::D3d11),
+    ] {
+        let m3d = export::m3d(&edited.model, &edited.names, dialect).expect("it can be written");
+        let file = written(&session, &asked(format));
+        assert_eq!((file.name.as_str(), file.bytes), ("a.m3d", m3d.bytes));
+        assert_eq!(file.plan.losses, m3d.losses);
+    }
+}
+
+#[test]
+fn a_model_of_the_books_comes_out_as_it_went_in() {
+    let session = opened(still("a.m3d"));
+    let file = written(&session, &options(ExportFormat::D3d12));
+    let again = opened(File::new("a.m3d", file.bytes));
+    let [before, after] = [&session, &again].map(|session| &session.open_model().expect("a model").model);
+    assert_eq!(format!("{before:?}"), format!("{after:?}"));
+    assert_eq!(file.plan.changes, []);
+}
+
+#[test]
+fn losses_and_changes_are_known_before_anything_is_written() {
+    let mut session = opened(moving("a.m3d"));
+    assert!(session.export().is_none(), "nobody asked");
+    let asked = ExportOptions {
+        clips: only("Bend"),
+        ..options(ExportFormat::D3d11)
+    };
+    plan(&mut session, asked.clone());
+    let export = session.export().expect("it is planned");
+    assert_eq!((export.options, export.refusal, export.saving), (&asked, None, None));
+    let plan = export.plan.expect("all is known").clone();
+    assert_eq!(plan.changes[0].message, "2 clips are left out.");
+    assert!(!plan.losses.is_empty(), "the D3D11 book has other materials");
+    assert_eq!(session.take_exported(), None);
+    assert_eq!(session.export_name().as_deref(), Some("a.m3d"));
+
+    session.apply(ExportCommand::Save);
+    while session.step_export() {}
+    let file = session.take_exported().expect("it was written");
+    assert_eq!(file.plan, plan);
+    assert_eq!(file, written(&session, &asked));
+    let export = session.export().expect("it is planned anew");
+    assert_eq!((export.plan, export.saving), (Some(&plan), None));
+}
+
+#[test]
+fn a_plan_follows_what_is_open_and_asks_for_no_step_at_rest() {
+    let mut session = opened(moving("a.m3d"));
+    plan(&mut session, ExportOptions::default());
+    assert!(!session.step_export(), "all is known");
+    let changes = |session: &Session| {
+        let export = session.export().expect("it is planned");
+        let plan = export.plan.expect("all is known");
+        plan.changes
+            .iter()
+            .map(|change| change.message.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(changes(&session), [""; 0]);
+    let mut material = session.materials()[0].clone();
+    material.diffuse = [1.0, 0.0, 0.0];
+    let material = Box::new(material);
+    session.apply(MaterialCommand::Edit { index: 0, material });
+    while session.step_export() {}
+    assert_eq!(changes(&session), ["1 material is written as it was edited here."]);
+    session.apply(PlayCommand::Seek { time_secs: 0.5 });
+    assert!(!session.step_export(), "the time changes no file");
+    session.apply(FileCommand::Add(vec![still("b.m3d")]));
+    while session.step_export() {}
+    assert_eq!(changes(&session), [""; 0]);
+    assert_eq!(session.export_name().as_deref(), Some("b.glb"));
+    session.apply(ExportCommand::Plan(None));
+    assert!(session.export().is_none() && !session.step_export());
+}
+
+#[test]
+fn what_was_edited_and_named_here_is_in_the_file() {
+    let mut session = opened(moving("a.m3d"));
+    let mut material = session.materials()[0].clone();
+    material.diffuse = [1.0, 0.5, 0.25];
+    let wanted = Box::new(material.clone());
+    session.apply(MaterialCommand::Edit {
+        index: 0,
+        material: wanted,
+    });
+    session.apply(NameCommand::Rename {
+        joint: bindpose::model::JointIndex(1),
+        name: "Neck".to_owned(),
+    });
+    let again = opened(File::new(
+        "a.m3d",
+        written(&session, &options(ExportFormat::D3d12)).bytes,
+    ));
+    assert_eq!(again.materials()[0].diffuse, material.diffuse);
+    let glb = written(&session, &options(ExportFormat::Glb));
+    assert!(String::from_utf8_lossy(&glb.bytes).contains("\"Neck\""));
+}
+
+#[test]
+fn the_range_is_the_timelines_where_its_clip_is_the_only_one() {
+    let mut session = opened(moving("a.m3d"));
+    session.apply(PlayCommand::SetRangeStart(Some(0.25)));
+    session.apply(PlayCommand::SetRangeEnd(Some(0.75)));
+    let span = |clips, range| {
+        let file = written(
+            &session,
+            &ExportOptions {
+                clips,
+                range,
+                ..options(ExportFormat::D3d12)
+            },
+        );
+        let again = opened(File::new("a.m3d", file.bytes));
+        let clip = &again.open_model().expect("a model").model.clips[0];
+        clip.duration_secs()
+    };
+    assert_eq!(span(only("Bend"), ExportRange::Timeline), 0.5);
+    assert_eq!(span(only("Bend"), ExportRange::Whole), 1.0);
+    assert_eq!(
+        span(only("Turn"), ExportRange::Timeline),
+        2.0,
+        "the range is of another clip"
+    );
+    assert_eq!(span(None, ExportRange::Timeline), 1.0);
+    assert_eq!(span(only("Turn"), ExportRange::Secs([1.0, 1.5])), 0.5);
+}
+
+#[test]
+fn what_cannot_be_written_says_why_and_saves_nothing() {
+    let mut session = opened(moving("a.m3d"));
+    let asked = ExportOptions {
+        close_loop_secs: Some(99.0),
+        clips: only("Bend"),
+        ..ExportOptions::default()
+    };
+    plan(&mut session, asked);
+    let refusal = session.export().and_then(|export| export.refusal);
+    assert_eq!(
+        refusal,
+        Some("\"Bend\" is 1 s long; its end cannot be eased over 99 s.")
+    );
+    session.apply(ExportCommand::Save);
+    while session.step_export() {}
+    assert_eq!(session.take_exported(), None);
+    assert_eq!(session.export().expect("it is planned").saving, None);
+}
+
+#[test]
+fn it_goes_in_steps_and_can_be_dropped_between_two() {
+    let mut session = mapped();
+    let asked = options(ExportFormat::D3d12);
+    let mut job = Box::new(session.export_job(&asked).expect("a model is open"));
+    let mut told = vec![job.progress()];
+    loop {
+        match job.step() {
+            ExportStep::Working(next) => job = next,
+            ExportStep::Ended(file) => break assert!(file.is_ok()),
+        }
+        told.push(job.progress());
+    }
+    assert!(told.len() > 4, "edits, the model, two files: {told:?}");
+    assert!(told.iter().all(|told| told.done < told.total), "{told:?}");
+
+    plan(&mut session, asked);
+    session.apply(ExportCommand::Save);
+    assert!(session.step_export());
+    assert!(session.export().expect("it is written").saving.is_some());
+    session.apply(ExportCommand::Cancel);
+    while session.step_export() {}
+    assert_eq!(session.take_exported(), None);
+    assert_eq!(
+        session
+            .export()
+            .expect("it is still planned")
+            .plan
+            .map(|plan| plan.maps),
+        Some(1)
+    );
+}
+
+#[test]
+fn another_model_ends_what_is_written_of_the_one_before() {
+    let mut session = mapped();
+    plan(&mut session, options(ExportFormat::D3d12));
+    session.apply(ExportCommand::Save);
+    assert!(session.step_export());
+    session.apply(FileCommand::Add(vec![still("b.m3d")]));
+    while session.step_export() {}
+    assert_eq!(session.take_exported(), None);
+}
+
+#[test]
+fn pictures_come_along_with_a_file_of_the_books_and_are_inside_a_glb() {
+    let session = mapped();
+    let file = written(&session, &options(ExportFormat::D3d12));
+    assert_eq!(
+        (file.name.as_str(), file.plan.maps, file.media_type()),
+        ("box.zip", 1, "application/zip")
+    );
+    let again = written(&session, &options(ExportFormat::D3d12));
+    assert_eq!(file, again, "the time of day is not in it");
+    let mut archive = zip::ZipArchive::new(Cursor::new(file.bytes)).expect("a sound archive");
+    let mut files = Vec::new();
+    for index in 0..archive.len() {
+        let mut entry = archive.by_index(index).expect("an entry");
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes).expect("sound bytes");
+        files.push(File::new(&entry.name().expect("a name in UTF-8"), bytes));
+    }
+    let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+    assert_eq!(names, ["box.m3d", "coats/red.png"]);
+    let mut reopened = Session::new(false);
+    reopened.apply(FileCommand::Add(files));
+    assert_eq!(reopened.maps().used().count(), 1, "the picture is found by its name");
+
+    let glb = written(&session, &options(ExportFormat::Glb));
+    assert_eq!(
+        (glb.name.as_str(), glb.plan.maps, glb.media_type()),
+        ("box.glb", 0, "model/gltf-binary")
+    );
+    assert!(glb.bytes.windows(4).any(|bytes| bytes == b"\x89PNG"));
+}
+
+#[test]
+fn a_job_that_encodes_pictures_one_by_one_writes_the_same_glb() {
+    let session = mapped();
+    let model = &session.open_model().expect("a model").model;
+    let mut images = export::MapImages::new();
+    for (material, slots) in session.maps().images().enumerate() {
+        for (slot, image) in bindpose::model::MapSlot::ALL.into_iter().zip(slots) {
+            images.extend(image.map(|image| ((material, slot), &**image)));
+        }
+    }
+    assert_eq!(images.len(), 1);
+    let whole = export::glb(model, &JointNames::default(), &images).expect("it can be written");
+    assert_eq!(written(&session, &options(ExportFormat::Glb)).bytes, whole.bytes);
+}

@@ -1,0 +1,154 @@
+//! The panel that saves the model as a file of another format, used by the names of its controls.
+
+use bindpose::session::{ExportFormat, ExportRange, ExportedFile, PlayCommand};
+use bindpose::ui::Request;
+use egui::accesskit::{Role, Toggled};
+use egui::{Event, Key, Modifiers};
+
+use crate::models::{moving, still};
+use crate::page::{PHONE, WIDE, Window, touch_window, window};
+
+const BUTTON: &str = "Export… (E)";
+
+fn open() -> Window {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.click(BUTTON);
+    window
+}
+
+fn saved(window: &Window) -> Vec<&ExportedFile> {
+    let requests = window.harness.state().requests.iter();
+    requests
+        .filter_map(|request| match request {
+            Request::SaveExport(file) => Some(&**file),
+            _ => None,
+        })
+        .collect()
+}
+
+#[test]
+fn it_saves_in_the_format_that_was_chosen() {
+    let mut window = open();
+    assert_eq!(window.node("Format: GLB").role(), Role::RadioButton);
+    for (format, name) in [
+        ("Format: .m3d D3D11", "a.m3d"),
+        ("Format: .m3d D3D12", "a.m3d"),
+        ("Format: GLB", "a.glb"),
+    ] {
+        window.click(format);
+        window.click(&format!("Save {name}"));
+        assert_eq!(saved(&window).last().map(|file| file.name.as_str()), Some(name));
+    }
+    assert!(saved(&window)[2].bytes.starts_with(b"glTF"));
+    assert!(saved(&window)[0].bytes != saved(&window)[1].bytes);
+}
+
+#[test]
+fn what_is_lost_and_changed_is_told_before_it_is_saved() {
+    let mut window = open();
+    assert!(window.shows("What is lost"));
+    window.click("Format: .m3d D3D11");
+    let lost = window.named(|name| name.starts_with("What is lost · "));
+    assert_eq!(lost.len(), 1, "a number of losses");
+    window.click("Turn");
+    assert!(window.shows("What changes · 2"), "the clip, and the hand of the books");
+    assert!(window.shows("1 clip is left out."));
+    assert!(saved(&window).is_empty());
+}
+
+#[test]
+fn clips_are_chosen_and_a_range_is_of_one() {
+    let mut window = open();
+    window.apply(PlayCommand::SetRangeStart(Some(0.25)));
+    assert!(!window.shows("Only a range"), "there are three clips");
+    window.click("Export no clip");
+    for clip in ["Bend", "Turn", "Still"] {
+        assert_eq!(window.node(clip).toggled(), Some(Toggled::False), "{clip}");
+    }
+    window.click("Bend");
+    assert_eq!(
+        window.node("Only a range").toggled(),
+        Some(Toggled::True),
+        "it is the timeline's"
+    );
+    assert_eq!(window.node("First second").numeric_value(), Some(0.25));
+    window.click("Last second");
+    window.press(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text("0.5".to_owned()));
+    window.press(Modifiers::NONE, Key::Enter);
+    let options = window.session().export().expect("it is planned").options;
+    assert_eq!(options.range, ExportRange::Secs([0.25, 0.5]));
+    window.click("Only a range");
+    let options = window.session().export().expect("it is planned").options;
+    assert_eq!(
+        (options.range, options.clips.clone()),
+        (ExportRange::Whole, Some(vec!["Bend".to_owned()]))
+    );
+    window.click("Export all clips");
+    assert!(!window.shows("Only a range"));
+}
+
+#[test]
+fn switches_show_their_numbers_and_what_they_do() {
+    let mut window = open();
+    assert!(!window.shows("For the book's demo"), "it is no format of the books");
+    window.click("Close the loop");
+    window.click("Reduce keys");
+    window.click("Format: .m3d D3D12");
+    window.click("For the book's demo");
+    for name in ["Close the loop", "Reduce keys", "For the book's demo"] {
+        assert_eq!(window.node(name).toggled(), Some(Toggled::True), "{name}");
+    }
+    assert!(window.shows("Seconds of the easing") && window.shows("Tolerance in % of the size"));
+    let options = window.session().export().expect("it is planned").options.clone();
+    assert_eq!(
+        (options.close_loop_secs, options.reduce, options.for_book),
+        (Some(0.2), Some(0.001), true)
+    );
+    assert_eq!(options.format, ExportFormat::D3d12);
+    assert!(!window.named(|name| name.starts_with("What changes · ")).is_empty());
+}
+
+#[test]
+fn what_cannot_be_written_is_said_and_not_saved() {
+    let mut window = open();
+    window.click("Close the loop");
+    window.click("Seconds of the easing");
+    window.press(Modifiers::COMMAND, Key::A);
+    window.harness.event(Event::Text("5".to_owned()));
+    window.press(Modifiers::NONE, Key::Enter);
+    assert!(window.shows("Cannot be written"));
+    assert!(window.node("Save").is_disabled());
+}
+
+#[test]
+fn a_key_opens_and_shuts_it_and_nothing_is_planned_while_it_is_shut() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    assert!(window.session().export().is_none());
+    window.press(Modifiers::NONE, Key::E);
+    assert!(window.shows("Save a.glb"));
+    window.press(Modifiers::NONE, Key::Escape);
+    assert!(!window.shows("Save a.glb"));
+    assert!(window.session().export().is_none());
+}
+
+#[test]
+fn without_a_model_it_says_what_to_do() {
+    let mut window = window(WIDE, vec![]);
+    window.click(BUTTON);
+    assert!(window.shows("Nothing is open. Drop a model, then export it here."));
+    assert!(window.named(|name| name.starts_with("Save")).is_empty());
+}
+
+#[test]
+fn on_a_phone_it_is_a_page_of_the_sheet() {
+    let mut window = touch_window(PHONE, vec![still("a.m3d")]);
+    window.click("More");
+    window.click("Export…");
+    let rect = window.rect("Format: GLB");
+    assert!(rect.height() >= 44.0, "{rect}");
+    window.click_anywhere("Save a.glb");
+    assert_eq!(saved(&window).len(), 1);
+    window.click("Close the sheet");
+    assert!(window.session().export().is_none());
+}
