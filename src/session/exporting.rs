@@ -154,7 +154,8 @@ impl Session {
         let is_known = exporting.of == stamp;
         // What is being written was taken when that began, but it ends with its model.
         let model = |stamp: &Option<Stamp>| stamp.as_ref().map(|stamp| stamp.revisions[0]);
-        if !is_known && !(exporting.saves && model(&exporting.of) == model(&stamp)) {
+        let is_saved_from_it = exporting.saves && model(&exporting.of) == model(&stamp);
+        if !is_known && !is_saved_from_it {
             (exporting.made, exporting.saves) = (Made::Nothing, false);
         }
         let job = match std::mem::take(&mut exporting.made) {

@@ -162,7 +162,7 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
     popover(ui, &button, export::WIDTH, |ui| {
-        export::show(ui, session, state, commands)
+        export::show(ui, session, state, commands);
     });
 }
 
