@@ -136,7 +136,7 @@ mod tests {
         let at = |pointer| position_of(json, pointer).map(|at| (at.line, at.column));
         assert_eq!(at(""), Some((1, 1)));
         assert_eq!(at("/a"), Some((1, 8)));
-        assert_eq!(at("/a/1/b~0~1c"), Some((1, 25)));
+        assert_eq!(at("/a/1/b~0~1c"), Some((1, 26)));
         assert_eq!(at("/a/2/2"), Some((2, 12)));
         assert_eq!(at("/d"), Some((3, 8)));
         // What is not there is told where it would be.

@@ -2,7 +2,7 @@
 
 use super::camera::CameraCommand;
 use super::crowd::CrowdCommand;
-use super::exporting::ExportCommand;
+use super::export::ExportCommand;
 use super::history::HistoryCommand;
 use super::look::LookCommand;
 use super::materials::MaterialCommand;

@@ -60,6 +60,8 @@ fn json_has_an_object_for_each_file() {
             "message": "A blend index must be a whole number from 0 to 1, but \"2\" was found.",
             "line": 34,
             "column": 17,
+            "json_pointer": null,
+            "byte_offset": null,
             "expected": "a bone index",
             "found": "2",
             "subject": null,
@@ -100,10 +102,13 @@ fn an_unknown_code_is_wrong_use_and_the_nearest_is_named() {
     assert_eq!(run(["check"]).code, Some(2), "neither");
 }
 
-/// `severity[code] line:column: message` stands beside each file.
+/// `severity[code] line:column: message` stands beside each file: of those that begin like glTF what the reader of `.m3d` says, which
+/// `check` does not ask for them.
 #[test]
 fn every_bad_fixture_gives_the_error_that_stands_beside_it() {
-    let files = fixtures("bad");
+    let is_gltf = |file: &std::path::PathBuf| ["glb.m3d", "gltf.m3d"].iter().any(|name| file.ends_with(name));
+    let mut files = fixtures("bad");
+    files.retain(|file| !is_gltf(file));
     let arguments = ["check", "--json"]
         .map(Into::into)
         .into_iter()

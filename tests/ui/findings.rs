@@ -46,7 +46,7 @@ const OF_SUBSET: &str = "warning subset-out-of-range: ";
 const OF_VERTEX: &str = "warning weights-not-normalized: ";
 const OF_BONE: &str = "warning offset-not-affine: ";
 const OF_CLIP: &str = "warning track-empty: ";
-const OF_NOTHING: &str = "warning triangles-undrawn: ";
+const OF_TRIANGLE: &str = "warning triangles-undrawn: ";
 
 pub(crate) fn files() -> Vec<File> {
     vec![models::file("faulty.m3d", &faulty())]
@@ -79,7 +79,7 @@ fn the_file_has_a_finding_of_each_kind() {
     assert_eq!(subject_of(OF_VERTEX), Some(Subject::Vertex(5)));
     assert_eq!(subject_of(OF_BONE), Some(Subject::Bone(1)));
     assert_eq!(subject_of(OF_CLIP), Some(Subject::Clip(2)));
-    assert_eq!(subject_of(OF_NOTHING), None);
+    assert_eq!(subject_of(OF_TRIANGLE), Some(Subject::Triangle(5)));
 }
 
 #[test]
@@ -184,25 +184,26 @@ fn a_finding_about_a_clip_shows_the_clip() {
 }
 
 #[test]
-fn a_finding_about_no_part_shows_its_lines_alone() {
+fn a_finding_about_a_triangle_leads_to_its_first_corner() {
     let mut window = opened();
-    let camera = *window.session().camera();
-    window.click(OF_NOTHING);
-    let session = window.session();
-    assert_eq!((session.submeshes().selected(), selected(&window)), (None, None));
-    assert_eq!(*window.session().camera(), camera);
-    assert!(
-        window
-            .named(|name| name.starts_with(OF_NOTHING) && name.contains("Go to"))
-            .is_empty()
-    );
+    window.click(OF_TRIANGLE);
+    let corner = faulty().triangles[5][0];
+    let selected = window.session().joints().selected_vertex().map(|vertex| vertex.vertex);
+    assert_eq!(selected, Some(corner));
     let to_parts = window.named(|name| name.contains("\nGo to "));
     let words: Vec<&str> = to_parts
         .iter()
         .filter_map(|(name, _)| Some(name.rsplit_once("Go to ")?.1))
         .collect();
-    assert_eq!(words.len(), 5, "{words:?}");
-    for wanted in ["Material Painted (2)", "Subset 1", "Vertex 5", "Bone 1", "Clip Still"] {
+    assert_eq!(words.len(), 6, "{words:?}");
+    for wanted in [
+        "Material Painted (2)",
+        "Subset 1",
+        "Vertex 5",
+        "Triangle 5",
+        "Bone 1",
+        "Clip Still",
+    ] {
         assert!(words.contains(&wanted), "{wanted} {words:?}");
     }
 }
@@ -324,7 +325,7 @@ fn the_search_looks_in_words_and_codes_and_esc_clears_it() {
     assert_eq!(listed(&window).len(), 1, "{all:?}");
     assert!(listed(&window)[0].starts_with(OF_BONE));
     type_text(&mut window, " banana");
-    assert!(listed(&window).is_empty() && window.shows("No finding has these words."));
+    assert!(listed(&window).is_empty() && window.shows("No finding fits what is chosen above."));
     window.press(Modifiers::NONE, Key::Escape);
     assert_eq!(listed(&window), all);
     assert!(
