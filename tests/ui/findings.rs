@@ -1,6 +1,6 @@
 //! The list of findings: a click goes to what a finding is about, and opens its lines.
 
-use bindpose::diagnostic::Subject;
+use bindpose::diagnostic::{Subject, codes};
 use bindpose::format::{Document, Subset};
 use bindpose::model::JointIndex;
 use bindpose::session::{File, FileCommand, JointCommand, PlayCommand, SubmeshCommand};
@@ -16,7 +16,7 @@ use crate::skeleton::selected;
 
 /// A finding about each kind of part: a material that two subsets could mean, a subset of too many triangles, a vertex whose
 /// weights are half of what they should be, a bone whose offset is not affine, a clip without keys of a bone; and a triangle
-/// that is in no subset, about which no part can be shown.
+/// that is in no subset.
 fn faulty() -> Document {
     let mut document = models::skinned(&models::CLIPS);
     document.materials.push(document.materials[0].clone());
@@ -195,17 +195,32 @@ fn a_finding_about_a_triangle_leads_to_its_first_corner() {
         .iter()
         .filter_map(|(name, _)| Some(name.rsplit_once("Go to ")?.1))
         .collect();
-    assert_eq!(words.len(), 6, "{words:?}");
-    for wanted in [
-        "Material Painted (2)",
+    // The worst first, and those as bad in the order of the file.
+    let wanted = [
         "Subset 1",
         "Vertex 5",
         "Triangle 5",
         "Bone 1",
         "Clip Still",
-    ] {
-        assert!(words.contains(&wanted), "{wanted} {words:?}");
-    }
+        "Material Painted (2)",
+    ];
+    assert_eq!(words, wanted);
+}
+
+#[test]
+fn a_finding_about_the_whole_file_leads_nowhere() {
+    let mut document = models::skinned(&models::CLIPS);
+    document.subsets.clear();
+    let mut window = window(WIDE, vec![models::file("whole.m3d", &document)]);
+    window.click("Findings: ");
+    let camera = *window.session().camera();
+    window.click("warning no-subsets: ");
+    assert!(window.shows(&codes::NO_SUBSETS.help()) && !shows_lines(&window));
+    let session = window.session();
+    assert_eq!((session.submeshes().selected(), selected(&window)), (None, None));
+    assert_eq!(*session.camera(), camera);
+    let leads = |name: &str| name.starts_with("warning no-subsets: ") && name.contains("Go to");
+    assert!(window.named(leads).is_empty());
 }
 
 #[test]
@@ -337,7 +352,7 @@ fn the_search_looks_in_words_and_codes_and_esc_clears_it() {
 #[test]
 fn an_open_row_says_how_to_mend_it_and_leads_to_the_page_of_codes() {
     let mut window = opened();
-    let code = bindpose::diagnostic::codes::named("offset-not-affine").expect("it is in the table");
+    let code = codes::named("offset-not-affine").expect("it is in the table");
     assert!(!window.shows(&code.help()));
     window.click(OF_BONE);
     assert!(window.shows(&code.help()) && shows_lines(&window));

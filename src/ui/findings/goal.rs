@@ -111,19 +111,14 @@ mod tests {
     use super::*;
     use crate::session::{File, FileCommand};
 
-    /// No model that opens has a diagnostic about a triangle, so no click can lead there yet.
     #[test]
-    fn the_way_to_a_triangle_is_that_to_its_first_corner_and_what_is_not_there_has_none() {
+    fn what_is_not_there_has_no_goal() {
         let mut session = Session::new(true);
         session.apply(FileCommand::Add(vec![File::new(
             "figure.m3d",
             include_bytes!("../../../web/sample/figure.m3d").to_vec(),
         )]));
         let open = session.open_model().expect("the sample opens");
-        let corner = open.model.mesh.indices[3 * 7];
-        let goal = Goal::of(&session, open, Subject::Triangle(7)).expect("it has triangles");
-        let selects: Command = JointCommand::SelectVertex(Some(corner)).into();
-        assert!(goal.commands.contains(&selects));
         let beyond = [
             Subject::Material(9_999_999),
             Subject::Subset(9_999_999),

@@ -9,6 +9,8 @@ pub(super) mod state;
 
 pub(super) use books::show_row as show_books_row;
 
+use std::cmp::Reverse;
+
 use egui::{RichText, Ui};
 
 use super::panel::scrolled;
@@ -53,7 +55,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 
 /// Chips, search and rows; or that there is no finding.
 fn found(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
-    let all: Vec<&Diagnostic> = session.diagnostics().collect();
+    let mut all: Vec<&Diagnostic> = session.diagnostics().collect();
+    // The worst first, and those as bad in the order of the file.
+    all.sort_by_key(|diagnostic| Reverse(diagnostic.severity));
     if all.is_empty() {
         nothing_found(ui, session, open);
         return;
@@ -134,11 +138,8 @@ fn take_along(ui: &mut Ui, session: &Session, state: &mut UiState) {
             ui.ctx().copy_text(session.report());
             state.messages.say("Copied the report");
         }
-        let save = TextButton::new("Save report", "Save report").show(ui);
-        if save
-            .on_hover_text("As a SARIF file, for editors and code hosts")
-            .clicked()
-        {
+        let save = TextButton::new("Save report (SARIF)", "Save report").show(ui);
+        if save.on_hover_text("A file for editors and code hosts").clicked() {
             state.requests.push(Request::SaveReport);
         }
     });
