@@ -238,7 +238,7 @@ function addressedQuality() {
   return options.get("quality") ?? "auto";
 }
 
-/** The crowd that the address asks for: how many instances of the model, and what their clips, times and places come from. */
+/** The crowd that the address asks for. */
 function addressedCrowd() {
   const whole = (text) => (/^\d{1,10}$/.test(text) && Number(text) < 2 ** 32 ? Number(text) : undefined);
   const [count, seed] = ["crowd", "seed"].map((key) => whole(options.get(key)));
@@ -304,7 +304,7 @@ function showMirror(detail) {
   mirror?.take(detail);
 }
 
-/** Says what the viewer tells of. A slider that has the focus speaks for itself. */
+/** A slider that has the focus speaks for itself. */
 function sayUnlessHeard({ text, assertive }) {
   if (assertive) say(text, "alarm");
   else if (document.activeElement?.type !== "range") say(text);
@@ -351,7 +351,7 @@ async function fetchOpening() {
   }
 }
 
-/** Saves a picture: where the person chooses if that was asked for and the browser can, else as a download. */
+/** Saves a picture where the person chooses, if asked to and the browser can, else as a download. */
 async function savePicture({ name, bytes, choosesPlace }) {
   if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
   try {
@@ -432,7 +432,7 @@ function forget(picture) {
   picture.removeAttribute("src");
 }
 
-/** The viewer draws without its panels when its canvas hears of a print. What a canvas shows can be copied until the script ends. */
+/** The viewer draws without its panels when its canvas hears of a print; it can be copied until the script ends. */
 function copyView(canvas, copy) {
   canvas.dispatchEvent(new Event("beforeprint"));
   [copy.width, copy.height] = [canvas.width, canvas.height];
