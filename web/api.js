@@ -92,6 +92,7 @@ export function createApi() {
 
     /** Many pictures on one, through the clip or around the model, likewise. */
     contactSheet: (options = {}) => png("contactSheet", options),
+
     /** The model as a file of another format: `{name, bytes, changes, losses}`. */
     export: async (options = {}) => unlessStopped((await unlessStopped(ready)).exportModel(options)),
   });

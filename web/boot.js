@@ -23,7 +23,7 @@ const SAMPLE = {
   "visor_norm.png": "sample/visor_norm.png",
 };
 
-/** A program of one function, which loads and drops a vector of 128 bits: the least that only a browser with SIMD accepts. */
+/** A program that loads and drops a vector of 128 bits: the least that needs SIMD. */
 const SIMD_PROGRAM = [
   0x00, 0x61, 0x73, 0x6d, 1, 0, 0, 0, // "\0asm", version 1
   1, 4, 1, 0x60, 0, 0, // a type: nothing in, nothing out
@@ -31,7 +31,7 @@ const SIMD_PROGRAM = [
   10, 23, 1, 21, 0, 0xfd, 12, ...new Array(16).fill(0), 0x1a, 0x0b, // v128.const 0, drop, end
 ];
 
-/** How long the bytes of a saved file stay in memory: the browser may take this long to begin the download. */
+/** The browser may take this long to begin a download. */
 const DOWNLOAD_KEPT_MS = 60_000;
 
 /** A region that speaks is empty for so long before other words come. */
@@ -46,7 +46,7 @@ globalThis.bindpose = bindpose;
 
 let viewer = null;
 let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
-let openName = ""; // Name of the open model. Kept here since a drag over the page reads it many times a second.
+let openName = ""; // Of the open model: a drag reads it many times a second.
 let mirror = null; // The viewer's controls as elements, of its present canvas.
 let gpuWasLost = false;
 let received = false; // Whether the person opened anything, readable or not.
@@ -166,7 +166,7 @@ async function boot() {
   });
 }
 
-/** Keys that are pressed while nothing on the page has the focus go to its one viewer, which gets the focus by the first that it acts on. */
+/** Keys go to the viewer while nothing has the focus; it gets the focus by the first that it acts on. */
 function takeUnclaimedKeys() {
   addEventListener("keydown", (event) => {
     if (event.target !== document.body || event.key === "Tab" || !onCanvas || hasFailed()) return;
@@ -238,7 +238,7 @@ function addressedQuality() {
   return options.get("quality") ?? "auto";
 }
 
-/** The crowd that the address asks for: how many instances of the model, and what their clips, times and places come from. */
+/** The crowd that the address asks for. */
 function addressedCrowd() {
   const whole = (text) => (/^\d{1,10}$/.test(text) && Number(text) < 2 ** 32 ? Number(text) : undefined);
   const [count, seed] = ["crowd", "seed"].map((key) => whole(options.get(key)));
@@ -285,7 +285,7 @@ function onEvent(type, detail) {
   if (type === "readagain") return void readSourcesAgain();
   if (type === "picture") return void savePicture(detail);
   if (type === "save") return saveFile(detail.name, detail.contents, detail.type);
-  if (type === "explain") return void window.open(new URL("codes.html", import.meta.url).href + "#" + detail.code, "_blank", "noopener");
+  if (type === "explain") return void open("web/codes.html#" + detail.code, "_blank", "noopener");
   if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
   if (type === "load") {
     clearNotice();
@@ -304,13 +304,13 @@ function showMirror(detail) {
   mirror?.take(detail);
 }
 
-/** Says what the viewer tells of. A slider that has the focus speaks for itself. */
+/** A slider that has the focus speaks for itself. */
 function sayUnlessHeard({ text, assertive }) {
   if (assertive) say(text, "alarm");
   else if (document.activeElement?.type !== "range") say(text);
 }
 
-/** A panic of the program is reported with its words; the error that ends the program follows, and comes alone in old browsers. */
+/** A panic is reported with its words; the error that ends the program follows, and comes alone in old browsers. */
 function isPanic(error) {
   return error?.name === "Panic" || error instanceof WebAssembly.RuntimeError;
 }
@@ -351,7 +351,7 @@ async function fetchOpening() {
   }
 }
 
-/** Saves a picture: where the person chooses if that was asked for and the browser can, else as a download. */
+/** Saves a picture where the person chooses, if asked to and the browser can, else as a download. */
 async function savePicture({ name, bytes, choosesPlace }) {
   if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
   try {
@@ -432,7 +432,7 @@ function forget(picture) {
   picture.removeAttribute("src");
 }
 
-/** The viewer draws without its panels when its canvas hears of a print. What a canvas shows can be copied until the script ends. */
+/** The viewer draws without its panels when its canvas hears of a print; it can be copied until the script ends. */
 function copyView(canvas, copy) {
   canvas.dispatchEvent(new Event("beforeprint"));
   [copy.width, copy.height] = [canvas.width, canvas.height];

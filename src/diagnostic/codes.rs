@@ -439,7 +439,7 @@ table! {
             "Turn the signs of a quaternion where its dot product with the one before is negative.";
     }
 
-    /// What reading a glTF file gives ([`gltf`](crate::gltf), [`import::gltf`](crate::import::gltf)), beside codes above.
+    /// What reading a glTF file gives ([`gltf`](crate::gltf)), beside codes above.
     OF_GLTF {
         GLB_DAMAGED = "glb-damaged", Error,
             "The container of a .glb file is damaged.",

@@ -230,6 +230,7 @@ test("R opens again the model of a folder that was chosen", {}, async (page) => 
   await dropAndWait(page, [join(folder, "pack")]);
   assert.equal((await state(page)).model.name, "large.m3d");
   await page.mouse.click(...FILE_MENU);
+  await page.waitForSelector('[aria-label="pack/small.m3d"]', { state: "attached" });
   await settled(page);
   await page.mouse.click(...LAST_OF_THREE);
   await until(page, ({ model }) => model.name === "small.m3d");
@@ -288,7 +289,8 @@ test("maps are found beside the model and join it later, and are drawn", {}, asy
   assert.ok(difference(later, await picture(page)) < 0.001, "at once is the same picture as later");
 });
 
-const bad = [...filesIn(`${FIXTURES}bad/`, ".m3d"), ...filesIn(`${SHARED}reject/`, "d")];
+// The one that begins as glTF is no .m3d, but it opens.
+const bad = [...filesIn(`${FIXTURES}bad/`, ".m3d"), ...filesIn(`${SHARED}reject/`, "d")].filter((path) => basename(path) !== "gltf.m3d");
 
 test("a file that cannot be read shows its error and keeps the model", { viewport: LARGE }, async (page) => {
   assert.ok(bad.length > 0, "there are bad files to try");
@@ -382,4 +384,21 @@ test("programs open files and bytes in every form, also where a file has a metho
     nothing: "nothing.m3d needs its bytes as Uint8Array, ArrayBuffer or Blob",
     nameless: "a file to open is a File or {name, bytes}",
   });
+});
+
+test("a model that is exported as .glb opens again with its clips and triangles", {}, async (page) => {
+  const { path } = copyOfSample("plain.m3d");
+  await dropAndWait(page, [path]);
+  const { model: before } = await state(page);
+  const { name, size } = await page.evaluate(async () => {
+    const { name, bytes } = await bindpose.export({ format: "glb" });
+    await bindpose.open([{ name, bytes }]);
+    return { name, size: bytes.length };
+  });
+  assert.equal(name, "plain.glb");
+  assert.ok(size > 100_000, `${size} bytes`);
+  const { model } = await state(page);
+  assert.equal(model.name, "plain.glb");
+  const facts = ({ clips, triangles, bones }) => JSON.stringify([clips.map(({ name }) => name), triangles, bones]);
+  assert.equal(facts(model), facts(before));
 });

@@ -3,7 +3,7 @@
 
 /** Bar at the top right. */
 export const LIGHT_BUTTON = [636, 30];
-export const TURNTABLE_BUTTON = [802, 30];
+export const TURNTABLE_BUTTON = [770, 30];
 
 /** What hangs from the light's button. */
 export const LIGHT_POPOVER = {
