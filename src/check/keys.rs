@@ -2,7 +2,7 @@
 
 use crate::anim::JointChange;
 use crate::diagnostic::collect::{Diagnostics, Place, counted};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Moment, Subject, codes};
 use crate::model::{Clip, JointIndex, Model, Track};
 
 /// Up to this many equal keys of a bone are none too many: the first and the last are a common way to say how long it keeps still.
@@ -14,15 +14,19 @@ const WORTH_WHILE: f64 = 0.1;
 /// Notes clips of which a good part are equal keys of bones that keep still.
 pub(super) fn note_still_tracks(model: &Model, clip_lines: &[u32], diagnostics: &mut Diagnostics) {
     for (index, clip) in (0u32..).zip(&model.clips) {
-        let still = || clip.tracks.iter().filter(|track| is_still(track));
+        let of_bones = model.skeleton.file_bones().iter().zip(&clip.tracks);
+        let still: Vec<u32> = of_bones
+            .filter(|(_, track)| is_still(track))
+            .map(|(bone, _)| *bone)
+            .collect();
         let keys: usize = clip.tracks.iter().map(Track::key_count).sum();
         if let Some(surplus) = surplus_keys(clip) {
             diagnostics.add(
                 &codes::KEYS_ALL_EQUAL,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::of(Subject::Clip(index), clip_lines).at(still.iter().copied().map(Moment::of_bone)),
                 format!(
                     "{} still in \"{}\", each with equal keys: {surplus} of its {keys} keys could be left out.",
-                    counted(still().count(), "bone keeps", "bones keep"),
+                    counted(still.len(), "bone keeps", "bones keep"),
                     clip.name
                 ),
             );
@@ -66,13 +70,13 @@ pub(super) fn note_loop_gaps(model: &Model, clip_lines: &[u32], diagnostics: &mu
     }
     for (index, clip) in (0u32..).zip(&model.clips) {
         if let Some((joint, jump)) = loop_jump(model, clip, size) {
+            let bone = model.skeleton.file_bones()[joint.index()];
             diagnostics.add(
                 &codes::LOOP_JUMPS,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::of(Subject::Clip(index), clip_lines).at([Moment::new(clip.end_secs, bone)]),
                 format!(
-                    "\"{}\" ends near its first pose, but bone {} jumps by {:.1} % of the model's size where it begins again.",
+                    "\"{}\" ends near its first pose, but bone {bone} jumps by {:.1} % of the model's size where it begins again.",
                     clip.name,
-                    model.skeleton.file_bones()[joint.index()],
                     jump / size * 100.0
                 ),
             );

@@ -4,7 +4,7 @@ use glam::{Affine3A, DAffine3, DMat3, DVec3};
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Moment, Subject, codes};
 use crate::model::{Clip, Model, Skeleton, Track};
 
 /// Numbers above this count as overflow. That leaves room for the sums that make a pose: each must fit into `f32`.
@@ -28,7 +28,7 @@ pub(super) fn note_overflows(
             );
             diagnostics.add(
                 &codes::POSE_OVERFLOWS,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::of(Subject::Clip(index), clip_lines).at([Moment::new(time_secs, bone)]),
                 message,
             );
         }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Code, Diagnostic, Position, Subject};
+use super::{Code, Diagnostic, Moment, Position, Subject};
 
 /// The start of a line.
 pub(crate) fn line_start(line: u32) -> Position {
@@ -37,6 +37,7 @@ impl Diagnostics {
             pointer: place.pointer,
             places,
             subjects: place.subjects,
+            moments: place.moments,
             ..code.says(message)
         });
     }
@@ -51,6 +52,9 @@ impl Diagnostics {
             } else if let Some(first) = all.iter_mut().find(|first| first.code == diagnostic.code) {
                 first.places.extend(diagnostic.position);
                 first.subjects.extend(diagnostic.subject);
+                if !first.moments.is_empty() {
+                    first.moments.push(diagnostic.moment());
+                }
             } else {
                 all.push(standing_for(met, diagnostic));
             }
@@ -71,6 +75,7 @@ fn standing_for(count: u32, first: Diagnostic) -> Diagnostic {
         message: format!("{} The same holds for {} more {parts}.", first.message, count - 1),
         places: first.position.into_iter().collect(),
         subjects: first.subject.into_iter().collect(),
+        moments: first.moments.first().copied().into_iter().collect(),
         count,
         ..first
     }
@@ -82,6 +87,7 @@ pub(crate) struct Place {
     lines: Vec<u32>,
     count: u32,
     subjects: Vec<Subject>,
+    moments: Vec<Moment>,
     pointer: Option<String>,
 }
 
@@ -92,6 +98,7 @@ impl Default for Place {
             lines: Vec::new(),
             count: 1,
             subjects: Vec::new(),
+            moments: Vec::new(),
             pointer: None,
         }
     }
@@ -115,6 +122,15 @@ impl Place {
         }
     }
 
+    /// The same place, and when and on which bones of a clip the first occurrences are.
+    #[must_use]
+    pub(crate) fn at(self, moments: impl IntoIterator<Item = Moment>) -> Self {
+        Self {
+            moments: moments.into_iter().take(Diagnostic::MOST_PLACES).collect(),
+            ..self
+        }
+    }
+
     /// A part of the model. `lines` has the line of each part of this kind.
     pub(crate) fn of(subject: Subject, lines: &[u32]) -> Self {
         let (Subject::Material(index)
@@ -131,9 +147,8 @@ impl Place {
     pub(crate) fn on(subject: Subject, line: Option<u32>) -> Self {
         Self {
             lines: line.into_iter().collect(),
-            count: 1,
             subjects: vec![subject],
-            pointer: None,
+            ..Self::default()
         }
     }
 
@@ -144,7 +159,7 @@ impl Place {
             lines: rows.first_lines(lines),
             count: rows.count_u32(),
             subjects: rows.rows.into_iter().flatten().map(subject).collect(),
-            pointer: None,
+            ..Self::default()
         }
     }
 
@@ -156,7 +171,7 @@ impl Place {
             lines: otherwise.into_iter().chain(rows.first_lines(lines)).collect(),
             count: rows.count_u32(),
             subjects: vec![subject],
-            pointer: None,
+            ..Self::default()
         }
     }
 }

@@ -121,13 +121,16 @@ struct Explained<'a> {
     #[serde(flatten)]
     finding: Finding<'a>,
     help: Option<String>,
+    permanent: Option<&'static str>,
 }
 
 impl<'a> From<&'a Diagnostic> for Explained<'a> {
     fn from(diagnostic: &'a Diagnostic) -> Self {
+        let code = codes::named(diagnostic.code);
         Self {
             finding: diagnostic.into(),
-            help: codes::named(diagnostic.code).map(Code::help),
+            help: code.map(Code::help),
+            permanent: code.and_then(Code::permanent),
         }
     }
 }
