@@ -163,15 +163,16 @@ impl Place {
         }
     }
 
-    /// Rows inside one part of the model; `otherwise` is the line to name when `lines` lacks the first row.
-    pub(crate) fn of_rows_in(subject: Subject, rows: &Tally, lines: &[u32], otherwise: Option<u32>) -> Self {
-        let first_line = rows.rows[0].and_then(|row| lines.get(row as usize));
-        let otherwise = otherwise.filter(|_| first_line.is_none());
+    /// Keys or bones of one clip; `otherwise` is the line to name when they have none.
+    pub(crate) fn of_moments(subject: Subject, moments: &Moments, otherwise: Option<u32>) -> Self {
+        let lines: Vec<u32> = moments.first.iter().filter_map(|(_, line)| *line).collect();
+        let otherwise = otherwise.filter(|_| lines.is_empty());
         Self {
-            lines: otherwise.into_iter().chain(rows.first_lines(lines)).collect(),
-            count: rows.count_u32(),
+            lines: otherwise.into_iter().chain(lines).collect(),
+            count: u32::try_from(moments.count).unwrap_or(u32::MAX),
             subjects: vec![subject],
-            ..Self::default()
+            moments: moments.first().collect(),
+            pointer: None,
         }
     }
 }
@@ -197,6 +198,13 @@ impl Tally {
         }
     }
 
+    /// Counts rows that follow one another.
+    pub(crate) fn add_range(&mut self, rows: std::ops::Range<u32>) {
+        let kept = rows.len().min(Diagnostic::MOST_PLACES);
+        rows.clone().take(kept).for_each(|row| self.add(row));
+        self.count = self.count.saturating_add(rows.len() - kept);
+    }
+
     fn first_lines(&self, lines: &[u32]) -> Vec<u32> {
         let rows = self.rows.into_iter().flatten();
         rows.filter_map(|row| lines.get(row as usize).copied()).collect()
@@ -204,6 +212,41 @@ impl Tally {
 
     fn count_u32(&self) -> u32 {
         u32::try_from(self.count).unwrap_or(u32::MAX)
+    }
+}
+
+/// Counts keys, or bones of a clip, that needed the same mending, and remembers when and where the first are.
+#[derive(Default)]
+pub(crate) struct Moments {
+    pub(crate) count: usize,
+    /// The first, with their lines.
+    first: Vec<(Moment, Option<u32>)>,
+}
+
+impl Moments {
+    /// Counts one more. `line` is asked of the first only.
+    pub(crate) fn add(&mut self, moment: Moment, line: impl FnOnce() -> Option<u32>) {
+        self.count += 1;
+        if self.first.len() < Diagnostic::MOST_PLACES {
+            self.first.push((moment, line()));
+        }
+    }
+
+    /// The first for a message: ` (bone 3 at 0.5 s)`, or ` (first: bone 3 at 0.5 s)` of several.
+    pub(crate) fn first_in_words(&self) -> String {
+        let Some((Moment { time_secs, bone }, _)) = self.first.first() else {
+            return String::new();
+        };
+        let bone = bone.map(|bone| format!("bone {bone}"));
+        let time = time_secs.map(|time_secs| format!("at {time_secs} s"));
+        let words: Vec<String> = bone.into_iter().chain(time).collect();
+        let first = if self.count == 1 { "" } else { "first: " };
+        format!(" ({first}{})", words.join(" "))
+    }
+
+    /// When and on which bones the first are.
+    pub(crate) fn first(&self) -> impl Iterator<Item = Moment> {
+        self.first.iter().map(|(moment, _)| *moment)
     }
 }
 

@@ -112,7 +112,7 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
         materials: material_lines,
         subsets: subset_lines,
         vertices: vertices.lines,
-        tangents_apart: vertices.tangents_apart,
+        vertices_apart: vertices.apart,
         triangles: triangle_lines,
         ..LineMap::default()
     };

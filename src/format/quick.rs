@@ -80,11 +80,12 @@ pub(super) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
     Some(offset)
 }
 
-/// Reads a key on its line.
+/// Reads a key on its line. Also gives the line.
 #[inline]
-pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
+pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<(Keyframe, u32)> {
     let mut ahead = *cursor;
     ahead.pass_empty_lines();
+    let line = ahead.line;
     ahead.label(b"Time:")?;
     let time_secs = ahead.number()?;
     ahead.label(b"Pos:")?;
@@ -95,12 +96,13 @@ pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
     let rotation = ahead.four()?;
     ahead.line_end()?;
     *cursor = ahead;
-    Some(Keyframe {
+    let keyframe = Keyframe {
         time_secs,
         translation,
         scale,
         rotation,
-    })
+    };
+    Some((keyframe, line))
 }
 
 impl Cursor<'_> {
