@@ -467,12 +467,12 @@ table! {
             "Write what the specification of glTF 2.0 has at that place.";
         GLTF_VERSION = "gltf-version", Error,
             "The file is of another version of glTF.",
-            "Export it as glTF 2.0.",
+            "glTF 1.0 is laid out differently, and there is no later version than 2.0.",
             "The file is not opened.",
             "Export it as glTF 2.0.";
         GLTF_EXTENSION_REQUIRED = "gltf-extension-required", Error,
             "The model cannot be read without an extension that is not known here.",
-            "Export it without compression and with textures in PNG or JPEG.",
+            "The file says that it makes no sense without: compressed meshes, mostly, or pictures of another kind.",
             "The file is not opened.",
             "Export it without compression, and with textures in PNG or JPEG.";
         GLTF_EXTENSION_UNKNOWN = "gltf-extension-unknown", Note,
@@ -669,7 +669,7 @@ table! {
             "Scale the scene so that the character is about 72 units high, or change the demo's scale.", ForBook;
         BOOK_TANGENT_SIGN = "book-tangent-sign", Note,
             "The D3D12 book's loader leaves the sign of tangents unread.",
-            "Where textures are mirrored, bumps look like dents.",
+            "Its shader takes the bitangent of an unmirrored texture, turned round by the demo's mirror.",
             "The sign is used.",
             "Write −1 for all tangents where nothing is mirrored, or read the fourth number in the loader.";
         BOOK_MAP_FORMAT = "book-map-format", Note,

@@ -44,11 +44,12 @@ mod kind;
 mod label;
 mod likeness;
 mod number;
-mod quick;
+pub(crate) mod quick;
 mod reader;
 mod sections;
 mod write;
 
+pub(crate) use cursor::Cursor;
 pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};

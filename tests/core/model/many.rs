@@ -25,6 +25,7 @@ fn clips(count: u32) -> (Document, LineMap) {
         ..quad()
     };
     let line = |clip| ClipLines {
+        key_runs: Vec::new(),
         clip: clip * 10,
         bones: Vec::new(),
     };
