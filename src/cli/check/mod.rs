@@ -89,9 +89,11 @@ JSON: an array with one object for each file that could be read
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\", \"clip\" or \"map\") and index, its number in the file from 0; maps
                       are counted as `info --json` lists them
+    time_secs, bone   of a finding about a clip: when it is, in the clip's own time, and the bone's number; or null
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
     help              what the code means, and how to mend it
+    permanent         how to write a file without it, where it is mended on reading or can be; or null
   book                what the books' programs make of it, or null without --book
     d3d11, d3d12      null when not asked for
       reads           whether its loader reads the file as it is meant

@@ -173,7 +173,7 @@ impl FindingRow<'_> {
             return;
         }
         let chosen = state.findings.shown.as_ref().map(|shown| shown.occurrence);
-        for (index, (subject, position)) in known.enumerate() {
+        for (index, (subject, position, _)) in known.enumerate() {
             let goal = subject.and_then(|subject| Goal::of(session, open, subject));
             let line = position.map(|position| format!("line {}", position.line));
             let words: Vec<&str> = goal

@@ -183,10 +183,12 @@ fn findings_point_at_the_bone_and_its_line() {
     let lines = LineMap {
         clips: vec![
             ClipLines {
+                key_runs: Vec::new(),
                 clip: 70,
                 bones: vec![71, 75, 79],
             },
             ClipLines {
+                key_runs: Vec::new(),
                 clip: 90,
                 bones: Vec::new(),
             },

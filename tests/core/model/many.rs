@@ -1,6 +1,6 @@
 //! Thousands of things alike: one finding, and work in proportion.
 
-use bindpose::diagnostic::{Diagnostic, Position, Subject};
+use bindpose::diagnostic::{Diagnostic, Moment, Position, Subject};
 use bindpose::format::{AnimationClip, ClipLines, Document, LineMap, Subset};
 use bindpose::import::m3d;
 
@@ -25,6 +25,7 @@ fn clips(count: u32) -> (Document, LineMap) {
         ..quad()
     };
     let line = |clip| ClipLines {
+        key_runs: Vec::new(),
         clip: clip * 10,
         bones: Vec::new(),
     };
@@ -79,7 +80,13 @@ fn rows_that_are_counted_in_one_finding_have_their_first_places() {
         .expect("one finding");
     assert_eq!((one.count, one.position), (5, Some(line(101))));
     assert_eq!(one.places, [101, 103, 104, 108, 109].map(line));
-    let expected = [1, 3, 4, 8, 9].map(|vertex| (Some(Subject::Vertex(vertex)), Some(line(100 + vertex))));
+    let expected = [1, 3, 4, 8, 9].map(|vertex| {
+        (
+            Some(Subject::Vertex(vertex)),
+            Some(line(100 + vertex)),
+            Moment::default(),
+        )
+    });
     assert_eq!(one.occurrences().collect::<Vec<_>>(), expected);
     assert_eq!(one.few_places(), [101, 103, 104, 108].map(line));
 }
