@@ -845,6 +845,11 @@ table! {
             "The material is drawn without it. Maps are found by base name and may be dropped later.",
             "The material is drawn in its colour.",
             "Put the picture beside the model, or write the name that it has.";
+        MAP_IS_CUBE = "map-is-cube", Warning,
+            "A cube map has the name of a map that a material names.",
+            "A material's map is one flat picture; a cube map is six, of what is around.",
+            "The material is drawn without the map; the cube map can be the sky.",
+            "Save a flat picture under this name, or give the cube map another one.";
         MAP_AMBIGUOUS = "map-ambiguous", Note,
             "A map could be several files; the first is taken.",
             "They have one name, in several folders or formats.",
