@@ -65,10 +65,13 @@ fn json_has_an_object_for_each_file() {
             "expected": "a bone index",
             "found": "2",
             "subject": null,
+            "time_secs": null,
+            "bone": null,
             "count": 1,
             "places": [{"line": 34, "column": 17}],
             "help": "An index must name a row that is there; a count must not be negative. Count from 0, and write counts and \
                      indices of the same list as whole numbers.",
+            "permanent": null,
         }], "book": null},
     ]);
     assert_eq!(run.json(), expected);
@@ -80,7 +83,8 @@ fn a_code_is_explained() {
     let expected = "warning[weights-not-normalized]: The blend weights of a vertex do not sum to 1; normalised.\n\
                     The books' shaders give the fourth bone whatever is left to 1, so the vertex may stand elsewhere there.\n\
                     Here: The weights are normalised.\n\
-                    To mend it: Keep the four greatest weights, and divide them by their sum.\n";
+                    To mend it: Keep the four greatest weights, and divide them by their sum.\n\
+                    The file itself is unchanged. Export, or `bindpose convert IN OUT`, writes it mended.\n";
     assert_eq!((run.code, run.out.as_str(), run.err.as_str()), (Some(0), expected, ""));
 }
 
