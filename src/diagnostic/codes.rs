@@ -467,7 +467,7 @@ table! {
             "Write what the specification of glTF 2.0 has at that place.";
         GLTF_VERSION = "gltf-version", Error,
             "The file is of another version of glTF.",
-            "glTF 1.0 is laid out differently, and there is no later version than 2.0.",
+            "Version 1.0 is laid out differently, and none is later than 2.0.",
             "The file is not opened.",
             "Export it as glTF 2.0.";
         GLTF_EXTENSION_REQUIRED = "gltf-extension-required", Error,
