@@ -467,7 +467,7 @@ table! {
             "Write what the specification of glTF 2.0 has at that place.";
         GLTF_VERSION = "gltf-version", Error,
             "The file is of another version of glTF.",
-            "glTF 1.0 is laid out differently, and there is no later version than 2.0.",
+            "Version 1.0 is laid out differently, and none is later than 2.0.",
             "The file is not opened.",
             "Export it as glTF 2.0.";
         GLTF_EXTENSION_REQUIRED = "gltf-extension-required", Error,
@@ -845,6 +845,11 @@ table! {
             "The material is drawn without it. Maps are found by base name and may be dropped later.",
             "The material is drawn in its colour.",
             "Put the picture beside the model, or write the name that it has.";
+        MAP_IS_CUBE = "map-is-cube", Warning,
+            "A cube map has the name of a map that a material names.",
+            "A material's map is one flat picture; a cube map is six, of what is around.",
+            "The material is drawn without the map; the cube map can be the sky.",
+            "Save a flat picture under this name, or give the cube map another one.";
         MAP_AMBIGUOUS = "map-ambiguous", Note,
             "A map could be several files; the first is taken.",
             "They have one name, in several folders or formats.",

@@ -336,10 +336,10 @@ fn set<T: CurveValue, const N: usize>(
     Ok(())
 }
 
-/// Counts a key of a bone. Its time is known where it is a number.
+/// Counts a key of a bone. Its time is known where it is one.
 fn add(moments: &mut Moments, bone: u32, time_secs: f32) {
     let moment = Moment {
-        time_secs: Some(time_secs).filter(|time_secs| time_secs.is_finite()),
+        time_secs: Some(time_secs).filter(|time_secs| time_secs.abs() <= MAX_TIME_SECS),
         bone: Some(bone),
     };
     moments.add(moment, || None);

@@ -196,7 +196,7 @@ struct Key {
 fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, mended: &mut Mended) -> Vec<Key> {
     let note = |moments: &mut Moments, number: u32, time_secs: f32| {
         let moment = Moment {
-            time_secs: Some(time_secs).filter(|time_secs| time_secs.is_finite()),
+            time_secs: Some(time_secs).filter(|time_secs| time_secs.abs() <= MAX_TIME_SECS),
             bone: Some(bone),
         };
         moments.add(moment, || lines.key(bone, number));

@@ -89,7 +89,7 @@ fn clamped(
     (start, count)
 }
 
-/// Triangles in no range are not drawn; triangles in several are drawn again.
+/// Triangles in no range are not drawn; triangles in several are drawn shared.
 fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let mut ranges: Vec<(u32, u32)> = submeshes
         .iter()
@@ -97,13 +97,15 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, di
         .map(|submesh| (submesh.triangle_start, submesh.triangle_start + submesh.triangle_count))
         .collect();
     ranges.sort_unstable();
-    let mut drawn_to = 0;
-    let (mut undrawn, mut again) = (Tally::default(), Tally::default());
+    let (mut drawn_to, mut shared_to) = (0, 0);
+    let (mut undrawn, mut shared) = (Tally::default(), Tally::default());
     for (start, end) in ranges {
         if start > drawn_to {
             undrawn.add_range(drawn_to..start);
         }
-        again.add_range(start..drawn_to.min(end));
+        let shared_end = drawn_to.min(end);
+        shared.add_range(start.max(shared_to)..shared_end);
+        shared_to = shared_to.max(shared_end);
         drawn_to = drawn_to.max(end);
     }
     undrawn.add_range(drawn_to..triangle_count);
@@ -115,7 +117,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, di
         }
     };
     note(&codes::TRIANGLES_UNDRAWN, &undrawn, "no subset; not drawn");
-    note(&codes::TRIANGLES_SHARED, &again, "more than one subset");
+    note(&codes::TRIANGLES_SHARED, &shared, "more than one subset");
 }
 
 /// Indices are absolute in every known file. A later subset whose indices all lie below its `VertexStart`, but would fill

@@ -14,7 +14,7 @@ use std::cmp::Reverse;
 use egui::{RichText, Ui};
 
 use super::panel::scrolled;
-use super::state::{Request, UiState};
+use super::state::{Request, SheetPage, UiState};
 use super::theme::{MARGIN, Tokens};
 use super::widgets::{RowList, TextButton, closable_heading, control_size, is_touch, rule};
 use super::wording::{counted, counted_vertices};
@@ -28,6 +28,15 @@ const GAP: f32 = 8.0;
 const LEAST_SCROLLED: f32 = 60.0;
 /// Rows are laid out this far out of view, so that Tab and the arrow keys find the next ones.
 const BEYOND_VIEW: f32 = 400.0;
+
+/// Shows or hides them; in a narrow window in the sheet.
+pub(super) fn toggle(state: &mut UiState, is_wide: bool) {
+    let in_sheet = state.sheet == Some(SheetPage::Model);
+    state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_sheet));
+    if !is_wide {
+        state.sheet = state.diagnostics_open.then_some(SheetPage::Model);
+    }
+}
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
