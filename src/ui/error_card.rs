@@ -1,7 +1,7 @@
 //! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
 
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, Align2, Color32, Id, Layout, Rangef, Rect, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align, Align2, Color32, Id, Layout, Rangef, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
 use super::icons::Icon;
 use super::panel::scrolled;
@@ -127,18 +127,35 @@ pub(super) fn show_excerpt(ui: &mut Ui, excerpt: &Excerpt, mark_color: Color32) 
         ui.take_available_width();
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = ui.fonts_mut(|fonts| fonts.glyph_width(&theme::mono(12.0), ' '));
-            ui.add(egui::Label::new(numbers).extend());
-            lines(ui, excerpt, text);
+            let words = spoken(&numbers.text, &text.text);
+            let numbers = ui.fonts_mut(|fonts| fonts.layout_job(numbers));
+            let (rect, _) = ui.allocate_exact_size(numbers.size(), Sense::hover());
+            ui.painter().galley(rect.min, numbers, tokens.faint);
+            lines(ui, excerpt, text, &words);
         });
     });
 }
 
+/// Numbers and lines in one text, as it is copied and read aloud.
+fn spoken(numbers: &str, lines: &str) -> String {
+    let numbers: Vec<&str> = numbers.lines().collect();
+    let width = numbers.last().map_or(0, |number| number.len());
+    let mut words = String::new();
+    for (index, line) in lines.lines().enumerate() {
+        let number = numbers.get(index).copied().unwrap_or("|");
+        words += &format!("{number:>width$} {line}\n");
+    }
+    words.truncate(words.trim_end().len());
+    words
+}
+
 /// The lines, scrolled so that the mark is in view. The person scrolls from there.
-fn lines(ui: &mut Ui, excerpt: &Excerpt, text: LayoutJob) {
+fn lines(ui: &mut Ui, excerpt: &Excerpt, text: LayoutJob, words: &str) {
     let char_width = ui.spacing().item_spacing.x;
     let shown = Id::unique(("excerpt", &text.text));
     ScrollArea::horizontal().id_salt("excerpt").show(ui, |ui| {
         let label = ui.add(egui::Label::new(text).extend());
+        label.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
         let passes: u8 = ui.data(|data| data.get_temp(shown)).unwrap_or_default();
         if passes < 2 {
             ui.data_mut(|data| data.insert_temp(shown, passes + 1));
