@@ -37,7 +37,7 @@ pub fn plain(_: Ink, text: &str) -> String {
     text.to_owned()
 }
 
-/// All findings of a file with the lines of the file that they are about, how to keep what was mended, then the verdicts. Empty without
+/// All findings of a file with the lines of the file that they are about, then the verdicts, and how to keep what was mended. Empty without
 /// any. `with_help`: the first finding of a code, and each limit of a book, has what the table of codes says of it.
 pub fn text(file: &CheckedFile<'_>, with_help: bool, paint: Paint<'_>) -> String {
     let CheckedFile {

@@ -149,10 +149,10 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// How many occurrences have their positions listed.
     pub const MOST_PLACES: usize = 20;
-    /// How many of these lines of text and JSON outputs name.
+    /// How many of these JSON names.
     const FEW_PLACES: usize = 4;
 
-    /// The positions that outputs name.
+    /// The positions that JSON names.
     pub fn few_places(&self) -> &[Position] {
         &self.places[..self.places.len().min(Self::FEW_PLACES)]
     }
