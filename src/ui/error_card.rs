@@ -54,7 +54,10 @@ fn body(ui: &mut Ui, session: &Session, error: &LoadError) {
     if let Some(lines) = &error.excerpt {
         ui.add_space(9.0);
         if let Some(at) = error.diagnostic.position {
-            let place = format!("{}:{}:{}", error.file_name, at.line, at.column);
+            let mut place = format!("{}:{}:{}", error.file_name, at.line, at.column);
+            if let Some(pointer) = &error.diagnostic.pointer {
+                place += &format!(" · {pointer}");
+            }
             ui.label(RichText::new(place).color(tokens.muted).font(theme::mono(12.0)));
             ui.add_space(4.0);
         }
@@ -70,15 +73,11 @@ fn body(ui: &mut Ui, session: &Session, error: &LoadError) {
     } else {
         "Nothing is open yet."
     };
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 12.0;
         ui.label(RichText::new(after).color(tokens.muted));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(
-                RichText::new(error.diagnostic.code)
-                    .color(tokens.faint)
-                    .font(theme::mono(11.0)),
-            );
-        });
+        let code = RichText::new(error.diagnostic.code);
+        ui.label(code.color(tokens.faint).font(theme::mono(11.0)));
     });
 }
 

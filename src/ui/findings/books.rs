@@ -55,7 +55,7 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
         .map(|verdict| format!("{} {}", short_label(verdict), Outcome::of(verdict).word()))
         .collect();
     let value = if words.is_empty() {
-        "know .m3d alone".to_owned()
+        "read .m3d only".to_owned()
     } else {
         words.join(" · ")
     };

@@ -59,8 +59,13 @@ fn words(ui: &Ui, diagnostic: &Diagnostic, goal: Option<&Goal>) -> LayoutJob {
         job.append(&goal.words, 0.0, small(tokens.accent));
         job.append(" · ", 0.0, small(tokens.muted));
     }
-    if let Some(at) = diagnostic.position {
-        let place = format!("line {}, column {} · ", at.line, at.column);
+    // A line tells little of JSON, which often has one alone.
+    let place = match (&diagnostic.pointer, diagnostic.position) {
+        (Some(pointer), _) => Some(format!("{pointer} · ")),
+        (None, Some(at)) => Some(format!("line {}, column {} · ", at.line, at.column)),
+        (None, None) => None,
+    };
+    if let Some(place) = place {
         job.append(&place, 0.0, small(tokens.muted));
     }
     job.append(diagnostic.code, 0.0, format(theme::mono(11.0), tokens.muted));
