@@ -29,6 +29,8 @@ pub enum Ask {
     NameBone,
     /// Read the open files again.
     ReadAgain,
+    /// Show or hide what was found in the file.
+    Findings,
     /// Choose how to save the model as a file of another format.
     Export,
     /// Save the view as a picture.
@@ -460,6 +462,10 @@ actions! {
     /// Read the open files again.
     READ_AGAIN: Action::new(Group::Picture, &["R"], "read the files again", "Read the files again", |_| Some(Ask::ReadAgain))
         .without_shift();
+    /// Show or hide what was found in the file.
+    FINDINGS: Action::new(Group::Picture, &["D"], "findings", "Findings", |session| {
+        session.open_model().map(|_| Ask::Findings)
+    });
     /// Save the view as a picture.
     SAVE_PICTURE: Action::new(Group::Picture, &["P"], "save a picture", "Save PNG", |_| {
         Some(Ask::SavePicture { transparent: false })

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::anim::{CompiledClip, Palette, PoseBuffers, skin_position};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Moment, Subject, codes};
 use crate::model::{Mesh, Model};
 
 /// Triangles looked at for a clip, spread over the mesh: enough to estimate a fraction.
@@ -42,7 +42,10 @@ pub(super) fn note_exploded(
         if torn > TORN_FRACTION {
             diagnostics.add(
                 &codes::EXPLODED,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::of(Subject::Clip(index), clip_lines).at([Moment {
+                    time_secs: Some(clip.start_secs),
+                    bone: None,
+                }]),
                 format!(
                     "{:.0} % of the edges are torn at the first key of \"{}\": its keys do not belong to the bone offsets \
                      (perhaps they are relative to the model, not to the parent).",

@@ -1,8 +1,9 @@
 //! Keys that say nothing, and loops that jump.
 
 use crate::anim::JointChange;
-use crate::diagnostic::collect::{Diagnostics, Place, counted};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
+use crate::diagnostic::{Moment, Subject, codes};
+use crate::format::LineMap;
 use crate::model::{Clip, JointIndex, Model, Track};
 
 /// Up to this many equal keys of a bone are none too many: the first and the last are a common way to say how long it keeps still.
@@ -12,17 +13,21 @@ const FEW_KEYS: usize = 2;
 const WORTH_WHILE: f64 = 0.1;
 
 /// Notes clips of which a good part are equal keys of bones that keep still.
-pub(super) fn note_still_tracks(model: &Model, clip_lines: &[u32], diagnostics: &mut Diagnostics) {
+pub(super) fn note_still_tracks(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
     for (index, clip) in (0u32..).zip(&model.clips) {
-        let still = || clip.tracks.iter().filter(|track| is_still(track));
+        let of_bones = model.skeleton.file_bones().iter().zip(&clip.tracks);
+        let mut still = Moments::default();
+        for (&bone, _) in of_bones.filter(|(_, track)| is_still(track)) {
+            still.add(Moment::of_bone(bone), || lines.track(index, bone));
+        }
         let keys: usize = clip.tracks.iter().map(Track::key_count).sum();
         if let Some(surplus) = surplus_keys(clip) {
             diagnostics.add(
                 &codes::KEYS_ALL_EQUAL,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::of_moments(Subject::Clip(index), &still, None),
                 format!(
                     "{} still in \"{}\", each with equal keys: {surplus} of its {keys} keys could be left out.",
-                    counted(still().count(), "bone keeps", "bones keep"),
+                    counted(still.count, "bone keeps", "bones keep"),
                     clip.name
                 ),
             );
@@ -58,7 +63,7 @@ const JUMP_FRACTION: f32 = 0.01;
 const FRAME_SECS: f32 = 1.0 / 30.0;
 
 /// Notes clips that look meant to loop, but whose last pose is off from the first.
-pub(super) fn note_loop_gaps(model: &Model, clip_lines: &[u32], diagnostics: &mut Diagnostics) {
+pub(super) fn note_loop_gaps(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let bounds = model.bind_bounds();
     let size = bounds.min.distance(bounds.max);
     if bounds.is_empty() || size <= 0.0 {
@@ -66,13 +71,13 @@ pub(super) fn note_loop_gaps(model: &Model, clip_lines: &[u32], diagnostics: &mu
     }
     for (index, clip) in (0u32..).zip(&model.clips) {
         if let Some((joint, jump)) = loop_jump(model, clip, size) {
+            let bone = model.skeleton.file_bones()[joint.index()];
             diagnostics.add(
                 &codes::LOOP_JUMPS,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::on(Subject::Clip(index), lines.track(index, bone)).at([Moment::new(clip.end_secs, bone)]),
                 format!(
-                    "\"{}\" ends near its first pose, but bone {} jumps by {:.1} % of the model's size where it begins again.",
+                    "\"{}\" ends near its first pose, but bone {bone} jumps by {:.1} % of the model's size where it begins again.",
                     clip.name,
-                    model.skeleton.file_bones()[joint.index()],
                     jump / size * 100.0
                 ),
             );

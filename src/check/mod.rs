@@ -32,10 +32,10 @@ pub fn model(model: &Model, compiled: &[CompiledClip], lines: &LineMap) -> Vec<D
     texture::note_tangent_signs(model, lines, &mut diagnostics);
     rig::note_idle_bones(model, lines, &mut diagnostics);
     let clip_lines = lines.clip_lines();
-    rig::note_shears(model, compiled, &clip_lines, &mut diagnostics);
-    keys::note_still_tracks(model, &clip_lines, &mut diagnostics);
-    keys::note_loop_gaps(model, &clip_lines, &mut diagnostics);
+    rig::note_shears(model, compiled, lines, &mut diagnostics);
+    keys::note_still_tracks(model, lines, &mut diagnostics);
+    keys::note_loop_gaps(model, lines, &mut diagnostics);
     exploded::note_exploded(model, compiled, &clip_lines, &mut diagnostics);
-    overflow::note_overflows(model, compiled, &clip_lines, &mut diagnostics);
+    overflow::note_overflows(model, compiled, lines, &mut diagnostics);
     diagnostics.into_vec()
 }

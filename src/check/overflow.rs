@@ -4,19 +4,15 @@ use glam::{Affine3A, DAffine3, DMat3, DVec3};
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Moment, Subject, codes};
+use crate::format::LineMap;
 use crate::model::{Clip, Model, Skeleton, Track};
 
 /// Numbers above this count as overflow. That leaves room for the sums that make a pose: each must fit into `f32`.
 const MOST: f64 = 1e37;
 
 /// Notes the clips whose numbers overflow.
-pub(super) fn note_overflows(
-    model: &Model,
-    compiled: &[CompiledClip],
-    clip_lines: &[u32],
-    diagnostics: &mut Diagnostics,
-) {
+pub(super) fn note_overflows(model: &Model, compiled: &[CompiledClip], lines: &LineMap, diagnostics: &mut Diagnostics) {
     let reaches = reaches(model);
     for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {
         if !stays_below(&model.skeleton, clip, &reaches)
@@ -28,7 +24,7 @@ pub(super) fn note_overflows(
             );
             diagnostics.add(
                 &codes::POSE_OVERFLOWS,
-                Place::of(Subject::Clip(index), clip_lines),
+                Place::on(Subject::Clip(index), lines.track(index, bone)).at([Moment::new(time_secs, bone)]),
                 message,
             );
         }

@@ -1,9 +1,10 @@
 //! What was found in a file, as lines of text: for terminals and for the clipboard.
 
+use std::collections::HashSet;
 use std::fmt;
 
 use super::book::Verdict;
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::format::{Excerpt, LineIndex, is_printable};
 
 /// A file and what was found in it.
@@ -36,8 +37,9 @@ pub fn plain(_: Ink, text: &str) -> String {
     text.to_owned()
 }
 
-/// All findings of a file with the lines of the file that they are about, then the verdicts. Empty without any.
-pub fn text(file: &CheckedFile<'_>, paint: Paint<'_>) -> String {
+/// All findings of a file with the lines of the file that they are about, then the verdicts, and how to keep what was mended. Empty without
+/// any. `with_help`: the first finding of a code, and each limit of a book, has what the table of codes says of it.
+pub fn text(file: &CheckedFile<'_>, with_help: bool, paint: Paint<'_>) -> String {
     let CheckedFile {
         path,
         bytes,
@@ -49,11 +51,48 @@ pub fn text(file: &CheckedFile<'_>, paint: Paint<'_>) -> String {
     }
     let lines = LineIndex::new(bytes);
     let excerpt = |diagnostic: &Diagnostic| Some(lines.excerpt(diagnostic.position?, diagnostic.length));
-    let of_findings = diagnostics
+    let mut helped = HashSet::new();
+    let mut text = String::new();
+    for diagnostic in diagnostics {
+        text += &finding(path, diagnostic, excerpt(diagnostic).as_ref(), paint);
+        if with_help
+            && helped.insert(diagnostic.code)
+            && let Some(code) = codes::named(diagnostic.code)
+        {
+            text += &format!("   = {}\n   = to mend it: {}\n", code.explanation, code.mending);
+        }
+    }
+    let of_books = verdicts
         .iter()
-        .map(|diagnostic| finding(path, diagnostic, excerpt(diagnostic).as_ref(), paint));
-    let of_books = verdicts.iter().map(|of_book| verdict(path, of_book, &lines, paint));
-    of_findings.chain(of_books).collect()
+        .map(|of_book| verdict(path, of_book, &lines, with_help, paint));
+    text.extend(of_books);
+    text + &permanent(file, paint)
+}
+
+/// How to keep what is mended, or can be: one line for each way, with the codes that it is true of. Empty for a file that is not opened.
+fn permanent(file: &CheckedFile<'_>, paint: Paint<'_>) -> String {
+    if file
+        .diagnostics
+        .iter()
+        .any(|diagnostic| diagnostic.severity == Severity::Error)
+    {
+        return String::new();
+    }
+    let of_books: Vec<Diagnostic> = file.verdicts.iter().flat_map(Verdict::diagnostics).collect();
+    let mut ways: Vec<(&str, Vec<&str>)> = Vec::new();
+    for diagnostic in file.diagnostics.iter().chain(&of_books) {
+        let Some(way) = codes::named(diagnostic.code).and_then(Code::permanent) else {
+            continue;
+        };
+        match ways.iter_mut().find(|(known, _)| *known == way) {
+            Some((_, codes)) if codes.contains(&diagnostic.code) => {}
+            Some((_, codes)) => codes.push(diagnostic.code),
+            None => ways.push((way, vec![diagnostic.code])),
+        }
+    }
+    let place = paint(Ink::Place, &OneLine(file.path).to_string());
+    let line = |(way, codes): (&str, Vec<&str>)| format!("{place}: {}: {way}\n", codes.join(", "));
+    ways.into_iter().map(line).collect()
 }
 
 /// `file:line:column: severity[code]: message`, the lines that it is about, and the numbers of others like it.
@@ -72,7 +111,7 @@ pub fn finding(path: &str, diagnostic: &Diagnostic, excerpt: Option<&Excerpt>, p
 }
 
 /// Where a book's program goes wrong, what one sees, and the limits.
-fn verdict(path: &str, verdict: &Verdict, lines: &LineIndex<'_>, paint: Paint<'_>) -> String {
+fn verdict(path: &str, verdict: &Verdict, lines: &LineIndex<'_>, with_help: bool, paint: Paint<'_>) -> String {
     let book = verdict.book.label();
     let shows = OneLine(&verdict.shows);
     let mut text = match &verdict.trouble {
@@ -90,21 +129,29 @@ fn verdict(path: &str, verdict: &Verdict, lines: &LineIndex<'_>, paint: Paint<'_
             format!("{place}: {word}: It reads the file. One sees: {shows}\n")
         }
     };
-    let limits = verdict.limits.iter();
-    text.extend(limits.map(|limit| format!("   = {}: {}\n", limit.code, OneLine(&limit.message))));
+    for limit in &verdict.limits {
+        let help = codes::named(limit.code).filter(|_| with_help);
+        let help = help.map(|code| format!(" {}", code.mending)).unwrap_or_default();
+        text += &format!("   = {}: {}{help}\n", limit.code, OneLine(&limit.message));
+    }
     text
 }
 
-/// The other lines of a diagnostic: `line 12`, `lines 12, 16, 20, …`.
+/// Up to this many places of a finding are named one by one.
+const MOST_NAMED: usize = 10;
+
+/// The other lines of a diagnostic: `line 12`, `lines 12, 16, 20`, `lines 12, 16, 20 and 88 more places`.
 fn also_on(diagnostic: &Diagnostic) -> Option<String> {
-    let mut lines: Vec<u32> = diagnostic.few_places().iter().map(|place| place.line).collect();
+    let named = diagnostic.places.iter().take(MOST_NAMED);
+    let more = (diagnostic.count as usize).saturating_sub(named.len());
+    let mut lines: Vec<u32> = named.map(|place| place.line).collect();
     lines.dedup();
     let others: Vec<String> = lines.iter().skip(1).map(u32::to_string).collect();
-    let more = diagnostic.count as usize > diagnostic.few_places().len();
     match (others.as_slice(), more) {
         ([], _) => None,
-        ([line], false) => Some(format!("line {line}")),
-        _ => Some(format!("lines {}{}", others.join(", "), if more { ", …" } else { "" })),
+        ([line], 0) => Some(format!("line {line}")),
+        (_, 0) => Some(format!("lines {}", others.join(", "))),
+        _ => Some(format!("lines {} and {more} more places", others.join(", "))),
     }
 }
 

@@ -7,7 +7,7 @@ use glam::Mat3A;
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Moment, Subject, codes};
 use crate::format::LineMap;
 use crate::model::{Clip, Model, Skeleton};
 
@@ -60,7 +60,7 @@ const LOOKED_AT: usize = 20;
 const LOOKED_AT_IN_ALL: usize = 50 * LOOKED_AT;
 
 /// Notes clips that shear a bone: one is turned, and one above it is scaled by different factors.
-pub(super) fn note_shears(model: &Model, compiled: &[CompiledClip], clip_lines: &[u32], diagnostics: &mut Diagnostics) {
+pub(super) fn note_shears(model: &Model, compiled: &[CompiledClip], lines: &LineMap, diagnostics: &mut Diagnostics) {
     let uneven: Vec<usize> = (0..model.clips.len())
         .filter(|&clip| scales_unevenly(&model.clips[clip]))
         .collect();
@@ -69,7 +69,7 @@ pub(super) fn note_shears(model: &Model, compiled: &[CompiledClip], clip_lines: 
         if let Some((time_secs, bone)) = first_shear(&model.skeleton, &compiled[clip], looked_at) {
             diagnostics.add(
                 &codes::SCALE_SHEARS,
-                Place::of(Subject::Clip(clip as u32), clip_lines),
+                Place::on(Subject::Clip(clip as u32), lines.track(clip as u32, bone)).at([Moment::new(time_secs, bone)]),
                 format!(
                     "At {time_secs} s of \"{}\" bone {bone} is sheared: it is turned, and a bone above it is scaled by different factors.",
                     model.clips[clip].name

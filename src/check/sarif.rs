@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::book::Verdict;
 use super::report::CheckedFile;
-use crate::diagnostic::{Code, Diagnostic, Position, Severity, Subject, codes};
+use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
 use crate::format::LineIndex;
 
 /// The results of one file. They need nothing of its bytes any more.
@@ -189,7 +189,10 @@ fn rule(code: &'static str) -> Rule {
     Rule {
         id: code,
         short_description: text(row.map(|row| row.sentence.to_owned())),
-        help: text(row.map(Code::help)),
+        help: text(row.map(|row| {
+            let parts = [Some(row.help()), row.permanent().map(str::to_owned)];
+            parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
+        })),
         default_configuration: Configuration {
             level: level(row.map_or(Severity::Note, |row| row.severity)),
         },

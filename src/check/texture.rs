@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::format::LineMap;
+use crate::format::{LineMap, VertexField};
 use crate::model::{Material, Mesh, Model};
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
@@ -57,7 +57,7 @@ pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &m
     if against.count > 0 {
         diagnostics.add(
             &codes::TANGENT_SIGN_AGAINST_UV,
-            Place::of_rows(&against, Subject::Vertex, &lines.tangent_lines()),
+            Place::of_rows(&against, Subject::Vertex, &lines.vertex_lines(VertexField::Tangent)),
             format!(
                 "{} a tangent whose sign contradicts the texture coordinates.",
                 counted(against.count, "vertex has", "vertices have")

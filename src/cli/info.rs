@@ -69,6 +69,7 @@ JSON: an object
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0
+    time_secs, bone   of a finding about a clip: when it is, in the clip's own time, and the bone's number; or null
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
 

@@ -32,7 +32,7 @@ pub(super) struct Textures {
     pub(super) cubes: Vec<PathBuf>,
     /// Pictures that no map's name fits. Their contents are not known.
     pub(super) unnamed: Vec<PathBuf>,
-    /// Pictures whose names fit a map and that the system does not let us read. They hold no bytes.
+    /// Pictures whose names fit a map, but that the system does not let us read, or that are cube maps. They hold no bytes.
     unopened: Vec<File>,
     /// Why, in the same order.
     reasons: Vec<Diagnostic>,
@@ -125,19 +125,19 @@ impl Textures {
                 continue;
             }
             match read_picture(path, is_named) {
-                Ok(Picture::Cube(size)) => cubes.push((size, path.clone())),
+                Ok(Picture::Cube(size)) => {
+                    cubes.push((size, path.clone()));
+                    if is_named {
+                        textures.add_unopened(path, is_cube());
+                    }
+                }
                 Ok(Picture::Flat(bytes)) if is_named => {
                     let file = File::new(&name, bytes);
                     textures.paths.insert(file.path.clone(), path.clone());
                     textures.pictures.push(file);
                 }
                 Ok(Picture::Flat(_)) => {}
-                Err(reason) if is_named => {
-                    let file = File::new(&name, []);
-                    textures.paths.insert(file.path.clone(), path.clone());
-                    textures.unopened.push(file);
-                    textures.reasons.push(unreadable(&reason));
-                }
+                Err(reason) if is_named => textures.add_unopened(path, unreadable(&reason)),
                 // No material names it.
                 Err(_) => {}
             }
@@ -147,6 +147,14 @@ impl Textures {
             textures.cubes = cubes.into_iter().map(|(_, path)| path).collect();
         }
         textures
+    }
+
+    /// Adds a picture whose name fits a map, but that is none for it.
+    fn add_unopened(&mut self, path: &Path, reason: Diagnostic) {
+        let file = File::new(&path.to_string_lossy(), []);
+        self.paths.insert(file.path.clone(), path.to_owned());
+        self.unopened.push(file);
+        self.reasons.push(reason);
     }
 
     /// What became of each map that the materials name. `maps` holds [`Textures::pictures`].
@@ -289,6 +297,14 @@ pub(super) fn read_sky(path: &Path) -> Result<File, Box<Diagnostic>> {
 /// That something has the name of a map, but cannot be read as a file.
 pub(super) fn not_a_file() -> Diagnostic {
     warning(&codes::NOT_A_FILE, codes::NOT_A_FILE.sentence.to_owned())
+}
+
+/// That a cube map has the name of a map.
+fn is_cube() -> Diagnostic {
+    warning(
+        &codes::MAP_IS_CUBE,
+        "This is a cube map, and no picture for a material.".to_owned(),
+    )
 }
 
 fn unreadable(reason: &io::Error) -> Diagnostic {

@@ -1,10 +1,11 @@
-//! The one table of all codes. Of each: name, severity, a sentence, what it means, what is done about it, and how to mend it.
+//! The one table of all codes. Of each: name, severity, a sentence, what it means, what is done about it, how to mend it, and, where it is
+//! mended here, when.
 //!
 //! Messages take severity and name from here, and the sentence too where it has no blanks to fill. Tests compare the table
 //! with what the program gives, and make `web/codes.html` of it. To add a code: add its row and a fixture, and use its constant. Names and meanings
 //! stay as they are for good, since scripts read them.
 
-use super::{Code, Severity};
+use super::{Code, Mended, Severity};
 
 /// Every code, in the order of the groups.
 pub fn all() -> impl Iterator<Item = &'static Code> {
@@ -18,10 +19,12 @@ pub fn named(name: &str) -> Option<&'static Code> {
 
 /// A constant for each row, and a list for each group.
 macro_rules! table {
+    (@mended) => { Mended::No };
+    (@mended $mended:ident) => { Mended::$mended };
     ($(
         $(#[doc = $group_doc:literal])*
         $group:ident {
-            $($constant:ident = $name:literal, $severity:ident, $sentence:literal, $explanation:literal, $handling:literal, $mending:literal;)*
+            $($constant:ident = $name:literal, $severity:ident, $sentence:literal, $explanation:literal, $handling:literal, $mending:literal $(, $mended:ident)?;)*
         }
     )*) => {
         $($(
@@ -35,6 +38,7 @@ macro_rules! table {
                 explanation: $explanation,
                 handling: $handling,
                 mending: $mending,
+                mended: table!(@mended $($mended)?),
             };
         )*)*
         $(
@@ -122,17 +126,17 @@ table! {
             "A section begins without its ruler line.",
             "The books' loaders skip one word there and would be out of step.",
             "The section is read by its place.",
-            "Write a ruler line before each section, the empty ones too.";
+            "Write a ruler line before each section, the empty ones too.", OnReading;
         RULER_UNKNOWN = "ruler-unknown", Note,
             "A ruler does not name the section that begins there.",
             "The books' loaders do not look at its words.",
             "The section is read by its place.",
-            "Name the section in its ruler as the book's exporter does.";
+            "Name the section in its ruler as the book's exporter does.", OnReading;
         COMMENT = "comment", Note,
             "A comment line above the header was left out.",
             "The books' loaders do not know comments.",
             "The line is left out.",
-            "Write no comments: the format has none.";
+            "Write no comments: the format has none.", OnReading;
         COUNTS_ALL_ZERO = "counts-all-zero", Warning,
             "Every count of the header is 0: the file holds nothing.",
             "There is nothing to show.",
@@ -142,107 +146,107 @@ table! {
             "The header lacks the count of bones or clips; taken as none.",
             "A model without bones is shown as it was bound.",
             "The count is taken as 0.",
-            "Write `#Bones 0` and `#AnimationClips 0` for a model without them.";
+            "Write `#Bones 0` and `#AnimationClips 0` for a model without them.", OnReading;
         SECTION_MISSING = "section-missing", Note,
             "An empty section is not there, though the others of a skinned model are.",
             "Nothing is lost: its count is 0.",
             "The section is taken as empty.",
-            "Write the ruler of every section, though it has no rows.";
+            "Write the ruler of every section, though it has no rows.", OnReading;
         LABEL_UNKNOWN = "label-unknown", Note,
             "A line is not known and was left out.",
             "Perhaps its label is misspelt, or another tool wrote it for itself.",
             "The line is left out.",
-            "Write no lines but the format's own, spelt as the book's exporter does.";
+            "Write no lines but the format's own, spelt as the book's exporter does.", OnReading;
         LABEL_REPEATED = "label-repeated", Warning,
             "A line is given more than once; the last one holds.",
             "Perhaps two materials were written without a blank line between them.",
             "The last one holds.",
-            "Write each line once, and a blank line between two materials.";
+            "Write each line once, and a blank line between two materials.", OnReading;
         MATERIAL_LINE_MISSING = "material-line-missing", Warning,
             "A material lacks a line; its default is used.",
             "The books' loaders need every line of a material in its order.",
             "The default of the line is used.",
-            "Write every line of a material, its maps too, in the book's order.";
+            "Write every line of a material, its maps too, in the book's order.", OnReading;
         ALPHA_CLIP_UNREADABLE = "alpha-clip-unreadable", Warning,
             "An AlphaClip is neither a number nor true or false; taken as 0.",
             "The material is drawn without holes.",
             "It is taken as 0.",
-            "Write `AlphaClip: 0` or `AlphaClip: 1`.";
+            "Write `AlphaClip: 0` or `AlphaClip: 1`.", OnReading;
         VALUES_SURPLUS = "values-surplus", Note,
             "A line holds more than belongs there; the rest was left out.",
             "The books' loaders read word by word and would be out of step from there on.",
             "What is too much is left out.",
-            "Write as many values as the row has, and no blanks in names.";
+            "Write as many values as the row has, and no blanks in names.", OnReading;
         ROW_SPLIT = "row-split", Note,
             "A row goes on in the next line.",
             "The books' loaders read words, whatever line they stand in.",
             "It is read as one row.",
-            "Write each row on a line of its own.";
+            "Write each row on a line of its own.", OnReading;
         NUMBER_MENDED = "number-mended", Warning,
             "A number is written in a foreign way, such as \"1,5\" or \"1.0f\", and was read by its sense.",
             "Exporters write so under a language with decimal commas, or for source code.",
             "It is read by its sense.",
-            "Write numbers with a point and without a suffix, whatever the language of the machine: in C++ with `std::locale::classic()`.";
+            "Write numbers with a point and without a suffix, whatever the language of the machine: in C++ with `std::locale::classic()`.", OnReading;
         NUMBER_NOT_FINITE = "number-not-finite", Warning,
             "A number is not finite and was replaced, by 1 for scales and a quaternion's w, otherwise by 0.",
             "The exporter divided by zero or used a value that was never set.",
             "It is replaced.",
-            "Find the division by zero or the unset value; write 0, or 1 for scales and a quaternion's w.";
+            "Find the division by zero or the unset value; write 0, or 1 for scales and a quaternion's w.", OnReading;
         TANGENT_SIGN_MISSING = "tangent-sign-missing", Note,
             "A tangent has three numbers; the fourth, the bitangent's sign, is taken as 1.",
             "Where the texture is mirrored, bumps look like dents.",
             "The sign is taken as 1.",
-            "Write the sign of the bitangent, −1 or 1, as the fourth number.";
+            "Write the sign of the bitangent, −1 or 1, as the fourth number.", OnReading;
         SUBSET_LABEL = "subset-label", Note,
             "A label of the subset table is misspelt; it was read by its place.",
             "Nothing is lost: the order of the values is always the same.",
             "It is read by its place.",
-            "Write `SubsetID: VertexStart: VertexCount: FaceStart: FaceCount:`, each with its number.";
+            "Write `SubsetID: VertexStart: VertexCount: FaceStart: FaceCount:`, each with its number.", OnReading;
         SUBSET_VERTEX_RANGE = "subset-vertex-range", Note,
             "A vertex range of the subset table is unreadable; it is not used.",
             "Only the range of triangles is needed to draw a subset.",
             "The range is not used.",
-            "Write `VertexStart` and `VertexCount` as whole numbers.";
+            "Write `VertexStart` and `VertexCount` as whole numbers.", OnReading;
         BLEND_INDEX_UNUSED = "blend-index-unused", Note,
             "A blend index names no bone, but has weight 0; bone 0 stands in.",
             "Nothing moves differently.",
             "Bone 0 stands in.",
-            "Write 0 for influences without weight.";
+            "Write 0 for influences without weight.", OnReading;
         BLEND_DATA_UNUSED = "blend-data-unused", Note,
             "A vertex has blend weights or indices though there are no bones; they were left out.",
             "Perhaps the file was exported without its skeleton.",
             "It is left out.",
-            "Export the skeleton too, or leave weights and indices out.";
+            "Export the skeleton too, or leave weights and indices out.", OnReading;
         BONE_NUMBER = "bone-number", Note,
             "A bone's label has another number than its place; the place holds.",
             "The books' loaders do not look at the number either.",
             "The place holds.",
-            "Number the bones from 0 in the order in which they are written.";
+            "Number the bones from 0 in the order in which they are written.", OnReading;
         BONE_OFFSET_LABEL = "bone-offset-label", Note,
             "A bone offset has its bone's number before the sixteen numbers.",
             "The books' loaders would take it for the first of the sixteen.",
             "It is taken as part of the label.",
-            "Write `BoneOffset0` with the number joined to the word.";
+            "Write `BoneOffset0` with the number joined to the word.", OnReading;
         BRACE_MISSING = "brace-missing", Warning,
             "A brace is missing.",
             "The books' loaders skip a word there and would be out of step.",
             "The clip is read as if it stood there.",
-            "Write a brace before and after the keys of each bone, and around all bones of a clip.";
+            "Write a brace before and after the keys of each bone, and around all bones of a clip.", OnReading;
         BRACE_SURPLUS = "brace-surplus", Warning,
             "A brace too many was left out.",
             "The books' loaders would be out of step from there on.",
             "It is left out.",
-            "Write one closing brace for each opening one.";
+            "Write one closing brace for each opening one.", OnReading;
         TEXT_SURPLUS = "text-surplus", Warning,
             "There is something behind the last section; it was left out.",
             "Perhaps the header announces fewer clips than there are.",
             "It is left out.",
-            "Count the clips that are written, and write nothing after the last one.";
+            "Count the clips that are written, and write nothing after the last one.", OnReading;
         ZEROS_SURPLUS = "zeros-surplus", Warning,
             "The file ends in bytes of value 0; they were left out.",
             "A disk or a transfer padded the file. The text before them is whole.",
             "They are left out.",
-            "Write the file to its length, and copy it as a whole.";
+            "Write the file to its length, and copy it as a whole.", OnReading;
     }
 
     /// What making a model of a document gives ([`import::m3d`](crate::import::m3d)).
@@ -276,22 +280,22 @@ table! {
             "Another material has the same name; this one is shown with a number.",
             "Subsets name materials by their place, so both are drawn as they are.",
             "It is shown with a number.",
-            "Give each material a name of its own.";
+            "Give each material a name of its own.", OnReading;
         NO_SUBSETS = "no-subsets", Warning,
             "The file has no subset; all triangles are drawn with the first material.",
             "The books' demos draw nothing without a subset.",
             "All triangles are drawn with the first material.",
-            "Write one row of the subset table for each material.";
+            "Write one row of the subset table for each material.", OnReading;
         SUBSET_WITHOUT_MATERIAL = "subset-without-material", Warning,
             "A subset has no material; drawn in a default grey.",
             "The file has more subsets than materials; each subset takes the material of its own place.",
             "It is drawn in grey.",
-            "Write as many materials as subsets, in the same order.";
+            "Write as many materials as subsets, in the same order.", OnReading;
         SUBSET_OUT_OF_RANGE = "subset-out-of-range", Warning,
             "A subset asks for triangles that are not there; they are left out.",
             "FaceStart and FaceCount count triangles, not indices.",
             "Triangles that are not there are left out.",
-            "Write `FaceStart` and `FaceCount` in triangles: indices divided by 3.";
+            "Write `FaceStart` and `FaceCount` in triangles: indices divided by 3.", OnReading;
         TRIANGLES_UNDRAWN = "triangles-undrawn", Warning,
             "A triangle belongs to no subset; not drawn.",
             "Parts of the model are missing in the picture.",
@@ -311,7 +315,7 @@ table! {
             "A bone stands before its parent; the joints are sorted and keep the file's numbers for display.",
             "The books' demos multiply down the list and show such a model wrong.",
             "The joints are sorted; the file's numbers are shown.",
-            "Write bones with parents first, and change offsets, blend indices and tracks with them.";
+            "Write bones with parents first, and change offsets, blend indices and tracks with them.", ForBook;
         MANY_BONES = "many-bones", Note,
             "There are more bones than the books' shaders hold.",
             "The books' demos need a larger array of bones in their constant buffer.",
@@ -326,7 +330,7 @@ table! {
             "A bone offset has a fourth column other than 0 0 0 1; that column was left out.",
             "Perhaps the matrix was written for column vectors: the translation belongs in its fourth row.",
             "The fourth column is left out.",
-            "Write row-vector matrices row by row: transpose matrices for column vectors.";
+            "Write row-vector matrices row by row: transpose matrices for column vectors.", OnReading;
         OFFSET_SINGULAR = "offset-singular", Warning,
             "A bone offset has no inverse; the bone's place in the bind pose is unknown.",
             "The bone is shown at the origin of the bind pose. Clips are not affected.",
@@ -351,22 +355,22 @@ table! {
             "A vertex has a normal that is zero or not finite; computed from the triangles.",
             "Edges that should be sharp may look round there.",
             "They are computed from the triangles.",
-            "Export normals, each of length 1.";
+            "Export normals, each of length 1.", OnReading;
         WEIGHTS_INVALID = "weights-invalid", Warning,
             "A vertex has a blend weight that is negative or not finite; taken as 0.",
             "Its other bones take over.",
             "The weight is taken as 0.",
-            "Cut weights off at 0 and share out what is left so that they sum to 1.";
+            "Cut weights off at 0 and share out what is left so that they sum to 1.", OnReading;
         WEIGHTS_NOT_NORMALIZED = "weights-not-normalized", Warning,
             "The blend weights of a vertex do not sum to 1; normalised.",
             "The books' shaders give the fourth bone whatever is left to 1, so the vertex may stand elsewhere there.",
             "The weights are normalised.",
-            "Keep the four greatest weights, and divide them by their sum.";
+            "Keep the four greatest weights, and divide them by their sum.", OnReading;
         WEIGHTS_ALL_ZERO = "weights-all-zero", Warning,
             "A vertex of a skinned model has no blend weight; not moved by any bone.",
             "It stays where the bind pose has it while the rest moves.",
             "The vertex is moved by no bone.",
-            "Give every vertex a bone: the one that its part of the mesh hangs on.";
+            "Give every vertex a bone: the one that its part of the mesh hangs on.", ForBook;
         BONE_INDEX_ABOVE_BYTE = "bone-index-above-byte", Note,
             "An influence names a bone above 255, which the books' loaders cannot hold.",
             "They keep bone indices in bytes.",
@@ -376,22 +380,22 @@ table! {
             "A vertex has a tangent that is zero or not finite; computed from the texture coordinates.",
             "Only normal maps depend on tangents.",
             "They are computed from the texture coordinates.",
-            "Export tangents, each of length 1, with the bitangent's sign.";
+            "Export tangents, each of length 1, with the bitangent's sign.", OnReading;
         TANGENT_SIGN = "tangent-sign", Warning,
             "A tangent has a fourth number other than 1 or −1; its sign is kept.",
             "The number is the sign of the bitangent.",
             "The number's sign is kept.",
-            "Write −1 or 1 as the fourth number of a tangent.";
+            "Write −1 or 1 as the fourth number of a tangent.", OnReading;
         DUPLICATE_CLIP_NAME = "duplicate-clip-name", Note,
             "Another clip has the same name; this one is shown with a number.",
             "The books' demos find clips by name and know only one of them.",
             "It is shown with a number.",
-            "Give each clip a name of its own.";
+            "Give each clip a name of its own.", OnReading;
         CLIP_UNNAMED = "clip-unnamed", Note,
             "This clip has no name; it is shown with its number.",
             "The books' loaders read a word as its name and would be out of step.",
             "It is shown with its number.",
-            "Write a name of one word behind `AnimationClip`.";
+            "Write a name of one word behind `AnimationClip`.", OnReading;
         CLIP_BONES_MISSING = "clip-bones-missing", Warning,
             "A clip has fewer tracks than there are bones; the others are at rest as in the bind pose.",
             "The books' loaders read one track for each bone.",
@@ -406,37 +410,37 @@ table! {
             "A bone has no keys in a clip; at rest as in the bind pose.",
             "The books' demos need at least one key for each bone.",
             "The bone is at rest as in the bind pose.",
-            "Write one key for a bone that keeps still.";
+            "Write one key for a bone that keeps still.", ForBook;
         KEYS_NOT_FINITE = "keys-not-finite", Warning,
             "A key has a number that is not finite or a time beyond 10⁹ s; left out.",
             "The motion goes straight from the key before to the key after.",
             "The key is left out.",
-            "Find the division by zero or the unset value in the exporter.";
+            "Find the division by zero or the unset value in the exporter.", OnReading;
         KEYS_NOT_SORTED = "keys-not-sorted", Warning,
             "A bone has keys that are not in the order of time; sorted.",
             "The books' demos take them in the order of the file and jump.",
             "The keys are sorted.",
-            "Sort the keys of each bone by time before they are written.";
+            "Sort the keys of each bone by time before they are written.", OnReading;
         KEYS_AT_EQUAL_TIMES = "keys-at-equal-times", Warning,
             "Keys of a bone have the same time; the first and the last key of a time are kept as a jump.",
             "The books' demos divide by the time between two keys.",
             "The first and the last key of a time are kept as a jump.",
-            "Write one key for a time, and more digits if times are rounded.";
+            "Write one key for a time, and more digits if times are rounded.", OnReading;
         ROTATION_NOT_UNIT = "rotation-not-unit", Warning,
             "A key has a rotation that is not of unit length; normalised.",
             "The books' demos make a matrix of it as it stands, which stretches what hangs on the bone.",
             "The rotation is normalised.",
-            "Divide each quaternion by its length.";
+            "Divide each quaternion by its length.", OnReading;
         ROTATION_ZERO = "rotation-zero", Warning,
             "A key has a rotation of length 0; taken as no rotation.",
             "Such a quaternion has no direction.",
             "It is taken as no rotation.",
-            "Write 0 0 0 1 where there is no rotation.";
+            "Write 0 0 0 1 where there is no rotation.", OnReading;
         ROTATION_SIDE = "rotation-side", Note,
             "A rotation has all its signs turned against the key before it; turned back.",
             "The quaternions q and −q are one rotation. The books' demos take the nearer one too; programs that blend the four numbers spin the long way.",
             "The signs are turned back.",
-            "Turn the signs of a quaternion where its dot product with the one before is negative.";
+            "Turn the signs of a quaternion where its dot product with the one before is negative.", OnReading;
     }
 
     /// What reading a glTF file gives ([`gltf`](crate::gltf)), beside codes above.
@@ -450,7 +454,7 @@ table! {
             "A .glb file has chunks or bytes that do not belong there.",
             "A .glb file is one chunk of JSON, then at most one of binary data, and nothing behind the length in its header.",
             "What is too much is left out.",
-            "Write the length of the whole file into its header, the JSON first and the binary data second.";
+            "Write the length of the whole file into its header, the JSON first and the binary data second.", OnReading;
         GLTF_NOT_JSON = "gltf-not-json", Error,
             "The JSON of a glTF file cannot be read.",
             "The message says what the reader of JSON met.",
@@ -463,12 +467,12 @@ table! {
             "Write what the specification of glTF 2.0 has at that place.";
         GLTF_VERSION = "gltf-version", Error,
             "The file is of another version of glTF.",
-            "Export it as glTF 2.0.",
+            "Version 1.0 is laid out differently, and none is later than 2.0.",
             "The file is not opened.",
             "Export it as glTF 2.0.";
         GLTF_EXTENSION_REQUIRED = "gltf-extension-required", Error,
             "The model cannot be read without an extension that is not known here.",
-            "Export it without compression and with textures in PNG or JPEG.",
+            "The file says that it makes no sense without: compressed meshes, mostly, or pictures of another kind.",
             "The file is not opened.",
             "Export it without compression, and with textures in PNG or JPEG.";
         GLTF_EXTENSION_UNKNOWN = "gltf-extension-unknown", Note,
@@ -515,7 +519,7 @@ table! {
             "The file breaks a rule of glTF, and was read by its sense.",
             "Other programs may refuse it.",
             "It is read by its sense; what makes none is left out.",
-            "Look at the place with the Khronos validator, which names the rule.";
+            "Look at the place with the Khronos validator, which names the rule.", OnReading;
         GLTF_EMPTY = "gltf-empty", Warning,
             "The scene has neither meshes nor joints.",
             "There is nothing to show.",
@@ -530,7 +534,7 @@ table! {
             "A part of a mesh has no normals; smooth ones were computed.",
             "The format asks for flat triangles there, which would need vertices of their own.",
             "The mean of the triangles around each vertex is taken.",
-            "Export normals.";
+            "Export normals.", OnReading;
         GLTF_MORPH_ANIMATION_LEFT_OUT = "gltf-morph-animation-left-out", Warning,
             "A clip moves the weights of morph targets; left out.",
             "Morph targets are shown with the weights that the file gives them outside of clips.",
@@ -555,7 +559,7 @@ table! {
             "A vertex is moved by more than four joints; the four with the greatest weights are kept.",
             "Their weights are scaled to sum to 1. The message says how much was lost at most.",
             "The four greatest weights are kept and scaled to sum to 1.",
-            "Limit the weights of a vertex to four in the modelling program, and look at the result there.";
+            "Limit the weights of a vertex to four in the modelling program, and look at the result there.", OnReading;
     }
 
     /// What the checks of a mesh and its rig give ([`check::model`](crate::check::model)).
@@ -564,17 +568,17 @@ table! {
             "A triangle has no area: corners coincide or lie in a line.",
             "It is not seen and can be left out.",
             "It is drawn, and not seen.",
-            "Remove degenerate triangles before the export.";
+            "Remove degenerate triangles before the export.", WithFix;
         TRIANGLES_REPEATED = "triangles-repeated", Note,
             "A triangle has the same three vertices as another one before.",
             "One hides the other, or flickers with it. Where it is meant as the back, it needs vertices with normals of its own.",
-            "Both are drawn.",
+            "Both are drawn. `bindpose convert --fix` leaves out those that wind the same way.",
             "Remove duplicate faces before the export.";
         VERTICES_UNUSED = "vertices-unused", Note,
             "A vertex is a corner of no triangle.",
             "It is not seen, but counts for the model's size and is moved with the others. It can be left out.",
             "It is kept.",
-            "Write only vertices that a triangle names, and number the indices anew.";
+            "Write only vertices that a triangle names, and number the indices anew.", WithFix;
         EDGES_CROWDED = "edges-crowded", Note,
             "An edge belongs to more than two triangles.",
             "Perhaps a surface lies inside another one. They share normals at that edge, which fit no more than one of them.",
@@ -589,7 +593,7 @@ table! {
             "A tangent has a sign that contradicts the texture coordinates.",
             "Bumps of the normal map look like dents there. The sign is −1 or 1 so that sign · cross(normal, tangent) points along v.",
             "The sign is taken as it stands.",
-            "Compute the fourth number from the texture coordinates of the file, after they were flipped for it.";
+            "Compute the fourth number from the texture coordinates of the file, after they were flipped for it.", WithFix;
         BONES_IDLE = "bones-idle", Note,
             "A bone moves no vertex, nor does a bone below.",
             "Often it marks the end of a limb or a place for props. Where it should move something, its weights are missing.",
@@ -599,12 +603,12 @@ table! {
             "A good part of a clip's keys are equal keys of bones that keep still.",
             "One key of each such bone shows the same, in a smaller file.",
             "All keys are kept.",
-            "Write one key for a bone that keeps still.";
+            "Write one key for a bone that keeps still.", WithFix;
         LOOP_JUMPS = "loop-jumps", Note,
             "A clip ends near its first pose, but not near enough to loop without a jump.",
             "The timeline shows the gap bone by bone.",
             "The clip is played as it is.",
-            "Give the last keys the values of the first.";
+            "Give the last keys the values of the first. Export here, and `bindpose convert --close-loop`, ease the end into them.";
         SCALE_SHEARS = "scale-shears", Note,
             "A clip turns a bone while one above it is scaled by different factors, which shears it.",
             "It is shown as the books' demos do. Programs that keep scale and rotation apart show it otherwise.",
@@ -632,22 +636,22 @@ table! {
             "A book's loader does not read the file as it is meant.",
             "The loaders read words in order and look at no label.",
             "The file is read by its labels.",
-            "Write the labels and values of a row as the book's exporter does, with one word for each name.";
+            "Write the labels and values of a row as the book's exporter does, with one word for each name.", ForBook;
         BOOK_CLIP_NAME = "book-clip-name", Note,
             "There is no clip of the name that the books' demos ask for.",
             "They look for it in their first frame, and crash.",
             "Any clip can be played.",
-            "Name the clip to be shown `Take1`, or change `ClipName` in the demo.";
+            "Name the clip to be shown `Take1`, or change `ClipName` in the demo.", ForBook;
         BOOK_ROOTS = "book-roots", Note,
             "Bone 0 is not the only root.",
             "The books' demos take bone 0 as the root of all others.",
             "Any bone may be a root.",
-            "Add a bone 0 that is the parent of all others.";
+            "Add a bone 0 that is the parent of all others.", ForBook;
         BOOK_FOURTH_WEIGHT = "book-fourth-weight", Note,
             "A fourth blend weight is not what is left to 1.",
             "The books' shaders do not read it: they take what the first three leave.",
             "The fourth weight is used and all are normalised.",
-            "Divide the four weights by their sum.";
+            "Divide the four weights by their sum.", OnReading;
         BOOK_ALPHA_CLIP = "book-alpha-clip", Note,
             "A material asks for holes, which the books' demos do not cut into characters.",
             "Hair and leaves look like cards there.",
@@ -657,15 +661,15 @@ table! {
             "The model is left-handed; the books' demos mirror their character.",
             "The model is shown inside out there.",
             "Handedness is found from the triangles.",
-            "Export right-handed coordinates, or take the minus from the demo's scale.";
+            "Export right-handed coordinates, or take the minus from the demo's scale.", ForBook;
         BOOK_SIZE = "book-size", Note,
             "The books' demos show the model too small or too large.",
             "They scale by 0.05, for a soldier that is 72 units high.",
             "The model is framed whatever its size.",
-            "Scale the scene so that the character is about 72 units high, or change the demo's scale.";
+            "Scale the scene so that the character is about 72 units high, or change the demo's scale.", ForBook;
         BOOK_TANGENT_SIGN = "book-tangent-sign", Note,
             "The D3D12 book's loader leaves the sign of tangents unread.",
-            "Where textures are mirrored, bumps look like dents.",
+            "Its shader takes the bitangent of an unmirrored texture, turned round by the demo's mirror.",
             "The sign is used.",
             "Write −1 for all tangents where nothing is mirrored, or read the fourth number in the loader.";
         BOOK_MAP_FORMAT = "book-map-format", Note,
@@ -841,6 +845,11 @@ table! {
             "The material is drawn without it. Maps are found by base name and may be dropped later.",
             "The material is drawn in its colour.",
             "Put the picture beside the model, or write the name that it has.";
+        MAP_IS_CUBE = "map-is-cube", Warning,
+            "A cube map has the name of a map that a material names.",
+            "A material's map is one flat picture; a cube map is six, of what is around.",
+            "The material is drawn without the map; the cube map can be the sky.",
+            "Save a flat picture under this name, or give the cube map another one.";
         MAP_AMBIGUOUS = "map-ambiguous", Note,
             "A map could be several files; the first is taken.",
             "They have one name, in several folders or formats.",

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Code, Diagnostic, Position, Subject};
+use super::{Code, Diagnostic, Moment, Position, Subject};
 
 /// The start of a line.
 pub(crate) fn line_start(line: u32) -> Position {
@@ -37,6 +37,7 @@ impl Diagnostics {
             pointer: place.pointer,
             places,
             subjects: place.subjects,
+            moments: place.moments,
             ..code.says(message)
         });
     }
@@ -51,6 +52,9 @@ impl Diagnostics {
             } else if let Some(first) = all.iter_mut().find(|first| first.code == diagnostic.code) {
                 first.places.extend(diagnostic.position);
                 first.subjects.extend(diagnostic.subject);
+                if !first.moments.is_empty() {
+                    first.moments.push(diagnostic.moment());
+                }
             } else {
                 all.push(standing_for(met, diagnostic));
             }
@@ -71,6 +75,7 @@ fn standing_for(count: u32, first: Diagnostic) -> Diagnostic {
         message: format!("{} The same holds for {} more {parts}.", first.message, count - 1),
         places: first.position.into_iter().collect(),
         subjects: first.subject.into_iter().collect(),
+        moments: first.moments.first().copied().into_iter().collect(),
         count,
         ..first
     }
@@ -82,6 +87,7 @@ pub(crate) struct Place {
     lines: Vec<u32>,
     count: u32,
     subjects: Vec<Subject>,
+    moments: Vec<Moment>,
     pointer: Option<String>,
 }
 
@@ -92,6 +98,7 @@ impl Default for Place {
             lines: Vec::new(),
             count: 1,
             subjects: Vec::new(),
+            moments: Vec::new(),
             pointer: None,
         }
     }
@@ -115,6 +122,15 @@ impl Place {
         }
     }
 
+    /// The same place, and when and on which bones of a clip the first occurrences are.
+    #[must_use]
+    pub(crate) fn at(self, moments: impl IntoIterator<Item = Moment>) -> Self {
+        Self {
+            moments: moments.into_iter().take(Diagnostic::MOST_PLACES).collect(),
+            ..self
+        }
+    }
+
     /// A part of the model. `lines` has the line of each part of this kind.
     pub(crate) fn of(subject: Subject, lines: &[u32]) -> Self {
         let (Subject::Material(index)
@@ -131,9 +147,8 @@ impl Place {
     pub(crate) fn on(subject: Subject, line: Option<u32>) -> Self {
         Self {
             lines: line.into_iter().collect(),
-            count: 1,
             subjects: vec![subject],
-            pointer: None,
+            ..Self::default()
         }
     }
 
@@ -144,18 +159,19 @@ impl Place {
             lines: rows.first_lines(lines),
             count: rows.count_u32(),
             subjects: rows.rows.into_iter().flatten().map(subject).collect(),
-            pointer: None,
+            ..Self::default()
         }
     }
 
-    /// Rows inside one part of the model; `otherwise` is the line to name when `lines` lacks the first row.
-    pub(crate) fn of_rows_in(subject: Subject, rows: &Tally, lines: &[u32], otherwise: Option<u32>) -> Self {
-        let first_line = rows.rows[0].and_then(|row| lines.get(row as usize));
-        let otherwise = otherwise.filter(|_| first_line.is_none());
+    /// Keys or bones of one clip; `otherwise` is the line to name when they have none.
+    pub(crate) fn of_moments(subject: Subject, moments: &Moments, otherwise: Option<u32>) -> Self {
+        let lines: Vec<u32> = moments.first.iter().filter_map(|(_, line)| *line).collect();
+        let otherwise = otherwise.filter(|_| lines.is_empty());
         Self {
-            lines: otherwise.into_iter().chain(rows.first_lines(lines)).collect(),
-            count: rows.count_u32(),
+            lines: otherwise.into_iter().chain(lines).collect(),
+            count: u32::try_from(moments.count).unwrap_or(u32::MAX),
             subjects: vec![subject],
+            moments: moments.first().collect(),
             pointer: None,
         }
     }
@@ -182,6 +198,13 @@ impl Tally {
         }
     }
 
+    /// Counts rows that follow one another.
+    pub(crate) fn add_range(&mut self, rows: std::ops::Range<u32>) {
+        let kept = rows.len().min(Diagnostic::MOST_PLACES);
+        rows.clone().take(kept).for_each(|row| self.add(row));
+        self.count = self.count.saturating_add(rows.len() - kept);
+    }
+
     fn first_lines(&self, lines: &[u32]) -> Vec<u32> {
         let rows = self.rows.into_iter().flatten();
         rows.filter_map(|row| lines.get(row as usize).copied()).collect()
@@ -189,6 +212,41 @@ impl Tally {
 
     fn count_u32(&self) -> u32 {
         u32::try_from(self.count).unwrap_or(u32::MAX)
+    }
+}
+
+/// Counts keys, or bones of a clip, that needed the same mending, and remembers when and where the first are.
+#[derive(Default)]
+pub(crate) struct Moments {
+    pub(crate) count: usize,
+    /// The first, with their lines.
+    first: Vec<(Moment, Option<u32>)>,
+}
+
+impl Moments {
+    /// Counts one more. `line` is asked of the first only.
+    pub(crate) fn add(&mut self, moment: Moment, line: impl FnOnce() -> Option<u32>) {
+        self.count += 1;
+        if self.first.len() < Diagnostic::MOST_PLACES {
+            self.first.push((moment, line()));
+        }
+    }
+
+    /// The first for a message: ` (bone 3 at 0.5 s)`, or ` (first: bone 3 at 0.5 s)` of several.
+    pub(crate) fn first_in_words(&self) -> String {
+        let Some((Moment { time_secs, bone }, _)) = self.first.first() else {
+            return String::new();
+        };
+        let bone = bone.map(|bone| format!("bone {bone}"));
+        let time = time_secs.map(|time_secs| format!("at {time_secs} s"));
+        let words: Vec<String> = bone.into_iter().chain(time).collect();
+        let first = if self.count == 1 { "" } else { "first: " };
+        format!(" ({first}{})", words.join(" "))
+    }
+
+    /// When and on which bones the first are.
+    pub(crate) fn first(&self) -> impl Iterator<Item = Moment> {
+        self.first.iter().map(|(moment, _)| *moment)
     }
 }
 

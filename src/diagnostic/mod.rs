@@ -85,8 +85,35 @@ impl Subject {
     }
 }
 
+/// When in a clip something is, and on which bone, as far as that is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Seconds of the clip's own time.
+    pub time_secs: Option<f32>,
+    /// The bone, by its number in the file.
+    pub bone: Option<u32>,
+}
+
+impl Moment {
+    /// A bone, at any time.
+    pub(crate) fn of_bone(bone: u32) -> Self {
+        Self {
+            time_secs: None,
+            bone: Some(bone),
+        }
+    }
+
+    /// A bone at a time.
+    pub(crate) fn new(time_secs: f32, bone: u32) -> Self {
+        Self {
+            time_secs: Some(time_secs),
+            bone: Some(bone),
+        }
+    }
+}
+
 /// One thing that is worth telling about a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
@@ -115,15 +142,17 @@ pub struct Diagnostic {
     pub places: Vec<Position>,
     /// Parts of the model that the first occurrences are about, at most [`Diagnostic::MOST_PLACES`]; the first is `subject`.
     pub subjects: Vec<Subject>,
+    /// Of a finding about clips: when the first occurrences are, and on which bones, at most [`Diagnostic::MOST_PLACES`].
+    pub moments: Vec<Moment>,
 }
 
 impl Diagnostic {
     /// How many occurrences have their positions listed.
     pub const MOST_PLACES: usize = 20;
-    /// How many of these lines of text and JSON outputs name.
+    /// How many of these JSON names.
     const FEW_PLACES: usize = 4;
 
-    /// The positions that outputs name.
+    /// The positions that JSON names.
     pub fn few_places(&self) -> &[Position] {
         &self.places[..self.places.len().min(Self::FEW_PLACES)]
     }
@@ -147,19 +176,24 @@ impl Diagnostic {
         }
     }
 
-    /// Part and position of each occurrence that is known, as far as it has them.
-    pub fn occurrences(&self) -> impl ExactSizeIterator<Item = (Option<Subject>, Option<Position>)> {
-        let (subjects, places) = (&self.subjects, &self.places);
+    /// When and on which bone the first occurrence is, as far as that is known.
+    pub fn moment(&self) -> Moment {
+        self.moments.first().copied().unwrap_or_default()
+    }
+
+    /// Part, position and moment of each occurrence that is known, as far as it has them.
+    pub fn occurrences(&self) -> impl ExactSizeIterator<Item = (Option<Subject>, Option<Position>, Moment)> {
+        let (subjects, places, moments) = (&self.subjects, &self.places, &self.moments);
         // Rows of one part share that part. Parts of which only some have a line cannot be told which.
         let (one_part, are_pairs) = (subjects.len() <= 1, subjects.len() == places.len());
-        (0..subjects.len().max(places.len())).map(move |index| {
+        (0..subjects.len().max(places.len()).max(moments.len())).map(move |index| {
             let subject = if one_part {
                 self.subject
             } else {
                 subjects.get(index).copied()
             };
             let place = places.get(index).filter(|_| one_part || are_pairs);
-            (subject, place.copied())
+            (subject, place.copied(), moments.get(index).copied().unwrap_or_default())
         })
     }
 }
@@ -179,12 +213,41 @@ pub struct Code {
     pub handling: &'static str,
     /// How to mend it for good: in the exporter, where a file is at fault.
     pub mending: &'static str,
+    /// Whether it is mended here, so that an export is without it.
+    pub mended: Mended,
+}
+
+/// Whether Bindpose mends what a code names, and when. The file itself is never changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mended {
+    /// It is not mended.
+    No,
+    /// On reading: every export is without it.
+    OnReading,
+    /// On writing, with `--fix`.
+    WithFix,
+    /// On writing what the books' demo is to show.
+    ForBook,
 }
 
 impl Code {
     /// What it means and how to mend it, for outputs that have one text for both.
     pub fn help(&self) -> String {
         format!("{} {}", self.explanation, self.mending)
+    }
+
+    /// How to keep what is mended, or can be; `None` where nothing is.
+    pub fn permanent(&self) -> Option<&'static str> {
+        match self.mended {
+            Mended::No => None,
+            Mended::OnReading => {
+                Some("The file itself is unchanged. Export, or `bindpose convert IN OUT`, writes it mended.")
+            }
+            Mended::WithFix => Some("The file itself is unchanged. `bindpose convert IN OUT --fix` writes it mended."),
+            Mended::ForBook => Some(
+                "The file itself is unchanged. Export for the book's demo, or `bindpose convert IN OUT.m3d --for-book`, writes it mended.",
+            ),
+        }
     }
 
     /// A diagnostic of this code with its usual severity, without a place and without a subject.
@@ -203,6 +266,7 @@ impl Code {
             count: 1,
             places: Vec::new(),
             subjects: Vec::new(),
+            moments: Vec::new(),
         }
     }
 }

@@ -7,11 +7,11 @@ use crate::diagnostic::Position;
 
 /// A place in the bytes. Copying it is how a reader looks ahead.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cursor<'a> {
-    pub(super) bytes: &'a [u8],
-    pub(super) at: usize,
-    pub(super) line: u32,
-    pub(super) line_start: usize,
+pub(crate) struct Cursor<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) at: usize,
+    pub(crate) line: u32,
+    pub(crate) line_start: usize,
 }
 
 /// A run of bytes without blanks or braces (or one brace), and where it stands.
@@ -66,7 +66,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Line and column of the next byte.
-    pub(super) fn position(&self) -> Position {
+    pub(crate) fn position(&self) -> Position {
         Position {
             line: self.line,
             column: column(self.at - self.line_start),
@@ -74,7 +74,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes blanks and line ends. A carriage return without a line feed ends a line too.
-    pub(super) fn skip_space(&mut self) {
+    pub(crate) fn skip_space(&mut self) {
         while let Some(byte) = self.peek() {
             match byte {
                 b'\n' => self.end_line(1),

@@ -157,8 +157,8 @@ pub struct LineMap {
     pub subsets: Vec<u32>,
     /// First line of each vertex.
     pub vertices: Vec<u32>,
-    /// The vertices whose tangent is not on the line after the first, in order, and its line.
-    pub tangents_apart: Vec<(u32, u32)>,
+    /// The vertices whose fields are not on lines that follow one another, in order, and the line of each field.
+    pub vertices_apart: Vec<(u32, [u32; 6])>,
     /// Line of each triangle.
     pub triangles: Vec<u32>,
     /// Line of each bone offset.
@@ -170,21 +170,40 @@ pub struct LineMap {
 }
 
 impl LineMap {
-    /// Line of each tangent.
-    pub fn tangent_lines(&self) -> Vec<u32> {
-        let mut lines: Vec<u32> = self.vertices.iter().map(|line| line + 1).collect();
-        for &(vertex, line) in &self.tangents_apart {
-            if let Some(of_tangent) = lines.get_mut(vertex as usize) {
-                *of_tangent = line;
+    /// Line of a field of each vertex.
+    pub fn vertex_lines(&self, field: VertexField) -> Vec<u32> {
+        let field = field as usize;
+        let mut lines: Vec<u32> = self.vertices.iter().map(|line| line + field as u32).collect();
+        for &(vertex, of_fields) in &self.vertices_apart {
+            if let Some(line) = lines.get_mut(vertex as usize) {
+                *line = of_fields[field];
             }
         }
         lines
+    }
+
+    /// Line of a bone's keys in a clip; of the clip when the bone has none.
+    pub fn track(&self, clip: u32, bone: u32) -> Option<u32> {
+        let lines = self.clips.get(clip as usize)?;
+        Some(lines.bones.get(bone as usize).copied().unwrap_or(lines.clip))
     }
 
     /// First line of each clip.
     pub fn clip_lines(&self) -> Vec<u32> {
         self.clips.iter().map(|lines| lines.clip).collect()
     }
+}
+
+/// The lines of a vertex, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "named as in the file")]
+pub enum VertexField {
+    Position,
+    Tangent,
+    Normal,
+    TexCoords,
+    BlendWeights,
+    BlendIndices,
 }
 
 /// Lines of one clip.
@@ -194,4 +213,27 @@ pub struct ClipLines {
     pub clip: u32,
     /// Line of each `Bone… #Keyframes`.
     pub bones: Vec<u32>,
+    /// The first key of each bone, and each key that is not on the line after the one before it.
+    pub key_runs: Vec<KeyRun>,
+}
+
+/// Keys of one bone on lines that follow one another, up to the next run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeyRun {
+    /// The bone's number.
+    pub bone: u32,
+    /// Number of the first key, from 0 for each bone.
+    pub key: u32,
+    /// Its line.
+    pub line: u32,
+}
+
+impl ClipLines {
+    /// Line of a key of a bone; of the bone itself when the key has none.
+    pub fn key(&self, bone: u32, key: u32) -> Option<u32> {
+        let behind = self.key_runs.partition_point(|run| (run.bone, run.key) <= (bone, key));
+        let run = self.key_runs[..behind].last().filter(|run| run.bone == bone);
+        run.map(|run| run.line + (key - run.key))
+            .or_else(|| self.bones.get(bone as usize).copied())
+    }
 }

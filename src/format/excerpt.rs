@@ -160,6 +160,11 @@ fn excerpt_from(bytes: &[u8], start: usize, first: u32, position: Position, leng
     if bytes.iter().take(HEAD).any(|&byte| byte == 0) {
         return in_hex(bytes, bytes.len() - ahead.len() + start, length as usize);
     }
+    let start = match line.text[start..].iter().position(|byte| !byte.is_ascii_whitespace()) {
+        // A whole row is meant: its first word is marked, not what stands before it.
+        Some(blanks) if length == 0 && line.text[..start].trim_ascii().is_empty() => start + blanks,
+        _ => start,
+    };
     let end = start.saturating_add(length as usize).min(line.text.len());
     let cut = if line.text.len() > LONGEST {
         start.saturating_sub(BEFORE_MARK)

@@ -44,11 +44,12 @@ mod kind;
 mod label;
 mod likeness;
 mod number;
-mod quick;
+pub(crate) mod quick;
 mod reader;
 mod sections;
 mod write;
 
+pub(crate) use cursor::Cursor;
 pub use document::*;
 pub use error::{ParseError, ParseErrorKind, Value};
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
@@ -112,7 +113,7 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
         materials: material_lines,
         subsets: subset_lines,
         vertices: vertices.lines,
-        tangents_apart: vertices.tangents_apart,
+        vertices_apart: vertices.apart,
         triangles: triangle_lines,
         ..LineMap::default()
     };

@@ -26,7 +26,7 @@ const SHORT: VertexLabels = [b"P:", b"T:", b"N:", b"T:", b"W:", b"I:"];
 
 /// Reads a vertex; with bones, its blend indices are below `bones`. Also gives the line of its position.
 #[inline]
-pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u32) -> Option<(Vertex, u32)> {
+pub(crate) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u32) -> Option<(Vertex, u32)> {
     let [position, tangent, normal, tex_coords, blend_weights, blend_indices] =
         const { if SHORT_LABELS { SHORT } else { LONG } };
     let mut ahead = *cursor;
@@ -59,7 +59,7 @@ pub(super) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
 
 /// Reads a triangle whose indices are below `vertices`. Also gives its line.
 #[inline]
-pub(super) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
+pub(crate) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
     let mut ahead = *cursor;
     let line = ahead.line;
     let triangle = ahead.indices_below(vertices)?;
@@ -69,7 +69,7 @@ pub(super) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 
 }
 
 /// Reads the sixteen numbers behind the label of a bone offset, and the end of their line.
-pub(super) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
+pub(crate) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
     let mut ahead = *cursor;
     let mut offset = [0.0; 16];
     for number in &mut offset {
@@ -80,11 +80,12 @@ pub(super) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
     Some(offset)
 }
 
-/// Reads a key on its line.
+/// Reads a key on its line. Also gives the line.
 #[inline]
-pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
+pub(crate) fn keyframe(cursor: &mut Cursor<'_>) -> Option<(Keyframe, u32)> {
     let mut ahead = *cursor;
     ahead.pass_empty_lines();
+    let line = ahead.line;
     ahead.label(b"Time:")?;
     let time_secs = ahead.number()?;
     ahead.label(b"Pos:")?;
@@ -95,20 +96,22 @@ pub(super) fn keyframe(cursor: &mut Cursor<'_>) -> Option<Keyframe> {
     let rotation = ahead.four()?;
     ahead.line_end()?;
     *cursor = ahead;
-    Some(Keyframe {
+    let keyframe = Keyframe {
         time_secs,
         translation,
         scale,
         rotation,
-    })
+    };
+    Some((keyframe, line))
 }
 
 impl Cursor<'_> {
-    /// Passes a label at the beginning of a line, or of a part of one.
+    /// Passes a label at the beginning of a line, or of a part of one. A blank follows it.
     #[inline(always)]
     fn label(&mut self, label: &[u8]) -> Option<()> {
         self.blanks();
-        self.literal(label)
+        self.literal(label)?;
+        matches!(self.bytes.get(self.at), Some(b' ' | b'\t')).then_some(())
     }
 
     // Written out instead of loops, whose ends the processor would have to guess.
@@ -185,7 +188,7 @@ impl Cursor<'_> {
     }
 
     #[inline(always)]
-    fn pass_empty_lines(&mut self) {
+    pub(crate) fn pass_empty_lines(&mut self) {
         while let Some(b'\n' | b'\r' | b' ' | b'\t') = self.bytes.get(self.at) {
             let before = *self;
             if self.line_end().is_none() {

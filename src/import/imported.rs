@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
-use crate::format::{Dialect, LineMap};
+use crate::format::{Dialect, Document, LineMap};
 use crate::model::Model;
 
 /// Why a file makes no model.
@@ -24,6 +24,8 @@ pub struct Imported {
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
+    /// What the file says, where it is of the books' format.
+    pub document: Option<Document>,
     /// Where its parts stand in the file; empty for a format without lines.
     pub lines: LineMap,
     /// Pictures inside the file, and those beside it that were given, as its materials name them.

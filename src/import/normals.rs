@@ -24,12 +24,12 @@ pub(super) fn at_unit_length(direction: Vec3) -> Vec3 {
 }
 
 /// Makes the normals of a mesh unit vectors. Those that are zero or not finite become the mean of the triangles around, weighted
-/// by their area; a vertex without such triangles gets +y. `vertex_lines` has the line of each vertex in the file; it may be
-/// empty.
+/// by their area; a vertex without such triangles gets +y. `lines` gives the line of each normal in the file, or none; it is asked only if
+/// there is something to tell.
 pub(super) fn mend_normals(
     mesh: &mut Mesh,
     handedness: Handedness,
-    vertex_lines: &[u32],
+    lines: impl FnOnce() -> Vec<u32>,
     diagnostics: &mut Diagnostics,
 ) {
     let mut missing = Tally::default();
@@ -41,7 +41,7 @@ pub(super) fn mend_normals(
     let computed = if missing.count > 0 {
         diagnostics.add(
             &codes::NORMALS_MISSING,
-            Place::of_rows(&missing, Subject::Vertex, vertex_lines),
+            Place::of_rows(&missing, Subject::Vertex, &lines()),
             format!(
                 "{} a normal that is zero or not finite; computed from the triangles.",
                 counted(missing.count, "vertex has", "vertices have")

@@ -61,6 +61,12 @@ impl Mesh {
         self.indices.len() / 3
     }
 
+    /// The vertices at the corners of a triangle, by its index. None if there is no such triangle.
+    pub fn triangle(&self, index: u32) -> Option<[u32; 3]> {
+        let start = (index as usize).checked_mul(3)?;
+        self.indices.get(start..)?.first_chunk().copied()
+    }
+
     /// Proves that positions are finite, that the streams of the vertices have one length, and that indices come in threes and
     /// name vertices that are there.
     ///

@@ -58,7 +58,7 @@ impl Session {
         }
     }
 
-    /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex with a little
+    /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex or triangle with a little
     /// around it; or those of the selected submesh. World space, as they are posed now.
     fn selected_points(&mut self) -> Vec<Vec3> {
         self.pose_vertices();
@@ -66,6 +66,7 @@ impl Session {
         let world_from_model = self.world_from_model();
         let joints = &self.selection.joints;
         let (joint, vertex) = (joints.selected(), joints.selected_vertex().copied());
+        let triangle = joints.selected_triangle();
         let mut points = Vec::new();
         if let Some(joint) = joint {
             let bones = self.bones().bones().iter().filter(|bone| bone.joint == joint);
@@ -83,9 +84,16 @@ impl Session {
                 of_joint.map(|(_, weight)| weight).sum::<f32>() >= 0.5
             });
             points.extend(moved.filter_map(|(vertex, _)| in_world(vertex)));
-        } else if let Some(place) = vertex.and_then(|vertex| in_world(vertex.vertex as usize)) {
-            let sides = Vec3::AXES.map(|axis| axis * around_vertex);
-            points.extend(sides.into_iter().flat_map(|side| [place - side, place + side]));
+        } else if let Some(vertex) = vertex {
+            let corners = triangle.and_then(|triangle| mesh.triangle(triangle));
+            for place in corners
+                .unwrap_or([vertex.vertex; 3])
+                .into_iter()
+                .filter_map(|corner| in_world(corner as usize))
+            {
+                let sides = Vec3::AXES.map(|axis| axis * around_vertex);
+                points.extend(sides.into_iter().flat_map(|side| [place - side, place + side]));
+            }
         } else if let Some(submesh) = submesh.and_then(|submesh| mesh.submeshes.get(submesh)) {
             let start = submesh.triangle_start as usize * 3;
             let corners = &mesh.indices[start..start + submesh.triangle_count as usize * 3];

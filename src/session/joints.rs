@@ -23,6 +23,8 @@ pub struct Joints {
 
     marked: MarkedJoints,
     vertex: Option<SelectedVertex>,
+    /// The selected vertex is a corner of it, and it was meant.
+    triangle: Option<u32>,
     folded: Vec<bool>,
     /// Something else stands out or is selected since the last [`Joints::take_redraw`].
     redraw: bool,
@@ -64,6 +66,11 @@ impl Joints {
         self.vertex.as_ref()
     }
 
+    /// The triangle that was selected. Its first corner is the selected vertex.
+    pub fn selected_triangle(&self) -> Option<u32> {
+        self.triangle
+    }
+
     /// Whether the branch of a joint is folded.
     pub fn is_folded(&self, joint: JointIndex) -> bool {
         self.folded.get(joint.index()) == Some(&true)
@@ -96,9 +103,10 @@ impl Joints {
             ..Self::default()
         };
         if keeps {
-            // The vertex goes: it belongs to the old file's mesh.
             self.marked = before.marked;
             self.folded = before.folded;
+            // In a mesh of another size a number means another vertex.
+            self.vertex = before.vertex.filter(|_| self.vertex_count == before.vertex_count);
         }
         keeps
     }
@@ -157,10 +165,21 @@ impl Joints {
 
     pub(super) fn select_vertex(&mut self, vertex: Option<SelectedVertex>) {
         let known = vertex.is_none_or(|vertex| (vertex.vertex as usize) < self.vertex_count);
-        if known && self.vertex != vertex {
+        if known && (self.vertex != vertex || self.triangle.is_some()) {
             self.vertex = vertex;
+            self.triangle = None;
             self.redraw = true;
         }
+    }
+
+    /// Selects a triangle and its first corner.
+    pub(super) fn select_triangle(&mut self, triangle: u32, first_corner: u32) {
+        self.select(None);
+        self.select_vertex(Some(SelectedVertex {
+            vertex: first_corner,
+            hit: None,
+        }));
+        self.triangle = Some(triangle);
     }
 
     /// Selects neither joint nor vertex.

@@ -251,9 +251,10 @@ impl LoadJob {
                 };
                 LoadStep::Working(Box::new(self))
             }
-            State::Verdicts(open) => {
+            State::Verdicts(mut open) => {
                 let verdicts = Verdicts::default();
                 verdicts.of(&open, &self.maps);
+                open.document = None;
                 self.state = State::Sky(open, verdicts);
                 LoadStep::Working(Box::new(self))
             }

@@ -9,7 +9,7 @@ use super::files::File;
 use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
 use crate::diagnostic::{Diagnostic, Position};
-use crate::format::{self, Excerpt};
+use crate::format::{self, Document, Excerpt};
 use crate::import::{FileFormat, Imported};
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
@@ -27,6 +27,8 @@ pub struct OpenModel {
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
+    /// What the file says, until the books' verdicts are worked out of it.
+    pub(super) document: Option<Document>,
     /// Box of the bind pose, in the file's space.
     pub bind_bounds: Aabb,
     /// The model's clips, compiled for sampling, in their order.
@@ -125,6 +127,7 @@ impl OpenModel {
             format,
             model,
             mut diagnostics,
+            document,
             lines,
             pictures,
         } = imported;
@@ -139,6 +142,7 @@ impl OpenModel {
                 .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)))
                 .collect(),
             diagnostics,
+            document,
             compiled,
             bind_bounds: model.bind_bounds(),
             at_rest: Extent {

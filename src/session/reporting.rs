@@ -14,11 +14,11 @@ impl Session {
             .map_or(&[], |open| self.content.verdicts.of(open, self.maps()))
     }
 
-    /// All that was found in the open file, as `bindpose check --book all` prints it; empty without a model.
+    /// All that was found in the open file, as `bindpose check --book all` prints it, and what the table of codes says of it; empty without a model.
     pub fn report(&self) -> String {
         let found = self.found();
         self.checked_file(&found)
-            .map_or_else(String::new, |file| report::text(&file, &report::plain))
+            .map_or_else(String::new, |file| report::text(&file, true, &report::plain))
     }
 
     /// The same as a SARIF document; `None` without a model.

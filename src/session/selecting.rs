@@ -36,6 +36,8 @@ pub enum JointCommand {
     HoverAt(Option<Vec2>),
     /// Selects a vertex by its number, or none.
     SelectVertex(Option<u32>),
+    /// Selects a triangle by its number in the file, with its first corner as the selected vertex.
+    SelectTriangle(u32),
     /// Folds or unfolds a branch of the tree.
     SetFolded {
         /// Its topmost joint.
@@ -260,6 +262,12 @@ impl Session {
             JointCommand::SelectVertex(vertex) => {
                 let vertex = vertex.map(|vertex| SelectedVertex { vertex, hit: None });
                 self.selection.joints.select_vertex(vertex);
+            }
+            JointCommand::SelectTriangle(triangle) => {
+                let corners = self.open_model().and_then(|open| open.model.mesh.triangle(triangle));
+                if let Some([first, ..]) = corners {
+                    self.selection.joints.select_triangle(triangle, first);
+                }
             }
             JointCommand::SetFolded { joint, folded } => self.selection.joints.set_folded(joint, folded),
             JointCommand::SetAllFolded(folded) => self.selection.joints.set_all_folded(folded),

@@ -1,5 +1,7 @@
 //! What there is to see and to read of the pose of now: the frame for a renderer, bones, names, numbers.
 
+use glam::Vec3;
+
 use super::skeleton_cache::{PlaceKey, SkinColorsKey};
 use super::view::View;
 use super::{Caches, Session};
@@ -156,6 +158,16 @@ impl Session {
         self.pose_now();
         let vertex = self.selection.joints.selected_vertex()?.vertex;
         explain_vertex(&self.content.open.as_ref()?.model, &self.actor.pose, vertex)
+    }
+
+    /// Where the corners of the selected triangle are in the pose of now, model space.
+    pub fn selected_corners(&mut self) -> Option<[Vec3; 3]> {
+        let triangle = self.selection.joints.selected_triangle()?;
+        self.pose_now();
+        let model = &self.content.open.as_ref()?.model;
+        let place = |vertex| Some(explain_vertex(model, &self.actor.pose, vertex)?.position);
+        let [a, b, c] = model.mesh.triangle(triangle)?;
+        Some([place(a)?, place(b)?, place(c)?])
     }
 
     /// What the colours of the skin depend on: the same key, the same colours. None while the skin is shown as it is. Weights are

@@ -95,6 +95,10 @@ pub struct Finding<'a> {
     pub byte_offset: Option<u64>,
     /// The part of the model that it is about, the first one of several.
     pub subject: Option<Part>,
+    /// When it is in the clip that it is about, in seconds of the clip's own time.
+    pub time_secs: Option<f32>,
+    /// The bone of that clip, by its number in the file.
+    pub bone: Option<u32>,
     /// How many alike things it tells of, 1 or more.
     pub count: u32,
     /// Where the first of them stand, at most [`Diagnostic::MOST_PLACES`]; empty when it is about the whole file.
@@ -241,6 +245,8 @@ impl<'a> From<&'a Diagnostic> for Finding<'a> {
             json_pointer: diagnostic.pointer.as_deref(),
             byte_offset: diagnostic.byte_offset,
             subject: diagnostic.subject.map(Part::from),
+            time_secs: diagnostic.moment().time_secs,
+            bone: diagnostic.moment().bone,
             count: diagnostic.count,
             places: diagnostic.few_places().iter().map(place).collect(),
         }

@@ -7,7 +7,7 @@ use super::open_model::OpenModel;
 use crate::check::book::{self, Book, Known, Verdict};
 use crate::format;
 
-/// The verdict of each book. [`LoadJob`](super::LoadJob) works them out in a step of its own, since the file is read three times more for them.
+/// The verdict of each book. [`LoadJob`](super::LoadJob) works them out in a step of its own, since each program reads the file anew.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Verdicts(OnceLock<Vec<Verdict>>);
 
@@ -20,9 +20,16 @@ impl Verdicts {
                 return Vec::new();
             }
             let bytes = &open.file.bytes;
-            let parsed = format::parse(bytes).ok();
+            let parsed = if open.document.is_some() {
+                None
+            } else {
+                format::parse(bytes).ok()
+            };
             let known = Known {
-                document: parsed.as_ref().map(|parsed| &parsed.document),
+                document: open
+                    .document
+                    .as_ref()
+                    .or(parsed.as_ref().map(|parsed| &parsed.document)),
                 handedness: Some(open.model.handedness),
                 // Without any picture nobody meant to bring maps.
                 missing_maps: (!maps.pictures().is_empty()).then_some(&maps.checklist().missing),

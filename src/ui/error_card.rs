@@ -1,14 +1,14 @@
 //! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
 
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, Align2, Color32, Id, Layout, Rangef, Rect, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align, Align2, Color32, Id, Layout, Rangef, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
 use super::icons::Icon;
 use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use super::widgets::{TextButton, control_size, push_button, rule};
 use super::wording::shortened;
-use crate::diagnostic::codes;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::format::Excerpt;
 use crate::session::{Command, FileCommand, LoadError, Session};
 
@@ -53,17 +53,19 @@ fn body(ui: &mut Ui, session: &Session, error: &LoadError) {
     ui.label(RichText::new(&error.diagnostic.message).color(tokens.text));
     if let Some(lines) = &error.excerpt {
         ui.add_space(9.0);
-        let place = error
-            .diagnostic
-            .position
-            .map(|p| format!("{}:{}:{}", error.file_name, p.line, p.column));
-        let expected = error
-            .diagnostic
-            .expected
-            .as_ref()
-            .map(|expected| format!("expected {expected}"));
-        let words = (place.unwrap_or_default(), expected.unwrap_or_default());
-        show_excerpt(ui, lines, Some((&words.0, &words.1)), tokens.error);
+        if let Some(at) = error.diagnostic.position {
+            let mut place = format!("{}:{}:{}", error.file_name, at.line, at.column);
+            if let Some(pointer) = &error.diagnostic.pointer {
+                place += &format!(" · {pointer}");
+            }
+            ui.label(RichText::new(place).color(tokens.muted).font(theme::mono(12.0)));
+            ui.add_space(4.0);
+        }
+        show_excerpt(ui, lines, tokens.error);
+    }
+    if let Some(expected) = expected_and_found(&error.diagnostic) {
+        ui.add_space(6.0);
+        ui.label(RichText::new(expected).color(tokens.text));
     }
     ui.add_space(9.0);
     let after = if session.open_model().is_some() {
@@ -71,25 +73,26 @@ fn body(ui: &mut Ui, session: &Session, error: &LoadError) {
     } else {
         "Nothing is open yet."
     };
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 12.0;
         ui.label(RichText::new(after).color(tokens.muted));
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(
-                RichText::new(error.diagnostic.code)
-                    .color(tokens.faint)
-                    .font(theme::mono(11.0)),
-            );
-        });
+        let code = RichText::new(error.diagnostic.code);
+        ui.label(code.color(tokens.faint).font(theme::mono(11.0)));
     });
 }
 
-/// Lines of a file, with a mark under the wrong part. The heading stands above the lines, what was expected beside the mark.
-pub(super) fn show_excerpt(
-    ui: &mut Ui,
-    excerpt: &Excerpt,
-    heading_and_expected: Option<(&str, &str)>,
-    mark_color: Color32,
-) {
+/// What was expected and found, in a sentence.
+pub(super) fn expected_and_found(diagnostic: &Diagnostic) -> Option<String> {
+    match (&diagnostic.expected, &diagnostic.found) {
+        (Some(expected), Some(found)) => Some(format!("Expected {expected}, found {found}.")),
+        (Some(expected), None) => Some(format!("Expected {expected}.")),
+        (None, Some(found)) => Some(format!("Found {found}.")),
+        (None, None) => None,
+    }
+}
+
+/// Lines of a file, with a mark under the wrong part. Their numbers stay in view while the lines are scrolled.
+pub(super) fn show_excerpt(ui: &mut Ui, excerpt: &Excerpt, mark_color: Color32) {
     let tokens = Tokens::of(ui);
     let mono = |color| TextFormat {
         font_id: theme::mono(12.0),
@@ -97,58 +100,68 @@ pub(super) fn show_excerpt(
         line_height: Some(19.0),
         ..Default::default()
     };
-    let mut job = LayoutJob::default();
-    job.wrap.max_width = f32::INFINITY;
-    let (heading, expected) = heading_and_expected.unwrap_or_default();
-    if !heading.is_empty() {
-        job.append(&format!("{heading}\n"), 0.0, mono(tokens.muted));
-    }
+    let (mut numbers, mut text) = (LayoutJob::default(), LayoutJob::default());
+    text.wrap.max_width = f32::INFINITY;
     let last = excerpt.lines.len().saturating_sub(1);
     for (index, (number, line)) in excerpt.numbered_lines().enumerate() {
-        job.append(&format!("{number} | "), 0.0, mono(tokens.faint));
-        if index == last {
-            let (before, marked, after) = excerpt.marked_parts();
-            job.append(before, 0.0, mono(tokens.text));
-            job.append(marked, 0.0, mono(mark_color));
-            job.append(after, 0.0, mono(tokens.text));
-            let indent = " ".repeat(excerpt.mark_column as usize - 1);
-            let mark = "^".repeat(excerpt.mark_length as usize);
-            let number_width = number.len();
-            job.append(&format!("\n{:number_width$} | ", ""), 0.0, mono(tokens.faint));
-            job.append(&format!("{indent}{mark} {expected}\n"), 0.0, mono(mark_color));
-        } else {
-            job.append(&format!("{line}\n"), 0.0, mono(tokens.text));
+        let end = if index == last { "" } else { "\n" };
+        numbers.append(&format!("{number} |{end}"), 0.0, mono(tokens.faint));
+        if index < last {
+            text.append(&format!("{line}\n"), 0.0, mono(tokens.text));
+            continue;
         }
+        let (before, marked, after) = excerpt.marked_parts();
+        text.append(before, 0.0, mono(tokens.text));
+        text.append(marked, 0.0, mono(mark_color));
+        text.append(after, 0.0, mono(tokens.text));
+        let indent = " ".repeat(excerpt.mark_column as usize - 1);
+        let mark = "^".repeat(excerpt.mark_length as usize);
+        text.append(&format!("\n{indent}{mark}"), 0.0, mono(mark_color));
     }
-    let text = job.text.trim_end().len();
-    job.text.truncate(text);
-    if let Some(last) = job.sections.last_mut() {
-        last.byte_range.end = egui::text::ByteIndex(text);
-    }
-    egui::Frame::new()
+    let frame = egui::Frame::new()
         .fill(tokens.field)
         .corner_radius(CONTROL_RADIUS)
-        .inner_margin(10.0)
-        .show(ui, |ui| {
-            ui.take_available_width();
-            let mark = excerpt.mark_column as usize + excerpt.mark_length as usize;
-            let shown = Id::unique(("excerpt", &job.text));
-            let char_width = ui.fonts_mut(|fonts| fonts.glyph_width(&theme::mono(12.0), ' '));
-            ScrollArea::horizontal().id_salt("excerpt").show(ui, |ui| {
-                let label = ui.add(egui::Label::new(job).extend());
-                // The mark may be far to the right. It comes into view, and the person scrolls from there.
-                let passes: u8 = ui.data(|data| data.get_temp(shown)).unwrap_or_default();
-                if passes < 2 {
-                    ui.data_mut(|data| data.insert_temp(shown, passes + 1));
-                    let number = excerpt
-                        .numbered_lines()
-                        .last()
-                        .map_or(0, |(number, _)| number.len() + 3);
-                    let x = label.rect.min.x + char_width * (number + mark) as f32;
-                    let around =
-                        Rect::from_x_y_ranges(x - 8.0 * char_width..=x + 4.0 * char_width, label.rect.y_range());
-                    ui.scroll_to_rect(around, None);
-                }
-            });
+        .inner_margin(10.0);
+    frame.show(ui, |ui| {
+        ui.take_available_width();
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = ui.fonts_mut(|fonts| fonts.glyph_width(&theme::mono(12.0), ' '));
+            let words = spoken(&numbers.text, &text.text);
+            let numbers = ui.fonts_mut(|fonts| fonts.layout_job(numbers));
+            let (rect, _) = ui.allocate_exact_size(numbers.size(), Sense::hover());
+            ui.painter().galley(rect.min, numbers, tokens.faint);
+            lines(ui, excerpt, text, &words);
         });
+    });
+}
+
+/// Numbers and lines in one text, as it is copied and read aloud.
+fn spoken(numbers: &str, lines: &str) -> String {
+    let numbers: Vec<&str> = numbers.lines().collect();
+    let width = numbers.last().map_or(0, |number| number.len());
+    let mut words = String::new();
+    for (index, line) in lines.lines().enumerate() {
+        let number = numbers.get(index).copied().unwrap_or("|");
+        words += &format!("{number:>width$} {line}\n");
+    }
+    words.truncate(words.trim_end().len());
+    words
+}
+
+/// The lines, scrolled so that the mark is in view. The person scrolls from there.
+fn lines(ui: &mut Ui, excerpt: &Excerpt, text: LayoutJob, words: &str) {
+    let char_width = ui.spacing().item_spacing.x;
+    let shown = Id::unique(("excerpt", &text.text));
+    ScrollArea::horizontal().id_salt("excerpt").show(ui, |ui| {
+        let label = ui.add(egui::Label::new(text).extend());
+        label.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+        let passes: u8 = ui.data(|data| data.get_temp(shown)).unwrap_or_default();
+        if passes < 2 {
+            ui.data_mut(|data| data.insert_temp(shown, passes + 1));
+            let mark = excerpt.mark_column as usize + excerpt.mark_length as usize;
+            let x = label.rect.min.x + char_width * mark as f32;
+            let around = Rect::from_x_y_ranges(x - 8.0 * char_width..=x + 4.0 * char_width, label.rect.y_range());
+            ui.scroll_to_rect(around, None);
+        }
+    });
 }

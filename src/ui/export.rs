@@ -321,6 +321,13 @@ pub(super) fn ask(state: &mut UiState, is_wide: bool) {
     state.sheet = (!shown).then_some(SheetPage::Export);
 }
 
+/// Opens it, where it is not open yet.
+pub(super) fn open(state: &mut UiState, is_wide: bool) {
+    if is_wide || state.sheet != Some(SheetPage::Export) {
+        ask(state, is_wide);
+    }
+}
+
 /// Ends what is planned when it was shut. What is being written goes on, unless Esc shut it.
 pub(super) fn settle(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if std::mem::take(&mut state.export.shown) {

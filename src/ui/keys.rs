@@ -3,6 +3,7 @@
 use egui::{Event, Key, Modifiers, Ui};
 
 use super::export;
+use super::findings;
 use super::layout;
 use super::state::UiState;
 use super::viewport::{self, FLIGHT_KEYS};
@@ -117,6 +118,7 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, session: &Session, state: &mut UiStat
         Ask::NameBone => state.skeleton.rename_selected(ui, session),
         Ask::ReadAgain => state.read_again(),
         Ask::SavePicture { transparent } => state.save_picture(ui, transparent),
+        Ask::Findings => findings::toggle(state, layout::is_wide(ui.max_rect())),
         Ask::Export => export::ask(state, layout::is_wide(ui.max_rect())),
     }
 }

@@ -12,7 +12,7 @@ use super::sheet::Heights;
 use super::skeleton::state::{SidePage, has_joints, is_inspected};
 use super::skeleton::{self, LegendShape};
 use super::state::{SheetPage, UiState};
-use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH};
+use super::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH, Tokens};
 use super::widgets::TextButton;
 use super::wording::grouped;
 use super::{
@@ -20,6 +20,7 @@ use super::{
     widgets,
 };
 use crate::actions;
+use crate::diagnostic::Severity;
 use crate::session::{Command, LoadError, Session};
 
 /// Width of the panel on the left.
@@ -40,6 +41,8 @@ const MOST_BESIDE: f32 = 560.0;
 const FIGURE_REACH: f32 = 80.0;
 /// The least width beside the diagnostics in which something of a model is seen.
 const LEAST_BESIDE_DIAGNOSTICS: f32 = 200.0;
+/// The least height of the room in which the button to frame the model stands.
+const LEAST_WITH_FRAME: f32 = 64.0;
 /// The least width of the selection's name, and the room that it leaves to the button that frames.
 const LEAST_SELECTION: f32 = 88.0;
 const BESIDE_SELECTION: f32 = 110.0;
@@ -253,7 +256,7 @@ fn narrow(
     frame_button(ui, session, state, &free, commands);
     let room = free.room();
     let room = beside_card.map_or(room, |card| room.with_min_x(card.max.x + MARGIN));
-    selection_button(ui, session, state, room);
+    shortcuts(ui, session, state, room);
     free
 }
 
@@ -467,7 +470,7 @@ fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, com
 
 /// Offers to frame the model after the camera was moved by hand and the panels changed: the camera does not move by itself then.
 fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, commands: &mut Vec<Command>) {
-    if !state.offers_frame {
+    if !state.offers_frame || free.room().height() < LEAST_WITH_FRAME {
         return;
     }
     Panel::new("frame", "Frame", Align2::RIGHT_BOTTOM)
@@ -481,26 +484,45 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
         });
 }
 
-/// Names what is selected while the sheet is shut, and opens its inspector. A message takes its place.
-fn selection_button(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
+/// While the sheet is shut: how many findings there are, if they are more than notes, and what is selected. Each opens its page. A message takes
+/// their place.
+fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
+    if state.sheet.is_some() || state.messages.is_shown() {
+        return;
+    }
     let joints = session.joints();
     let submesh = session.submeshes().selected();
     let name = joints.selected().map(|joint| session.joint_label(joint));
     let name = name.or_else(|| Some(format!("Vertex {}", grouped(joints.selected_vertex()?.vertex as usize))));
     let name = name.or_else(|| Some(session.submesh_name(submesh?).to_owned()));
-    let Some(name) = name.filter(|_| state.sheet.is_none() && !state.messages.is_shown()) else {
+    let is_told = session.open_model().is_some()
+        && session
+            .diagnostics()
+            .any(|diagnostic| diagnostic.severity > Severity::Note);
+    if name.is_none() && !is_told {
         return;
-    };
-    Panel::new("selection", "Selection", Align2::LEFT_BOTTOM)
+    }
+    Panel::new("shortcuts", "Findings and selection", Align2::LEFT_BOTTOM)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
-            let label = format!("Show {name}");
-            let most = (room.width() - BESIDE_SELECTION).max(LEAST_SELECTION);
-            let width = Rangef::new(LEAST_SELECTION, most);
-            if TextButton::new(&name, &label).width(width).show(ui).clicked() {
-                state.diagnostics_open = false;
-                state.sheet = Some(SheetPage::Model);
-            }
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
+                if is_told {
+                    let (count, color) = model_panel::summary(session, &Tokens::of(ui));
+                    if toolbar::findings_chip(ui, false, &count, color) {
+                        state.diagnostics_open = true;
+                        state.sheet = Some(SheetPage::Model);
+                    }
+                }
+                let Some(name) = name else { return };
+                let label = format!("Show {name}");
+                let most = (room.width() - BESIDE_SELECTION - ui.min_rect().width()).max(LEAST_SELECTION);
+                let width = Rangef::new(LEAST_SELECTION, most);
+                if TextButton::new(&name, &label).width(width).show(ui).clicked() {
+                    state.diagnostics_open = false;
+                    state.sheet = Some(SheetPage::Model);
+                }
+            });
         });
 }
 

@@ -46,7 +46,6 @@ pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCommand};
-use findings::state::FindingsState;
 use input::{Grip, InputOrder, MOST_PASSES};
 use state::Framed;
 use theme::MARGIN;
@@ -73,8 +72,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.focus.begin(ui.ctx());
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
-        state.findings = FindingsState::default();
-        state.diagnostics_open = false;
+        state.show_findings_of(session);
         state.maps_open = false;
         tell_of_drop(session, state);
     }
@@ -104,6 +102,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.timeline.update(session);
     state.offers_frame &= !session.is_framed() && session.open_model().is_some();
     let (mut free, uncovered) = layout::show(ui, session, state, &mut commands);
+    if std::mem::take(&mut state.wants_export) {
+        export::open(state, layout::is_wide(window));
+    }
     export::settle(ui, session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
     if let Some(bottom) = chips::show(ui, session, uncovered, &mut commands)

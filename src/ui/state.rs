@@ -123,12 +123,16 @@ pub struct UiState {
     /// What was selected in this pass will be framed in the next.
     pub(super) frames_selection: bool,
     pub(super) shown_model: u64,
+    /// The name of its file.
+    pub(super) shown_file: Option<String>,
     pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,
     pub(super) picture: PictureChoice,
     /// The contact sheet that is being drawn.
     pub(super) drawn_sheet: Option<DrawnSheet>,
     pub(super) export: ExportChoice,
+    /// A finding asked for the panel that exports.
+    pub(super) wants_export: bool,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,
@@ -162,6 +166,18 @@ impl UiState {
         self.skeleton.show_page(session, SidePage::Skeleton);
         self.diagnostics_open = false;
         self.sheet = Some(SheetPage::Skeleton);
+    }
+
+    /// The model is another one. Findings of the same file stay open.
+    pub(super) fn show_findings_of(&mut self, session: &Session) {
+        let file = session.open_model().map(|open| open.file.base_name().to_owned());
+        if self.shown_file == file {
+            self.findings.find_again(session);
+        } else {
+            self.shown_file = file;
+            self.findings = FindingsState::default();
+            self.diagnostics_open = false;
+        }
     }
 
     pub(super) fn read_again(&mut self) {

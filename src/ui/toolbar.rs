@@ -346,7 +346,9 @@ pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>,
             chip(ui, dialect, tokens.muted);
         }
         if let Some(state) = findings {
-            findings_chip(ui, state, &count, color);
+            if findings_chip(ui, state.diagnostics_open, &count, color) {
+                state.diagnostics_open = !state.diagnostics_open;
+            }
         }
     });
 }
@@ -386,12 +388,10 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
     });
 }
 
-/// How many findings there are. It opens their list.
-fn findings_chip(ui: &mut Ui, state: &mut UiState, count: &str, color: Color32) {
-    let response = pressed_chip(ui, count, color, state.diagnostics_open);
-    let label = format!("Show {count}");
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &label));
-    if response.on_hover_text("What was found in the file").clicked() {
-        state.diagnostics_open = !state.diagnostics_open;
-    }
+/// How many findings there are. Returns whether the person wants to see or to hide them.
+pub(super) fn findings_chip(ui: &mut Ui, is_open: bool, count: &str, color: Color32) -> bool {
+    let response = pressed_chip(ui, count, color, is_open);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_open, format!("Show {count}")));
+    let hint = actions::FINDINGS.hint_of("What was found in the file");
+    response.on_hover_text(hint).clicked()
 }

@@ -4,8 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use bindpose::diagnostic::{Code, Severity, codes};
+use bindpose::diagnostic::{Code, Mended, Severity, codes};
 use serde_json::Value;
 
 use crate::program::{bindpose, run_command};
@@ -140,25 +141,33 @@ fn fixtures() -> (BTreeSet<String>, BTreeSet<String>) {
     )
 }
 
+/// The model that gives a code.
+fn fixture(code: &str) -> PathBuf {
+    let names = EXTENSIONS.map(|extension| format!("{code}.{extension}"));
+    let mut paths = names.into_iter().map(|name| folder().join(name));
+    paths.find(|path| path.is_file()).expect("its fixture")
+}
+
+/// `check` of a file for a code, with the book where the code is one of books.
+fn check_of(code: &str, path: &Path) -> Command {
+    let mut command = bindpose();
+    command.current_dir(folder()).arg("check").arg(path);
+    if code.starts_with("book-") {
+        command.args(["--book", "d3d12"]);
+    }
+    command
+}
+
 /// Runs `check` on the fixture of a code.
 fn check(code: &str, format: &str) -> String {
-    let mut command = bindpose();
-    command.current_dir(folder()).args(["check", "--format", format]);
-    if fixtures().1.contains(code) {
-        command.args(["--textures", &format!("textures/{code}"), "textures/model.m3d"]);
+    let mut command = if fixtures().1.contains(code) {
+        let mut command = check_of(code, Path::new("textures/model.m3d"));
+        command.args(["--textures", &format!("textures/{code}")]);
+        command
     } else {
-        if code.starts_with("book-") {
-            command.args(["--book", "d3d12"]);
-        }
-        let names = EXTENSIONS.map(|extension| format!("{code}.{extension}"));
-        command.arg(
-            names
-                .into_iter()
-                .find(|name| folder().join(name).is_file())
-                .expect("its fixture"),
-        );
-    }
-    let run = run_command(&mut command);
+        check_of(code, Path::new(fixture(code).file_name().expect("a file")))
+    };
+    let run = run_command(command.args(["--format", format]));
     assert_eq!(run.err, "", "{code}");
     run.out
 }
@@ -210,6 +219,54 @@ fn each_fixture_gives_its_code_and_no_other_in_the_words_beside_it() {
         }
         let beside = if pictures.contains(code) { "textures" } else { "" };
         compare(&folder().join(beside).join(format!("{code}.txt")), &check(code, "text"));
+    }
+}
+
+#[test]
+fn what_is_said_to_be_mended_in_an_export_is_not_found_there() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mended");
+    std::fs::create_dir_all(&folder).expect("can be made");
+    for code in fixtures().0.iter().filter_map(|name| codes::named(name)) {
+        let (option, outputs): (_, &[&str]) = match code.mended {
+            Mended::No => continue,
+            Mended::OnReading => (None, &["m3d", "glb"]),
+            Mended::WithFix => (Some("--fix"), &["m3d", "glb"]),
+            Mended::ForBook => (Some("--for-book"), &["m3d"]),
+        };
+        for output in outputs {
+            let out = folder.join(format!("{}.{output}", code.name));
+            let run = run_command(bindpose().arg("convert").arg(fixture(code.name)).arg(&out).args(option));
+            assert_eq!(run.code, Some(0), "{}: {}", code.name, run.err);
+            let run = run_command(&mut check_of(code.name, &out));
+            assert!(!run.out.contains(&format!("[{}]", code.name)), "{}", run.out);
+            assert!(!run.out.contains(&format!("   = {}: ", code.name)), "{}", run.out);
+        }
+        let permanent = code.permanent().expect("a sentence");
+        assert!(option.is_none_or(|option| permanent.contains(option)), "{permanent}");
+    }
+}
+
+#[test]
+fn findings_about_keys_say_when_and_on_which_bone() {
+    let bone = Some(1);
+    for (code, time_secs, bone) in [
+        ("exploded", Some(0.0), None),
+        ("keys-all-equal", None, Some(0)),
+        ("keys-at-equal-times", Some(0.0), bone),
+        ("keys-not-finite", None, bone),
+        ("keys-not-sorted", Some(0.0), bone),
+        ("loop-jumps", Some(4.0), bone),
+        ("pose-overflows", Some(1.0), bone),
+        ("rotation-not-unit", Some(1.0), bone),
+        ("rotation-side", Some(1.0), bone),
+        ("rotation-zero", Some(1.0), bone),
+        ("scale-shears", Some(1.0), bone),
+        ("track-empty", None, bone),
+    ] {
+        let files: Value = serde_json::from_str(&check(code, "json")).expect("is JSON");
+        let finding = &files[0]["findings"][0];
+        assert_eq!(finding["time_secs"].as_f64(), time_secs, "{finding}");
+        assert_eq!(finding["bone"].as_u64(), bone, "{finding}");
     }
 }
 
@@ -313,18 +370,24 @@ fn article(page: &mut String, code: &Code) {
         explanation,
         handling,
         mending,
+        mended: _,
     } = *code;
     let dot = match severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
         Severity::Note => "note",
     };
+    let permanent = code
+        .permanent()
+        .map(|sentence| format!("<dt>To keep it mended</dt><dd>{}</dd>\n", html(sentence)))
+        .unwrap_or_default();
     let [sentence, explanation, handling, mending] = [sentence, explanation, handling, mending].map(html);
     write!(
         page,
         "<article id=\"{name}\">\n<h3><a href=\"#{name}\">{name}</a> <span class=\"{dot}\">{severity}</span></h3>\n\
          <p>{sentence}</p>\n<dl>\n<dt>Means</dt><dd>{explanation}</dd>\n<dt>Bindpose</dt><dd>{handling}</dd>\n\
-         <dt>To mend it</dt><dd>{mending}</dd>\n</dl>\n{}</article>\n",
+         <dt>To mend it</dt><dd>{mending}</dd>\n{}</dl>\n{}</article>\n",
+        permanent,
         example(name)
     )
     .expect("a string");
@@ -336,7 +399,10 @@ fn example(code: &str) -> String {
         return format!("<p class=\"none\">{}</p>\n", html(why));
     }
     let text = check(code, "text");
-    format!("<pre>{}</pre>\n", escaped(text.trim_end()))
+    // How to keep it mended stands above.
+    let ends = codes::all().filter_map(Code::permanent).collect::<BTreeSet<_>>();
+    let lines = text.lines().filter(|line| !ends.iter().any(|end| line.ends_with(end)));
+    format!("<pre>{}</pre>\n", escaped(&lines.collect::<Vec<_>>().join("\n")))
 }
 
 /// Text of the table: what stands between backticks is code.

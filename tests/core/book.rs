@@ -147,6 +147,73 @@ proptest! {
     }
 }
 
+/// The same words in the same places, in lines that end in a blank which only `>>` takes for one: no row is read as a whole then, but each
+/// word by itself.
+fn word_by_word(text: &[u8]) -> Vec<u8> {
+    let mut words = Vec::with_capacity(text.len() * 2);
+    for (index, &byte) in text.iter().enumerate() {
+        let ends_line = match byte {
+            b'\n' => index == 0 || text[index - 1] != b'\r',
+            b'\r' => text.get(index + 1) == Some(&b'\n'),
+            _ => false,
+        };
+        words.extend(ends_line.then_some(0x0B));
+        words.push(byte);
+    }
+    words
+}
+
+/// Puts something else in some places of a text.
+fn damaged(text: &str, damage: &[(usize, &str)]) -> Vec<u8> {
+    let mut bytes = text.as_bytes().to_vec();
+    for &(place, other) in damage {
+        let place = place % bytes.len();
+        bytes.splice(place..=place, other.bytes());
+    }
+    bytes
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn rows_that_are_read_as_a_whole_are_read_as_word_by_word(
+        document in written_documents(),
+        damage in prop::collection::vec((any::<usize>(), prop::sample::select(vec![
+            "", " ", "\t", "\n", "\r\n", "\r", "\n\n", "0", "-", ".", ",5", ":", "x", "e9", "e-60", "nan", " 7", " 70000 ", "{", "}", "Normal:",
+        ])), 0..4),
+    ) {
+        let bytes = damaged(&write(&document), &damage);
+        let plain = word_by_word(&bytes);
+        for book in Book::ALL {
+            let (quick, plain) = (read(book, &bytes), read(book, &plain));
+            prop_assert_eq!(quick.stop, plain.stop);
+            prop_assert_eq!(quick.mistake, plain.mistake);
+            prop_assert_eq!(quick.counts, plain.counts);
+            prop_assert_eq!(quick.document, plain.document);
+        }
+    }
+}
+
+#[test]
+fn rows_of_fixtures_and_real_files_are_read_as_word_by_word() {
+    let of_fixtures = ["good", "bad"]
+        .into_iter()
+        .flat_map(fixtures)
+        .map(|fixture| fixture.bytes);
+    let real = REAL_FILES
+        .iter()
+        .filter_map(|name| shared_bytes(&format!("models/{name}.m3d")));
+    for bytes in of_fixtures.chain(real) {
+        let plain = word_by_word(&bytes);
+        for book in Book::ALL {
+            let (quick, plain) = (read(book, &bytes), read(book, &plain));
+            assert_eq!((quick.stop, quick.mistake), (plain.stop, plain.mistake));
+            assert!(quick.document == plain.document && quick.counts == plain.counts);
+        }
+    }
+}
+
 #[test]
 fn real_files_are_read_by_the_loader_of_their_book() {
     for name in REAL_FILES {

@@ -1,6 +1,6 @@
 //! The list of findings: a click goes to what a finding is about, and opens its lines.
 
-use bindpose::diagnostic::Subject;
+use bindpose::diagnostic::{Subject, codes};
 use bindpose::format::{Document, Subset};
 use bindpose::model::JointIndex;
 use bindpose::session::{File, FileCommand, JointCommand, PlayCommand, SubmeshCommand};
@@ -16,7 +16,7 @@ use crate::skeleton::selected;
 
 /// A finding about each kind of part: a material that two subsets could mean, a subset of too many triangles, a vertex whose
 /// weights are half of what they should be, a bone whose offset is not affine, a clip without keys of a bone; and a triangle
-/// that is in no subset, about which no part can be shown.
+/// that is in no subset.
 fn faulty() -> Document {
     let mut document = models::skinned(&models::CLIPS);
     document.materials.push(document.materials[0].clone());
@@ -59,6 +59,11 @@ fn opened() -> Window {
     window
 }
 
+/// Whether a finding whose row begins so is listed.
+fn lists(window: &Window, row: &str) -> bool {
+    !window.named(|name| name.starts_with(row)).is_empty()
+}
+
 /// Whether lines of the file are shown.
 fn shows_lines(window: &Window) -> bool {
     !window
@@ -96,8 +101,8 @@ fn a_finding_about_a_bone_leads_to_the_bone_in_view_tree_and_inspector() {
         (Some(JointIndex(1)), None)
     );
     assert!(
-        window.session().look().bones_visible,
-        "a bone is seen where bones are drawn"
+        !window.session().look().bones_visible,
+        "the bone alone is drawn; what the person chose stays"
     );
     assert!(window.shows("Selected: Bone 1") && window.shows("Search bones"));
     assert!(
@@ -167,11 +172,12 @@ fn a_finding_about_a_clip_shows_the_clip() {
     assert_eq!(window.session().clip_index(), Some(0));
     window.click(OF_CLIP);
     assert_eq!(window.session().clip_index(), Some(2));
-    assert!(window.shows("Clip Still") && shows_lines(&window));
-    assert_eq!(
-        *window.session().camera(),
-        before,
-        "nothing is selected, nothing is framed"
+    assert!(window.shows("Clip Still, Bone 1") || window.shows("Selected: Bone 1"));
+    assert!(shows_lines(&window));
+    assert_eq!(selected(&window), Some(1));
+    assert!(
+        window.session().camera().distance < before.distance,
+        "the bone is framed"
     );
     window.apply(PlayCommand::SelectClip(1));
     window.click(OF_CLIP);
@@ -184,28 +190,136 @@ fn a_finding_about_a_clip_shows_the_clip() {
 }
 
 #[test]
-fn a_finding_about_a_triangle_leads_to_its_first_corner() {
+fn a_finding_about_a_triangle_shows_its_three_corners() {
     let mut window = opened();
     window.click(OF_TRIANGLE);
-    let corner = faulty().triangles[5][0];
-    let selected = window.session().joints().selected_vertex().map(|vertex| vertex.vertex);
-    assert_eq!(selected, Some(corner));
+    let triangle = faulty().triangles[5];
+    let joints = window.session().joints();
+    let selected = joints.selected_vertex().map(|vertex| vertex.vertex);
+    assert_eq!((selected, joints.selected_triangle()), (Some(triangle[0]), Some(5)));
+    let session = &mut window.harness.state_mut().session;
+    let corners = session.selected_corners().expect("it is selected");
+    let free = window.rect(OF_TRIANGLE).max.x..=window.rect("Selected: Vertex ").min.x;
+    for (corner, vertex) in corners.into_iter().zip(triangle) {
+        let session = &mut window.harness.state_mut().session;
+        let at = session.place_in_picture(corner).expect("in view").x;
+        let x = 0.5 * (at + 1.0) * WIDE.x;
+        assert!(free.contains(&x), "{x} {free:?}");
+        window.apply(JointCommand::SelectVertex(Some(vertex)));
+        let session = &mut window.harness.state_mut().session;
+        assert_eq!(session.explain_vertex().expect("selected").position, corner);
+    }
+    assert_eq!(
+        window.session().joints().selected_triangle(),
+        None,
+        "a vertex takes its place"
+    );
     let to_parts = window.named(|name| name.contains("\nGo to "));
     let words: Vec<&str> = to_parts
         .iter()
         .filter_map(|(name, _)| Some(name.rsplit_once("Go to ")?.1))
         .collect();
-    assert_eq!(words.len(), 6, "{words:?}");
-    for wanted in [
-        "Material Painted (2)",
+    // The worst first, and those as bad in the order of the file.
+    let wanted = [
         "Subset 1",
         "Vertex 5",
         "Triangle 5",
         "Bone 1",
-        "Clip Still",
-    ] {
-        assert!(words.contains(&wanted), "{wanted} {words:?}");
+        "Clip Still, Bone 1",
+        "Material Painted (2)",
+    ];
+    assert_eq!(words, wanted);
+}
+
+#[test]
+fn a_finding_about_a_time_of_a_clip_pauses_there() {
+    let jumps = include_bytes!("../fixtures/check/loop-jumps.m3d").to_vec();
+    let mut window = window(WIDE, vec![File::new("jumps.m3d", jumps)]);
+    window.click("Findings: ");
+    window.apply(PlayCommand::Play);
+    let found = window.session().diagnostics().next().expect("it jumps").clone();
+    let moment = found.moment();
+    let (time_secs, bone) = (moment.time_secs.expect("at its end"), moment.bone.expect("of a bone"));
+    window.click("note loop-jumps: ");
+    let session = window.session();
+    assert_eq!(selected(&window), Some(bone));
+    assert!(!session.playback().is_playing());
+    assert_eq!(session.playback().time_secs(), time_secs);
+}
+
+#[test]
+fn a_file_that_is_read_again_keeps_findings_and_selection() {
+    let mut window = opened();
+    window.click(OF_VERTEX);
+    let selected = |window: &Window| window.session().joints().selected_vertex().map(|vertex| vertex.vertex);
+    assert!(shows_lines(&window) && selected(&window) == Some(5));
+    window.apply(FileCommand::Add(files()));
+    assert!(shows_lines(&window) && selected(&window) == Some(5));
+    // Where it was mended its row goes, and the others stay.
+    let mut mended = faulty();
+    mended.vertices[5].blend_weights = [0.5, 0.5, 0.0, 0.0];
+    window.apply(FileCommand::Add(vec![models::file("faulty.m3d", &mended)]));
+    assert!(!shows_lines(&window) && lists(&window, OF_BONE));
+    window.apply(FileCommand::Add(vec![models::file("another.m3d", &mended)]));
+    assert!(!window.harness.state().state.diagnostics_open);
+}
+
+#[test]
+fn what_was_mended_says_how_to_keep_it_and_leads_to_the_export() {
+    for mut window in [window(WIDE, files()), phone(files())] {
+        if window.shows("Model facts") {
+            window.click("Model facts");
+        }
+        window.click("Findings: ");
+        let words = "The file itself is unchanged. Export, or bindpose convert IN OUT, writes it mended.";
+        assert!(!window.shows(words));
+        window.click_anywhere(OF_VERTEX);
+        assert!(window.shows(words));
+        window.click_anywhere("Export the model as it is mended");
+        window.pass_on();
+        assert!(window.session().export().is_some(), "the panel plans it");
     }
+}
+
+#[test]
+fn a_phone_tells_of_warnings_before_anything_is_opened() {
+    let mut window = phone(files());
+    window.click("Show 5 warnings, 1 note");
+    assert!(lists(&window, OF_VERTEX));
+    window.click_anywhere(OF_VERTEX);
+    window.click("Close the sheet");
+    assert!(window.shows("Show Vertex 5"), "{:?}", window.widgets());
+    window.click("Show 5 warnings, 1 note");
+    assert!(lists(&window, OF_VERTEX));
+}
+
+#[test]
+fn a_key_shows_and_hides_the_findings() {
+    for mut window in [opened(), phone(files())] {
+        window.harness.state_mut().state.diagnostics_open = false;
+        window.pass_on();
+        assert!(!lists(&window, OF_VERTEX));
+        window.press(Modifiers::NONE, Key::D);
+        assert!(lists(&window, OF_VERTEX));
+        window.press(Modifiers::NONE, Key::D);
+        assert!(!lists(&window, OF_VERTEX));
+    }
+}
+
+#[test]
+fn a_finding_about_the_whole_file_leads_nowhere() {
+    let mut document = models::skinned(&models::CLIPS);
+    document.subsets.clear();
+    let mut window = window(WIDE, vec![models::file("whole.m3d", &document)]);
+    window.click("Findings: ");
+    let camera = *window.session().camera();
+    window.click("warning no-subsets: ");
+    assert!(window.shows(&codes::NO_SUBSETS.help()) && !shows_lines(&window));
+    let session = window.session();
+    assert_eq!((session.submeshes().selected(), selected(&window)), (None, None));
+    assert_eq!(*session.camera(), camera);
+    let leads = |name: &str| name.starts_with("warning no-subsets: ") && name.contains("Go to");
+    assert!(window.named(leads).is_empty());
 }
 
 #[test]
@@ -235,7 +349,7 @@ fn on_a_phone_the_view_above_the_list_goes_there_and_the_inspector_waits_below_i
     window.click("Findings: ");
     window.click_anywhere(OF_BONE);
     assert_eq!(selected(&window), Some(1));
-    assert!(window.session().look().bones_visible && shows_lines(&window));
+    assert!(shows_lines(&window));
     window.click("Close");
     assert!(window.shows("Selected: Bone 1"));
 }
@@ -337,7 +451,7 @@ fn the_search_looks_in_words_and_codes_and_esc_clears_it() {
 #[test]
 fn an_open_row_says_how_to_mend_it_and_leads_to_the_page_of_codes() {
     let mut window = opened();
-    let code = bindpose::diagnostic::codes::named("offset-not-affine").expect("it is in the table");
+    let code = codes::named("offset-not-affine").expect("it is in the table");
     assert!(!window.shows(&code.help()));
     window.click(OF_BONE);
     assert!(window.shows(&code.help()) && shows_lines(&window));
@@ -353,7 +467,7 @@ fn each_book_has_a_line_that_unfolds_to_what_one_sees_and_the_place() {
             window.click("Model facts");
         }
         window.click_anywhere("Books' programs: ");
-        let d3d11 = "D3D11 book: goes wrong at line 9, takes `Name:` for the label Ambient of material 0";
+        let d3d11 = "D3D11 book: ends with an error: it looks for a map without a name";
         assert!(window.shows(d3d11), "{:?}", window.widgets());
         assert!(!shows_lines(&window) && window.node(d3d11).data().is_expanded() == Some(false));
         window.click(d3d11);

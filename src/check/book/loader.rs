@@ -4,6 +4,7 @@
 use super::demo::Book;
 use super::row::Row;
 use super::stream::{Stream, Trouble};
+use crate::format::quick;
 use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
 
 /// What a loader made of a file.
@@ -83,8 +84,8 @@ pub fn read(book: Book, bytes: &[u8]) -> Reading {
     let counts = loader.header();
     loader.materials(counts.materials);
     loader.subsets(counts.materials);
-    loader.vertices(counts.vertices, counts.bones > 0);
-    loader.triangles(counts.triangles);
+    loader.vertices(counts.vertices, counts.bones);
+    loader.triangles(counts.triangles, counts.vertices);
     if counts.bones > 0 {
         loader.offsets(counts.bones);
         loader.hierarchy(counts.bones);
@@ -155,15 +156,26 @@ impl Loader<'_> {
         );
     }
 
-    fn vertices(&mut self, count: u32, skinned: bool) {
+    fn vertices(&mut self, count: u32, bones: u32) {
         self.stream.ruler("the vertices");
-        let read = |stream: &mut Stream<'_>, _| read_vertex(stream, skinned);
+        let read = |stream: &mut Stream<'_>, _| {
+            let quick = stream.quick(|cursor| quick::vertex::<false>(cursor, bones));
+            quick.map_or_else(|| read_vertex(stream, bones > 0), |(vertex, _)| vertex)
+        };
         self.rows(count, Row::Vertex, read, |document| &mut document.vertices);
     }
 
-    fn triangles(&mut self, count: u32) {
+    fn triangles(&mut self, count: u32, vertices: u32) {
         self.stream.ruler("the triangles");
-        let read = |stream: &mut Stream<'_>, _| [(); 3].map(|()| u32::from(stream.ushort("a vertex index")));
+        // Of a `USHORT`, and of vertices that are there, as nearly all are.
+        let end = vertices.min(1 << 16);
+        let read = |stream: &mut Stream<'_>, _| {
+            let quick = stream.quick(|cursor| quick::triangle(cursor, end));
+            quick.map_or_else(
+                || [(); 3].map(|()| u32::from(stream.ushort("a vertex index"))),
+                |(triangle, _)| triangle,
+            )
+        };
         self.rows(count, Row::Triangle, read, |document| &mut document.triangles);
     }
 
@@ -171,7 +183,7 @@ impl Loader<'_> {
         self.stream.ruler("the bone offsets");
         let read = |stream: &mut Stream<'_>, _| {
             stream.label("BoneOffset", &[]);
-            stream.floats("a number")
+            stream.quick(quick::offset).unwrap_or_else(|| stream.floats("a number"))
         };
         self.rows(count, Row::Offset, read, |document| &mut document.bone_offsets);
     }
@@ -210,7 +222,10 @@ impl Loader<'_> {
                 let mut keyframes = Vec::new();
                 for key in 0..keys {
                     stream.row = Row::Key { clip, bone, key };
-                    let keyframe = read_key(stream);
+                    let keyframe = match stream.quick(quick::keyframe) {
+                        Some((keyframe, _)) => keyframe,
+                        None => read_key(stream),
+                    };
                     if stream.has_failed() {
                         return;
                     }

@@ -8,6 +8,7 @@ use std::fmt;
 use super::number::{Misfit, float_length, whole};
 use super::row::Row;
 use crate::diagnostic::Position;
+use crate::format::Cursor;
 
 /// A run of bytes without blanks, and where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -51,10 +52,7 @@ pub struct Trouble {
 
 /// A file that is read with `>>`.
 pub(super) struct Stream<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    line: u32,
-    line_start: usize,
+    cursor: Cursor<'a>,
     /// What is being read, for messages.
     pub(super) row: Row,
     /// The read that failed.
@@ -66,10 +64,13 @@ pub(super) struct Stream<'a> {
 impl<'a> Stream<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self {
-            bytes,
-            at: 0,
-            line: 1,
-            line_start: 0,
+            // A byte order mark is a part of the first word.
+            cursor: Cursor {
+                bytes,
+                at: 0,
+                line: 1,
+                line_start: 0,
+            },
             row: Row::Header,
             stop: None,
             mistake: None,
@@ -84,6 +85,16 @@ impl<'a> Stream<'a> {
     /// The failed read, and the first mistake.
     pub(super) fn into_troubles(self) -> (Option<Trouble>, Option<Trouble>) {
         (self.stop, self.mistake)
+    }
+
+    /// Reads a row that is as the books' exporter writes it, which the quick reader of [`format`](crate::format) takes as `>>` does. `None` for
+    /// any other, and nothing is read then.
+    pub(super) fn quick<T>(&mut self, read: impl FnOnce(&mut Cursor<'a>) -> Option<T>) -> Option<T> {
+        if self.has_failed() {
+            return None;
+        }
+        self.cursor.pass_empty_lines();
+        read(&mut self.cursor)
     }
 
     /// Reads a word that nobody looks at: the line above a section.
@@ -154,30 +165,18 @@ impl<'a> Stream<'a> {
             self.fail(word, format!("The file ends where it reads {what}."));
             return None;
         }
-        self.at += word.text.len();
+        self.cursor.at += word.text.len();
         Some(word)
     }
 
     /// The word that comes next; empty at the end of the file.
     fn peek(&mut self) -> Word<'a> {
-        while let Some(&byte) = self.bytes.get(self.at)
-            && is_blank(byte)
-        {
-            self.at += 1;
-            if byte == b'\n' || (byte == b'\r' && self.bytes.get(self.at) != Some(&b'\n')) {
-                self.line += 1;
-                self.line_start = self.at;
-            }
-        }
-        let rest = &self.bytes[self.at..];
+        self.cursor.skip_space();
+        let rest = &self.cursor.bytes[self.cursor.at..];
         let length = rest.iter().position(|&byte| is_blank(byte)).unwrap_or(rest.len());
-        let column = u32::try_from(self.at - self.line_start + 1).unwrap_or(u32::MAX);
         Word {
             text: &rest[..length],
-            position: Position {
-                line: self.line,
-                column,
-            },
+            position: self.cursor.position(),
         }
     }
 
@@ -205,7 +204,7 @@ impl<'a> Stream<'a> {
         let row = self.row;
         match take(word.text) {
             Ok((length, value)) => {
-                self.at += length;
+                self.cursor.at += length;
                 return value;
             }
             Err(_) if word.text.is_empty() => self.fail(word, format!("The file ends where it reads {what} of {row}.")),

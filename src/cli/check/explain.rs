@@ -18,6 +18,9 @@ pub(super) fn explain(name: &str, out: &mut dyn Write) -> Result<(), Failure> {
     writeln!(out, "{}", code.explanation)?;
     writeln!(out, "Here: {}", code.handling)?;
     writeln!(out, "To mend it: {}", code.mending)?;
+    if let Some(permanent) = code.permanent() {
+        writeln!(out, "{permanent}")?;
+    }
     Ok(())
 }
 

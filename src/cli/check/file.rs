@@ -16,7 +16,6 @@ use crate::cli::failure::{Failure, Outcome};
 use crate::cli::textures::Folders;
 use crate::cli::{input, paths};
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
-use crate::format;
 use crate::import::{self, Imported};
 use crate::session::summary::{self, Finding};
 
@@ -98,9 +97,8 @@ fn verdicts(
         Some(WhichBooks::D3d12) => &[Book::D3d12],
         Some(WhichBooks::All) => &Book::ALL,
     };
-    let parsed = imported.and_then(|_| format::parse(bytes).ok());
     let known = Known {
-        document: parsed.as_ref().map(|parsed| &parsed.document),
+        document: imported.and_then(|imported| imported.document.as_ref()),
         handedness: imported.map(|imported| imported.model.handedness),
         missing_maps,
     };
@@ -121,15 +119,7 @@ struct Explained<'a> {
     #[serde(flatten)]
     finding: Finding<'a>,
     help: Option<String>,
-}
-
-impl<'a> From<&'a Diagnostic> for Explained<'a> {
-    fn from(diagnostic: &'a Diagnostic) -> Self {
-        Self {
-            finding: diagnostic.into(),
-            help: codes::named(diagnostic.code).map(Code::help),
-        }
-    }
+    permanent: Option<&'static str>,
 }
 
 impl Checked {
@@ -147,7 +137,7 @@ impl Checked {
     }
 
     pub(super) fn write(&self, out: &mut dyn Write, colors: Colors) -> io::Result<()> {
-        let text = report::text(&self.file(&self.path.to_string_lossy()), &|ink, text| {
+        let text = report::text(&self.file(&self.path.to_string_lossy()), false, &|ink, text| {
             colors.paint(ink, text)
         });
         out.write_all(text.as_bytes())
@@ -163,9 +153,25 @@ impl Checked {
     }
 
     pub(super) fn report(&self, books: Option<WhichBooks>) -> Report<'_> {
+        // A file that is not opened cannot be exported.
+        let is_opened = self
+            .diagnostics
+            .iter()
+            .all(|diagnostic| diagnostic.severity < Severity::Error);
         Report {
             file: self.path.display().to_string(),
-            findings: self.diagnostics.iter().map(Explained::from).collect(),
+            findings: self
+                .diagnostics
+                .iter()
+                .map(|diagnostic| {
+                    let code = codes::named(diagnostic.code);
+                    Explained {
+                        finding: diagnostic.into(),
+                        help: code.map(Code::help),
+                        permanent: code.filter(|_| is_opened).and_then(Code::permanent),
+                    }
+                })
+                .collect(),
             book: books.map(|_| summary::Books::of(&self.verdicts)),
         }
     }

@@ -72,6 +72,7 @@ Text:
   FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
+  Last stands how to write the file without what was mended, or can be.
   Of a folder every .m3d, .glb and .gltf file below it is read, by path. After several files comes a line with counts.
   --explain CODE tells what a finding of this code means, what is done about it, and how to mend it in the exporter.
   The viewer has the same of all codes, with an example of each, as the page web/codes.html.
@@ -89,9 +90,11 @@ JSON: an array with one object for each file that could be read
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\", \"clip\" or \"map\") and index, its number in the file from 0; maps
                       are counted as `info --json` lists them
+    time_secs, bone   of a finding about a clip: when it is, in the clip's own time, and the bone's number; or null
     count             how many alike things it tells of, 1 or more
     places            line and column of the first four of them; empty when it is about the whole file
     help              what the code means, and how to mend it
+    permanent         how to write a file without it, where it is mended on reading or can be; or null
   book                what the books' programs make of it, or null without --book
     d3d11, d3d12      null when not asked for
       reads           whether its loader reads the file as it is meant

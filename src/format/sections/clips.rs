@@ -1,6 +1,6 @@
 //! Clips: `AnimationClip NAME { Bone0 #Keyframes: N { Time: t Pos: … Scale: … Quat: … } }`
 
-use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, Keyframe};
+use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, KeyRun, Keyframe};
 use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{is_ruler, same, same_as_any, split_number};
@@ -46,10 +46,10 @@ pub(in crate::format) fn clips(
             reader.cursor = before;
             reader.cursor.token();
         }
-        let (clip, bone_lines) = clip(reader, bones)?;
+        let (clip, of_bones) = clip(reader, bones)?;
         lines.push(ClipLines {
             clip: label.position.line,
-            bones: bone_lines,
+            ..of_bones
         });
         clips.push(clip);
     }
@@ -65,8 +65,8 @@ fn is_clip(label: &[u8]) -> bool {
     same(label, "AnimationClip")
 }
 
-/// Reads a clip from behind its label.
-fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Vec<u32>), ParseError> {
+/// Reads a clip from behind its label, with the lines of its bones and keys.
+fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), ParseError> {
     /// `B0 0 {}` and a blank.
     const SMALLEST: usize = 7;
     let name = reader.cursor.rest_of_line();
@@ -79,11 +79,14 @@ fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Vec<u32>)
         open(reader)?;
     }
     let room = reader.room_for(bones, SMALLEST);
-    let (mut animations, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    let mut animations = Vec::with_capacity(room);
+    let mut lines = ClipLines {
+        bones: Vec::with_capacity(room),
+        key_runs: Vec::with_capacity(room),
+        ..ClipLines::default()
+    };
     for bone in 0..bones {
-        let (animation, line) = bone_animation(reader, &name, bone, bones)?;
-        animations.push(animation);
-        lines.push(line);
+        animations.push(bone_animation(reader, &name, bone, bones, &mut lines)?);
     }
     if is_bone(reader) {
         let surplus = reader.count_lines(|label| same_as_any(split_number(label).0, BONE));
@@ -99,13 +102,14 @@ fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Vec<u32>)
     ))
 }
 
-/// Reads the keys of one bone, with the line of its label.
+/// Reads the keys of one bone, and adds its lines.
 fn bone_animation(
     reader: &mut Reader<'_>,
     clip: &str,
     bone: u32,
     bones: u32,
-) -> Result<(BoneAnimation, u32), ParseError> {
+    lines: &mut ClipLines,
+) -> Result<BoneAnimation, ParseError> {
     /// Four labels of a letter, eleven digits, blanks and a line end.
     const SMALLEST: usize = 30;
     let Some((label, behind)) = reader.peek_label() else {
@@ -120,7 +124,7 @@ fn bone_animation(
         if label.text == b"}" && follows_brace(reader, |label| same_as_any(split_number(label).0, BONE)) {
             reader.note(label, DiagnosticKind::BraceSurplus);
             reader.cursor.token();
-            return bone_animation(reader, clip, bone, bones);
+            return bone_animation(reader, clip, bone, bones, lines);
         }
         if label.text == b"}" || is_clip(label.text) || is_ruler(label.text) {
             return Err(bone_count(reader, clip, bones, bone as usize));
@@ -144,11 +148,17 @@ fn bone_animation(
     let count = reader.count(Value::KeyframeCount)?;
     open(reader)?;
     let mut keyframes = Vec::with_capacity(reader.room_for(count, SMALLEST));
+    let mut next_line = None;
     for key in 0..count {
-        keyframes.push(match quick::keyframe(&mut reader.cursor) {
-            Some(keyframe) => keyframe,
+        let (keyframe, line) = match quick::keyframe(&mut reader.cursor) {
+            Some(read) => read,
             None => keyframe(reader, bone, key, count)?,
-        });
+        };
+        if next_line != Some(line) {
+            lines.key_runs.push(KeyRun { bone, key, line });
+        }
+        next_line = Some(line.saturating_add(1));
+        keyframes.push(keyframe);
     }
     let is_key = |label: &[u8]| same_as_any(label.split(|&byte| byte == b':').next().unwrap_or(label), FIELDS[0].1);
     if reader.peek_label().is_some_and(|(label, _)| is_key(label.text)) {
@@ -161,11 +171,12 @@ fn bone_animation(
         return Err(key_count(reader, bone, count, counted));
     }
     close(reader)?;
-    Ok((BoneAnimation { keyframes }, label.position.line))
+    lines.bones.push(label.position.line);
+    Ok(BoneAnimation { keyframes })
 }
 
-/// Reads a key of any layout.
-fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<Keyframe, ParseError> {
+/// Reads a key of any layout. Also gives its line.
+fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<(Keyframe, u32), ParseError> {
     let Some((label, _)) = reader.peek_label() else {
         return Err(reader.end(format!("key {} of {count} of bone {bone}", key + 1)));
     };
@@ -177,12 +188,13 @@ fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<
     let translation = field(reader, 1, [0.0; 3])?;
     let scale = field(reader, 2, [1.0; 3])?;
     let rotation = field(reader, 3, [0.0, 0.0, 0.0, 1.0])?;
-    Ok(Keyframe {
+    let keyframe = Keyframe {
         time_secs,
         translation,
         scale,
         rotation,
-    })
+    };
+    Ok((keyframe, label.position.line))
 }
 
 fn field<const N: usize>(reader: &mut Reader<'_>, field: usize, defaults: [f32; N]) -> Result<[f32; N], ParseError> {

@@ -22,8 +22,8 @@ pub(in crate::format) struct Vertices {
     pub(in crate::format) vertices: Vec<Vertex>,
     /// Line of each position.
     pub(in crate::format) lines: Vec<u32>,
-    /// The vertices whose tangent is not on the line after the position, and its line.
-    pub(in crate::format) tangents_apart: Vec<(u32, u32)>,
+    /// The vertices whose fields are not on lines that follow one another, and the lines of these.
+    pub(in crate::format) apart: Vec<(u32, [u32; 6])>,
     /// The labels are single letters.
     pub(in crate::format) short_labels: bool,
 }
@@ -36,7 +36,7 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     let short_labels = reader.peek_label().is_some_and(|(label, _)| same(label.text, "p"));
     let room = reader.room_for(count, SMALLEST);
     let (mut vertices, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
-    let mut tangents_apart = Vec::new();
+    let mut apart = Vec::new();
     for row in 0..count {
         let quick = if short_labels {
             quick::vertex::<true>(&mut reader.cursor, bones)
@@ -46,11 +46,11 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
         let (vertex, line) = match quick {
             Some(read) => read,
             None => {
-                let (vertex, [line, of_tangent]) = vertex(reader, row, count, bones)?;
-                if of_tangent != line + 1 {
-                    tangents_apart.push((row, of_tangent));
+                let (vertex, lines) = vertex(reader, row, count, bones)?;
+                if !lines.is_sorted_by(|before, line| before + 1 == *line) {
+                    apart.push((row, lines));
                 }
-                (vertex, line)
+                (vertex, lines[0])
             }
         };
         vertices.push(vertex);
@@ -66,7 +66,7 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     Ok(Vertices {
         vertices,
         lines,
-        tangents_apart,
+        apart,
         short_labels,
     })
 }
@@ -78,35 +78,37 @@ fn is_field(reader: &Reader<'_>, field: usize) -> bool {
         .is_some_and(|(label, _)| same_as_any(label.text, names))
 }
 
-/// Reads a vertex of any layout. Also gives the lines of its position and of its tangent.
-fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 2]), ParseError> {
+/// Reads a vertex of any layout. Also gives the lines of its fields; without bones the last two are those that would follow.
+fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 6]), ParseError> {
     pass_blend_data(reader, row, bones);
-    let line = field(reader, 0, row, count)?;
+    let mut lines = [0; 6];
+    lines[0] = field(reader, 0, row, count)?;
     let mut vertex = Vertex {
         position: reader.numbers(Value::Vertex("Position"), 3, [0.0; 3])?.0,
         ..Vertex::default()
     };
-    let of_tangent = field(reader, 1, row, count)?;
+    lines[1] = field(reader, 1, row, count)?;
     let place = reader.cursor.position();
     let (tangent, given) = reader.numbers(Value::Vertex("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
     if given < 4 {
         reader.kinds.add(DiagnosticKind::TangentSignMissing, place, 0);
     }
     vertex.tangent = tangent;
-    field(reader, 2, row, count)?;
+    lines[2] = field(reader, 2, row, count)?;
     vertex.normal = reader.numbers(Value::Vertex("Normal"), 3, [0.0; 3])?.0;
-    field(reader, 3, row, count)?;
+    lines[3] = field(reader, 3, row, count)?;
     vertex.tex_coords = reader.numbers(Value::Vertex("Tex-Coords"), 2, [0.0; 2])?.0;
+    [lines[4], lines[5]] = [1, 2].map(|more| lines[3].saturating_add(more));
     if bones > 0 {
-        field(reader, 4, row, count)?;
+        lines[4] = field(reader, 4, row, count)?;
         vertex.blend_weights = reader.numbers(Value::Vertex("BlendWeights"), 4, [0.0; 4])?.0;
-        field(reader, 5, row, count)?;
+        lines[5] = field(reader, 5, row, count)?;
         for (index, weight) in vertex.blend_indices.iter_mut().zip(vertex.blend_weights) {
             *index = blend_index(reader, weight, bones)?;
         }
         reader.pass_surplus_numbers();
     }
-    Ok((vertex, [line, of_tangent]))
+    Ok((vertex, lines))
 }
 
 /// Passes the label of a field, and unknown lines before it. Gives the label's line.

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use glam::{Quat, Vec3, Vec4};
 
 use super::skeleton::Rig;
-use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Code, Subject, codes};
+use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
+use crate::diagnostic::{Code, Moment, Subject, codes};
 use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, fault, out_of_range};
 use crate::model::{Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, unique_names, unit_rotation};
 
@@ -81,13 +81,13 @@ struct Parts {
 /// What is mended in the keys of a clip, counted over its channels.
 #[derive(Default)]
 struct Mended {
-    unsorted: Tally,
-    equal_times: Tally,
-    not_finite: Tally,
-    not_unit: Tally,
-    zero_rotation: Tally,
-    elsewhere: Tally,
-    morphs: Tally,
+    unsorted: Moments,
+    equal_times: Moments,
+    not_finite: Moments,
+    not_unit: Moments,
+    zero_rotation: Moments,
+    elsewhere: usize,
+    morphs: usize,
 }
 
 struct ClipReader<'a> {
@@ -107,7 +107,7 @@ impl ClipReader<'_> {
         for (channel, of_file) in animation.channels.iter().enumerate() {
             let pointer = format!("/animations/{}/channels/{channel}", self.index);
             let Some(node) = of_file.target.node else {
-                self.mended.elsewhere.add(channel as u32);
+                self.mended.elsewhere += 1;
                 continue;
             };
             let nodes = self.root.nodes().len();
@@ -117,11 +117,11 @@ impl ClipReader<'_> {
             let joint = match (of_file.target.path, self.rig.joint_of_node[index]) {
                 (Path::Translation | Path::Rotation | Path::Scale, Some(joint)) => joint,
                 (Path::Weights, _) => {
-                    self.mended.morphs.add(channel as u32);
+                    self.mended.morphs += 1;
                     continue;
                 }
                 _ => {
-                    self.mended.elsewhere.add(channel as u32);
+                    self.mended.elsewhere += 1;
                     continue;
                 }
             };
@@ -130,17 +130,17 @@ impl ClipReader<'_> {
             match of_file.target.path {
                 Path::Translation => set(
                     &mut parts.translation,
-                    || self.keys(animation, sampler, &pointer, false),
+                    || self.keys(animation, sampler, &pointer, joint, false),
                     Vec3::from_array,
                 )?,
                 Path::Scale => set(
                     &mut parts.scale,
-                    || self.keys(animation, sampler, &pointer, false),
+                    || self.keys(animation, sampler, &pointer, joint, false),
                     Vec3::from_array,
                 )?,
                 _ => set(
                     &mut parts.rotation,
-                    || self.keys(animation, sampler, &pointer, true),
+                    || self.keys(animation, sampler, &pointer, joint, true),
                     Vec4::from_array,
                 )?,
             };
@@ -167,6 +167,7 @@ impl ClipReader<'_> {
         animation: &Animation,
         sampler: u64,
         pointer: &str,
+        joint: u32,
         are_rotations: bool,
     ) -> Result<Keys<N>, Fault> {
         let samplers = &animation.samplers;
@@ -197,22 +198,22 @@ impl ClipReader<'_> {
             _ => (group[0], [[0.0; N]; 2]),
         };
         let mut rows = Vec::with_capacity(times.len());
-        let number = index as u32;
+        let bone = self.rig.skeleton.file_bones()[joint as usize];
         for (&time_secs, group) in times.iter().zip(values.chunks_exact(each)) {
             let (mut value, slopes) = slopes(group);
             let is_sound = group.as_flattened().iter().all(|number| number.is_finite());
             if !is_sound || time_secs.is_nan() || time_secs.abs() > MAX_TIME_SECS {
-                self.mended.not_finite.add(number);
+                add(&mut self.mended.not_finite, bone, time_secs);
                 continue;
             }
             if are_rotations && each == 1 {
-                value = self.mended.rotation(number, value);
+                value = self.mended.rotation(bone, time_secs, value);
             }
             // Adding 0 makes −0 and 0 the same time for the sort as well.
             rows.push((time_secs + 0.0, value, slopes));
         }
-        if !rows.is_sorted_by(|a, b| a.0 <= b.0) {
-            self.mended.unsorted.add(number);
+        if let Some(early) = rows.windows(2).find(|two| two[0].0 > two[1].0) {
+            add(&mut self.mended.unsorted, bone, early[1].0);
             rows.sort_by(|a, b| a.0.total_cmp(&b.0));
         }
         Ok(Keys {
@@ -221,7 +222,7 @@ impl ClipReader<'_> {
             } else {
                 of_file.interpolation
             },
-            rows: self.mended.apart(number, rows),
+            rows: self.mended.apart(bone, rows),
         })
     }
 
@@ -235,52 +236,63 @@ impl ClipReader<'_> {
             elsewhere,
             morphs,
         } = std::mem::take(&mut self.mended);
-        let mut note = |code: &Code, tally: Tally, [one, many]: [&str; 2], rule: &str| {
-            if tally.count > 0 {
-                let place = Place::pointer(format!("/animations/{}", self.index)).about(Subject::Clip(self.clip));
+        let place = Place::pointer(format!("/animations/{}", self.index)).about(Subject::Clip(self.clip));
+        let mut note = |code: &Code, moments: &Moments, [one, many]: [&str; 2], what: &str, done: &str| {
+            if moments.count > 0 {
+                let (counted, first) = (counted(moments.count, one, many), moments.first_in_words());
+                let place = place.clone().at(moments.first());
                 self.diagnostics
-                    .add(code, place, format!("{} {rule}", counted(tally.count, one, many)));
+                    .add(code, place, format!("{counted} {what}{first}; {done}."));
             }
         };
         let keys = ["key has", "keys have"];
-        let channels = ["channel moves", "channels move"];
         note(
             &codes::KEYS_NOT_FINITE,
-            not_finite,
+            &not_finite,
             keys,
-            "a number that is not finite or a time beyond 10⁹ s; left out.",
+            "a number that is not finite or a time beyond 10⁹ s",
+            "left out",
         );
         note(
             &codes::KEYS_NOT_SORTED,
-            unsorted,
+            &unsorted,
             ["sampler has", "samplers have"],
-            "keys that are not in the order of time; sorted.",
+            "keys that are not in the order of time",
+            "sorted",
         );
-        let rule = "the time of the key before; the first and the last key of a time are kept as a jump.";
-        note(&codes::KEYS_AT_EQUAL_TIMES, equal_times, keys, rule);
+        note(
+            &codes::KEYS_AT_EQUAL_TIMES,
+            &equal_times,
+            keys,
+            "the time of the key before",
+            "the first and the last key of a time are kept as a jump",
+        );
         note(
             &codes::ROTATION_NOT_UNIT,
-            not_unit,
+            &not_unit,
             keys,
-            "a rotation that is not of unit length; normalised.",
+            "a rotation that is not of unit length",
+            "normalised",
         );
         note(
             &codes::ROTATION_ZERO,
-            zero_rotation,
+            &zero_rotation,
             keys,
-            "a rotation of length 0; taken as no rotation.",
+            "a rotation of length 0",
+            "taken as no rotation",
         );
-        note(
-            &codes::GLTF_CHANNEL_LEFT_OUT,
-            elsewhere,
-            channels,
-            "something that is not shown; left out.",
-        );
+        let mut note = |code: &Code, count: usize, what: &str| {
+            if count > 0 {
+                let move_what = counted(count, "channel moves", "channels move");
+                self.diagnostics
+                    .add(code, place.clone(), format!("{move_what} {what}; left out."));
+            }
+        };
+        note(&codes::GLTF_CHANNEL_LEFT_OUT, elsewhere, "something that is not shown");
         note(
             &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,
             morphs,
-            channels,
-            "the weights of morph targets; left out.",
+            "the weights of morph targets",
         );
     }
 }
@@ -324,14 +336,23 @@ fn set<T: CurveValue, const N: usize>(
     Ok(())
 }
 
+/// Counts a key of a bone. Its time is known where it is one.
+fn add(moments: &mut Moments, bone: u32, time_secs: f32) {
+    let moment = Moment {
+        time_secs: Some(time_secs).filter(|time_secs| time_secs.abs() <= MAX_TIME_SECS),
+        bone: Some(bone),
+    };
+    moments.add(moment, || None);
+}
+
 impl Mended {
-    fn rotation<const N: usize>(&mut self, number: u32, stored: [f32; N]) -> [f32; N] {
+    fn rotation<const N: usize>(&mut self, bone: u32, time_secs: f32, stored: [f32; N]) -> [f32; N] {
         let length = stored.iter().map(|part| part * part).sum::<f32>().sqrt();
         if (length - 1.0).abs() > UNIT_TOLERANCE {
             if length > 1e-6 {
-                self.not_unit.add(number);
+                add(&mut self.not_unit, bone, time_secs);
             } else {
-                self.zero_rotation.add(number);
+                add(&mut self.zero_rotation, bone, time_secs);
                 let mut none = [0.0; N];
                 none[N - 1] = 1.0;
                 return none;
@@ -342,14 +363,14 @@ impl Mended {
 
     /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are never
     /// seen. The last is moved to the next time that a number can name.
-    fn apart<const N: usize>(&mut self, number: u32, rows: Vec<Row<N>>) -> Vec<Row<N>> {
+    fn apart<const N: usize>(&mut self, bone: u32, rows: Vec<Row<N>>) -> Vec<Row<N>> {
         if rows.is_sorted_by(|a, b| a.0 < b.0) {
             return rows;
         }
         let mut kept: Vec<Row<N>> = Vec::with_capacity(rows.len());
         for group in rows.chunk_by(|a, b| a.0 == b.0) {
             let (time_secs, value, slopes) = group[group.len() - 1];
-            (1..group.len()).for_each(|_| self.equal_times.add(number));
+            (1..group.len()).for_each(|_| add(&mut self.equal_times, bone, time_secs));
             if kept.last().is_none_or(|before| before.0 < time_secs) {
                 kept.push(group[0]);
             }

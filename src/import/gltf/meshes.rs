@@ -470,7 +470,7 @@ impl Builder<'_> {
         // What is absent was noted for each primitive, or is no flaw.
         let mut quiet = Diagnostics::default();
         mesh.check().map_err(|rule| Box::new(rule.diagnostic()))?;
-        mend_normals(mesh, Handedness::Right, &[], &mut quiet);
+        mend_normals(mesh, Handedness::Right, Vec::new, &mut quiet);
         let computed = mesh.tangents.iter().map(|tangent| !is_direction(tangent.truncate()));
         let computed: Vec<bool> = computed.collect();
         mend_tangents(mesh, Vec::new, &mut quiet);

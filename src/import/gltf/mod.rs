@@ -101,6 +101,7 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         },
         model,
         diagnostics: Vec::new(),
+        document: None,
         lines: LineMap::default(),
         pictures: images.pictures,
     })

@@ -2,8 +2,8 @@
 
 use glam::{Quat, Vec3};
 
-use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Code, Subject, codes};
+use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
+use crate::diagnostic::{Code, Moment, Subject, codes};
 use crate::format::{BoneAnimation, ClipLines, Document, Keyframe, LineMap};
 use crate::model::{Clip, LocalJoint, ModelError, Skeleton, Track, unique_names, unit_rotation};
 
@@ -60,13 +60,13 @@ pub(super) fn clips_from_document(
 /// What is mended in the keys of one clip, counted over its bones.
 #[derive(Default)]
 struct Mended {
-    unsorted: Tally,
-    equal_times: Tally,
-    not_finite: Tally,
-    not_unit: Tally,
-    zero_rotation: Tally,
-    other_side: Tally,
-    empty: Tally,
+    unsorted: Moments,
+    equal_times: Moments,
+    not_finite: Moments,
+    not_unit: Moments,
+    zero_rotation: Moments,
+    other_side: Moments,
+    empty: Moments,
 }
 
 struct ClipReader<'a> {
@@ -84,14 +84,16 @@ impl ClipReader<'_> {
                 .get(bone as usize)
                 .map(|bone| bone.keyframes.as_slice())
                 .unwrap_or_default();
-            let keys = mended_keys(bone, keys, &mut mended);
+            let keys = mended_keys(bone, keys, self.lines, &mut mended);
             if keys.is_empty() {
                 if (bone as usize) < bones.len() {
-                    mended.empty.add(bone);
+                    mended
+                        .empty
+                        .add(Moment::of_bone(bone), || self.lines.bones.get(bone as usize).copied());
                 }
                 tracks.push(Track::at_rest(rest));
             } else {
-                tracks.push(Track::new(keys)?);
+                tracks.push(Track::new(keys.into_iter().map(|key| (key.time_secs, key.joint)))?);
             }
         }
         self.note(&mended, bones.len(), diagnostics);
@@ -121,119 +123,142 @@ impl ClipReader<'_> {
                 format!("The clip has {more} more than the skeleton has bones; left out."),
             );
         }
-        let mut warn = |code: &Code, tally: Tally, one: &str, many: &str, rule: &str| {
-            if tally.count > 0 {
-                let place = Place::of_rows_in(Subject::Clip(self.clip), &tally, &self.lines.bones, clip_line);
-                diagnostics.add(code, place, format!("{} {rule}", counted(tally.count, one, many)));
+        let mut warn = |code: &Code, moments: &Moments, [one, many]: [&str; 2], what: &str, done: &str| {
+            if moments.count > 0 {
+                let place = Place::of_moments(Subject::Clip(self.clip), moments, clip_line);
+                let (counted, first) = (counted(moments.count, one, many), moments.first_in_words());
+                diagnostics.add(code, place, format!("{counted} {what}{first}; {done}."));
             }
         };
-        let bones = ("bone has", "bones have");
-        let keys = ("key has", "keys have");
+        let bones = ["bone has", "bones have"];
+        let keys = ["key has", "keys have"];
         warn(
             &codes::TRACK_EMPTY,
-            mended.empty,
-            bones.0,
-            bones.1,
-            "no keys in this clip; at rest as in the bind pose.",
+            &mended.empty,
+            bones,
+            "no keys in this clip",
+            "at rest as in the bind pose",
         );
         warn(
             &codes::KEYS_NOT_FINITE,
-            mended.not_finite,
-            keys.0,
-            keys.1,
-            "a number that is not finite or a time beyond 10⁹ s; left out.",
+            &mended.not_finite,
+            keys,
+            "a number that is not finite or a time beyond 10⁹ s",
+            "left out",
         );
         warn(
             &codes::KEYS_NOT_SORTED,
-            mended.unsorted,
-            bones.0,
-            bones.1,
-            "keys that are not in the order of time; sorted.",
+            &mended.unsorted,
+            bones,
+            "keys that are not in the order of time",
+            "sorted",
         );
         warn(
             &codes::KEYS_AT_EQUAL_TIMES,
-            mended.equal_times,
-            keys.0,
-            keys.1,
-            "the time of the key before; the first and the last key of a time are kept as a jump.",
+            &mended.equal_times,
+            keys,
+            "the time of the key before",
+            "the first and the last key of a time are kept as a jump",
         );
         warn(
             &codes::ROTATION_NOT_UNIT,
-            mended.not_unit,
-            keys.0,
-            keys.1,
-            "a rotation that is not of unit length; normalised.",
+            &mended.not_unit,
+            keys,
+            "a rotation that is not of unit length",
+            "normalised",
         );
         warn(
             &codes::ROTATION_ZERO,
-            mended.zero_rotation,
-            keys.0,
-            keys.1,
-            "a rotation of length 0; taken as no rotation.",
+            &mended.zero_rotation,
+            keys,
+            "a rotation of length 0",
+            "taken as no rotation",
         );
         warn(
             &codes::ROTATION_SIDE,
-            mended.other_side,
-            keys.0,
-            keys.1,
-            "a rotation with all signs turned against the key before; turned back.",
+            &mended.other_side,
+            keys,
+            "a rotation with all signs turned against the key before",
+            "turned back",
         );
     }
 }
 
+/// A key that is sound, with its number among those of its bone in the file.
+#[derive(Clone, Copy)]
+struct Key {
+    number: u32,
+    time_secs: f32,
+    joint: LocalJoint,
+}
+
 /// The keys of a bone: finite, in strictly increasing time.
-fn mended_keys(bone: u32, keys: &[Keyframe], mended: &mut Mended) -> Vec<(f32, LocalJoint)> {
-    let mut sound = Vec::with_capacity(keys.len());
-    for key in keys {
+fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, mended: &mut Mended) -> Vec<Key> {
+    let note = |moments: &mut Moments, number: u32, time_secs: f32| {
+        let moment = Moment {
+            time_secs: Some(time_secs).filter(|time_secs| time_secs.abs() <= MAX_TIME_SECS),
+            bone: Some(bone),
+        };
+        moments.add(moment, || lines.key(bone, number));
+    };
+    let mut sound: Vec<Key> = Vec::with_capacity(keys.len());
+    for (number, key) in (0u32..).zip(keys) {
         let stored = Quat::from_array(key.rotation);
         let joint = LocalJoint {
             rotation: stored,
             translation: Vec3::from_array(key.translation),
             scale: Vec3::from_array(key.scale),
         };
-        if !joint.is_finite() || key.time_secs.is_nan() || key.time_secs.abs() > MAX_TIME_SECS {
-            mended.not_finite.add(bone);
+        let time_secs = key.time_secs;
+        if !joint.is_finite() || time_secs.is_nan() || time_secs.abs() > MAX_TIME_SECS {
+            note(&mut mended.not_finite, number, time_secs);
             continue;
         }
         let rotation = unit_rotation(stored).unwrap_or_else(|| {
-            mended.zero_rotation.add(bone);
+            note(&mut mended.zero_rotation, number, time_secs);
             Quat::IDENTITY
         });
         if (stored.length() - 1.0).abs() > UNIT_TOLERANCE && stored.length() > 0.0 {
-            mended.not_unit.add(bone);
+            note(&mut mended.not_unit, number, time_secs);
         }
-        // Adding 0 makes −0 and 0 the same time for the sort as well.
-        sound.push((key.time_secs + 0.0, LocalJoint { rotation, ..joint }));
+        sound.push(Key {
+            number,
+            // Adding 0 makes −0 and 0 the same time for the sort as well.
+            time_secs: time_secs + 0.0,
+            joint: LocalJoint { rotation, ..joint },
+        });
     }
-    if !sound.is_sorted_by(|a, b| a.0 <= b.0) {
-        mended.unsorted.add(bone);
-        sound.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some(early) = sound.windows(2).find(|two| two[0].time_secs > two[1].time_secs) {
+        note(&mut mended.unsorted, early[1].number, early[1].time_secs);
+        sound.sort_by(|a, b| a.time_secs.total_cmp(&b.time_secs));
     }
-    let keys = apart(bone, sound, mended);
+    let keys = apart(sound, |key| note(&mut mended.equal_times, key.number, key.time_secs));
     for two in keys.windows(2) {
-        if two[0].1.rotation.dot(two[1].1.rotation) < OTHER_SIDE {
-            mended.other_side.add(bone);
+        if two[0].joint.rotation.dot(two[1].joint.rotation) < OTHER_SIDE {
+            note(&mut mended.other_side, two[1].number, two[1].time_secs);
         }
     }
     keys
 }
 
 /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are
-/// never seen. The last is moved to the next time that a number can name.
-fn apart(bone: u32, keys: Vec<(f32, LocalJoint)>, mended: &mut Mended) -> Vec<(f32, LocalJoint)> {
-    if keys.is_sorted_by(|a, b| a.0 < b.0) {
+/// never seen. The last is moved to the next time that a number can name. `note` is told of each key at the time of one before.
+fn apart(keys: Vec<Key>, mut note: impl FnMut(&Key)) -> Vec<Key> {
+    if keys.is_sorted_by(|a, b| a.time_secs < b.time_secs) {
         return keys;
     }
-    let mut kept: Vec<(f32, LocalJoint)> = Vec::with_capacity(keys.len());
-    for group in keys.chunk_by(|a, b| a.0 == b.0) {
-        let (time_secs, first) = group[0];
-        let (_, last) = group[group.len() - 1];
-        (1..group.len()).for_each(|_| mended.equal_times.add(bone));
-        if kept.last().is_none_or(|before| before.0 < time_secs) {
-            kept.push((time_secs, first));
+    let mut kept: Vec<Key> = Vec::with_capacity(keys.len());
+    for group in keys.chunk_by(|a, b| a.time_secs == b.time_secs) {
+        let (first, last) = (group[0], group[group.len() - 1]);
+        group[1..].iter().for_each(&mut note);
+        if kept.last().is_none_or(|before| before.time_secs < first.time_secs) {
+            kept.push(first);
         }
         if group.len() > 1 {
-            kept.push((time_secs.next_up(), last));
+            kept.push(Key {
+                time_secs: first.time_secs.next_up(),
+                ..last
+            });
         }
     }
     kept

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::format::{Document, LineMap, Vertex};
+use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::{ImportError, ImportErrorKind};
 use crate::model::{Influences, Skeleton};
 
@@ -36,8 +36,10 @@ pub(super) fn influences_from_document(
         .zip(&document.vertices)
         .map(|(index, vertex)| {
             let weights = normalized(index, vertex.blend_weights, &mut mended);
-            joined(index, vertex, weights, skeleton, &mut mended)
-                .map_err(|kind| kind.on_line(lines.vertices.get(index as usize).copied()))
+            joined(index, vertex, weights, skeleton, &mut mended).map_err(|kind| {
+                let lines = lines.vertex_lines(VertexField::BlendIndices);
+                kind.on_line(lines.get(index as usize).copied())
+            })
         })
         .collect::<Result<_, _>>()?;
     mended.note(lines, diagnostics);
@@ -102,7 +104,8 @@ fn joined(
 
 impl Mended {
     fn note(&self, lines: &LineMap, diagnostics: &mut Diagnostics) {
-        let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertices);
+        let place_in = |field, tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertex_lines(field));
+        let place = |tally: &Tally| place_in(VertexField::BlendWeights, tally);
         let vertices = |tally: &Tally| counted(tally.count, "vertex has", "vertices have");
         if self.invalid.count > 0 {
             diagnostics.add(
@@ -134,7 +137,7 @@ impl Mended {
         if self.high_bone.count > 0 {
             diagnostics.add(
                 &codes::BONE_INDEX_ABOVE_BYTE,
-                place(&self.high_bone),
+                place_in(VertexField::BlendIndices, &self.high_bone),
                 format!(
                     "{} a bone above {BOOK_BONE_INDEX}, which the books' loaders cannot hold.",
                     counted(self.high_bone.count, "influence names", "influences name")

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, Vec4};
 use super::influences::influences_from_document;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::format::{Document, LineMap, Vertex};
+use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::normals::{handedness_of, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::import::{ImportError, ImportErrorKind};
@@ -27,8 +27,10 @@ pub(super) fn mesh_from_document(
         let message = format!("There are {count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}.");
         diagnostics.add(&codes::MANY_VERTICES, Place::default(), message);
     }
-    let positions = finite_stream(vertices, lines, diagnostics, "position", |vertex| vertex.position);
-    let tex_coords = finite_stream(vertices, lines, diagnostics, "texture coordinate", |vertex| {
+    let positions = finite_stream(vertices, lines, diagnostics, VertexField::Position, |vertex| {
+        vertex.position
+    });
+    let tex_coords = finite_stream(vertices, lines, diagnostics, VertexField::TexCoords, |vertex| {
         vertex.tex_coords
     });
     let mut mesh = Mesh {
@@ -47,9 +49,10 @@ pub(super) fn mesh_from_document(
         ImportErrorKind::from(rule).on_line(line)
     })?;
     let handedness = handedness_of(&mesh, diagnostics);
-    mend_normals(&mut mesh, handedness, &lines.vertices, diagnostics);
+    let lines_of = |field| move || lines.vertex_lines(field);
+    mend_normals(&mut mesh, handedness, lines_of(VertexField::Normal), diagnostics);
     mesh.influences = influences_from_document(document, lines, skeleton, diagnostics)?;
-    mend_tangents(&mut mesh, || lines.tangent_lines(), diagnostics);
+    mend_tangents(&mut mesh, lines_of(VertexField::Tangent), diagnostics);
     Ok((mesh, handedness))
 }
 
@@ -58,7 +61,7 @@ fn finite_stream<const N: usize>(
     vertices: &[Vertex],
     lines: &LineMap,
     diagnostics: &mut Diagnostics,
-    field: &str,
+    field: VertexField,
     of: impl Fn(&Vertex) -> [f32; N],
 ) -> Vec<[f32; N]> {
     let mut mended = Tally::default();
@@ -74,11 +77,16 @@ fn finite_stream<const N: usize>(
         })
         .collect();
     if mended.count > 0 {
+        let name = if field == VertexField::Position {
+            "position"
+        } else {
+            "texture coordinate"
+        };
         diagnostics.add(
             &codes::VERTEX_NOT_FINITE,
-            Place::of_rows(&mended, Subject::Vertex, &lines.vertices),
+            Place::of_rows(&mended, Subject::Vertex, &lines.vertex_lines(field)),
             format!(
-                "{} a {field} that is not finite; taken as 0.",
+                "{} a {name} that is not finite; taken as 0.",
                 counted(mended.count, "vertex has", "vertices have")
             ),
         );

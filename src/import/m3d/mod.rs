@@ -30,6 +30,7 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
         format: FileFormat::M3d(parsed.document.dialect),
         model,
         diagnostics,
+        document: Some(parsed.document),
         lines: parsed.lines,
         pictures: Vec::new(),
     })

@@ -1,7 +1,7 @@
 //! From the file's materials and subsets to ours: what is drawn with what.
 
-use crate::diagnostic::collect::{Diagnostics, Place, counted};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{self, Document, LineMap, Subset};
 use crate::model::{AlphaMode, Material, Reflectance, Submesh, unique_names};
 
@@ -89,7 +89,7 @@ fn clamped(
     (start, count)
 }
 
-/// Triangles in no range are not drawn; triangles in several are drawn again.
+/// Triangles in no range are not drawn; triangles in several are drawn shared.
 fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let mut ranges: Vec<(u32, u32)> = submeshes
         .iter()
@@ -97,42 +97,27 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, di
         .map(|submesh| (submesh.triangle_start, submesh.triangle_start + submesh.triangle_count))
         .collect();
     ranges.sort_unstable();
-    let (mut drawn_to, mut undrawn, mut again) = (0, 0, 0_u64);
-    let (mut first_undrawn, mut first_again) = (None, None);
+    let (mut drawn_to, mut shared_to) = (0, 0);
+    let (mut undrawn, mut shared) = (Tally::default(), Tally::default());
     for (start, end) in ranges {
         if start > drawn_to {
-            undrawn += start - drawn_to;
-            first_undrawn.get_or_insert(drawn_to);
+            undrawn.add_range(drawn_to..start);
         }
-        let shared = drawn_to.min(end).saturating_sub(start);
-        if shared > 0 {
-            again += u64::from(shared);
-            first_again.get_or_insert(start);
-        }
+        let shared_end = drawn_to.min(end);
+        shared.add_range(start.max(shared_to)..shared_end);
+        shared_to = shared_to.max(shared_end);
         drawn_to = drawn_to.max(end);
     }
-    undrawn += triangle_count - drawn_to;
-    let place = |first: u32| Place::of(Subject::Triangle(first), &lines.triangles);
-    if undrawn > 0 {
-        let belong = counted(undrawn as usize, "triangle belongs", "triangles belong");
-        diagnostics.add(
-            &codes::TRIANGLES_UNDRAWN,
-            place(first_undrawn.unwrap_or(drawn_to)),
-            format!("{belong} to no subset; not drawn."),
-        );
-    }
-    if again > 0 {
-        let belong = counted(
-            usize::try_from(again).unwrap_or(usize::MAX),
-            "triangle belongs",
-            "triangles belong",
-        );
-        diagnostics.add(
-            &codes::TRIANGLES_SHARED,
-            place(first_again.unwrap_or_default()),
-            format!("{belong} to more than one subset."),
-        );
-    }
+    undrawn.add_range(drawn_to..triangle_count);
+    let mut note = |code: &Code, triangles: &Tally, rule: &str| {
+        if triangles.count > 0 {
+            let belong = counted(triangles.count, "triangle belongs", "triangles belong");
+            let place = Place::of_rows(triangles, Subject::Triangle, &lines.triangles);
+            diagnostics.add(code, place, format!("{belong} to {rule}."));
+        }
+    };
+    note(&codes::TRIANGLES_UNDRAWN, &undrawn, "no subset; not drawn");
+    note(&codes::TRIANGLES_SHARED, &shared, "more than one subset");
 }
 
 /// Indices are absolute in every known file. A later subset whose indices all lie below its `VertexStart`, but would fill

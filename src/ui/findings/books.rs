@@ -1,5 +1,7 @@
 //! What the books' programs make of the file: a row of the model panel, and a line for each book above the findings, which unfolds.
 
+use std::sync::Arc;
+
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Ui, WidgetInfo, vec2};
 
@@ -53,7 +55,7 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
         .map(|verdict| format!("{} {}", short_label(verdict), Outcome::of(verdict).word()))
         .collect();
     let value = if words.is_empty() {
-        "know .m3d alone".to_owned()
+        "read .m3d only".to_owned()
     } else {
         words.join(" · ")
     };
@@ -135,26 +137,20 @@ fn short_label(verdict: &Verdict) -> &'static str {
     label.strip_suffix(" book").unwrap_or(label)
 }
 
-/// What a program does with the file, after its book and a colon.
+/// What one sees, after the book and a colon.
 fn in_words(verdict: &Verdict) -> String {
-    let Some(trouble) = &verdict.trouble else {
-        return match verdict.limits.len() {
-            _ if verdict.ends => "reads it, then ends".to_owned(),
-            0 => "reads it".to_owned(),
-            1 => "reads it, with 1 limit".to_owned(),
-            limits => format!("reads it, with {limits} limits"),
+    if verdict.trouble.is_some() || verdict.ends {
+        let shows = verdict.shows.strip_suffix('.').unwrap_or(&verdict.shows);
+        return match shows.strip_prefix("It ") {
+            Some(ends) => ends.to_owned(),
+            None => format!("shows {}", without_capital(shows)),
         };
-    };
-    // The first sentence: what comes of it stands below the line.
-    let why = trouble
-        .why
-        .split_once(". In line ")
-        .map_or(&*trouble.why, |(first, _)| first);
-    let why = why.strip_suffix('.').unwrap_or(why);
-    let why = why
-        .strip_prefix("It ")
-        .map_or_else(|| without_capital(why), str::to_owned);
-    format!("goes wrong at line {}, {why}", trouble.position.line)
+    }
+    match verdict.limits.len() {
+        0 => "reads it".to_owned(),
+        1 => "reads it, with 1 limit".to_owned(),
+        limits => format!("reads it, with {limits} limits"),
+    }
 }
 
 fn without_capital(words: &str) -> String {
@@ -191,10 +187,13 @@ fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
     let mut job = LayoutJob::default();
     job.append(&format!("{book}: "), 0.0, plain(tokens.text));
     job.append(&words, 0.0, plain(tokens.muted));
-    job.wrap = TextWrapping::truncate_at_width(rect.width() - 2.0 * INDENT);
+    job.wrap = TextWrapping {
+        break_anywhere: false,
+        ..TextWrapping::truncate_at_width(rect.width() - 2.0 * INDENT)
+    };
     let galley = ui.painter().layout_job(job);
     let at = at + vec2(INDENT, -0.5 * galley.size().y);
-    ui.painter().galley(at, galley, tokens.text);
+    ui.painter().galley(at, Arc::clone(&galley), tokens.text);
     paint_fold_mark(
         ui.painter(),
         rect.right_center() - vec2(6.0, 0.0),
@@ -202,6 +201,9 @@ fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
         tokens.muted,
     );
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{book}: {words}")));
+    if galley.elided {
+        return hint_beside(response, None, &format!("{book}: {words}"));
+    }
     response
 }
 
@@ -213,7 +215,7 @@ fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines, requests: &mut Vec
         ui.label(words(&trouble.why, tokens.text));
         if let Some(excerpt) = &lines.excerpt {
             ui.add_space(4.0);
-            show_excerpt(ui, excerpt, None, tokens.warning);
+            show_excerpt(ui, excerpt, tokens.warning);
             ui.add_space(4.0);
         }
     }

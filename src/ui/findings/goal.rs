@@ -1,8 +1,10 @@
 //! What a finding is about, and how to go there.
 
-use crate::diagnostic::Subject;
+use std::fmt::Write as _;
+
+use crate::diagnostic::{Moment, Subject};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, LookCommand, OpenModel, PlayCommand, Session, SubmeshCommand, named_maps};
+use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubmeshCommand, named_maps};
 use crate::ui::skeleton::state::SidePage;
 use crate::ui::state::UiState;
 use crate::ui::wording::grouped;
@@ -18,19 +20,16 @@ pub(super) struct Goal {
 }
 
 impl Goal {
-    /// How to show a subject. None if the model lacks it, or if no submesh has this material.
-    pub(super) fn of(session: &Session, open: &OpenModel, subject: Subject) -> Option<Self> {
+    /// How to show a subject, and of a clip the moment. None if the model lacks it, or if no submesh has this material.
+    pub(super) fn of(session: &Session, open: &OpenModel, subject: Subject, moment: Moment) -> Option<Self> {
         let mesh = &open.model.mesh;
         match subject {
-            Subject::Bone(bone) => {
-                let joints = open.model.skeleton.joint_of_bone();
-                Some(Self::bone(session, *joints.get(bone as usize)?))
-            }
+            Subject::Bone(bone) => Some(Self::bone(session, joint_of(open, bone)?)),
             Subject::Vertex(vertex) => ((vertex as usize) < mesh.vertex_count()).then(|| Self::vertex(vertex)),
-            // A triangle cannot be selected; its first corner can.
-            Subject::Triangle(triangle) => Some(Self {
+            Subject::Triangle(triangle) => mesh.triangle(triangle).map(|_| Self {
                 words: format!("Triangle {}", grouped(triangle as usize)),
-                ..Self::vertex(*mesh.indices.get(triangle as usize * 3)?)
+                commands: vec![JointCommand::SelectTriangle(triangle).into()],
+                page: None,
             }),
             Subject::Subset(submesh) => {
                 let submesh = submesh as usize;
@@ -44,16 +43,28 @@ impl Goal {
             }
             Subject::Map(map) => {
                 let (material, ..) = named_maps(&open.model.materials).nth(map as usize)?;
-                Self::of(session, open, Subject::Material(material as u32))
+                Self::of(session, open, Subject::Material(material as u32), moment)
             }
             Subject::Clip(clip) => {
                 let name = &open.model.clips.get(clip as usize)?.name;
-                Some(Self {
+                let mut goal = Self {
                     words: format!("Clip {name}"),
                     // The timeline shows it.
                     commands: vec![PlayCommand::SelectClip(clip as usize).into()],
                     page: None,
-                })
+                };
+                if let Some(time_secs) = moment.time_secs {
+                    write!(goal.words, " at {time_secs:.2} s").ok()?;
+                    goal.commands.push(PlayCommand::Pause.into());
+                    goal.commands.push(PlayCommand::Seek { time_secs }.into());
+                }
+                if let Some(joint) = moment.bone.and_then(|bone| joint_of(open, bone)) {
+                    let bone = Self::bone(session, joint);
+                    write!(goal.words, ", {}", bone.words).ok()?;
+                    goal.commands.extend(bone.commands);
+                    goal.page = bone.page;
+                }
+                Some(goal)
             }
         }
     }
@@ -63,8 +74,8 @@ impl Goal {
             words: session.joint_label(joint),
             commands: vec![
                 JointCommand::SelectVertex(None).into(),
+                // While bones are hidden it is drawn alone.
                 JointCommand::Select(Some(joint)).into(),
-                LookCommand::SetBonesVisible(true).into(),
             ],
             page: Some(SidePage::Skeleton),
         }
@@ -106,24 +117,24 @@ impl Goal {
     }
 }
 
+/// The joint of a bone of the file.
+fn joint_of(open: &OpenModel, bone: u32) -> Option<JointIndex> {
+    open.model.skeleton.joint_of_bone().get(bone as usize).copied()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::session::{File, FileCommand};
 
-    /// No model that opens has a diagnostic about a triangle, so no click can lead there yet.
     #[test]
-    fn the_way_to_a_triangle_is_that_to_its_first_corner_and_what_is_not_there_has_none() {
+    fn what_is_not_there_has_no_goal() {
         let mut session = Session::new(true);
         session.apply(FileCommand::Add(vec![File::new(
             "figure.m3d",
             include_bytes!("../../../web/sample/figure.m3d").to_vec(),
         )]));
         let open = session.open_model().expect("the sample opens");
-        let corner = open.model.mesh.indices[3 * 7];
-        let goal = Goal::of(&session, open, Subject::Triangle(7)).expect("it has triangles");
-        let selects: Command = JointCommand::SelectVertex(Some(corner)).into();
-        assert!(goal.commands.contains(&selects));
         let beyond = [
             Subject::Material(9_999_999),
             Subject::Subset(9_999_999),
@@ -135,7 +146,7 @@ mod tests {
         assert!(
             beyond
                 .into_iter()
-                .all(|subject| Goal::of(&session, open, subject).is_none())
+                .all(|subject| Goal::of(&session, open, subject, Moment::default()).is_none())
         );
     }
 }

@@ -9,10 +9,12 @@ pub(super) mod state;
 
 pub(super) use books::show_row as show_books_row;
 
+use std::cmp::Reverse;
+
 use egui::{RichText, Ui};
 
 use super::panel::scrolled;
-use super::state::{Request, UiState};
+use super::state::{Request, SheetPage, UiState};
 use super::theme::{MARGIN, Tokens};
 use super::widgets::{RowList, TextButton, closable_heading, control_size, is_touch, rule};
 use super::wording::{counted, counted_vertices};
@@ -26,6 +28,15 @@ const GAP: f32 = 8.0;
 const LEAST_SCROLLED: f32 = 60.0;
 /// Rows are laid out this far out of view, so that Tab and the arrow keys find the next ones.
 const BEYOND_VIEW: f32 = 400.0;
+
+/// Shows or hides them; in a narrow window in the sheet.
+pub(super) fn toggle(state: &mut UiState, is_wide: bool) {
+    let in_sheet = state.sheet == Some(SheetPage::Model);
+    state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_sheet));
+    if !is_wide {
+        state.sheet = state.diagnostics_open.then_some(SheetPage::Model);
+    }
+}
 
 /// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -53,7 +64,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 
 /// Chips, search and rows; or that there is no finding.
 fn found(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
-    let all: Vec<&Diagnostic> = session.diagnostics().collect();
+    let mut all: Vec<&Diagnostic> = session.diagnostics().collect();
+    // The worst first, and those as bad in the order of the file.
+    all.sort_by_key(|diagnostic| Reverse(diagnostic.severity));
     if all.is_empty() {
         nothing_found(ui, session, open);
         return;
@@ -134,11 +147,8 @@ fn take_along(ui: &mut Ui, session: &Session, state: &mut UiState) {
             ui.ctx().copy_text(session.report());
             state.messages.say("Copied the report");
         }
-        let save = TextButton::new("Save report", "Save report").show(ui);
-        if save
-            .on_hover_text("As a SARIF file, for editors and code hosts")
-            .clicked()
-        {
+        let save = TextButton::new("Save report (SARIF)", "Save report").show(ui);
+        if save.on_hover_text("A file for editors and code hosts").clicked() {
             state.requests.push(Request::SaveReport);
         }
     });

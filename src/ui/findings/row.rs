@@ -7,12 +7,13 @@ use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, W
 use super::filter::color;
 use super::goal::Goal;
 use super::state::ShownDiagnostic;
-use crate::diagnostic::{Code, Diagnostic, codes};
+use crate::actions;
+use crate::diagnostic::{Code, Diagnostic, Mended, codes};
 use crate::session::{Command, OpenModel, Session};
-use crate::ui::error_card::show_excerpt;
+use crate::ui::error_card::{expected_and_found, show_excerpt};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{RowList, paint_elided, paint_row_ground, pressed_row};
+use crate::ui::widgets::{RowList, TextButton, paint_elided, paint_row_ground, pressed_row};
 use crate::ui::wording::grouped;
 
 /// Where the words of a line begin, behind its dot.
@@ -37,7 +38,7 @@ pub(super) fn row_height(ui: &Ui, session: &Session, open: &OpenModel, diagnosti
 }
 
 fn goal_of(session: &Session, open: &OpenModel, diagnostic: &Diagnostic) -> Option<Goal> {
-    Goal::of(session, open, diagnostic.subject?)
+    Goal::of(session, open, diagnostic.subject?, diagnostic.moment())
 }
 
 /// The sentence, and below it what it is about, place and code.
@@ -58,8 +59,13 @@ fn words(ui: &Ui, diagnostic: &Diagnostic, goal: Option<&Goal>) -> LayoutJob {
         job.append(&goal.words, 0.0, small(tokens.accent));
         job.append(" · ", 0.0, small(tokens.muted));
     }
-    if let Some(at) = diagnostic.position {
-        let place = format!("line {}, column {} · ", at.line, at.column);
+    // A line tells little of JSON, which often has one alone.
+    let place = match (&diagnostic.pointer, diagnostic.position) {
+        (Some(pointer), _) => Some(format!("{pointer} · ")),
+        (None, Some(at)) => Some(format!("line {}, column {} · ", at.line, at.column)),
+        (None, None) => None,
+    };
+    if let Some(place) = place {
         job.append(&place, 0.0, small(tokens.muted));
     }
     job.append(diagnostic.code, 0.0, format(theme::mono(11.0), tokens.muted));
@@ -88,12 +94,7 @@ impl FindingRow<'_> {
             node.set_size_of_set(count);
         });
         if tell_fold(ui, &response, is_shown) {
-            state.findings.shown = (!is_shown).then(|| ShownDiagnostic {
-                diagnostic: diagnostic.clone(),
-                occurrence: 0,
-                excerpt: open.excerpt(diagnostic),
-                height: 0.0,
-            });
+            state.findings.shown = (!is_shown).then(|| ShownDiagnostic::new(open, diagnostic));
             if let Some(goal) = goal.filter(|_| !is_shown) {
                 goal.go(session, state, commands);
             }
@@ -139,19 +140,16 @@ impl FindingRow<'_> {
         let diagnostic = self.diagnostic;
         if let Some(lines) = state.findings.shown.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
             ui.add_space(4.0);
-            show_excerpt(ui, lines, None, color(ui, diagnostic.severity));
+            show_excerpt(ui, lines, color(ui, diagnostic.severity));
         }
         ui.add_space(4.0);
-        let expected = match (&diagnostic.expected, &diagnostic.found) {
-            (Some(expected), Some(found)) => Some(format!("Expected {expected}, found {found}.")),
-            (Some(expected), None) => Some(format!("Expected {expected}.")),
-            (None, Some(found)) => Some(format!("Found {found}.")),
-            (None, None) => None,
-        };
-        if let Some(expected) = expected {
+        if let Some(expected) = expected_and_found(diagnostic) {
             ui.label(RichText::new(expected).size(12.5).color(Tokens::of(ui).text));
         }
         explanation(ui, diagnostic.code, &mut state.requests);
+        if let Some(code) = codes::named(diagnostic.code) {
+            permanence(ui, code, state);
+        }
         ui.add_space(8.0);
     }
 
@@ -173,8 +171,8 @@ impl FindingRow<'_> {
             return;
         }
         let chosen = state.findings.shown.as_ref().map(|shown| shown.occurrence);
-        for (index, (subject, position)) in known.enumerate() {
-            let goal = subject.and_then(|subject| Goal::of(session, open, subject));
+        for (index, (subject, position, moment)) in known.enumerate() {
+            let goal = subject.and_then(|subject| Goal::of(session, open, subject, moment));
             let line = position.map(|position| format!("line {}", position.line));
             let words: Vec<&str> = goal
                 .iter()
@@ -189,13 +187,8 @@ impl FindingRow<'_> {
             response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, format!("Go to {words}")));
             list.row(&response, is_chosen);
             if response.on_hover_cursor(CursorIcon::PointingHand).clicked() {
-                let at_this = Diagnostic {
-                    position,
-                    ..diagnostic.clone()
-                };
                 if let Some(shown) = &mut state.findings.shown {
-                    shown.occurrence = index;
-                    shown.excerpt = open.excerpt(&at_this);
+                    shown.choose(open, index);
                 }
                 if let Some(goal) = goal {
                     goal.go(session, state, commands);
@@ -211,6 +204,22 @@ impl FindingRow<'_> {
                 ui.label(words.size(12.0).color(tokens.muted));
             });
         }
+    }
+}
+
+/// How to keep what is mended, and the way to Export where that does it.
+fn permanence(ui: &mut Ui, code: &Code, state: &mut UiState) {
+    let Some(words) = code.permanent() else { return };
+    ui.add_space(6.0);
+    let words = RichText::new(words.replace('`', "")).size(12.5);
+    ui.label(words.color(Tokens::of(ui).text));
+    if code.mended == Mended::WithFix {
+        return;
+    }
+    ui.add_space(4.0);
+    let button = TextButton::new(actions::EXPORT.label, "Export the model as it is mended");
+    if button.show(ui).on_hover_text(actions::EXPORT.hint()).clicked() {
+        state.wants_export = true;
     }
 }
 

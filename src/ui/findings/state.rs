@@ -8,7 +8,7 @@ use super::filter::Filter;
 use crate::check::book::Verdict;
 use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
-use crate::session::OpenModel;
+use crate::session::{OpenModel, Session};
 
 /// Of one model.
 #[derive(Debug, Default)]
@@ -47,7 +47,42 @@ pub(super) struct ShownDiagnostic {
     pub(super) height: f32,
 }
 
+impl ShownDiagnostic {
+    /// Shows the first occurrence.
+    pub(super) fn new(open: &OpenModel, diagnostic: &Diagnostic) -> Self {
+        Self {
+            diagnostic: diagnostic.clone(),
+            occurrence: 0,
+            excerpt: open.excerpt(diagnostic),
+            height: 0.0,
+        }
+    }
+
+    /// Shows the lines of an occurrence.
+    pub(super) fn choose(&mut self, open: &OpenModel, occurrence: usize) {
+        let place = self.diagnostic.occurrences().nth(occurrence);
+        self.occurrence = occurrence;
+        self.excerpt = open.excerpt(&Diagnostic {
+            position: place.map_or(self.diagnostic.position, |(_, position, _)| position),
+            ..self.diagnostic.clone()
+        });
+    }
+}
+
 impl FindingsState {
+    /// The file was read again. What is unfolded stays so where it is found again, with the lines of now.
+    pub(in crate::ui) fn find_again(&mut self, session: &Session) {
+        let Some(open) = session.open_model() else { return };
+        for (lines, verdict) in self.books.iter_mut().zip(session.verdicts()) {
+            *lines = lines.take().map(|_| BookLines::of(open, verdict));
+        }
+        let shown = self.shown.take();
+        self.shown = shown.filter(|shown| session.diagnostics().any(|found| *found == shown.diagnostic));
+        if let Some(shown) = &mut self.shown {
+            shown.choose(open, shown.occurrence);
+        }
+    }
+
     /// Whether a diagnostic is the one whose lines are shown.
     pub(super) fn is_shown(&self, diagnostic: &Diagnostic) -> bool {
         self.shown.as_ref().is_some_and(|shown| shown.diagnostic == *diagnostic)

@@ -242,7 +242,7 @@ fn value_size(ui: &Ui, value: f32) -> Vec2 {
         .size()
 }
 
-/// Paints names at the joints and a ring round the selected vertex over the picture, under the panels.
+/// Paints names at the joints, and a ring round the selected vertex or the sides of the selected triangle, over the picture, under the panels.
 pub(in crate::ui) fn show_marks(ui: &Ui, session: &Session, state: &SkeletonState, window: Rect) {
     let tokens = Tokens::of(ui);
     let (painter, joints) = (ui.painter(), session.joints());
@@ -267,7 +267,16 @@ pub(in crate::ui) fn show_marks(ui: &Ui, session: &Session, state: &SkeletonStat
             taken.push(place);
         }
     }
-    if let Some(at) = state.reading.vertex_at {
+    if let Some(corners) = state.reading.corners_at {
+        let corners = corners.map(|at| in_window(window, at));
+        let dark = Stroke::new(3.6, Color32::from_black_alpha(150));
+        for stroke in [dark, Stroke::new(1.8, tokens.accent)] {
+            painter.add(egui::Shape::closed_line(corners.to_vec(), stroke));
+        }
+        for corner in corners {
+            painter.circle(corner, 3.4, Color32::WHITE, dark);
+        }
+    } else if let Some(at) = state.reading.vertex_at {
         let at = in_window(window, at);
         // A light ring with a dark edge is visible on any skin.
         painter.circle_stroke(at, 6.0, Stroke::new(3.6, Color32::from_black_alpha(150)));

@@ -274,6 +274,8 @@ pub(super) struct Reading {
     pub(super) digits: Digits,
     /// The vertex's position in the picture: x right, y up, −1…1.
     pub(super) vertex_at: Option<Vec2>,
+    /// Where the corners of the selected triangle are there.
+    pub(super) corners_at: Option<[Vec2; 3]>,
     /// Colour of each joint (sRGB) while the skin shows the strongest joint of each vertex.
     pub(super) colors_srgb: Vec<[u8; 4]>,
     colors_of: Option<u64>,
@@ -290,6 +292,11 @@ impl Reading {
         self.vertex = session.explain_vertex();
         let position = self.vertex.as_ref().map(|explained| explained.position);
         self.vertex_at = position.and_then(|position| session.place_in_picture(position));
+        let corners = session.selected_corners();
+        self.corners_at = corners.and_then(|corners| {
+            let [a, b, c] = corners.map(|corner| session.place_in_picture(corner));
+            Some([a?, b?, c?])
+        });
 
         let shown = session.look().skin_view == Some(SkinView::DominantJoint);
         let wanted = shown.then_some(session.model_revision());

@@ -345,6 +345,11 @@ pub(crate) fn pressed_chip(ui: &mut Ui, text: &str, color: Color32, on: bool) ->
     let lit = on || response.hovered();
     let ground = if lit { tokens.field_hovered } else { tokens.field };
     let chip = paint_chip(ui.painter(), place.center(), Align2::CENTER_CENTER, text, color, ground);
+    if on {
+        let edge = Stroke::new(1.0, color);
+        ui.painter()
+            .rect_stroke(chip, chip.height() * 0.5, edge, StrokeKind::Inside);
+    }
     focus_ring(ui, chip, &response);
     response
 }

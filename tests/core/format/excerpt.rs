@@ -125,6 +125,15 @@ fn places_outside_give_the_nearest_line() {
 }
 
 #[test]
+fn of_a_whole_row_its_first_word_is_marked() {
+    // Columns of tabs are four wide.
+    assert_eq!(excerpt(b"{\n\t  Bone1\n", at(2, 1), 0).mark_column, 7);
+    assert_eq!(excerpt(b"{\n\t  Bone1\n", at(2, 1), 1).mark_column, 1);
+    assert_eq!(excerpt(b"a b", at(1, 2), 0).mark_column, 2);
+    assert_eq!(excerpt(b"  \n", at(1, 1), 0).mark_column, 1);
+}
+
+#[test]
 fn an_index_shows_what_reading_from_the_start_shows() {
     let ends = ["\n", "\r\n", "\r"];
     for mark in ["", "\u{FEFF}"] {

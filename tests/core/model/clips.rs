@@ -1,6 +1,6 @@
 //! Clips: keys in any state become tracks that can be sampled.
 
-use bindpose::format::{AnimationClip, ClipLines, Document, Keyframe, LineMap, parse};
+use bindpose::format::{AnimationClip, ClipLines, Document, KeyRun, Keyframe, LineMap, parse};
 use bindpose::import::m3d;
 use bindpose::model::{Clip, LocalJoint, Track};
 use glam::{Quat, Vec3};
@@ -41,7 +41,7 @@ fn unsorted_keys_are_sorted() {
     assert_eq!(codes, ["keys-not-sorted"]);
     assert_eq!(
         message_of(&document, "keys-not-sorted"),
-        "1 bone has keys that are not in the order of time; sorted."
+        "1 bone has keys that are not in the order of time (bone 1 at 0 s); sorted."
     );
 }
 
@@ -63,7 +63,7 @@ fn keys_at_one_time_become_a_jump_from_the_first_to_the_last() {
     assert_eq!(codes, ["keys-at-equal-times"]);
     assert_eq!(
         message_of(&document, "keys-at-equal-times"),
-        "2 keys have the time of the key before; the first and the last key of a time are kept as a jump."
+        "2 keys have the time of the key before (first: bone 1 at 0.5 s); the first and the last key of a time are kept as a jump."
     );
 }
 
@@ -91,7 +91,7 @@ fn a_bone_without_keys_rests_and_takes_no_part_in_the_span() {
     assert_eq!(codes, ["track-empty"]);
     assert_eq!(
         message_of(&document, "track-empty"),
-        "1 bone has no keys in this clip; at rest as in the bind pose."
+        "1 bone has no keys in this clip (bone 1); at rest as in the bind pose."
     );
 }
 
@@ -144,11 +144,11 @@ fn rotations_are_made_unit_and_put_on_one_side() {
     for (code, words) in [
         (
             "rotation-not-unit",
-            "1 key has a rotation that is not of unit length; normalised.",
+            "1 key has a rotation that is not of unit length (bone 1 at 1 s); normalised.",
         ),
         (
             "rotation-zero",
-            "1 key has a rotation of length 0; taken as no rotation.",
+            "1 key has a rotation of length 0 (bone 1 at 0 s); taken as no rotation.",
         ),
     ] {
         assert_eq!(message_of(&document, code), words);
@@ -169,7 +169,7 @@ fn keys_that_are_not_finite_are_left_out() {
     assert_eq!(codes, ["keys-not-finite"]);
     assert_eq!(
         message_of(&document, "keys-not-finite"),
-        "3 keys have a number that is not finite or a time beyond 10⁹ s; left out."
+        "3 keys have a number that is not finite or a time beyond 10⁹ s (first: bone 1); left out."
     );
 }
 
@@ -185,10 +185,28 @@ fn findings_point_at_the_bone_and_its_line() {
             ClipLines {
                 clip: 70,
                 bones: vec![71, 75, 79],
+                // The second key of bone 1 stands apart.
+                key_runs: vec![
+                    KeyRun {
+                        bone: 0,
+                        key: 0,
+                        line: 73,
+                    },
+                    KeyRun {
+                        bone: 1,
+                        key: 0,
+                        line: 76,
+                    },
+                    KeyRun {
+                        bone: 1,
+                        key: 1,
+                        line: 78,
+                    },
+                ],
             },
             ClipLines {
                 clip: 90,
-                bones: Vec::new(),
+                ..ClipLines::default()
             },
         ],
         ..LineMap::default()
@@ -202,7 +220,7 @@ fn findings_point_at_the_bone_and_its_line() {
         told,
         [
             ("duplicate-clip-name", Some(90)),
-            ("keys-not-sorted", Some(75)),
+            ("keys-not-sorted", Some(78)),
             ("clip-bones-missing", Some(90)),
         ]
     );
@@ -355,7 +373,7 @@ fn keys_at_times_that_are_no_numbers_are_left_out() {
         (finding.code, finding.message.as_str()),
         (
             "keys-not-finite",
-            "3 keys have a number that is not finite or a time beyond 10⁹ s; left out."
+            "3 keys have a number that is not finite or a time beyond 10⁹ s (first: bone 1); left out."
         )
     );
 }

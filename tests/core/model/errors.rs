@@ -63,7 +63,7 @@ fn words_code_and_place_of_each_broken_rule() {
         (
             |document| document.vertices[4].blend_indices[0] = u32::MAX,
             "influence-out-of-range",
-            "line 104, column 1: Vertex 4 gives weight to bone 4294967295, but there are 3 bones.",
+            "line 109, column 1: Vertex 4 gives weight to bone 4294967295, but there are 3 bones.",
         ),
     ];
     for (change, code, words) in cases {

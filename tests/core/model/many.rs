@@ -1,6 +1,6 @@
 //! Thousands of things alike: one finding, and work in proportion.
 
-use bindpose::diagnostic::{Diagnostic, Position, Subject};
+use bindpose::diagnostic::{Diagnostic, Moment, Position, Subject};
 use bindpose::format::{AnimationClip, ClipLines, Document, LineMap, Subset};
 use bindpose::import::m3d;
 
@@ -26,7 +26,7 @@ fn clips(count: u32) -> (Document, LineMap) {
     };
     let line = |clip| ClipLines {
         clip: clip * 10,
-        bones: Vec::new(),
+        ..ClipLines::default()
     };
     let lines = LineMap {
         clips: (1..=count).map(line).collect(),
@@ -77,11 +77,18 @@ fn rows_that_are_counted_in_one_finding_have_their_first_places() {
     let [one] = findings(&document, &lines, "normals-missing")
         .try_into()
         .expect("one finding");
-    assert_eq!((one.count, one.position), (5, Some(line(101))));
-    assert_eq!(one.places, [101, 103, 104, 108, 109].map(line));
-    let expected = [1, 3, 4, 8, 9].map(|vertex| (Some(Subject::Vertex(vertex)), Some(line(100 + vertex))));
+    assert_eq!((one.count, one.position), (5, Some(line(103))));
+    // The third line of each vertex has its normal.
+    assert_eq!(one.places, [103, 105, 106, 110, 111].map(line));
+    let expected = [1, 3, 4, 8, 9].map(|vertex| {
+        (
+            Some(Subject::Vertex(vertex)),
+            Some(line(102 + vertex)),
+            Moment::default(),
+        )
+    });
     assert_eq!(one.occurrences().collect::<Vec<_>>(), expected);
-    assert_eq!(one.few_places(), [101, 103, 104, 108].map(line));
+    assert_eq!(one.few_places(), [103, 105, 106, 110].map(line));
 }
 
 #[test]

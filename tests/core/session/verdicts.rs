@@ -1,6 +1,7 @@
 //! What the books' programs make of the open file, and the report.
 
 use bindpose::check::book::Book;
+use bindpose::diagnostic::codes;
 use bindpose::session::{FileCommand, Session};
 
 use super::maps::{mapped, picture};
@@ -58,6 +59,10 @@ fn the_report_names_the_file_and_has_a_line_for_each_book() {
     let session = opened(models::file("folder/a.m3d", &models::skinned(&models::CLIPS)));
     let report = session.report();
     let lines: Vec<&str> = report.lines().filter(|line| line.starts_with("a.m3d")).collect();
+    let (permanent, lines): (Vec<&str>, Vec<&str>) = lines
+        .into_iter()
+        .partition(|line| line.contains("The file itself is unchanged"));
+    assert!(!permanent.is_empty(), "{report}");
     assert_eq!(lines.len(), 2 + session.diagnostics().count(), "{report}");
     assert!(
         lines
@@ -71,4 +76,32 @@ fn the_report_names_the_file_and_has_a_line_for_each_book() {
             .any(|line| line.starts_with("a.m3d: D3D12 book: It reads the file. One sees: ")),
         "{report}"
     );
+}
+
+#[test]
+fn the_report_has_help_once_for_each_code_and_no_sentence_twice_in_a_finding() {
+    let mut document = models::skinned(&models::CLIPS);
+    document.clips.iter_mut().for_each(|clip| clip.name = "Walk".into());
+    let count = document.clips.len() - 1;
+    let session = opened(models::file("a.m3d", &document));
+    let report = session.report();
+    let of_finding = codes::DUPLICATE_CLIP_NAME;
+    assert_eq!(
+        report.matches(&format!("note[{}]", of_finding.name)).count(),
+        count,
+        "{report}"
+    );
+    assert_eq!(report.matches(of_finding.explanation).count(), 1, "{report}");
+    for limit in session.verdicts().iter().flat_map(|verdict| &verdict.limits) {
+        let mending = codes::named(limit.code).expect("a row of the table").mending;
+        assert!(report.contains(&format!("{} {mending}", limit.message)), "{report}");
+    }
+    for code in codes::all() {
+        let words = [code.sentence, code.explanation, code.handling, code.mending].join(" ");
+        let mut sentences: Vec<&str> = words.split_inclusive(". ").map(str::trim).collect();
+        sentences.sort_unstable();
+        let count = sentences.len();
+        sentences.dedup();
+        assert_eq!(sentences.len(), count, "{}", code.name);
+    }
 }
