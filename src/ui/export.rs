@@ -24,10 +24,9 @@ const FIELD_WIDTH: f32 = 76.0;
 /// Width of the button that stops writing.
 const CANCEL_WIDTH: f32 = 74.0;
 
-/// The popover's contents.
+/// The contents of the popover and of the sheet's page, below their title.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let choice = &mut state.export;
-    section_name(ui, "Export");
     let Some(open) = session.open_model() else {
         ui.label(RichText::new("Nothing is open. Drop a model, then export it here.").color(Tokens::of(ui).muted));
         return;
