@@ -9,7 +9,6 @@ use super::widgets::{
     MenuLine, TextButton, control_size, menu_item, number_field, section_name, section_with_labelled_action, segmented,
     switch_row,
 };
-use super::wording::counted;
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 
 /// Width of the popover.
@@ -234,15 +233,6 @@ fn outcome(ui: &mut Ui, export: Option<Export<'_>>, unfolded: &mut [bool; 2]) {
     if !changes.is_empty() {
         ui.add_space(6.0);
         sentences(ui, "What changes", &changes, tokens.accent, all_changes);
-    }
-    if plan.maps > 0 {
-        ui.add_space(6.0);
-        let (count, verb) = (
-            counted(plan.maps, "texture"),
-            if plan.maps == 1 { "comes" } else { "come" },
-        );
-        let words = format!("{count} {verb} along in a .zip.");
-        ui.label(RichText::new(words).color(tokens.muted));
     }
 }
 
