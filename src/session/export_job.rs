@@ -9,7 +9,7 @@ use super::load::Progress;
 use super::maps::Maps;
 use crate::diagnostic::collect::counted;
 use crate::edit::{Change, EditError, EditJob, Edited, Edits};
-use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
+use crate::export::{self, EncodedMaps, ExportError, Exported};
 use crate::format::Dialect;
 use crate::model::{Front, JointNames, MapSlot, Model};
 use crate::modes::modes;
