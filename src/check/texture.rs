@@ -1,11 +1,9 @@
 //! Texture coordinates and tangents that spoil the maps which a material names.
 
-use glam::DVec3;
-
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::{LineMap, VertexField};
-use crate::model::{Material, Mesh, Model};
+use crate::model::{Front, Green, Material, Mesh, Model};
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
 /// files a few slanted triangles come to 131°, and all else agrees.
@@ -68,69 +66,35 @@ pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &m
 
 /// Vertices whose tangent's sign says that the texture is mirrored where it is not, or the other way round. Only vertices of normal maps
 /// are looked at, and only those of which every triangle contradicts the sign: where mirrored and other triangles share a vertex, no
-/// sign is right, and the seam is too thin to be seen.
+/// sign is right, and the seam is too thin to be seen. glTF leaves it to the tangents where the green of its maps points: there a sign
+/// contradicts what most of a material's have.
 pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
     let mesh = &model.mesh;
+    let greens = match model.front {
+        Front::Negative => Vec::new(),
+        Front::Positive => model.greens(),
+    };
+    let green = |material: usize| greens.get(material).copied().flatten().unwrap_or(Green::Down);
     let (mut accused, mut cleared) = (vec![false; mesh.vertex_count()], vec![false; mesh.vertex_count()]);
     let (triangles, _) = mesh.indices.as_chunks::<3>();
-    for corners in normal_mapped(model).map(|triangle| triangles[triangle]) {
-        let Some(along_v) = along_v(mesh, corners) else {
-            continue;
-        };
-        for vertex in corners.map(|vertex| vertex as usize) {
-            let tangent = mesh.tangents[vertex];
-            let bitangent = (mesh.normals[vertex].cross(tangent.truncate()) * tangent.w).as_dvec3();
-            let cosine = bitangent.dot(along_v);
-            // Most agree, and need no lengths.
-            let is_against = cosine < 0.0 && cosine < AGAINST * bitangent.length() * along_v.length();
-            accused[vertex] |= is_against;
-            cleared[vertex] |= !is_against;
+    for (wanted, sign) in [(Green::Down, 1.0), (Green::Up, -1.0)] {
+        let is_such = |material: usize| model.materials[material].normal_map.is_some() && green(material) == wanted;
+        for corners in model.triangles_of(is_such).map(|triangle| triangles[triangle]) {
+            let Some(along_v) = mesh.along_v(corners) else {
+                continue;
+            };
+            for vertex in corners {
+                let bitangent = mesh.bitangent(vertex) * sign;
+                let cosine = bitangent.dot(along_v);
+                // Most agree, and need no lengths.
+                let is_against = cosine < 0.0 && cosine < AGAINST * bitangent.length() * along_v.length();
+                accused[vertex as usize] |= is_against;
+                cleared[vertex as usize] |= !is_against;
+            }
         }
     }
     let vertices = (0u32..).zip(accused.into_iter().zip(cleared));
     vertices
         .filter(|(_, (accused, cleared))| *accused && !*cleared)
         .map(|(vertex, _)| vertex)
-}
-
-/// The triangles of subsets with a normal map, each once.
-fn normal_mapped(model: &Model) -> impl Iterator<Item = usize> {
-    // How many such subsets begin at a triangle, less those that end there.
-    let mut changes = vec![0_i64; model.mesh.triangle_count() + 1];
-    for submesh in &model.mesh.submeshes {
-        if model.materials[submesh.material as usize].normal_map.is_some() {
-            changes[submesh.triangle_start as usize] += 1;
-            changes[(submesh.triangle_start + submesh.triangle_count) as usize] -= 1;
-        }
-    }
-    let mut inside = 0;
-    let triangles = changes.into_iter().enumerate();
-    triangles.filter_map(move |(triangle, change)| {
-        inside += change;
-        (inside > 0).then_some(triangle)
-    })
-}
-
-/// The sine of a triangle's angle, on the surface or in the texture, below which its directions are rounding errors: half a degree.
-const NEEDLE: f64 = 0.01;
-
-/// The direction in which v grows on a triangle, of any length. `None` where it is a needle, there or in the texture.
-fn along_v(mesh: &Mesh, corners: [u32; 3]) -> Option<DVec3> {
-    let [a, b, c] = corners.map(|vertex| vertex as usize);
-    let position = |vertex: usize| mesh.positions[vertex].as_dvec3();
-    let coords = |vertex: usize| mesh.tex_coords[vertex].as_dvec2();
-    let (edge_1, edge_2) = (position(b) - position(a), position(c) - position(a));
-    let (step_1, step_2) = (coords(b) - coords(a), coords(c) - coords(a));
-    let texture_area = step_1.perp_dot(step_2);
-    let is_needle = |area_squared: f64, sides_squared: f64| area_squared <= NEEDLE * NEEDLE * sides_squared;
-    if is_needle(
-        texture_area * texture_area,
-        step_1.length_squared() * step_2.length_squared(),
-    ) || is_needle(
-        edge_1.cross(edge_2).length_squared(),
-        edge_1.length_squared() * edge_2.length_squared(),
-    ) {
-        return None;
-    }
-    Some((edge_2 * step_1.x - edge_1 * step_2.x) * texture_area.signum())
 }

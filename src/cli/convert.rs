@@ -3,24 +3,23 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::ValueEnum;
 use serde::Serialize;
 
 use super::failure::{Failure, Outcome};
 use super::input::{self, one_of};
-use super::map_files::{self, MapFile};
 use super::paths;
 use super::text::{Plain, grouped};
 use super::textures::{Folders, Textures, Wanted};
 use crate::check::book::Book;
-use crate::diagnostic::{Severity, codes};
-use crate::edit::{self, Change, Edited, Edits};
-use crate::export::{self, Exported, Loss, MapImages};
+use crate::edit::{Change, Edits};
+use crate::export::Loss;
 use crate::format::Dialect;
 use crate::import::FileFormat;
-use crate::model::{Front, Handedness, JointNames, MapSlot, Model, UpAxis};
-use crate::session::{self, File, Maps, OpenModel};
+use crate::model::{Handedness, JointNames, Model, UpAxis};
+use crate::session::{self, ExportFormat, ExportJob, File, Maps, OpenModel, ToExport, WrittenModel};
 
 /// Write a model as another file, changed as asked.
 ///
@@ -84,7 +83,10 @@ pub(super) struct Arguments {
     /// Look for maps in this folder and in those in it; may be given more than once.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
-    /// Write the maps that were found into this folder, and name them so in the .m3d: PNG, or DDS with --for-book.
+    /// Write the maps that were found into this folder, and name them so in the .m3d.
+    ///
+    /// As they are, or as DDS with mips with --for-book. The green of glTF's normal maps, which points up, is turned to point down, as in
+    /// the books.
     #[arg(long, value_name = "DIR")]
     textures_out: Option<PathBuf>,
     /// What makes the exit code 1, with nothing written.
@@ -144,70 +146,53 @@ struct Lost<'a> {
     count: usize,
 }
 
-/// What is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Target {
-    M3d(Dialect),
-    Glb,
-}
-
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     check_use(arguments)?;
     refuse_own_input(&arguments.output, [arguments.input.as_path()])?;
     let open = read(&arguments.input)?;
-    let target = arguments.target(open.format)?;
-    // What was mended while it was read is written as mended.
-    let mut changes: Vec<Change> = mended(&open);
-    let Edited {
-        mut model,
-        names,
-        changes: of_edits,
-    } = edit::apply(
-        open.model.clone(),
-        &JointNames::default(),
-        &arguments.edits(target, &open.model),
-    )
-    .map_err(|error| Failure::edit(&arguments.input, error))?;
-    changes.extend(of_edits);
-
+    let format = arguments.format(open.format);
+    let is_glb = format == ExportFormat::Glb;
     let folders = Folders::walk(&arguments.textures, err)?;
-    let mut textures = Textures::of(&folders, &model.materials, Wanted::Maps);
+    let mut textures = Textures::of(&folders, &open.model.materials, Wanted::Maps);
     textures.write_warnings(err)?;
-    let mut maps = if arguments.for_book {
-        Maps::default()
-    } else {
-        Maps::without_mips()
+    // What is not written beside the file is only named; of what lies inside the input that is a loss.
+    let pictures = match std::mem::take(&mut textures.pictures) {
+        found if is_glb || arguments.textures_out.is_some() => found,
+        _ => Vec::new(),
     };
-    let pictures = std::mem::take(&mut textures.pictures).into_iter();
-    maps.add(&model.materials, pictures.chain(open.pictures.iter().cloned()));
-    let mut map_files = Vec::new();
-    let mut losses = Vec::new();
+    let mut maps = Maps::without_mips();
+    maps.add(
+        &open.model.materials,
+        pictures.into_iter().chain(open.pictures.iter().cloned()),
+    );
+    let what = ToExport {
+        model: open.model.clone(),
+        names: &JointNames::default(),
+        changes: open.mended().collect(),
+        edits: arguments.edits(format, &open.model),
+        maps: &maps,
+        format,
+        writes_maps: arguments.textures_out.is_some(),
+    };
+    let WrittenModel {
+        bytes,
+        maps: map_files,
+        plan,
+    } = ExportJob::new("", what)
+        .run_apart()
+        .map_err(|refusal| Failure::export(&arguments.input, refusal))?;
     if let Some(folder) = &arguments.textures_out {
-        map_files = map_files::name_maps(&mut model, &maps, arguments.for_book, &mut changes, &mut losses)?;
         let beside = arguments.input.parent().unwrap_or(Path::new(""));
         let sources = maps.pictures().iter();
         let sources: Vec<PathBuf> = sources
             .flat_map(|file| [textures.path(file).to_owned(), beside.join(&file.path)])
             .chain([arguments.input.clone()])
             .collect();
-        for file in &map_files {
-            refuse_own_input(&folder.join(&file.name), sources.iter().map(PathBuf::as_path))?;
-        }
-    } else if target != Target::Glb {
-        losses.extend(unwritten_maps(&open, &maps, &model));
-        if arguments.for_book && target == Target::M3d(Dialect::D3d12) {
-            losses.extend(maps_not_dds(&model));
+        for (name, _) in &map_files {
+            refuse_own_input(&folder.join(name), sources.iter().map(PathBuf::as_path))?;
         }
     }
-    let Exported {
-        bytes,
-        losses: of_format,
-    } = match target {
-        Target::M3d(dialect) => export::m3d(&model, &names, dialect)?,
-        Target::Glb => export::glb(&model, &names, &images(&model, &maps))?,
-    };
-    losses.extend(of_format);
-    let is_denied = arguments.deny == Some(Deny::Losses) && !losses.is_empty();
+    let is_denied = arguments.deny == Some(Deny::Losses) && !plan.losses.is_empty();
     if !is_denied {
         if let Some(folder) = &arguments.textures_out {
             write_maps(folder, &map_files)?;
@@ -217,10 +202,10 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let converted = Converted {
         input: arguments.input.display().to_string(),
         output: arguments.output.display().to_string(),
-        format: target.name(),
-        dialect: target.dialect(),
-        changes: changes.iter().map(Told::from).collect(),
-        losses: losses.iter().map(Lost::from).collect(),
+        format: format.extension(),
+        dialect: format.dialect().map(Dialect::as_str),
+        changes: plan.changes.iter().map(Told::from).collect(),
+        losses: plan.losses.iter().map(Lost::from).collect(),
         bytes: if is_denied { 0 } else { bytes.len() },
     };
     if arguments.json {
@@ -237,68 +222,40 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     Ok(Outcome::Fine)
 }
 
-impl Target {
-    fn name(self) -> &'static str {
-        match self {
-            Self::M3d(_) => "m3d",
-            Self::Glb => "glb",
-        }
-    }
-
-    fn dialect(self) -> Option<&'static str> {
-        match self {
-            Self::M3d(dialect) => Some(dialect.as_str()),
-            Self::Glb => None,
-        }
-    }
-}
-
-impl From<Book> for Dialect {
-    fn from(book: Book) -> Self {
-        match book {
-            Book::D3d11 => Self::D3d11,
-            Book::D3d12 => Self::D3d12,
-        }
-    }
-}
-
 impl Arguments {
     fn writes_glb(&self) -> bool {
         has_extension(&self.output, "glb")
     }
 
-    fn target(&self, of_input: FileFormat) -> Result<Target, Failure> {
+    fn format(&self, of_input: FileFormat) -> ExportFormat {
         if self.writes_glb() {
-            return Ok(Target::Glb);
+            return ExportFormat::Glb;
         }
-        let own = match of_input {
-            FileFormat::M3d(Dialect::D3d11) => Dialect::D3d11,
-            _ => Dialect::D3d12,
-        };
-        Ok(Target::M3d(self.dialect.map_or(own, Dialect::from)))
+        match (self.dialect, of_input) {
+            (Some(Book::D3d11), _) | (None, FileFormat::M3d(Dialect::D3d11)) => ExportFormat::D3d11,
+            _ => ExportFormat::D3d12,
+        }
     }
 
-    fn edits(&self, target: Target, model: &Model) -> Edits {
-        // A .glb is brought into its one space as it is written.
-        let of_m3d = target != Target::Glb;
-        let of_books = if model.skeleton.joint_count() > 0 {
-            Handedness::Right
-        } else {
-            Handedness::Left
-        };
-        Edits {
+    fn edits(&self, format: ExportFormat, model: &Model) -> Edits {
+        let edits = Edits {
             clips: self.clips.clone(),
             fix: self.fix,
             range_secs: self.range,
             close_loop_secs: self.close_loop,
             reduce: self.reduce,
             scale: self.scale,
-            up_axis: self.up.or(of_m3d.then_some(UpAxis::Y)),
-            handedness: self.hand.or(of_m3d.then_some(of_books)),
-            front: of_m3d.then_some(Front::Negative),
+            up_axis: self.up,
+            handedness: self.hand,
+            front: None,
             clip_names: self.rename.clone(),
             bone_names: self.rename_bone.clone(),
             for_book: self.for_book,
+        };
+        // A .glb is brought into its one space as it is written.
+        match format {
+            ExportFormat::Glb => edits,
+            ExportFormat::D3d12 | ExportFormat::D3d11 => edits.in_space_of_the_books(model),
         }
     }
 }
@@ -358,52 +315,6 @@ fn read(path: &Path) -> Result<OpenModel, Failure> {
     })
 }
 
-/// What was mended while the model was read, as changes. Findings of the checks are none.
-fn mended(open: &OpenModel) -> Vec<Change> {
-    let is_check = |code: &str| {
-        let groups = [codes::OF_MESH_AND_RIG, codes::OF_MOTION];
-        groups.iter().any(|group| group.iter().any(|row| row.name == code))
-    };
-    let warnings = open.diagnostics.iter();
-    warnings
-        .filter(|diagnostic| diagnostic.severity == Severity::Warning && !is_check(diagnostic.code))
-        .map(|diagnostic| Change {
-            code: diagnostic.code,
-            message: diagnostic.message.clone(),
-        })
-        .collect()
-}
-
-/// Maps that lie inside the input and of which a `.m3d` keeps the names alone.
-fn unwritten_maps(open: &OpenModel, maps: &Maps, model: &Model) -> Option<Loss> {
-    let materials = 0..model.materials.len();
-    let slots = materials.flat_map(|material| MapSlot::ALL.map(|slot| maps.file(material, slot)));
-    let inside = slots.flatten().filter(|file| open.pictures.contains(file)).count();
-    (inside > 0).then(|| Loss {
-        code: "maps-not-written",
-        message: "Maps of the input are named and not written; --textures-out DIR writes them.".to_owned(),
-        count: inside,
-    })
-}
-
-/// Maps that the D3D12 book's demo does not read.
-fn maps_not_dds(model: &Model) -> Option<Loss> {
-    let names = session::named_maps(&model.materials).map(|(_, _, name)| name);
-    let count = names.filter(|name| !has_extension(Path::new(name), "dds")).count();
-    (count > 0).then(|| Loss {
-        code: codes::BOOK_MAP_FORMAT.name,
-        message: "Maps are not named as DDS, which the demo needs; --textures-out DIR writes them so.".to_owned(),
-        count,
-    })
-}
-
-fn images<'a>(model: &Model, maps: &'a Maps) -> MapImages<'a> {
-    let slots = (0..model.materials.len()).flat_map(|material| MapSlot::ALL.map(|slot| (material, slot)));
-    slots
-        .filter_map(|(material, slot)| Some(((material, slot), &**maps.image(material, slot)?)))
-        .collect()
-}
-
 /// Refuses to write one of the files that were read.
 fn refuse_own_input<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
     // A file that is not there is none of them.
@@ -421,14 +332,14 @@ fn refuse_own_input<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
     Ok(())
 }
 
-fn write_maps(folder: &Path, files: &[MapFile]) -> Result<(), Failure> {
+fn write_maps(folder: &Path, files: &[(String, Arc<[u8]>)]) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|reason| Failure::Unwritable {
         path: folder.to_owned(),
         reason,
     })?;
     files
         .iter()
-        .try_for_each(|file| write_whole(&folder.join(&file.name), &file.bytes))
+        .try_for_each(|(name, bytes)| write_whole(&folder.join(name), bytes))
 }
 
 /// Writes beside the place and renames, so that a file is whole or not there.

@@ -13,7 +13,7 @@ use crate::export::ExportError;
 use crate::image::EncodeError;
 use crate::render::device::DeviceError;
 use crate::render::{GpuError, PictureError, UploadError};
-use crate::session::LoadError;
+use crate::session::{ExportRefusal, LoadError};
 
 /// How it went, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,11 +104,20 @@ pub(super) enum Failure {
 
 impl Failure {
     /// An edit of a file that cannot be made.
-    pub(super) fn edit(path: &Path, error: EditError) -> Self {
+    fn edit(path: &Path, error: EditError) -> Self {
         let path = path.to_owned();
         match error {
             EditError::UnknownClip { asked, known } => Self::UnknownClip { path, asked, known },
             error => Self::Edit { path, error },
+        }
+    }
+
+    /// A file that cannot be written as another.
+    pub(super) fn export(path: &Path, refusal: ExportRefusal) -> Self {
+        match refusal {
+            ExportRefusal::Edit(error) => Self::edit(path, error),
+            ExportRefusal::Write(error) => Self::Export(error),
+            ExportRefusal::Archive(error) => Self::Output(error),
         }
     }
 

@@ -11,7 +11,6 @@ mod failure;
 mod in_order;
 mod info;
 mod input;
-mod map_files;
 mod output;
 mod paths;
 mod pose;

@@ -2,6 +2,7 @@
 //!
 //! What a format cannot hold is a [`Loss`]. All losses are known before anything is written.
 
+mod directions;
 mod glb;
 mod losses;
 mod m3d;
@@ -11,7 +12,8 @@ use std::collections::BTreeMap;
 use crate::image::Image;
 use crate::model::MapSlot;
 
-pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with};
+pub use directions::directions;
+pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with, turned_materials};
 pub use m3d::{m3d, m3d_losses, one_word};
 
 /// A written file.

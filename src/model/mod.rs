@@ -3,6 +3,7 @@
 //! A model knows no format: [`import`](crate::import) makes its parts of what a file says. [`Skeleton::new`], [`Track::new`] and
 //! [`Model::checked`] prove them, or give a [`ModelError`]. What is proved here no later stage looks at again.
 
+mod bitangents;
 mod bounds;
 mod clip;
 mod curve;
@@ -19,6 +20,7 @@ mod space;
 mod track;
 mod tree;
 
+pub use bitangents::Green;
 pub use bounds::Aabb;
 pub use clip::Clip;
 pub use curve::{Curve, CurveValue, Curves};

@@ -18,10 +18,6 @@ use crate::{scene, shaders};
 /// Samples along the longer side of a pixel's footprint, where the device supports it: floors stay sharp far away.
 const ANISOTROPY: u16 = 8;
 
-/// The DirectX 11 book's specular colours multiply a lobe that peaks at 1. A twentieth of them is the Fresnel reflectance of the
-/// dielectrics that they stand for.
-const PHONG_TO_FRESNEL: f32 = 0.05;
-
 /// What is blended with less alpha than this casts no shadow, and does not stand in the way of ambient light.
 const LEAST_SOLID_ALPHA: f32 = 0.5;
 
@@ -304,6 +300,7 @@ fn alpha(material: &Material, uniform: &shaders::Material, maps: MapFacts, has_c
 /// The uniform of the material with this index, which depends on the maps that are there.
 fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_colors: bool) -> shaders::Material {
     let unit = |color: [f32; 3]| color.map(|channel| channel.clamp(0.0, 1.0));
+    let surface = material.fresnel_surface();
     let has_diffuse = maps.present & 1 << MapSlot::Diffuse as u32 != 0;
     let stand_in = scene::stand_in_color(index, material).filter(|_| !has_diffuse);
     let varies = maps.has_alpha || has_colors;
@@ -318,17 +315,16 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
         book_albedo: stand_in.map_or(unit(material.diffuse), |color| color.map(srgb_from_linear)),
         normal_channels: maps.normal_channels,
         identity_srgb: identity_color(index),
+        roughness: surface.roughness.clamp(0.0, 1.0),
         ..Default::default()
     };
     match material.reflectance {
-        Reflectance::Fresnel { fresnel0, roughness } => shaders::Material {
-            fresnel0: unit(fresnel0),
-            roughness: roughness.clamp(0.0, 1.0),
+        Reflectance::Fresnel { .. } => shaders::Material {
+            fresnel0: unit(surface.fresnel0),
             ..common
         },
         // Shaders take Fresnel0 from the diffuse colour and the metalness of each point. Alpha of the normal map is no gloss.
-        Reflectance::MetallicRoughness { roughness, .. } => shaders::Material {
-            roughness: roughness.clamp(0.0, 1.0),
+        Reflectance::MetallicRoughness { .. } => shaders::Material {
             normal_channels: maps.normal_channels.min(3),
             ..common
         },
@@ -338,12 +334,7 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
             spec_power,
             reflectivity,
         } => shaders::Material {
-            fresnel0: std::array::from_fn(|channel| {
-                let of_lobe = specular[channel].clamp(0.0, 1.0) * PHONG_TO_FRESNEL;
-                // The book's mirrored sky becomes the mirrored environment.
-                of_lobe + (1.0 - of_lobe) * reflectivity[channel].clamp(0.0, 1.0)
-            }),
-            roughness: roughness_from_power(spec_power).clamp(0.0, 1.0),
+            fresnel0: unit(surface.fresnel0),
             is_phong: 1,
             // The DirectX 11 book reads no gloss.
             normal_channels: maps.normal_channels.min(3),
@@ -413,21 +404,4 @@ fn identity_color(index: usize) -> [f32; 4] {
         0.30 + 0.58 * wheel.clamp(0.0, 1.0)
     };
     [channel(0.0), channel(4.0), channel(2.0), 1.0]
-}
-
-/// Roughness whose GGX lobe is as wide as a Blinn-Phong one: alpha² = 2 / (power + 2), alpha = roughness².
-fn roughness_from_power(power: f32) -> f32 {
-    (2.0 / (power.max(0.0) + 2.0)).powf(0.25)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_higher_power_is_smoother() {
-        assert_eq!(roughness_from_power(0.0), 1.0);
-        assert!(roughness_from_power(8.0) > roughness_from_power(64.0));
-        assert!(roughness_from_power(1e6) > 0.0);
-    }
 }

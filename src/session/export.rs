@@ -1,6 +1,7 @@
 //! What is asked about writing a file of another format, and how far that is.
 
-use super::export_job::{ExportFormat, ExportJob, ExportPlan, ExportedFile};
+use super::export_job::{ExportFormat, ExportJob, ExportedFile};
+use super::export_plan::ExportPlan;
 use super::load::Progress;
 use crate::edit::Edits;
 

@@ -1,16 +1,17 @@
 //! From what is open to a file of another format, in steps, without a session.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::export_files::Archive;
-use super::files::File;
+use super::export_maps::{KnownMaps, MapFiles, MapsAsked, plan_maps};
+use super::export_plan::ExportPlan;
 use super::load::Progress;
-use crate::edit::{Change, EditError, EditJob, Edited};
-use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
+use super::maps::Maps;
+use crate::diagnostic::collect::counted;
+use crate::edit::{Change, EditError, EditJob, Edited, Edits};
+use crate::export::{self, EncodedMaps, ExportError, Exported};
 use crate::format::Dialect;
-use crate::image::Image;
-use crate::model::MapSlot;
+use crate::model::{Front, JointNames, MapSlot, Model};
 use crate::modes::modes;
 
 modes! {
@@ -43,15 +44,15 @@ impl ExportFormat {
     }
 }
 
-/// What will be otherwise in a file, known before it is written.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ExportPlan {
-    /// What was edited, in the order of the edits.
-    pub changes: Vec<Change>,
-    /// What the format does not hold, or holds otherwise.
-    pub losses: Vec<Loss>,
-    /// Pictures that come along in an archive.
-    pub maps: usize,
+/// A model that was written, and the pictures beside it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenModel {
+    /// The bytes of its file.
+    pub bytes: Vec<u8>,
+    /// Pictures that its materials name: the name and the bytes of each.
+    pub maps: Vec<(String, Arc<[u8]>)>,
+    /// What is otherwise in it.
+    pub plan: ExportPlan,
 }
 
 /// A file that was written.
@@ -94,22 +95,41 @@ pub enum ExportRefusal {
 /// began, whatever happens to the session meanwhile.
 #[derive(Debug)]
 pub struct ExportJob {
-    pub(super) stem: String,
-    pub(super) format: ExportFormat,
-    /// Decoded maps of the materials.
-    pub(super) images: BTreeMap<(usize, MapSlot), Arc<Image>>,
-    /// The files that they came from.
-    pub(super) pictures: BTreeMap<(usize, MapSlot), File>,
-    pub(super) state: State,
+    stem: String,
+    format: ExportFormat,
+    maps: KnownMaps,
+    asked: MapsAsked,
+    state: State,
 }
 
 #[derive(Debug)]
-pub(super) enum State {
+enum State {
     /// What was changed before, and the edits.
     Edit(Vec<Change>, Box<EditJob>),
     /// The pictures of a `.glb` are encoded one by one first.
-    Write(Box<Edited>, EncodedMaps, ExportPlan),
+    Glb(Box<Edited>, EncodedMaps, ExportPlan),
+    /// So are those beside a file of the books.
+    M3d(Box<Edited>, MapFiles, ExportPlan),
     Pack(Box<Archive>, ExportPlan),
+}
+
+/// What is written, and how.
+#[derive(Debug)]
+pub struct ToExport<'a> {
+    /// The model.
+    pub model: Model,
+    /// Names that a person gave to its bones.
+    pub names: &'a JointNames,
+    /// What was changed before.
+    pub changes: Vec<Change>,
+    /// What is to be changed.
+    pub edits: Edits,
+    /// Its maps. A `.glb` has them inside.
+    pub maps: &'a Maps,
+    /// The format.
+    pub format: ExportFormat,
+    /// Pictures are written beside a file of the books. Otherwise its materials keep their names for them.
+    pub writes_maps: bool,
 }
 
 /// What became of a job in a step.
@@ -122,17 +142,48 @@ pub enum ExportStep {
 }
 
 impl ExportJob {
+    /// A job that has done nothing yet. `stem` is the file's name without its extension.
+    pub fn new(stem: &str, what: ToExport<'_>) -> Self {
+        let ToExport {
+            model,
+            names,
+            changes,
+            edits,
+            maps,
+            format,
+            writes_maps,
+        } = what;
+        let places = || (0..model.materials.len()).flat_map(|material| MapSlot::ALL.map(|slot| (material, slot)));
+        let images = places().filter_map(|place| Some((place, Arc::clone(maps.image(place.0, place.1)?))));
+        let pictures = places().filter_map(|place| Some((place, maps.file(place.0, place.1)?.clone())));
+        Self {
+            stem: stem.to_owned(),
+            format,
+            maps: KnownMaps {
+                images: images.collect(),
+                pictures: pictures.collect(),
+            },
+            asked: MapsAsked {
+                are_written: writes_maps,
+                for_book: edits.for_book,
+                only_dds: format == ExportFormat::D3d12,
+                turns_green: model.front == Front::Positive,
+            },
+            state: State::Edit(changes, Box::new(EditJob::new(model, names, edits))),
+        }
+    }
+
     /// What will be otherwise in the file, once all edits are made.
     pub fn plan(&self) -> Option<&ExportPlan> {
         match &self.state {
             State::Edit(..) => None,
-            State::Write(_, _, plan) | State::Pack(_, plan) => Some(plan),
+            State::Glb(_, _, plan) | State::M3d(_, _, plan) | State::Pack(_, plan) => Some(plan),
         }
     }
 
-    /// The name of the file that it writes.
+    /// The name of the file that it writes; that of the model alone until it is planned.
     pub fn file_name(&self) -> String {
-        let packs = self.format.dialect().is_some() && self.pictures.keys().any(|&(_, slot)| is_of_book(slot));
+        let packs = self.plan().is_some_and(|plan| plan.maps > 0);
         let extension = if packs { "zip" } else { self.format.extension() };
         format!("{}.{extension}", self.stem)
     }
@@ -148,9 +199,13 @@ impl ExportJob {
                 let [done, total] = edits.progress();
                 parts(done, total - done + 1)
             }
-            State::Write(_, encoded, _) => {
+            State::Glb(_, encoded, _) => {
                 let done = encoded.count();
-                parts(1 + done, 1 + self.images.len().saturating_sub(done))
+                parts(1 + done, 1 + self.maps.images.len().saturating_sub(done))
+            }
+            State::M3d(_, files, _) => {
+                let [done, waiting] = files.progress();
+                parts(1 + done, 1 + waiting)
             }
             State::Pack(archive, _) => {
                 let [done, total] = archive.progress();
@@ -159,7 +214,7 @@ impl ExportJob {
         }
     }
 
-    /// Makes an edit, thins the keys of a clip, writes the model, or packs a part of a picture.
+    /// Makes an edit, thins the keys of a clip, makes a picture, writes the model, or packs a part.
     pub fn step(mut self) -> ExportStep {
         match self.next() {
             Ok(None) => ExportStep::Working(Box::new(self)),
@@ -180,108 +235,113 @@ impl ExportJob {
         }
     }
 
-    fn next(&mut self) -> Result<Option<ExportedFile>, ExportRefusal> {
-        match &mut self.state {
-            State::Edit(changes, edits) => {
-                if !edits.step()? {
-                    let edited = edits.clone().finish();
-                    changes.extend(edited.changes.iter().cloned());
-                    let plan = self.planned(&edited);
-                    self.state = State::Write(Box::new(edited), EncodedMaps::default(), plan);
-                }
-                Ok(None)
+    /// Does all steps, and packs nothing.
+    ///
+    /// # Errors
+    /// As [`ExportJob::run`].
+    pub fn run_apart(mut self) -> Result<WrittenModel, ExportRefusal> {
+        loop {
+            if let Some(written) = self.write_next()? {
+                return Ok(written);
             }
-            State::Write(edited, encoded, plan) => {
-                let is_glb = self.format.dialect().is_none();
-                if is_glb && export::encode_map(&edited.model, &lent(&self.images), encoded)? {
-                    return Ok(None);
-                }
-                let (plan, encoded) = (std::mem::take(plan), std::mem::take(encoded));
-                let Exported { bytes, .. } = match self.format.dialect() {
-                    Some(dialect) => export::m3d(&edited.model, &edited.names, dialect)?,
-                    None => export::glb_with(&edited.model, &edited.names, &lent(&self.images), encoded)?,
-                };
-                if plan.maps == 0 {
-                    let name = self.file_name();
-                    return Ok(Some(ExportedFile { name, bytes, plan }));
-                }
-                let model = (format!("{}.{}", self.stem, self.format.extension()), bytes.into());
-                let pictures = beside(edited, &self.pictures);
-                self.state = State::Pack(Box::new(Archive::new([model].into_iter().chain(pictures))), plan);
-                Ok(None)
-            }
-            State::Pack(archive, plan) => Ok(match archive.step()? {
-                None => None,
-                Some(bytes) => {
-                    let plan = std::mem::take(plan);
-                    let name = self.file_name();
-                    Some(ExportedFile { name, bytes, plan })
-                }
-            }),
         }
     }
 
-    fn planned(&self, edited: &Edited) -> ExportPlan {
-        let changes = match &self.state {
-            State::Edit(changes, _) => changes.clone(),
-            _ => Vec::new(),
+    fn next(&mut self) -> Result<Option<ExportedFile>, ExportRefusal> {
+        if let State::Pack(archive, plan) = &mut self.state {
+            let Some(bytes) = archive.step()? else { return Ok(None) };
+            let plan = std::mem::take(plan);
+            return Ok(Some(ExportedFile {
+                name: format!("{}.zip", self.stem),
+                bytes,
+                plan,
+            }));
+        }
+        let Some(WrittenModel { bytes, maps, plan }) = self.write_next()? else {
+            return Ok(None);
         };
-        let (losses, maps) = match self.format.dialect() {
-            Some(dialect) => (
-                export::m3d_losses(&edited.model, &edited.names, dialect),
-                beside(edited, &self.pictures).count(),
+        let name = format!("{}.{}", self.stem, self.format.extension());
+        if maps.is_empty() {
+            return Ok(Some(ExportedFile { name, bytes, plan }));
+        }
+        let files = [(name, bytes.into())].into_iter().chain(maps);
+        self.state = State::Pack(Box::new(Archive::new(files)), plan);
+        Ok(None)
+    }
+
+    /// A step up to the model's file, but for those that pack it.
+    fn write_next(&mut self) -> Result<Option<WrittenModel>, ExportRefusal> {
+        let images = lent(&self.maps);
+        match &mut self.state {
+            State::Edit(changes, edits) => {
+                if !edits.step()? {
+                    let mut edited = edits.clone().finish();
+                    changes.append(&mut edited.changes);
+                    let mut plan = ExportPlan {
+                        changes: std::mem::take(changes),
+                        ..ExportPlan::default()
+                    };
+                    self.state = match self.format.dialect() {
+                        None => {
+                            plan_glb(&edited.model, &images, &mut plan);
+                            State::Glb(Box::new(edited), EncodedMaps::default(), plan)
+                        }
+                        Some(dialect) => {
+                            let files = plan_maps(&mut edited.model, &self.maps, self.asked, &mut plan);
+                            plan.maps = files.count();
+                            let of_format = export::m3d_losses(&edited.model, &edited.names, dialect);
+                            plan.losses.extend(of_format);
+                            State::M3d(Box::new(edited), files, plan)
+                        }
+                    };
+                }
+                Ok(None)
+            }
+            State::Glb(edited, encoded, plan) => {
+                let Edited { model, names, .. } = &**edited;
+                if export::encode_map(model, &images, encoded)? {
+                    return Ok(None);
+                }
+                let Exported { bytes, .. } = export::glb_with(model, names, &images, std::mem::take(encoded))?;
+                Ok(Some(WrittenModel {
+                    bytes,
+                    maps: Vec::new(),
+                    plan: std::mem::take(plan),
+                }))
+            }
+            State::M3d(edited, files, plan) => {
+                if files.make_next()? {
+                    return Ok(None);
+                }
+                let dialect = self.format.dialect().unwrap_or(Dialect::D3d12);
+                let Exported { bytes, .. } = export::m3d(&edited.model, &edited.names, dialect)?;
+                Ok(Some(WrittenModel {
+                    bytes,
+                    maps: std::mem::take(&mut files.made),
+                    plan: std::mem::take(plan),
+                }))
+            }
+            // What is packed was written before.
+            State::Pack(..) => Ok(None),
+        }
+    }
+}
+
+fn plan_glb(model: &Model, images: &export::MapImages<'_>, plan: &mut ExportPlan) {
+    let turned = export::turned_materials(model, images);
+    let count = turned.iter().filter(|turned| **turned).count();
+    if count > 0 {
+        plan.changes.push(Change {
+            code: "normal-green-turned",
+            message: format!(
+                "{} green up, as glTF has it, and the tangents' sign follows.",
+                counted(count, "normal map has", "normal maps have")
             ),
-            None => (export::glb_losses(&edited.model, &lent(&self.images)), 0),
-        };
-        ExportPlan { changes, losses, maps }
+        });
     }
+    plan.losses.extend(export::glb_losses(model, images));
 }
 
-fn lent(images: &BTreeMap<(usize, MapSlot), Arc<Image>>) -> export::MapImages<'_> {
-    images.iter().map(|(&place, image)| (place, &**image)).collect()
-}
-
-/// Whether the books' materials have such a map.
-fn is_of_book(slot: MapSlot) -> bool {
-    matches!(slot, MapSlot::Diffuse | MapSlot::Normal)
-}
-
-/// The pictures that a file of the books names, each once, under the name that it gives.
-fn beside(edited: &Edited, pictures: &BTreeMap<(usize, MapSlot), File>) -> impl Iterator<Item = (String, Arc<[u8]>)> {
-    let named = pictures.iter().filter_map(|(&(material, slot), file)| {
-        let name = edited.model.materials.get(material)?.map_name(slot)?;
-        let name = name_in_archive(&export::one_word(name), file);
-        (is_of_book(slot) && !name.is_empty()).then(|| (name, Arc::clone(&file.bytes)))
-    });
-    named.collect::<BTreeMap<_, _>>().into_iter()
-}
-
-/// The name that a material gives, as a path that stays inside a folder. Where the picture is of another kind than the name says, it has
-/// the ending of its own.
-fn name_in_archive(name: &str, file: &File) -> String {
-    let parts = name.split(['/', '\\']).map(str::trim);
-    let inside = |part: &&str| !part.is_empty() && !part.contains(':') && part.chars().any(|letter| letter != '.');
-    let path = parts.filter(inside).collect::<Vec<_>>().join("/");
-    let named = File::new(&path, Vec::new());
-    let extension = file.extension();
-    if extension.is_empty() || named.extension() == extension {
-        return path;
-    }
-    let stem_len = path.len() - named.extension().len();
-    format!("{}.{extension}", path[..stem_len].trim_end_matches('.'))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_picture_keeps_the_name_of_its_material_and_stays_inside() {
-        let named = |name: &str, file: &str| name_in_archive(name, &File::new(file, Vec::new()));
-        assert_eq!(named("head_diff.dds", "maps/HEAD_DIFF.DDS"), "head_diff.dds");
-        assert_eq!(named("head_diff.dds", "head_diff.png"), "head_diff.png");
-        assert_eq!(named("C:\\art\\..\\head.dds", "head.dds"), "art/head.dds");
-        assert_eq!(named("skin", "skin.png"), "skin.png");
-        assert_eq!(named("..", "x.png"), ".png");
-    }
+fn lent(maps: &KnownMaps) -> export::MapImages<'_> {
+    maps.images.iter().map(|(&place, image)| (place, &**image)).collect()
 }

@@ -2,10 +2,9 @@
 
 use super::Session;
 use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
-use super::export_job::{ExportJob, ExportStep, ExportedFile, State};
+use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
 use super::load::Progress;
-use crate::edit::{Change, EditJob, Edits};
-use crate::model::MapSlot;
+use crate::edit::{Change, Edits};
 
 impl Session {
     pub(super) fn apply_to_export(&mut self, command: ExportCommand) {
@@ -119,21 +118,20 @@ impl Session {
                 count => format!("{count} materials are written as they were edited here."),
             },
         });
-        let maps = self.maps();
-        let places = || (0..model.materials.len()).flat_map(|material| MapSlot::ALL.map(|slot| (material, slot)));
-        let images = places().filter_map(|place| Some((place, maps.image(place.0, place.1)?.clone())));
-        let files = places().filter_map(|place| Some((place, maps.file(place.0, place.1)?.clone())));
         let name = open.file.base_name();
-        Some(ExportJob {
-            stem: name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned(),
+        let what = ToExport {
+            model,
+            names: self.joint_names(),
+            changes: open.mended().chain(changes).collect(),
+            edits: self.edits(options),
+            maps: self.maps(),
             format: options.format,
-            images: images.collect(),
-            pictures: files.collect(),
-            state: State::Edit(
-                changes.into_iter().collect(),
-                Box::new(EditJob::new(model, self.joint_names(), self.edits(options))),
-            ),
-        })
+            writes_maps: true,
+        };
+        Some(ExportJob::new(
+            name.rsplit_once('.').map_or(name, |(stem, _)| stem),
+            what,
+        ))
     }
 
     /// What is edited before it is written.

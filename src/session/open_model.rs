@@ -8,7 +8,8 @@ use glam::Vec3;
 use super::files::File;
 use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
-use crate::diagnostic::{Diagnostic, Position};
+use crate::diagnostic::{Diagnostic, Position, Severity, codes};
+use crate::edit::Change;
 use crate::format::{self, Document, Excerpt};
 use crate::import::{FileFormat, Imported};
 use crate::model::{Clip, JointIndex, Model};
@@ -162,6 +163,21 @@ impl OpenModel {
             (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
             _ => (self.at_rest.bounds, &self.at_rest.points),
         }
+    }
+
+    /// What was mended while the file was read, as changes: it is written as mended. Findings of the checks are none.
+    pub fn mended(&self) -> impl Iterator<Item = Change> {
+        let is_check = |name: &str| {
+            let groups = [codes::OF_MESH_AND_RIG, codes::OF_MOTION];
+            groups.iter().any(|group| group.iter().any(|row| row.name == name))
+        };
+        let warnings = self.diagnostics.iter();
+        warnings
+            .filter(move |diagnostic| diagnostic.severity == Severity::Warning && !is_check(diagnostic.code))
+            .map(|diagnostic| Change {
+                code: diagnostic.code,
+                message: diagnostic.message.clone(),
+            })
     }
 
     /// Lines of the file around a diagnostic.

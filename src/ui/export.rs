@@ -9,7 +9,6 @@ use super::widgets::{
     MenuLine, TextButton, control_size, menu_item, number_field, section_name, section_with_labelled_action, segmented,
     switch_row,
 };
-use super::wording::counted;
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 
 /// Width of the popover.
@@ -24,10 +23,9 @@ const FIELD_WIDTH: f32 = 76.0;
 /// Width of the button that stops writing.
 const CANCEL_WIDTH: f32 = 74.0;
 
-/// The popover's contents.
+/// The contents of the popover and of the sheet's page, below their title.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let choice = &mut state.export;
-    section_name(ui, "Export");
     let Some(open) = session.open_model() else {
         ui.label(RichText::new("Nothing is open. Drop a model, then export it here.").color(Tokens::of(ui).muted));
         return;
@@ -235,15 +233,6 @@ fn outcome(ui: &mut Ui, export: Option<Export<'_>>, unfolded: &mut [bool; 2]) {
     if !changes.is_empty() {
         ui.add_space(6.0);
         sentences(ui, "What changes", &changes, tokens.accent, all_changes);
-    }
-    if plan.maps > 0 {
-        ui.add_space(6.0);
-        let (count, verb) = (
-            counted(plan.maps, "texture"),
-            if plan.maps == 1 { "comes" } else { "come" },
-        );
-        let words = format!("{count} {verb} along in a .zip.");
-        ui.label(RichText::new(words).color(tokens.muted));
     }
 }
 

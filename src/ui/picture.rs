@@ -23,10 +23,9 @@ const MOST_CELLS: u32 = 24;
 /// Width of the button that cancels one.
 const CANCEL_WIDTH: f32 = 70.0;
 
-/// The popover's contents.
+/// The contents of the popover and of the sheet's page, below their title.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let size = state.picture.size_in_pixels(ui);
-    section_name(ui, "Picture");
     if menu_item(ui, "As the window", MenuLine::Choice(state.picture.size.is_none())).clicked() {
         state.picture.size = None;
     }

@@ -71,7 +71,10 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
-        popover(ui, &camera, 224.0, |ui| picture::show(ui, session, state));
+        popover(ui, &camera, 224.0, |ui| {
+            section_name(ui, "Picture");
+            picture::show(ui, session, state);
+        });
         export_button(ui, session, state, commands);
         theme_button(ui, state);
         open_button(ui, state);
@@ -162,6 +165,7 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
     popover(ui, &button, export::WIDTH, |ui| {
+        section_name(ui, "Export");
         export::show(ui, session, state, commands);
     });
 }

@@ -78,6 +78,17 @@ fn json_has_an_object_for_each_file() {
 }
 
 #[test]
+fn what_convert_tells_of_is_explained_too() {
+    let run_of = |code: &str| run(["check", "--explain", code]).fine();
+    assert!(run_of("scaled").starts_with("change[scaled]: All lengths are multiplied by a factor.\nWhat to do: "));
+    assert!(run_of("alpha-blend").starts_with("loss[alpha-blend]: "));
+    for code in bindpose::diagnostic::of_export::ALL {
+        let kind = if code.is_loss { "loss" } else { "change" };
+        assert!(run_of(code.name).starts_with(&format!("{kind}[{}]: ", code.name)));
+    }
+}
+
+#[test]
 fn a_code_is_explained() {
     let run = run(["check", "--explain", "weights-not-normalized"]);
     let expected = "warning[weights-not-normalized]: The blend weights of a vertex do not sum to 1; normalised.\n\

@@ -1,5 +1,6 @@
 //! Models as files.
 
+mod codes;
 mod glb;
 mod m3d;
 mod others;

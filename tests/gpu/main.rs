@@ -28,6 +28,9 @@ mod alpha_clip;
 mod big_picture;
 mod book_light;
 mod crowd;
+mod exported;
+#[path = "../common/gltf.rs"]
+mod gltf_files;
 mod gltf_materials;
 mod golden;
 mod gpu;

@@ -145,6 +145,7 @@ fn on_a_phone_it_is_a_page_of_the_sheet() {
     let mut window = touch_window(PHONE, vec![still("a.m3d")]);
     window.click("More");
     window.click("Export…");
+    assert_eq!(window.named(|name| name == "Export").len(), 1, "one heading");
     let rect = window.rect("Format: GLB");
     assert!(rect.height() >= 44.0, "{rect}");
     window.click_anywhere("Save a.glb");

@@ -3,14 +3,21 @@
 use std::io::Write;
 
 use crate::cli::failure::Failure;
-use crate::diagnostic::codes;
+use crate::diagnostic::{codes, of_export};
 
-/// Prints the row of the table of codes.
+/// Prints the row of the table of codes, or of those that `convert` tells of.
 pub(super) fn explain(name: &str, out: &mut dyn Write) -> Result<(), Failure> {
+    if let Some(code) = of_export::named(name) {
+        let kind = if code.is_loss { "loss" } else { "change" };
+        writeln!(out, "{kind}[{}]: {}", code.name, code.sentence)?;
+        writeln!(out, "What to do: {}", code.advice)?;
+        return Ok(());
+    }
     let code = codes::named(name).ok_or_else(|| Failure::UnknownCode {
         asked: name.to_owned(),
         nearest: codes::all()
             .map(|code| code.name)
+            .chain(of_export::ALL.iter().map(|code| code.name))
             .min_by_key(|known| edits(name, known))
             .unwrap_or_default(),
     })?;

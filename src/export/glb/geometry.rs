@@ -8,10 +8,16 @@ use super::space::Space;
 use crate::model::{Influences, Model};
 
 /// The mesh; none where no submesh has a triangle.
-pub(super) fn mesh(model: &Model, space: &Space, unmoving: Option<usize>, binary: &mut Binary) -> Option<Value> {
+pub(super) fn mesh(
+    model: &Model,
+    space: &Space,
+    turned: &[bool],
+    unmoving: Option<usize>,
+    binary: &mut Binary,
+) -> Option<Value> {
     let drawn = || model.mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
     drawn().next()?;
-    let attributes = attributes(model, space, unmoving, binary);
+    let attributes = attributes(model, space, turned, unmoving, binary);
     // The greatest number of a type ends strips.
     let is_short = model.mesh.vertex_count() < usize::from(u16::MAX);
     let (component, size) = if is_short {
@@ -47,8 +53,9 @@ pub(super) fn mesh(model: &Model, space: &Space, unmoving: Option<usize>, binary
     Some(json!({ "primitives": primitives }))
 }
 
-/// The accessors of the vertices, which all primitives share. Vertices that no triangle uses are among them.
-fn attributes(model: &Model, space: &Space, unmoving: Option<usize>, binary: &mut Binary) -> Value {
+/// The accessors of the vertices, which all primitives share. Vertices that no triangle uses are among them. Bitangents of `turned`
+/// materials go the other way.
+fn attributes(model: &Model, space: &Space, turned: &[bool], unmoving: Option<usize>, binary: &mut Binary) -> Value {
     let mesh = &model.mesh;
     let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|&at| space.vector(at).to_array()).collect();
     let normals: Vec<[f32; 3]> = mesh
@@ -56,10 +63,15 @@ fn attributes(model: &Model, space: &Space, unmoving: Option<usize>, binary: &mu
         .iter()
         .map(|&normal| space.vector(normal).to_array())
         .collect();
+    let are_turned = model.vertices_of(|material| turned[material]);
     let tangents: Vec<[f32; 4]> = mesh
         .tangents
         .iter()
-        .map(|&tangent| space.tangent(tangent).to_array())
+        .zip(are_turned)
+        .map(|(&tangent, is_turned)| {
+            let [x, y, z, sign] = space.tangent(tangent).to_array();
+            [x, y, z, if is_turned { -sign } else { sign }]
+        })
         .collect();
     let tex_coords: Vec<[f32; 2]> = mesh.tex_coords.iter().map(|at| at.to_array()).collect();
     let mut attributes = json!({

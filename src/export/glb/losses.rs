@@ -5,7 +5,10 @@ use super::skeleton::is_unweighted;
 use crate::diagnostic::collect::counted;
 use crate::export::losses::Losses;
 use crate::export::{Loss, MapImages};
-use crate::model::{MapSlot, Model};
+use crate::model::{MapSlot, Model, Sampling};
+
+/// The cosine between two axes up to which they are square to each other but for rounding.
+const SQUARE: f32 = 1e-5;
 
 /// What a `.glb` file does not hold of a model, or holds otherwise.
 pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
@@ -84,7 +87,29 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
             counted(missing, "map is", "maps are")
         ),
     );
+    let named = model
+        .materials
+        .iter()
+        .flat_map(|material| MapSlot::ALL.map(|slot| material.map(slot)));
+    let sheared = named.flatten().filter(|map| is_sheared(&map.sampling)).count();
+    losses.add(
+        "texture-shear",
+        sheared,
+        format!(
+            "{} texture coordinates, which glTF's transform cannot say; the rest of it is kept.",
+            counted(sheared, "map shears", "maps shear")
+        ),
+    );
     losses.0
+}
+
+/// Whether the axes of a transform of texture coordinates are not square to each other.
+fn is_sheared(sampling: &Sampling) -> bool {
+    let [x, y] = [
+        sampling.map_from_mesh.matrix2.x_axis,
+        sampling.map_from_mesh.matrix2.y_axis,
+    ];
+    x.dot(y).abs() > SQUARE * x.length() * y.length()
 }
 
 /// Whether a submesh draws each triangle.

@@ -29,19 +29,20 @@ pub(super) struct Materials {
 pub(super) fn pictures<'a>(
     model: &'a Model,
     maps: &'a MapImages<'_>,
+    turned: &'a [bool],
 ) -> impl Iterator<Item = ((usize, MapSlot), Use)> + 'a {
     model.materials.iter().enumerate().flat_map(move |(index, material)| {
         let named = MapSlot::ALL.into_iter().filter(|&slot| material.map(slot).is_some());
-        let as_named = named.map(move |slot| ((index, slot), purpose(slot)));
+        let as_named = named.map(move |slot| ((index, slot), purpose(slot, turned[index])));
         let gloss = gloss(index, material, maps).map(|purpose| ((index, MapSlot::Normal), purpose));
         as_named.chain(gloss).filter(|(place, _)| maps.contains_key(place))
     })
 }
 
-/// What a map is used for.
-fn purpose(slot: MapSlot) -> Use {
+/// What a map is used for. Of a normal map the green may be turned.
+fn purpose(slot: MapSlot, is_turned: bool) -> Use {
     match slot {
-        MapSlot::Normal => Use::Directions,
+        MapSlot::Normal => Use::Directions { is_turned },
         MapSlot::Diffuse | MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Emissive => Use::AsIs,
     }
 }
@@ -66,6 +67,7 @@ fn gloss(index: usize, material: &Material, maps: &MapImages<'_>) -> Option<Use>
 pub(super) fn materials(
     model: &Model,
     maps: &MapImages<'_>,
+    turned: &[bool],
     encoded: EncodedMaps,
     binary: &mut Binary,
 ) -> Result<Materials, ExportError> {
@@ -73,6 +75,7 @@ pub(super) fn materials(
         written: Materials::default(),
         pictures: Pictures::new(encoded),
         maps,
+        turned,
         has_second: !model.mesh.second_tex_coords.is_empty(),
         binary,
     };
@@ -90,6 +93,7 @@ struct Writer<'a> {
     written: Materials,
     pictures: Pictures,
     maps: &'a MapImages<'a>,
+    turned: &'a [bool],
     has_second: bool,
     binary: &'a mut Binary,
 }
@@ -173,7 +177,7 @@ impl Writer<'_> {
     /// The texture of a map that has a picture.
     fn info(&mut self, index: usize, material: &Material, slot: MapSlot) -> Result<Option<Value>, ExportError> {
         match material.map(slot) {
-            Some(map) => self.texture((index, slot), map, purpose(slot), &map.name),
+            Some(map) => self.texture((index, slot), map, purpose(slot, self.turned[index]), &map.name),
             None => Ok(None),
         }
     }

@@ -4,7 +4,7 @@
 //! mesh       a primitive for each submesh, over accessors that all share; corners against the clock, as glTF has them
 //! skeleton   a node for each bone, in the file's order; one above them where there are several roots, since a skin wants one
 //! clips      an animation each; keys at the model's times, held values as STEP, splines as CUBICSPLINE
-//! materials  metallic-roughness, with what the books say in `extras.bindpose`; maps as PNG, each picture once
+//! materials  metallic-roughness, with what the books say in `extras.bindpose`; maps as PNG, each picture once; green of normal maps up
 //! ```
 
 mod animation;
@@ -20,7 +20,7 @@ mod space;
 use serde_json::{Value, json};
 
 use super::{ExportError, Exported, MapImages};
-use crate::model::{JointNames, Model};
+use crate::model::{Front, Green, JointNames, MapSlot, Model};
 use binary::Binary;
 use space::Space;
 
@@ -44,7 +44,8 @@ pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Ex
 /// # Errors
 /// When a picture cannot be written.
 pub fn encode_map(model: &Model, maps: &MapImages<'_>, encoded: &mut EncodedMaps) -> Result<bool, ExportError> {
-    for (place, purpose) in material::pictures(model, maps) {
+    let turned = turned_materials(model, maps);
+    for (place, purpose) in material::pictures(model, maps, &turned) {
         if encoded.encode(maps[&place], purpose)? {
             return Ok(true);
         }
@@ -71,7 +72,8 @@ pub fn glb_with(
     let bones = skeleton::bones(model, names, &space, &mut binary);
     let mut nodes = bones.nodes;
     let mut scene_nodes = bones.roots;
-    let mesh = geometry::mesh(model, &space, bones.unmoving, &mut binary);
+    let turned = turned_materials(model, maps);
+    let mesh = geometry::mesh(model, &space, &turned, bones.unmoving, &mut binary);
     if let Some(mesh) = mesh {
         root["meshes"] = json!([mesh]);
         let mut node = json!({ "mesh": 0 });
@@ -93,7 +95,7 @@ pub fn glb_with(
     }
     root["scenes"] = json!([scene]);
     let animations = animation::animations(model, &space, &mut binary);
-    let written = material::materials(model, maps, encoded, &mut binary)?;
+    let written = material::materials(model, maps, &turned, encoded, &mut binary)?;
     for (key, list) in [
         ("nodes", nodes),
         ("animations", animations),
@@ -119,6 +121,22 @@ pub fn glb_with(
         bytes: container(&root, binary.bytes)?,
         losses: glb_losses(model, maps),
     })
+}
+
+/// Whether the green of each material's normal map is turned to point up, and the bitangents with it. The books' points down; what reads
+/// glTF and computes tangents by itself takes it to point up, whatever bitangents say. Where no picture is written nothing is turned, since
+/// the name that stays is of a picture with green down.
+pub fn turned_materials(model: &Model, maps: &MapImages<'_>) -> Vec<bool> {
+    let has_picture = |material: usize| {
+        model.materials[material].normal_map.is_some() && maps.contains_key(&(material, MapSlot::Normal))
+    };
+    if model.front != Front::Negative || !(0..model.materials.len()).any(has_picture) {
+        return vec![false; model.materials.len()];
+    }
+    let greens = model.greens().into_iter().enumerate();
+    greens
+        .map(|(material, green)| green == Some(Green::Down) && has_picture(material))
+        .collect()
 }
 
 /// The chunks of a `.glb` file.

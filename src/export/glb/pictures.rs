@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use super::binary::{Binary, Target};
 use crate::export::ExportError;
-use crate::image::{Channels, Image, encode_png};
+use crate::export::directions::directions;
+use crate::image::{Image, encode_png};
 
 /// What a picture is made of a map for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -14,7 +15,10 @@ pub(super) enum Use {
     /// Its texels as they are.
     AsIs,
     /// A direction in red, green and blue; z follows from x and y where the map has none.
-    Directions,
+    Directions {
+        /// Whether green points the other way.
+        is_turned: bool,
+    },
     /// Roughness in green: 1 − (1 − roughness) × alpha of a normal map, as both lights take it. Metalness in blue.
     Roughness {
         /// Bits of the roughness that the map changes.
@@ -105,46 +109,26 @@ impl Pictures {
 
 /// RGBA, 8 bits a channel.
 fn texels(image: &Image, purpose: Use) -> Vec<u8> {
-    let mut texels = image.to_rgba8(0, 0).unwrap_or_default();
+    let rgba8 = || image.to_rgba8(0, 0).unwrap_or_default();
     match purpose {
-        Use::AsIs => {}
-        Use::Directions => {
-            for texel in texels.chunks_exact_mut(4) {
-                if image.channels() == Channels::RedGreen {
-                    texel[2] = third(texel[0], texel[1]);
-                }
-                texel[3] = u8::MAX;
-            }
-        }
+        Use::AsIs => rgba8(),
+        Use::Directions { is_turned } => directions(image, is_turned),
         Use::Roughness { roughness, metal } => {
+            let mut texels = rgba8();
             let shininess = 1.0 - f32::from_bits(roughness);
             for texel in texels.chunks_exact_mut(4) {
                 let roughness = 1.0 - shininess * f32::from(texel[3]) / 255.0;
                 let metalness = if metal { u8::MAX } else { 0 };
                 texel.copy_from_slice(&[u8::MAX, (roughness * 255.0).round() as u8, metalness, u8::MAX]);
             }
+            texels
         }
     }
-    texels
-}
-
-/// The z of a unit direction, as bytes tell it.
-fn third(x: u8, y: u8) -> u8 {
-    let [x, y] = [x, y].map(|byte| f32::from(byte) / 255.0 * 2.0 - 1.0);
-    let z = (1.0 - x * x - y * y).max(0.0).sqrt();
-    ((z * 0.5 + 0.5) * 255.0).round() as u8
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_direction_of_two_numbers_gets_its_third() {
-        assert_eq!(third(128, 128), 255);
-        assert_eq!(third(255, 128), 128);
-        assert_eq!(third(255, 255), 128);
-    }
 
     #[test]
     fn gloss_becomes_roughness() {

@@ -102,9 +102,16 @@ fn one_mesh_or_clip_used_again_and_again_ends_in_an_error() {
 
 #[test]
 fn a_long_data_uri_and_deep_nesting_are_met_without_trouble() {
-    let mut file = triangle(&json!({}), |_| json!({}));
-    file.bin.resize(40_000_000, 7);
-    assert!(import(&file.text()).is_ok());
+    // 100 MB of letters behind the data of a triangle, sound and with one that is none.
+    let text = String::from_utf8(triangle(&json!({}), |_| json!({})).text()).expect("JSON is UTF-8");
+    let end = text.find("base64,").expect("a data URI") + "base64,".len();
+    let end = end + text[end..].find(['=', '"']).expect("it ends");
+    let letters = end - (end - text.find("base64,").expect("a data URI") - "base64,".len()) % 4;
+    for (last, is_sound) in [("AAAA", true), ("A*AA", false)] {
+        let rest = text[end..].trim_start_matches('=');
+        let long = [&text[..letters], &"A".repeat(100_000_000), last, rest].concat();
+        assert_eq!(import(long.as_bytes()).is_ok(), is_sound, "{last}");
+    }
     for (open, close) in [("[", "]"), ("{\"a\":", "}")] {
         let deep = format!(
             "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"extras\":{}1{}}}]}}",

@@ -6,7 +6,7 @@ use bindpose::edit::{self, Edits};
 use bindpose::export;
 use bindpose::format::Dialect;
 use bindpose::image::encode_png;
-use bindpose::model::JointNames;
+use bindpose::model::{JointNames, MapSlot};
 use bindpose::session::{
     ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportStep, ExportedFile, File, FileCommand,
     MaterialCommand, NameCommand, PlayCommand, Session,
@@ -288,7 +288,7 @@ fn pictures_come_along_with_a_file_of_the_books_and_are_inside_a_glb() {
         files.push(File::new(&entry.name().expect("a name in UTF-8"), bytes));
     }
     let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
-    assert_eq!(names, ["box.m3d", "coats/red.png"]);
+    assert_eq!(names, ["box.m3d", "red.png"]);
     let mut reopened = Session::new(false);
     reopened.apply(FileCommand::Add(files));
     assert_eq!(reopened.maps().used().count(), 1, "the picture is found by its name");
@@ -302,12 +302,68 @@ fn pictures_come_along_with_a_file_of_the_books_and_are_inside_a_glb() {
 }
 
 #[test]
+fn for_the_books_demo_all_maps_come_along_as_dds_with_mips() {
+    let mut document = document();
+    document.materials[0].diffuse_map = Some("coats/red.dds".to_owned());
+    let texels = [255, 0, 0, 255].repeat(4 * 4);
+    let png = encode_png(&texels, 4, 4).expect("a picture");
+    let mut session = Session::new(false);
+    session.apply(FileCommand::Add(vec![
+        file("box.m3d", &document),
+        File::new("RED.png", png),
+    ]));
+    let asked = ExportOptions {
+        for_book: true,
+        ..options(ExportFormat::D3d12)
+    };
+    plan(&mut session, asked.clone());
+    let told = session.export().expect("it is planned").plan.expect("all is known");
+    let codes: Vec<_> = told.changes.iter().map(|change| change.code).collect();
+    assert!(
+        codes.contains(&"maps-written") && codes.contains(&"maps-added"),
+        "{codes:?}"
+    );
+    assert_eq!(session.export_name().as_deref(), Some("box.zip"));
+    let job = session.export_job(&asked).expect("a model is open");
+    let written = job.run_apart().expect("it can be written");
+    let names: Vec<&str> = written.maps.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        (names.as_slice(), told.maps),
+        (["red.dds", "flat_normal.dds"].as_slice(), 2)
+    );
+    for (name, bytes) in &written.maps {
+        let picture = bindpose::image::decode(bytes, name).expect("a picture");
+        assert_eq!((picture.file_level_count(), picture.width()), (3, 4), "{name}");
+    }
+    let again = opened(File::new("box.m3d", written.bytes));
+    let material = &again.materials()[0];
+    let map = |slot| material.map_name(slot);
+    assert_eq!(map(MapSlot::Diffuse), Some("red.dds"));
+    assert_eq!(map(MapSlot::Normal), Some("flat_normal.dds"));
+}
+
+#[test]
+fn what_was_mended_on_reading_is_a_change() {
+    let mut document = document();
+    document.clips.clear();
+    document.vertices[0].normal = [0.0; 3];
+    let mut session = opened(file("a.m3d", &document));
+    plan(&mut session, options(ExportFormat::D3d12));
+    let plan = session.export().expect("it is planned").plan.expect("all is known");
+    assert!(
+        plan.changes.iter().any(|change| change.code == "normals-missing"),
+        "{:?}",
+        plan.changes
+    );
+}
+
+#[test]
 fn a_job_that_encodes_pictures_one_by_one_writes_the_same_glb() {
     let session = mapped();
     let model = &session.open_model().expect("a model").model;
     let mut images = export::MapImages::new();
     for (material, slots) in session.maps().images().enumerate() {
-        for (slot, image) in bindpose::model::MapSlot::ALL.into_iter().zip(slots) {
+        for (slot, image) in MapSlot::ALL.into_iter().zip(slots) {
             images.extend(image.map(|image| ((material, slot), &**image)));
         }
     }
