@@ -17,7 +17,7 @@ const ROWS: usize = 9;
 fn nodes() -> Value {
     let lying = Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2).to_array();
     json!([
-        { "name": "Armature", "rotation": lying, "scale": [0.5, 0.5, 0.5], "children": [1, 4] },
+        { "name": "Armature", "rotation": lying, "scale": [0.5, 0.5, 0.5], "children": [1] },
         { "name": "Root", "children": [2] },
         { "name": "Middle", "translation": [0.0, 0.0, 0.75], "children": [3] },
         { "name": "Tip", "translation": [0.0, 0.0, 0.75], "children": [5] },
@@ -42,10 +42,13 @@ fn materials() -> Value {
     ])
 }
 
-/// An accessor of places, with the bounds that it must say.
-fn places(file: &mut Gltf, rows: &[[f32; 3]]) -> usize {
+/// An accessor of floats with their bounds, which places and times must say.
+fn bounded<const N: usize>(file: &mut Gltf, rows: &[[f32; N]]) -> usize {
     let index = file.floats(rows);
-    let bound = |better: fn(f32, f32) -> f32| [0, 1, 2].map(|axis| rows.iter().map(|row| row[axis]).reduce(better));
+    let bound = |better: fn(f32, f32) -> f32| -> Vec<f32> {
+        let column = |axis: usize| rows.iter().map(|row| row[axis]).fold(rows[0][axis], better);
+        (0..N).map(column).collect()
+    };
     let accessor = &mut file.json["accessors"][index];
     (accessor["min"], accessor["max"]) = (json!(bound(f32::min)), json!(bound(f32::max)));
     index
@@ -58,7 +61,7 @@ fn cloth(file: &mut Gltf) -> Value {
         .map(|(x, row)| (x, row as f32 * 0.25))
         .collect();
     let rows = |value: &dyn Fn(f32, f32) -> [f32; 3]| corners.iter().map(|&(x, z)| value(x, z)).collect::<Vec<_>>();
-    let position = places(file, &rows(&|x, z| [x, 0.1 * x * x, z]));
+    let position = bounded(file, &rows(&|x, z| [x, 0.1 * x * x, z]));
     let normal = file.floats(&rows(&|_, _| [0.0, -1.0, 0.0]));
     let tex_coord: Vec<[f32; 2]> = corners.iter().map(|&(x, z)| [x + 0.5, 1.0 - z * 0.5]).collect();
     let tex_coord = file.floats(&tex_coord);
@@ -88,7 +91,7 @@ fn cloth(file: &mut Gltf) -> Value {
 
 /// A pyramid on its tip, without normals.
 fn finial(file: &mut Gltf) -> Value {
-    let position = places(
+    let position = bounded(
         file,
         &[[0.0, 0.0, 0.0], [0.2, 0.1, 0.3], [-0.2, 0.1, 0.3], [0.0, -0.2, 0.3]],
     );
@@ -99,7 +102,7 @@ fn finial(file: &mut Gltf) -> Value {
 /// One clip with all three ways between keys, and one of straight ways with times of their own.
 fn animations(file: &mut Gltf) -> Value {
     let turn = |axis: Vec3, angle: f32| Quat::from_axis_angle(axis, angle).to_array();
-    let times = file.floats(&[[0.0], [0.5], [1.0], [2.0]]);
+    let times = bounded(file, &[[0.0], [0.5], [1.0], [2.0]]);
     let sway = file.floats(&[
         [0.0; 4],
         turn(Vec3::Z, 0.0),
@@ -121,7 +124,7 @@ fn animations(file: &mut Gltf) -> Value {
         turn(Vec3::X, 0.0),
     ]);
     let step = file.floats(&[[0.0, 0.0, 0.75], [0.0, 0.0, 0.8], [0.0, 0.0, 0.7], [0.0, 0.0, 0.75]]);
-    let later = file.floats(&[[0.25], [0.75], [1.25]]);
+    let later = bounded(file, &[[0.25], [0.75], [1.25]]);
     let nod = file.floats(&[turn(Vec3::Y, 0.0), turn(Vec3::Y, 0.8), turn(Vec3::Y, 0.0)]);
     let spin = file.floats(&[turn(Vec3::Z, 0.0), turn(Vec3::Z, 1.5), turn(Vec3::Z, 3.0)]);
     let channel =
@@ -138,7 +141,7 @@ fn animations(file: &mut Gltf) -> Value {
 }
 
 pub(crate) fn banner() -> Gltf {
-    let mut file = Gltf::new(&json!({ "scenes": [{ "nodes": [0] }], "nodes": nodes(), "materials": materials() }));
+    let mut file = Gltf::new(&json!({ "scenes": [{ "nodes": [0, 4] }], "nodes": nodes(), "materials": materials() }));
     let (cloth, finial) = (cloth(&mut file), finial(&mut file));
     file.json["meshes"] =
         json!([{ "name": "Cloth", "primitives": [cloth] }, { "name": "Finial", "primitives": [finial] }]);
