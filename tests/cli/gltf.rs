@@ -90,10 +90,10 @@ fn pose_has_bones_in_that_order_and_vertices_in_the_files() {
     let posed = run(["pose", &file, "--clip", "Nod and spin", "--time", "0.5", "--json"]).json();
     let palette: Vec<Vec<f32>> = serde_json::from_value(posed["palette"].clone()).expect("matrices");
     assert_eq!(palette.len(), 5);
-    // Row vectors: the place is in the last row. The tip's matrix brings what was bound to it where the tip is.
-    let row = |matrix: &[f32], at: usize| Vec3::from_slice(&matrix[4 * at..]);
-    let [up, place] = [row(&palette[3], 2), row(&palette[3], 3)];
-    let bound = 1.5 * up + place;
+    // Row vectors: the place is in the last row. The tip's matrix brings what stood there at rest to where the tip is now.
+    let row = |at: usize| Vec3::from_slice(&palette[3][4 * at..]);
+    let at_rest = armature.transform_point3(Vec3::Z * 1.5);
+    let bound = at_rest.x * row(0) + at_rest.y * row(1) + at_rest.z * row(2) + row(3);
     let expected = Vec3::from(tip.translation);
     assert!(bound.distance(expected) < 1e-5, "{bound} is not {expected}");
 }
@@ -102,7 +102,7 @@ fn pose_has_bones_in_that_order_and_vertices_in_the_files() {
 fn check_finds_no_error_and_render_draws_it() {
     let file = banner();
     let checked = run(["check", &file, "--json"]).json();
-    let findings = checked[0]["diagnostics"].as_array().expect("a list");
+    let findings = checked[0]["findings"].as_array().expect("a list");
     assert!(
         findings.iter().all(|finding| finding["severity"] != "error"),
         "{checked}"
