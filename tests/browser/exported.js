@@ -8,7 +8,7 @@ import { fileURLToPath } from "node:url";
 import { test } from "node:test";
 import validator from "gltf-validator";
 import { AnimationMixer, LoopOnce, Matrix4, Vector3 } from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { loaded, verticesOf } from "./gltf_files.js";
 
 /** Where the core's tests write models, and the positions of their vertices at some times. */
 const WRITTEN = fileURLToPath(new URL("../../target/tmp/exported/", import.meta.url));
@@ -33,12 +33,6 @@ test("the validator finds no error and no warning", async () => {
     assert.deepEqual(said, [], file);
   }
 });
-
-/** A written file as three.js reads it. */
-function loaded(path) {
-  const bytes = readFileSync(path);
-  return new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), "");
-}
 
 /** How far vertices of three.js are from ours, at all times of all clips. `vertexAt` writes where a vertex is now into a vector. */
 function furthestApart(gltf, expected, vertexAt) {
@@ -75,7 +69,7 @@ for (const file of posesIn(WRITTEN)) {
   const name = basename(file, ".json");
   test(`three.js poses ${name} as we do`, async () => {
     const expected = JSON.parse(readFileSync(join(WRITTEN, file), "utf8"));
-    const gltf = await loaded(join(WRITTEN, `${name}.glb`));
+    const gltf = await loaded(readFileSync(join(WRITTEN, `${name}.glb`)));
     const meshes = [];
     let bones = 0;
     gltf.scene.traverse((object) => {
@@ -91,26 +85,11 @@ for (const file of posesIn(WRITTEN)) {
   });
 }
 
-/** Each vertex of a file in our order, which is that of the file's meshes and nodes: the mesh that has it, and its number there. */
-function verticesOf({ scene, parser }) {
-  const parts = [];
-  scene.traverse((object) => {
-    if (!object.isMesh) return;
-    const { meshes, primitives = 0 } = parser.associations.get(object);
-    const { nodes } = { ...parser.associations.get(object.parent), ...parser.associations.get(object) };
-    parts.push({ object, order: [meshes, nodes, primitives], shares: JSON.stringify([nodes, parser.json.meshes[meshes].primitives[primitives].attributes]) });
-  });
-  parts.sort((a, b) => a.order.map((number, index) => number - b.order[index]).find((apart) => apart !== 0) ?? 0);
-  // Primitives that share their attributes share their vertices.
-  const own = parts.filter(({ shares }, index) => parts.findIndex((other) => other.shares === shares) === index);
-  return own.flatMap(({ object }) => Array.from({ length: object.geometry.attributes.position.count }, (_, vertex) => ({ object, vertex })));
-}
-
 for (const file of posesIn(FOR_BOOK)) {
   const name = basename(file, ".json");
   test(`three.js poses ${name} as the file written of it for the books does`, async () => {
     const expected = JSON.parse(readFileSync(join(FOR_BOOK, file), "utf8"));
-    const gltf = await loaded(join(FOR_BOOK, `${name}.glb`));
+    const gltf = await loaded(readFileSync(join(FOR_BOOK, `${name}.glb`)));
     assert.deepEqual(namesOf(gltf.animations), namesOf(expected.clips));
     const vertices = verticesOf(gltf);
     const bookFromGltf = new Matrix4().fromArray(expected.book_from_gltf);
