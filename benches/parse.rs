@@ -1,9 +1,12 @@
-//! Reading a file: the product beside the textbook, in one run.
+//! Reading a file: the product beside the textbook, and beside three.js, in one run.
 //!
 //! The textbook splits on whitespace and calls `str::parse`, as the books' loaders do with `ifstream >>`. Both must give the
 //! same document before anything is timed.
 
 use std::hint::black_box;
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::str::{FromStr, SplitAsciiWhitespace};
 use std::sync::Arc;
 use std::time::Duration;
@@ -63,6 +66,61 @@ fn parsing(criterion: &mut Criterion) {
         || drop(black_box(import())),
         || drop(black_box(glb(&model, &JointNames::default(), &MapImages::new()))),
     );
+}
+
+/// glTF beside three.js, which reads the same bytes in node, in the next moment of the same run. Without pictures: what a browser does
+/// with them is no part of either. Our own reading makes a model that is proved, tangents included.
+#[expect(clippy::print_stdout, reason = "a benchmark that cannot run says so")]
+fn reading_gltf(_: &mut Criterion) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let source = root.join("../shared/gltf/models/CesiumMan.glb");
+    let bare = Path::new(env!("CARGO_TARGET_TMPDIR")).join("CesiumMan-bare.glb");
+    if !source.exists() {
+        println!("reading glTF: {} is not there", source.display());
+        return;
+    }
+    let node = Command::new("node")
+        .arg(root.join("tests/browser/read_gltf.js"))
+        .args([&source, &bare])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn();
+    let mut node = match node {
+        Ok(node) => node,
+        Err(error) => {
+            println!("reading glTF: node cannot be started: {error}");
+            return;
+        }
+    };
+    let mut asked = node.stdin.take().expect("it is piped");
+    let mut told = BufReader::new(node.stdout.take().expect("it is piped")).lines();
+    let mut line = || {
+        told.next()
+            .and_then(Result::ok)
+            .expect("node answers; `npm ci` in tests/browser installs three.js")
+    };
+    assert_eq!(line(), "ready");
+    let bytes = std::fs::read(&bare).expect("node has written it");
+    let mut ours = || drop(black_box(import::import(black_box(&bytes)).expect("the file is sound")));
+    let rounds: Vec<[f64; 2]> = (0..301)
+        .map(|_| {
+            writeln!(asked, "again").expect("node listens");
+            let theirs = line().parse().expect("seconds");
+            [seconds(&mut ours), theirs]
+        })
+        .collect();
+    let [ours, theirs] = [0, 1].map(|side| median(rounds.iter().map(|round| round[side]).collect()) * 1e3);
+    let ratio = median(rounds.iter().map(|[ours, theirs]| ours / theirs).collect());
+    println!(
+        "reading CesiumMan.glb without its picture: {ours:.3} ms, three.js {theirs:.3} ms; in one round: {ratio:.2}"
+    );
+    drop(asked);
+    let _ = node.wait();
+}
+
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
 }
 
 /// Both in turn, so that what else the machine does falls on both: how many times as long as the first the second takes in one round,
@@ -285,5 +343,5 @@ impl<'a> Textbook<'a> {
     }
 }
 
-criterion_group!(benches, parsing);
+criterion_group!(benches, parsing, reading_gltf);
 criterion_main!(benches);

@@ -385,20 +385,3 @@ test("programs open files and bytes in every form, also where a file has a metho
     nameless: "a file to open is a File or {name, bytes}",
   });
 });
-
-test("a model that is exported as .glb opens again with its clips and triangles", {}, async (page) => {
-  const { path } = copyOfSample("plain.m3d");
-  await dropAndWait(page, [path]);
-  const { model: before } = await state(page);
-  const { name, size } = await page.evaluate(async () => {
-    const { name, bytes } = await bindpose.export({ format: "glb" });
-    await bindpose.open([{ name, bytes }]);
-    return { name, size: bytes.length };
-  });
-  assert.equal(name, "plain.glb");
-  assert.ok(size > 100_000, `${size} bytes`);
-  const { model } = await state(page);
-  assert.equal(model.name, "plain.glb");
-  const facts = ({ clips, triangles, bones }) => JSON.stringify([clips.map(({ name }) => name), triangles, bones]);
-  assert.equal(facts(model), facts(before));
-});

@@ -5,6 +5,7 @@ mod check;
 mod codes;
 mod convert;
 mod folders;
+mod gltf;
 mod info;
 mod pipe;
 mod pose;

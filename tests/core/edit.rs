@@ -83,7 +83,7 @@ fn figure() -> Model {
 }
 
 /// A chain of bones whose keys sway smoothly, thirty a second, with a vertex on each and triangles between them.
-fn swaying(bones: u32, secs: f32) -> Document {
+pub(crate) fn swaying(bones: u32, secs: f32) -> Document {
     let keys_of = |bone: u32| {
         let one = |index: u32| {
             let time_secs = index as f32 / 30.0;

@@ -1,5 +1,6 @@
 //! Models as files.
 
+mod both_ways;
 mod codes;
 mod glb;
 mod m3d;

@@ -1,5 +1,6 @@
 //! Reading glTF.
 
+mod banner;
 mod clips;
 mod forms;
 mod hostile;
@@ -18,6 +19,8 @@ use glam::Vec3;
 use serde_json::{Value, json};
 
 use crate::gltf_files::Gltf;
+
+pub(crate) use banner::banner;
 
 /// The one triangle of most files here.
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];

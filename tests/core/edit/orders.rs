@@ -1,8 +1,13 @@
 //! Edits one after another, in any order.
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
+use bindpose::check;
+use bindpose::diagnostic::Severity;
 use bindpose::edit::Edits;
-use bindpose::model::{Front, Handedness, Model, UpAxis};
+use bindpose::export::{MapImages, glb, m3d};
+use bindpose::format::{Dialect, LineMap};
+use bindpose::import::import;
+use bindpose::model::{Front, Handedness, JointNames, Model, UpAxis};
 use glam::Vec3;
 use proptest::prelude::*;
 
@@ -189,7 +194,134 @@ proptest! {
         for one in order {
             let (_, after) = make(&model, one);
             assert_kept(&model, one, &after);
+            assert_sound(&after);
             model = after;
+        }
+        assert_read_back(&model);
+    }
+
+    #[test]
+    fn edits_of_one_call_leave_a_model_that_is_written_and_read(number in 0_usize..3, edits in all_at_once()) {
+        let before = model(number);
+        let clip = &before.clips[0];
+        let length_secs = clip.duration_secs();
+        let edits = Edits {
+            range_secs: edits.range_secs.map(|range| range.map(|part| clip.start_secs + part * length_secs)),
+            // Of what the cut leaves.
+            close_loop_secs: edits.close_loop_secs.map(|part| part * 0.2 * length_secs),
+            clip_names: edits.clip_names.iter().map(|(_, name)| (clip.name.clone(), name.clone())).collect(),
+            clips: edits.clips.as_ref().map(|_| vec![clip.name.clone()]),
+            ..edits
+        };
+        let after = edit(&before, &edits).model;
+        assert_sound(&after);
+        let lengths = [after.clips[0].duration_secs(), edits.range_secs.map_or(length_secs, |[from, to]| to - from)];
+        assert!((lengths[0] - lengths[1]).abs() < 1e-5, "{lengths:?}");
+        assert_read_back(&after);
+    }
+}
+
+/// The options of a call, some of them; times as parts of a clip.
+fn all_at_once() -> impl Strategy<Value = Edits> {
+    let of_clips = (
+        any::<bool>(),
+        any::<bool>(),
+        of((0.0_f32..0.4, 0.6_f32..1.0)),
+        of(0.1_f32..0.9),
+        of(-4.0_f32..-2.0),
+    );
+    let of_space = (
+        of(0.2_f32..5.0),
+        of(prop::sample::select(UpAxis::ALL.to_vec())),
+        of(prop::sample::select(Handedness::ALL.to_vec())),
+        any::<bool>(),
+        any::<bool>(),
+    );
+    (of_clips, of_space).prop_map(
+        |((choose, fix, range, close, reduce), (scale, up_axis, handedness, rename, for_book))| Edits {
+            clips: choose.then(Vec::new),
+            fix,
+            range_secs: range.map(|(from, to)| [from, to]),
+            close_loop_secs: close,
+            reduce: reduce.map(|exponent| 10.0_f32.powf(exponent)),
+            scale,
+            up_axis,
+            handedness,
+            clip_names: if rename {
+                vec![(String::new(), "renamed".to_owned())]
+            } else {
+                Vec::new()
+            },
+            bone_names: if rename {
+                vec![(0, "hips".to_owned())]
+            } else {
+                Vec::new()
+            },
+            for_book,
+            ..Edits::default()
+        },
+    )
+}
+
+fn of<T: std::fmt::Debug>(value: impl Strategy<Value = T>) -> impl Strategy<Value = Option<T>> {
+    prop::option::of(value)
+}
+
+/// That a model is whole: weights sum to 1, clips end where their last keys are, and nothing in it is an error.
+fn assert_sound(model: &Model) {
+    for influences in &model.mesh.influences {
+        let sum: f32 = influences.weights.iter().sum();
+        assert!((sum - 1.0).abs() < 1e-6 || sum == 0.0, "{influences:?}");
+    }
+    for clip in &model.clips {
+        let times = super::key_times(clip);
+        assert_eq!(
+            (times.first(), times.last()),
+            (Some(&clip.start_secs), Some(&clip.end_secs))
+        );
+    }
+    let findings = check::model(model, &CompiledClip::all(&model.clips), &LineMap::default());
+    let worst = findings.iter().find(|finding| finding.severity == Severity::Error);
+    assert!(worst.is_none(), "{worst:?}");
+}
+
+/// That what is written of a model is read again, in both forms, with as many vertices, triangles and joints, and posed alike.
+fn assert_read_back(model: &Model) {
+    let names = JointNames::default();
+    let of_glb = glb(model, &names, &MapImages::new()).expect("it can be written").bytes;
+    let of_m3d = m3d(model, &names, Dialect::D3d12).expect("it can be written").bytes;
+    for (form, bytes) in [("glb", of_glb), ("m3d", of_m3d)] {
+        let imported = import(&bytes).unwrap_or_else(|refused| panic!("{form}: {}", refused.error.message));
+        let worst = imported
+            .diagnostics
+            .iter()
+            .find(|finding| finding.severity == Severity::Error);
+        assert!(worst.is_none(), "{form}: {worst:?}");
+        let again = imported.model;
+        assert_eq!(
+            (again.mesh.vertex_count(), again.mesh.triangle_count()),
+            (model.mesh.vertex_count(), model.mesh.triangle_count()),
+            "{form}"
+        );
+        assert_eq!(again.clips.len(), model.clips.len(), "{form}");
+        let lengths = |model: &Model, secs: f32| -> Vec<f32> {
+            let positions = seen(model, 0, secs).positions;
+            positions.windows(2).map(|pair| pair[0].distance(pair[1])).collect()
+        };
+        // Spaces differ, lengths do not. glTF has no time before 0.
+        let clip = &model.clips[0];
+        for secs in [
+            clip.start_secs,
+            clip.start_secs + 0.4 * clip.duration_secs(),
+            clip.end_secs,
+        ] {
+            let shift_secs = clip.start_secs - again.clips[0].start_secs;
+            for (old, new) in lengths(model, secs).iter().zip(lengths(&again, secs - shift_secs)) {
+                assert!(
+                    (old - new).abs() <= 1e-4 * size(model),
+                    "{form} at {secs} s: {old} became {new}"
+                );
+            }
         }
     }
 }

@@ -34,7 +34,7 @@ fn read(bytes: &[u8]) -> Model {
 
 /// All that a model is, to the bit; not how many keys a file had, of which some may have been left out, and not its handedness, which
 /// is found by normals that a file may lack.
-fn all_of(mut model: Model) -> String {
+pub(super) fn all_of(mut model: Model) -> String {
     model.clips.iter_mut().for_each(|clip| clip.key_count = 0);
     model.handedness = Handedness::default();
     format!("{model:?}")
@@ -45,7 +45,7 @@ fn codes(losses: &[Loss]) -> Vec<&str> {
 }
 
 /// The same with what the format does not hold left out: names are single words, and each subset has a material of its own.
-fn plain(mut document: Document) -> Document {
+pub(super) fn plain(mut document: Document) -> Document {
     let mut taken = HashSet::new();
     let mut word = |name: &mut String| {
         *name = one_word(name);

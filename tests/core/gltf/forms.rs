@@ -154,3 +154,49 @@ fn extensions_that_a_model_needs_are_named_and_others_noted() {
         assert_eq!(refused(&file.text()).code, "gltf-version");
     }
 }
+
+#[test]
+fn the_scene_that_the_file_shows_first_is_read_and_else_the_first() {
+    let scenes = json!([{ "nodes": [0] }, { "nodes": [1] }]);
+    let nodes = json!([{ "mesh": 0 }, { "mesh": 0, "translation": [7.0, 0.0, 0.0] }]);
+    let mut file = triangle(&json!({ "scenes": scenes, "nodes": nodes, "scene": 1 }), |_| json!({}));
+    assert_at(
+        &read(&file).model.mesh.positions,
+        &CORNERS.map(|[x, y, z]| [x + 7.0, y, z]),
+    );
+    file.json.as_object_mut().expect("an object").remove("scene");
+    assert_at(&read(&file).model.mesh.positions, &CORNERS);
+    // Without scenes there is all.
+    file.json.as_object_mut().expect("an object").remove("scenes");
+    assert_eq!(read(&file).model.mesh.vertex_count(), 6);
+    file.json["scene"] = json!(5);
+    assert_eq!(refused(&file.glb()).code, "gltf-index-out-of-range");
+}
+
+#[test]
+fn indices_of_8_16_and_32_bits_and_colours_without_alpha_are_read() {
+    for (component, bytes) in [
+        (5121, vec![2, 0, 1]),
+        (5123, vec![2, 0, 0, 0, 1, 0]),
+        (5125, vec![2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]),
+    ] {
+        let mut file = triangle(
+            &json!({}),
+            |file| json!({ "COLOR_0": file.shorts(&[[65535, 0, 13107]; 3]) }),
+        );
+        let color = file.json["accessors"]
+            .as_array_mut()
+            .expect("a list")
+            .last_mut()
+            .expect("a color");
+        color["normalized"] = json!(true);
+        let view = file.view(&bytes, None);
+        let indices =
+            file.accessor(json!({ "bufferView": view, "componentType": component, "count": 3, "type": "SCALAR" }));
+        file.json["meshes"][0]["primitives"][0]["indices"] = indices.into();
+        let mesh = read(&file).model.mesh;
+        // Clockwise, as models have it.
+        assert_eq!(mesh.indices, [2, 1, 0], "{component}");
+        assert_eq!(mesh.colors[0].to_array(), [1.0, 0.0, 0.2, 1.0]);
+    }
+}

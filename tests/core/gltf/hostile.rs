@@ -1,10 +1,15 @@
 //! Files that want to do harm: each ends in an error, soon and with little memory.
 
+use bindpose::anim::CompiledClip;
+use bindpose::check;
+use bindpose::export::{MapImages, glb as glb_of, m3d};
+use bindpose::format::Dialect;
 use bindpose::import::import;
+use bindpose::model::JointNames;
 use proptest::prelude::*;
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::{read, refused, triangle};
+use super::{banner, read, refused, triangle};
 use crate::gltf_files::glb;
 
 fn code(file: &crate::gltf_files::Gltf) -> &'static str {
@@ -135,27 +140,56 @@ fn containers_cut_anywhere_are_refused() {
     assert_eq!(refused(&glb(&[])).code, "glb-damaged");
 }
 
-fn skinned() -> Vec<u8> {
-    let nodes = json!([{ "mesh": 0, "skin": 0 }, { "children": [2] }, { "translation": [0, 1, 0] }]);
-    let mut file = triangle(
-        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [1, 2] }],
-            "materials": [{ "pbrMetallicRoughness": { "baseColorFactor": [1, 0, 0, 1] } }],
-            "meshes": [{ "primitives": [{ "material": 0 }] }] }),
-        |file| {
-            json!({
-                "JOINTS_0": file.shorts(&[[0, 1, 0, 0]; 3]),
-                "WEIGHTS_0": file.floats(&[[0.5, 0.5, 0.0, 0.0]; 3]),
-                "NORMAL": file.floats(&[[0.0, 0.0, 1.0]; 3]),
-            })
-        },
-    );
-    let indices = file.shorts(&[[0], [1], [2]]);
-    file.json["meshes"][0]["primitives"][0]["indices"] = indices.into();
-    let times = file.floats(&[[0.0], [1.0]]);
-    let turns = file.floats(&[[0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0]]);
-    file.json["animations"] = json!([{ "samplers": [{ "input": times, "output": turns, "interpolation": "STEP" }],
-        "channels": [{ "sampler": 0, "target": { "node": 2, "path": "rotation" } }] }]);
-    file.glb()
+/// All values in a document, by their pointers.
+fn pointers(value: &Value, at: String, found: &mut Vec<String>) {
+    match value {
+        Value::Array(list) => {
+            let items = list.iter().enumerate();
+            items.for_each(|(index, item)| pointers(item, format!("{at}/{index}"), found));
+        }
+        Value::Object(object) => object
+            .iter()
+            .for_each(|(key, item)| pointers(item, format!("{at}/{key}"), found)),
+        _ => {}
+    }
+    found.push(at);
+}
+
+/// What no exporter writes.
+fn strange() -> impl Strategy<Value = Value> {
+    prop::sample::select(vec![
+        json!(-1),
+        json!(0),
+        json!(3),
+        json!(0.5),
+        json!(255),
+        json!(1_u64 << 31),
+        json!(1_u64 << 32),
+        json!(u64::MAX),
+        json!(1e300),
+        json!(-1e38),
+        json!(5126),
+        json!("SCALAR"),
+        json!("MAT4"),
+        json!("CUBICSPLINE"),
+        json!([]),
+        json!({}),
+        json!([0, 0]),
+        Value::Null,
+    ])
+}
+
+/// Whatever is read holds together: it is proved, checked, posed and written.
+fn assert_total(bytes: &[u8]) {
+    let Ok(imported) = import(bytes) else { return };
+    let model = imported.model.checked().expect("what was read is sound");
+    let compiled = CompiledClip::all(&model.clips);
+    check::model(&model, &compiled, &imported.lines);
+    super::posed(&model, 0.5);
+    let names = JointNames::default();
+    let written = glb_of(&model, &names, &MapImages::new()).expect("it can be written");
+    assert!(import(&written.bytes).is_ok(), "what was written is read");
+    m3d(&model, &names, Dialect::D3d12).expect("it can be written");
 }
 
 proptest! {
@@ -163,7 +197,7 @@ proptest! {
 
     #[test]
     fn changed_bytes_never_end_in_a_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6), digits in any::<bool>()) {
-        let mut bytes = skinned();
+        let mut bytes = banner().glb();
         let json_end = 20 + u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
         for (place, value) in changes {
             if digits {
@@ -175,8 +209,21 @@ proptest! {
                 bytes[at] = value;
             }
         }
-        if let Ok(imported) = import(&bytes) {
-            prop_assert!(imported.model.checked().is_ok());
+        assert_total(&bytes);
+    }
+
+    #[test]
+    fn strange_values_anywhere_never_end_in_a_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), strange()), 1..4)) {
+        let mut file = banner();
+        for (place, value) in changes {
+            let mut found = Vec::new();
+            pointers(&file.json, String::new(), &mut found);
+            // The last one is the whole document.
+            found.pop();
+            if !found.is_empty() {
+                *file.json.pointer_mut(&found[place.index(found.len())]).expect("it is there") = value;
+            }
         }
+        assert_total(&file.glb());
     }
 }

@@ -209,3 +209,39 @@ fn weights_for_joints_that_a_skin_lacks_are_refused_with_the_vertex() {
     assert_eq!(refused.code, "influence-out-of-range");
     assert_eq!(refused.found.as_deref(), Some("1"));
 }
+
+#[test]
+fn joints_and_weights_of_8_and_16_bits_say_the_same() {
+    let nodes = json!([{ "mesh": 0, "skin": 0 }, {}, { "translation": [0.0, 0.0, 3.0] }]);
+    let read = |attributes: &dyn Fn(&mut Gltf) -> Value| {
+        let file = triangle(
+            &json!({ "scenes": [{ "nodes": [0, 1, 2] }], "nodes": nodes, "skins": [{ "joints": [1, 2] }] }),
+            attributes,
+        );
+        read(&file).model
+    };
+    let whole = |file: &mut Gltf, component: u32, bytes: &[u8], normalized: bool| {
+        let view = file.view(bytes, Some(bytes.len() / 3));
+        file.accessor(
+            json!({ "bufferView": view, "componentType": component, "normalized": normalized, "count": 3, "type": "VEC4" }),
+        )
+    };
+    let joints = [0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
+    let shorts = |numbers: [u16; 12]| numbers.map(u16::to_le_bytes).as_flattened().to_vec();
+    let bytes = read(&|file| {
+        json!({ "JOINTS_0": whole(file, 5121, &joints, false),
+            "WEIGHTS_0": whole(file, 5121, &[204, 51, 0, 0, 255, 0, 0, 0, 51, 204, 0, 0], true) })
+    });
+    let wider = read(&|file| {
+        json!({ "JOINTS_0": whole(file, 5123, &shorts(joints.map(u16::from)), false),
+            "WEIGHTS_0": whole(file, 5123, &shorts([52428, 13107, 0, 0, 65535, 0, 0, 0, 13107, 52428, 0, 0]), true) })
+    });
+    let floats = read(&|file| {
+        json!({ "JOINTS_0": whole(file, 5121, &joints, false),
+            "WEIGHTS_0": file.floats(&[[0.8, 0.2, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.2, 0.8, 0.0, 0.0]]) })
+    });
+    for model in [&bytes, &wider, &floats] {
+        // By the second joint's part 3 further on.
+        assert_at(&posed(model, 0.0), &[[0.0, 0.0, 0.6], [1.0, 0.0, 3.0], [0.0, 2.0, 0.6]]);
+    }
+}
