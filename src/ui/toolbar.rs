@@ -349,10 +349,10 @@ pub(super) fn title(ui: &mut Ui, session: &Session, state: Option<&mut UiState>,
         if with_dialect {
             chip(ui, dialect, tokens.muted);
         }
-        if let Some(state) = findings {
-            if findings_chip(ui, state.diagnostics_open, &count, color) {
-                state.diagnostics_open = !state.diagnostics_open;
-            }
+        if let Some(state) = findings
+            && findings_chip(ui, state.diagnostics_open, &count, color)
+        {
+            state.diagnostics_open = !state.diagnostics_open;
         }
     });
 }
