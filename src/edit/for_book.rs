@@ -54,16 +54,18 @@ pub(super) fn scale(model: &Model) -> Option<f32> {
 
 /// Bones, keys and names as the demo takes them.
 pub(super) fn shape(edited: &mut Edited) -> Result<(), EditError> {
-    name_materials(edited);
     if edited.model.skeleton.joint_count() == 0 {
+        name_materials(edited);
         return Ok(());
     }
+    // Which clip the demo plays is told first.
+    name_clips(edited);
+    name_materials(edited);
     if needs_root(&edited.model) {
         add_root(edited).map_err(|_| EditError::Overflows)?;
     }
     order_bones(edited).map_err(|_| EditError::Overflows)?;
     give_keys(edited).map_err(|_| EditError::Overflows)?;
-    name_clips(edited);
     Ok(())
 }
 

@@ -86,7 +86,10 @@ const SIGNATURES: &[(&[u8], Stranger)] = &[
     (b"INTERQUAKEMODEL", Stranger::Other("an IQM model")),
     (b"MD5Version", Stranger::Other("an MD5 model")),
     (b"MS3D000000", Stranger::Other("a MilkShape model")),
-    (b"PK\x03\x04", Stranger::Other("a ZIP archive")),
+    (
+        b"PK\x03\x04",
+        Stranger::Other("a ZIP archive (unpack it, and open what is in it)"),
+    ),
     (b"\x1F\x8B", Stranger::Other("a gzip archive")),
     (b"7z\xBC\xAF", Stranger::Other("a 7-Zip archive")),
     (b"Rar!", Stranger::Other("a RAR archive")),

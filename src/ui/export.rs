@@ -6,8 +6,7 @@ use super::panel::popover_gap;
 use super::state::{SheetPage, UiState};
 use super::theme::{CONTROL_RADIUS, Tokens};
 use super::widgets::{
-    MenuLine, TextButton, control_size, menu_item, number_field, section_name, section_with_labelled_action, segmented,
-    switch_row,
+    TextButton, control_size, number_field, section_name, section_with_labelled_action, segmented, switch_row,
 };
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 
@@ -32,6 +31,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     };
     if choice.of_model != session.model_revision() {
         choice.of_model = session.model_revision();
+        if choice.of_file != open.file.base_name() {
+            open.file.base_name().clone_into(&mut choice.of_file);
+            choice.options = ExportOptions {
+                format: choice.options.format,
+                ..ExportOptions::default()
+            };
+        }
         let names = |name: &String| open.model.clips.iter().any(|clip| clip.name == *name);
         // The same file, read again, keeps its choice.
         if choice
@@ -60,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     }
     popover_gap(ui);
     let export = session.export().filter(|export| *export.options == choice.options);
-    outcome(ui, export, &mut choice.unfolded);
+    outcome(ui, export, open.mended().count(), &mut choice.unfolded);
     ui.add_space(8.0);
     save_row(ui, session, export, commands);
 }
@@ -88,7 +94,7 @@ fn clip_list(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
     }
     for clip in clips {
         let on = is_kept(options, &clip.name);
-        if menu_item(ui, &clip.name, MenuLine::Switch(on)).clicked() {
+        if switch_row(ui, &clip.name, "", on).clicked() {
             let kept = |name: &str| is_kept(options, name) != (name == clip.name);
             let names: Vec<String> = clips
                 .iter()
@@ -182,6 +188,10 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
         if demo.clicked() {
             options.for_book = !options.for_book;
         }
+        if options.for_book {
+            let words = "The demo plays one clip, Take1: the first of those above. Maps come along as DDS.";
+            ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
+        }
     }
 }
 
@@ -208,8 +218,8 @@ fn number_row(
     row.inner
 }
 
-/// What would be otherwise, or why it cannot be.
-fn outcome(ui: &mut Ui, export: Option<Export<'_>>, unfolded: &mut [bool; 2]) {
+/// What would be otherwise, or why it cannot be. `mended`: how many changes are what was mended on reading.
+fn outcome(ui: &mut Ui, export: Option<Export<'_>>, mended: usize, unfolded: &mut [bool; 2]) {
     let tokens = Tokens::of(ui);
     if let Some(refusal) = export.and_then(|export| export.refusal) {
         section_name(ui, "Cannot be written");
@@ -223,7 +233,9 @@ fn outcome(ui: &mut Ui, export: Option<Export<'_>>, unfolded: &mut [bool; 2]) {
     };
     let [all_losses, all_changes] = unfolded;
     let losses: Vec<&str> = plan.losses.iter().map(|loss| loss.message.as_str()).collect();
-    let changes: Vec<&str> = plan.changes.iter().map(|change| change.message.as_str()).collect();
+    let mut changes: Vec<&str> = plan.changes.iter().map(|change| change.message.as_str()).collect();
+    // A plan begins with what was mended on reading. That is in the findings too, so here it comes last.
+    changes.rotate_left(mended.min(plan.changes.len()));
     if losses.is_empty() {
         section_name(ui, "What is lost");
         sentence(ui, "Nothing.", tokens.faint);

@@ -317,6 +317,8 @@ impl PictureChoice {
 pub(super) struct ExportChoice {
     pub(super) options: ExportOptions,
     pub(super) of_model: u64,
+    /// The name of its file. Another file begins with nothing edited.
+    pub(super) of_file: String,
     /// The lists of changes and losses that are shown whole.
     pub(super) unfolded: [bool; 2],
     /// A key asked for it.

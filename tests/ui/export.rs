@@ -1,10 +1,11 @@
 //! The panel that saves the model as a file of another format, used by the names of its controls.
 
-use bindpose::session::{ExportFormat, ExportRange, ExportedFile, PlayCommand};
+use bindpose::session::{ExportFormat, ExportRange, ExportedFile, FileCommand, PlayCommand};
 use bindpose::ui::Request;
 use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers};
 
+use crate::findings;
 use crate::models::{moving, still};
 use crate::page::{PHONE, WIDE, Window, touch_window, window};
 
@@ -107,6 +108,43 @@ fn switches_show_their_numbers_and_what_they_do() {
     );
     assert_eq!(options.format, ExportFormat::D3d12);
     assert!(!window.named(|name| name.starts_with("What changes · ")).is_empty());
+}
+
+#[test]
+fn another_file_begins_with_no_edit_and_the_same_one_keeps_them() {
+    let mut window = open();
+    window.click("Format: .m3d D3D12");
+    window.click("Reduce keys");
+    window.click("For the book's demo");
+    let options = |window: &Window| {
+        let options = window.session().export().expect("it is planned").options;
+        (options.format, options.reduce, options.for_book)
+    };
+    let file = window.session().open_model().expect("open").file.clone();
+    window.apply(FileCommand::Add(vec![file]));
+    assert_eq!(options(&window), (ExportFormat::D3d12, Some(0.001), true));
+    window.apply(FileCommand::Add(vec![moving("other.m3d")]));
+    assert_eq!(options(&window), (ExportFormat::D3d12, None, false), "the format stays");
+}
+
+#[test]
+fn the_clip_of_the_demo_is_told_before_what_was_mended_on_reading() {
+    let mut window = window(WIDE, findings::files());
+    window.press(Modifiers::NONE, Key::E);
+    window.click("Format: .m3d D3D12");
+    window.click("For the book's demo");
+    assert!(window.shows("The demo plays one clip, Take1: the first of those above. Maps come along as DDS."));
+    window.click("What changes: show all");
+    let top = |words: &str| {
+        let named = window.named(|name| name.contains(words));
+        named
+            .first()
+            .unwrap_or_else(|| panic!("{words} {:?}", window.widgets()))
+            .1
+            .min
+            .y
+    };
+    assert!(top("Clip \"Bend\" is named \"Take1\".") < top("whose sum is off from 1"));
 }
 
 #[test]

@@ -6,8 +6,8 @@ use egui::{
 };
 
 use super::control::{
-    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, is_touch, key_hint, paint_ground,
-    paint_row_ground,
+    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, is_touch, key_hint, paint_elided,
+    paint_ground, paint_row_ground,
 };
 use crate::actions::Action;
 use crate::session::{Command, Session};
@@ -283,16 +283,17 @@ pub(crate) fn noted_switch_row(
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     paint_row_ground(ui, rect, &response, false, response.contains_pointer());
     let font = FontId::proportional(13.0);
-    ui.painter()
-        .text(rect.left_center(), Align2::LEFT_CENTER, label, font, tokens.text);
     let track = Rect::from_center_size(
         pos2(rect.max.x - TRACK_WIDTH * 0.5, rect.center().y),
         vec2(TRACK_WIDTH, TRACK_HEIGHT),
     );
     paint_track(ui, track, &response, on);
     let note_at = pos2(track.min.x - 10.0, rect.center().y);
-    ui.painter()
+    let note = ui
+        .painter()
         .text(note_at, Align2::RIGHT_CENTER, note, note_font, note_color);
+    let room = note.min.x - 6.0 - rect.min.x;
+    paint_elided(ui.painter(), rect.left_center(), label, font, tokens.text, room);
     response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
     response
 }
