@@ -16,7 +16,7 @@ const GROUND = [820, 640];
 const HAND = [676, 392];
 const EXPLAIN = [1205, 247];
 const SHEET_BUTTON = [1250, 760];
-const LIGHT_BUTTON = [956, 30];
+const LIGHT_BUTTON = [924, 30];
 const SPLIT_SWITCH = [1242, 140];
 
 /** In the middle of a step. */
