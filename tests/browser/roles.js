@@ -89,7 +89,7 @@ test("the findings say what the books' programs make of a file, and the report i
   const { book, notices } = await state(page);
   assert.deepEqual([book.d3d11.line, book.d3d12.line, book.d3d12.reads], [9, 56, false]);
   await press(page, "Books' programs: D3D12 fails, D3D11 fails");
-  const line = control(page, "D3D12 book: goes wrong at line 56, reads the number of keys of bone 0");
+  const line = control(page, "D3D12 book: crashes at its first frame");
   assert.equal(await line.getAttribute("aria-expanded"), "false");
   await line.focus();
   await page.keyboard.press("Enter");
@@ -105,6 +105,25 @@ test("the findings say what the books' programs make of a file, and the report i
   assert.equal(run.results.length, notices.length + 2 + limits);
   assert.deepEqual(run.results.filter(({ ruleId }) => ruleId === "book-stops").map(({ locations: [at] }) => at.physicalLocation.region.startLine), [9, 56]);
   await spoken(page, /^Saved clip_names\.sarif\.$/);
+  await page.keyboard.press("Escape");
+});
+
+test("findings are filtered, and one leads to its clip, time and bone, and stays when the file comes again", {}, async (page) => {
+  await dropAndWait(page, [`${FIXTURES}check/loop-jumps.m3d`]);
+  await call(page, "play");
+  await press(page, "(Panel: )?Model");
+  await press(page, "Findings: 1 note");
+  await press(page, "Only 1 note");
+  const row = page.getByRole("listitem", { name: /^note loop-jumps/ }).or(control(page, "note loop-jumps")).first();
+  await row.focus();
+  await page.keyboard.press("Enter");
+  const { timeSecs, skeleton } = await until(page, ({ playing, skeleton }) => !playing && skeleton.selected !== null);
+  const [{ endSecs }] = (await state(page)).model.clips;
+  assert.deepEqual([timeSecs, skeleton.selected, skeleton.bonesVisible], [endSecs, 1, false]);
+  await page.getByText(/86 \|\s+Bone1 #Keyframes: 5/).first().waitFor({ state: "attached" });
+  await dropAndWait(page, [`${FIXTURES}check/loop-jumps.m3d`]);
+  await page.getByText(/86 \|\s+Bone1 #Keyframes: 5/).first().waitFor({ state: "attached" });
+  assert.equal((await state(page)).skeleton.selected, 1);
   await page.keyboard.press("Escape");
 });
 
