@@ -2,9 +2,10 @@
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
+use super::space::shifted;
 use crate::model::{Clip, Curve, CurveValue, Curves, ModelError, Track};
 
-/// Cuts the only clip to a range of its own time, which stays as it is.
+/// Cuts the only clip to a range of its own time. What is left begins at 0 s, so that no player waits for it.
 pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditError> {
     let [clip] = &mut edited.model.clips[..] else {
         return Err(EditError::RangeNeedsOneClip {
@@ -25,9 +26,10 @@ pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditE
         return Ok(());
     }
     *clip = part(clip, range_secs).map_err(|_| EditError::Overflows)?;
+    let begins = if from == 0.0 { "" } else { ", which begins at 0 s now" };
     edited.changes.push(Change::new(
         "range-cut",
-        format!("\"{}\" is cut to {from} s … {to} s.", clip.name),
+        format!("\"{}\" is cut to {from} s … {to} s{begins}.", clip.name),
     ));
     Ok(())
 }
@@ -44,6 +46,11 @@ fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, ModelError> {
     {
         *keyed = Track::new(range_secs.map(|secs| (secs, keyed.key(0))))?;
     }
+    let from_zero = |track: &Track| match track.has_keys() {
+        true => shifted(track, range_secs[0]),
+        false => Ok(track.clone()),
+    };
+    let tracks = tracks.iter().map(from_zero).collect::<Result<_, _>>()?;
     Ok(with_tracks(clip, tracks))
 }
 
