@@ -232,12 +232,13 @@ impl Map {
 
 /// The same keys, sooner. Of keys whose times become one the first is kept.
 pub(super) fn shifted(track: &Track, sooner_secs: f32) -> Result<Track, ModelError> {
-    let mut last = None;
-    let keys = (0..track.key_count()).filter_map(|key| {
+    let mut last: Option<f32> = None;
+    let keys = (0..track.key_count()).map(|key| {
         let secs = track.times_secs()[key] - sooner_secs;
-        let is_after = last.is_none_or(|last| secs > last);
+        // Two keys that make a jump may be rounded to one time. Without the later one the jump would become a slow way.
+        let secs = last.map_or(secs, |last| secs.max(last.next_up()));
         last = Some(secs);
-        is_after.then(|| (secs, track.key(key)))
+        (secs, track.key(key))
     });
     let shifted = Track::new(keys)?;
     let Some(curves) = track.curves() else {

@@ -382,3 +382,15 @@ fn one_call_makes_them_in_the_one_order() {
     assert_eq!(at_once.model.mesh.positions, one_by_one.mesh.positions);
     assert_eq!(at_once.changes, changes);
 }
+
+#[test]
+fn a_closed_and_cut_clip_shaped_for_the_book_keeps_its_poses() {
+    let mut model = model(0);
+    for one in [One::Close(0.1), One::Range(0.134_784_79, 0.941_020_1), One::ForBook] {
+        let (_, after) = make(&model, one);
+        assert_kept(&model, one, &after);
+        assert_sound(&after);
+        model = after;
+    }
+    assert_read_back(&model);
+}
