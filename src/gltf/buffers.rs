@@ -78,6 +78,22 @@ impl<'a> Buffers<'a> {
         self.buffers.iter().filter_map(|buffer| buffer.as_ref().err())
     }
 
+    /// The fault of the first buffer whose file is missing. It says how many more are.
+    pub fn first_missing(&self) -> Option<Fault> {
+        let mut missing = self
+            .faults()
+            .filter(|fault| fault.code == codes::GLTF_BUFFER_MISSING.name);
+        let mut first = missing.next()?.clone();
+        let more = match missing.count() {
+            0 => String::new(),
+            1 => " 1 more buffer is missing too.".to_owned(),
+            count => format!(" {count} more buffers are missing too."),
+        };
+        first.message += &more;
+        first.message += " Drop the .gltf together with its .bin files.";
+        Some(first)
+    }
+
     /// The bytes of a view, and the step between its elements where it gives one. `pointer` is where the view is named.
     ///
     /// # Errors
@@ -162,6 +178,61 @@ pub(crate) fn out_of_range(pointer: &str, what: &str, index: u64, count: usize) 
         1 => "there is 1, with the number 0".to_owned(),
         count => format!("there are {count}"),
     };
-    let message = format!("This names {what} {index}, but {there}.");
+    let message = format!("{} names {what} {index}, but {there}.", subject(pointer));
     fault(&codes::GLTF_INDEX_OUT_OF_RANGE, pointer, message)
+}
+
+/// What a value belongs to, by its pointer: `Accessor 4` of `/accessors/4/bufferView`.
+pub(super) fn subject(pointer: &str) -> String {
+    let parts: Vec<&str> = pointer.split('/').skip(1).collect();
+    let mut subject = String::new();
+    // The last part is the value itself.
+    for pair in parts[..parts.len().saturating_sub(1)].windows(2) {
+        let what = match pair[0] {
+            "accessors" => "accessor",
+            "animations" => "animation",
+            "bufferViews" => "buffer view",
+            "channels" => "channel",
+            "images" => "image",
+            "materials" => "material",
+            "meshes" => "mesh",
+            "nodes" => "node",
+            "primitives" => "primitive",
+            "samplers" => "sampler",
+            "scenes" => "scene",
+            "skins" => "skin",
+            "textures" => "texture",
+            _ => continue,
+        };
+        if pair[1].parse::<u64>().is_ok() {
+            let rest = if subject.is_empty() {
+                String::new()
+            } else {
+                format!(" of {subject}")
+            };
+            subject = format!("{what} {}{rest}", pair[1]);
+        }
+    }
+    let mut letters = subject.chars();
+    match letters.next() {
+        Some(first) => first.to_ascii_uppercase().to_string() + letters.as_str(),
+        None => "The file".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::subject;
+
+    #[test]
+    fn a_pointer_tells_what_its_value_belongs_to() {
+        for (pointer, expected) in [
+            ("/accessors/4/bufferView", "Accessor 4"),
+            ("/scenes/0/nodes/1", "Scene 0"),
+            ("/meshes/2/primitives/3/attributes/POSITION", "Primitive 3 of mesh 2"),
+            ("/scene", "The file"),
+        ] {
+            assert_eq!(subject(pointer), expected);
+        }
+    }
 }

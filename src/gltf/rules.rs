@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use super::buffers::subject;
 use super::json::{Accessor, Index, Primitive, Root};
 use super::parse::escaped;
 use super::{Interpolation, Path, Uri};
@@ -51,10 +52,14 @@ impl<'a> Rules<'a> {
         let index = index?;
         let found = entry(list, index);
         if found.is_none() {
-            self.broken(
-                pointer(),
-                format!("This names {what} {}, but there are {}; left out.", index.0, list.len()),
+            let pointer = pointer();
+            let message = format!(
+                "{} names {what} {}, but there are {}; left out.",
+                subject(&pointer),
+                index.0,
+                list.len()
             );
+            self.broken(pointer, message);
         }
         found
     }

@@ -239,7 +239,9 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
     let are = |count| counted(count, "material is", "materials are");
     let have = |count| counted(count, "material has", "materials have");
 
-    let metallic = count(&|material| matches!(material.reflectance, Reflectance::MetallicRoughness { .. }));
+    let metallic = count(
+        &|material| matches!(material.reflectance, Reflectance::MetallicRoughness { metallic, .. } if metallic > 0.0),
+    );
     losses.add(
         "metallic-roughness",
         metallic,

@@ -87,7 +87,10 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         gltf::note_broken_rules(&root, &mut noted);
     }
     diagnostics.extend(noted.into_vec());
-    let (model, images) = read?;
+    let (model, images) = read.map_err(|fault| match buffers.first_missing() {
+        Some(missing) if fault.code == missing.code => missing,
+        _ => fault,
+    })?;
     // What the model needs of them was there.
     diagnostics.extend(buffers.faults().map(|fault| Diagnostic {
         severity: Severity::Warning,

@@ -216,6 +216,21 @@ fn rich() -> Model {
 }
 
 #[test]
+fn a_material_of_gltf_that_is_no_metal_loses_no_metalness() {
+    for (metallic, is_lost) in [(0.0, false), (0.25, true)] {
+        let mut model = rich();
+        for material in &mut model.materials {
+            material.reflectance = Reflectance::MetallicRoughness {
+                metallic,
+                roughness: 0.5,
+            };
+        }
+        let losses = m3d_losses(&model, &JointNames::default(), Dialect::D3d12);
+        assert_eq!(codes(&losses).contains(&"metallic-roughness"), is_lost, "{metallic}");
+    }
+}
+
+#[test]
 fn what_the_format_does_not_hold_is_said_before() {
     let losses = m3d_losses(&rich(), &JointNames::default(), Dialect::D3d12);
     assert_eq!(

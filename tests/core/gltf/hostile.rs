@@ -19,6 +19,27 @@ fn code(file: &crate::gltf_files::Gltf) -> &'static str {
 }
 
 #[test]
+fn the_first_missing_file_is_named_and_the_others_are_counted() {
+    let mut file = triangle(&json!({}), |_| json!({}));
+    file.json["buffers"] = json!([
+        { "byteLength": 36, "uri": "first.bin" },
+        { "byteLength": 36, "uri": "second.bin" },
+        { "byteLength": 36, "uri": "third.bin" },
+    ]);
+    for view in file.json["bufferViews"].as_array_mut().expect("views") {
+        view["buffer"] = json!(2);
+    }
+    let text = serde_json::to_vec(&file.json).expect("JSON");
+    let told = refused(&text);
+    assert_eq!(told.code, "gltf-buffer-missing");
+    assert_eq!(
+        told.message,
+        "The file \"first.bin\", which has the data of buffer 0, is not there. 2 more buffers are missing too. Drop the .gltf together with its \
+         .bin files."
+    );
+}
+
+#[test]
 fn accessors_that_reach_beyond_their_data_are_refused_before_anything_is_allocated() {
     for (key, value) in [
         ("count", json!(4)),
