@@ -1,12 +1,12 @@
 //! The card over the view when a file could not be opened. It stays until it is dismissed or another load succeeds.
 
 use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, Align2, Color32, Id, Layout, Rangef, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align, Color32, Id, Layout, Rangef, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
 use super::icons::Icon;
 use super::panel::scrolled;
 use super::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
-use super::widgets::{TextButton, control_size, push_button, rule};
+use super::widgets::{TextButton, control_size, paint_elided, push_button, rule};
 use super::wording::shortened;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::format::Excerpt;
@@ -23,14 +23,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: 
     };
     ui.horizontal(|ui| {
         let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width() - 106.0, 28.0), Sense::hover());
-        let clip = ui.painter().with_clip_rect(heading);
-        clip.text(
-            heading.left_center(),
-            Align2::LEFT_CENTER,
-            &title,
-            theme::semibold(13.5),
-            tokens.error,
-        );
+        let (at, font) = (heading.left_center(), theme::semibold(13.5));
+        paint_elided(ui.painter(), at, &title, font, tokens.error, heading.width());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Heading, true, &title));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if push_button(ui, Icon::Close, "Dismiss (Esc)").clicked() {

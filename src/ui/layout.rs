@@ -20,7 +20,6 @@ use super::{
     widgets,
 };
 use crate::actions;
-use crate::diagnostic::Severity;
 use crate::session::{Command, LoadError, Session};
 
 /// Width of the panel on the left.
@@ -484,7 +483,7 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
         });
 }
 
-/// While the sheet is shut: how many findings there are, if they are more than notes, and what is selected. Each opens its page. A message takes
+/// While the sheet is shut: how many findings there are, and what is selected. Each opens its page. A message takes
 /// their place.
 fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
     if state.sheet.is_some() || state.messages.is_shown() {
@@ -495,10 +494,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
     let name = joints.selected().map(|joint| session.joint_label(joint));
     let name = name.or_else(|| Some(format!("Vertex {}", grouped(joints.selected_vertex()?.vertex as usize))));
     let name = name.or_else(|| Some(session.submesh_name(submesh?).to_owned()));
-    let is_told = session.open_model().is_some()
-        && session
-            .diagnostics()
-            .any(|diagnostic| diagnostic.severity > Severity::Note);
+    let is_told = session.open_model().is_some() && session.diagnostics().next().is_some();
     if name.is_none() && !is_told {
         return;
     }

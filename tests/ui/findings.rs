@@ -197,6 +197,9 @@ fn a_finding_about_a_triangle_shows_its_three_corners() {
     let joints = window.session().joints();
     let selected = joints.selected_vertex().map(|vertex| vertex.vertex);
     assert_eq!((selected, joints.selected_triangle()), (Some(triangle[0]), Some(5)));
+    let [a, b, c] = triangle;
+    let words = format!("First corner of triangle 5, which has vertices {a}, {b} and {c}.");
+    assert!(window.shows(&words));
     let session = &mut window.harness.state_mut().session;
     let corners = session.selected_corners().expect("it is selected");
     let free = window.rect(OF_TRIANGLE).max.x..=window.rect("Selected: Vertex ").min.x;

@@ -39,6 +39,14 @@ pub(super) fn show(
         commands.push(JointCommand::SelectVertex(None).into());
     }
     rule(ui, MARGIN);
+    let triangle = session.joints().selected_triangle();
+    let corners = triangle.and_then(|triangle| session.open_model()?.model.mesh.triangle(triangle));
+    if let (Some(triangle), Some([a, b, c])) = (triangle, corners) {
+        let [triangle, a, b, c] = [triangle, a, b, c].map(|number| grouped(number as usize));
+        let words = format!("First corner of triangle {triangle}, which has vertices {a}, {b} and {c}.");
+        ui.label(egui::RichText::new(words).size(12.5).color(Tokens::of(ui).muted));
+        ui.add_space(6.0);
+    }
     section_name(ui, "Weights");
     if explanation.influences.is_empty() {
         let words = "No bone has weight: it stays where bind space has it.";
