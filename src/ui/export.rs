@@ -188,10 +188,12 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
         if demo.clicked() {
             options.for_book = !options.for_book;
         }
-        if options.for_book {
-            let words = "The demo plays one clip, Take1: the first of those above. Maps come along as DDS.";
-            ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
-        }
+        let words = if options.for_book {
+            "The demo plays one clip, Take1: the first of those above. Maps come along as DDS."
+        } else {
+            "As it is, the demo may show nothing: it wants a clip Take1, keys for each bone, its size and maps."
+        };
+        ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
     }
 }
 
