@@ -364,20 +364,13 @@ fn each<T: Copy + Default, const B: usize, const N: usize>(
     elements: &Elements<'_>,
     number: impl Fn([u8; B]) -> T,
 ) -> Vec<[T; N]> {
-    // The range was proved to hold this many.
-    let mut read = vec![[T::default(); N]; elements.count];
-    if elements.stride == N * B {
-        // Without gaps it is one run of numbers.
-        let stored = elements.bytes.as_chunks().0;
-        for (read, &bytes) in read.as_flattened_mut().iter_mut().zip(stored) {
-            *read = number(bytes);
+    let of_element = |element: &[u8]| {
+        let mut numbers = [T::default(); N];
+        for (read, bytes) in numbers.iter_mut().zip(element.as_chunks().0) {
+            *read = number(*bytes);
         }
-    } else {
-        for (read, element) in read.iter_mut().zip(elements.bytes.chunks(elements.stride.max(1))) {
-            for (read, &bytes) in read.iter_mut().zip(element.as_chunks().0) {
-                *read = number(bytes);
-            }
-        }
-    }
-    read
+        numbers
+    };
+    let elements = elements.bytes.chunks(elements.stride.max(1)).take(elements.count);
+    elements.map(of_element).collect()
 }

@@ -87,16 +87,15 @@ fn texture_axes(mesh: &Mesh) -> Vec<TextureAxes> {
         let (edge_1, edge_2) = (position(b) - position(a), position(c) - position(a));
         let (step_1, step_2): (DVec2, DVec2) = (texture(b) - texture(a), texture(c) - texture(a));
         let texture_area = step_1.perp_dot(step_2);
-        if texture_area == 0.0 {
-            continue;
-        }
         let area = edge_1.cross(edge_2).length();
         let along_u = (edge_1 * step_2.y - edge_2 * step_1.y) * texture_area.signum();
         let along_v = (edge_2 * step_1.x - edge_1 * step_2.x) * texture_area.signum();
-        let (along_u, along_v) = (along_u.normalize_or_zero() * area, along_v.normalize_or_zero() * area);
+        if texture_area == 0.0 {
+            continue;
+        }
         for corner in [a, b, c] {
-            axes[corner].along_u += along_u;
-            axes[corner].along_v += along_v;
+            axes[corner].along_u += along_u.normalize_or_zero() * area;
+            axes[corner].along_v += along_v.normalize_or_zero() * area;
         }
     }
     axes

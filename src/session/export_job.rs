@@ -284,7 +284,13 @@ impl ExportJob {
                     self.state = match self.format.dialect() {
                         None => {
                             plan_glb(&edited.model, &images, &mut plan);
-                            State::Glb(Box::new(edited), EncodedMaps::default(), plan)
+                            let mut encoded = EncodedMaps::default();
+                            for (place, image) in &self.maps.images {
+                                if let Some(file) = self.maps.pictures.get(place) {
+                                    encoded.add_file(image, Arc::clone(&file.bytes));
+                                }
+                            }
+                            State::Glb(Box::new(edited), encoded, plan)
                         }
                         Some(dialect) => {
                             let files = plan_maps(&mut edited.model, &self.maps, self.asked, &mut plan);

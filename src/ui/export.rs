@@ -2,7 +2,7 @@
 
 use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, Ui, vec2};
 
-use super::panel::popover_gap;
+use super::panel::{popover_gap, scrolled};
 use super::state::{SheetPage, UiState};
 use super::theme::{CONTROL_RADIUS, Tokens};
 use super::widgets::{
@@ -19,11 +19,29 @@ const LOOP_SECS: f32 = 0.2;
 const TOLERANCE: f32 = 0.001;
 /// Width of a number that is typed.
 const FIELD_WIDTH: f32 = 76.0;
+/// Gap above the button that saves.
+const FOOT_GAP: f32 = 8.0;
 /// Width of the button that stops writing.
 const CANCEL_WIDTH: f32 = 74.0;
 
-/// The contents of the popover and of the sheet's page, below their title.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+/// The contents of the popover and of the sheet's page, no higher than `most`. The button that saves stays in view below what scrolls.
+pub(super) fn show(ui: &mut Ui, most: f32, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    let foot = if session.open_model().is_some() {
+        control_size(ui) + FOOT_GAP
+    } else {
+        0.0
+    };
+    scrolled("export", most - foot).show(ui, |ui| choices(ui, session, state, commands));
+    if foot > 0.0 {
+        ui.add_space(FOOT_GAP);
+        let export = session.export();
+        let export = export.filter(|export| *export.options == state.export.options);
+        save_row(ui, session, export, commands);
+    }
+}
+
+/// What is written, and what that changes.
+fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let choice = &mut state.export;
     let Some(open) = session.open_model() else {
         ui.label(RichText::new("Nothing is open. Drop a model, then export it here.").color(Tokens::of(ui).muted));
@@ -67,8 +85,6 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     popover_gap(ui);
     let export = session.export().filter(|export| *export.options == choice.options);
     outcome(ui, export, open.mended().count(), &mut choice.unfolded);
-    ui.add_space(8.0);
-    save_row(ui, session, export, commands);
 }
 
 /// A line for each clip, to keep it or leave it out.
@@ -188,10 +204,12 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
         if demo.clicked() {
             options.for_book = !options.for_book;
         }
-        if options.for_book {
-            let words = "The demo plays one clip, Take1: the first of those above. Maps come along as DDS.";
-            ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
-        }
+        let words = if options.for_book {
+            "The demo plays one clip, Take1: the first of those above. Maps come along as DDS."
+        } else {
+            "As it is, the demo may show nothing: it wants a clip Take1, keys for each bone, its size and maps."
+        };
+        ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
     }
 }
 

@@ -421,6 +421,10 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         timeline::page(ui, session, state, commands);
         return;
     }
+    if page == SheetPage::Export {
+        export::show(ui, ui.available_height(), session, state, commands);
+        return;
+    }
     // Each page begins at its top, and so does what is inspected next.
     let joints = session.joints();
     let inspected = (
@@ -441,8 +445,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
             toolbar::view_from_items(ui, session, commands);
         }
         SheetPage::Picture => picture::show(ui, session, state),
-        SheetPage::Export => export::show(ui, session, state, commands),
-        SheetPage::Skeleton | SheetPage::Timeline => {}
+        SheetPage::Export | SheetPage::Skeleton | SheetPage::Timeline => {}
     });
 }
 

@@ -213,6 +213,13 @@ pub(super) const LEAST_ROOM: f32 = 180.0;
 
 /// A popover of the toolbar. The button opens and closes it. A click elsewhere or Esc closes it.
 pub(super) fn popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
+    unscrolled_popover(ui, button, width, |ui, most| {
+        scrolled("popover", most).show(ui, contents);
+    });
+}
+
+/// The same for contents that scroll by themselves; they are given the greatest height.
+pub(super) fn unscrolled_popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui, f32)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     let top = below_bars(ui);
     // A person can move the time while a popover is open. It may cover the sheet above the transport.
@@ -250,7 +257,7 @@ fn around(ui: &Ui) -> f32 {
 }
 
 /// Shows a popover at a corner, no larger than `size`.
-fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui)) {
+fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui, f32)) {
     let name = tell_popup(ui, button, HasPopup::Dialog);
     Popup::from_toggle_button_response(button)
         .accessible_name(name)
@@ -262,7 +269,7 @@ fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, 
         .frame(popover_frame(&Tokens::of(ui)))
         .show(|ui| {
             ui.set_width(size.x);
-            scrolled("popover", size.y.max(LEAST_HEIGHT)).show(ui, contents);
+            contents(ui, size.y.max(LEAST_HEIGHT));
         });
 }
 
@@ -307,5 +314,7 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
     let width = width.min(window.width() - around);
     let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);
     let corner = (pos2(left, bottom), RectAlign::TOP_START);
-    hang(ui, button, corner, vec2(width, room), contents);
+    hang(ui, button, corner, vec2(width, room), |ui, most| {
+        scrolled("popover", most).show(ui, contents);
+    });
 }

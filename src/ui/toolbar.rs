@@ -6,7 +6,7 @@ use egui::{Color32, Label, Popup, Rangef, RectAlign, RichText, Role, Ui, WidgetI
 use super::cost::SteadyCost;
 use super::icons::Icon;
 use super::model_panel::summary;
-use super::panel::{popover, popover_menu};
+use super::panel::{popover, popover_menu, unscrolled_popover};
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
@@ -164,9 +164,11 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
     if std::mem::take(&mut state.export.asked) {
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
-    popover(ui, &button, export::WIDTH, |ui| {
+    unscrolled_popover(ui, &button, export::WIDTH, |ui, most| {
+        let top = ui.cursor().min.y;
         section_name(ui, "Export");
-        export::show(ui, session, state, commands);
+        let most = most - (ui.cursor().min.y - top);
+        export::show(ui, most, session, state, commands);
     });
 }
 

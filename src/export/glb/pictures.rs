@@ -1,6 +1,7 @@
-//! Maps as PNG pictures, each once.
+//! Maps as pictures, each once: PNG, or the file as it is.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
@@ -30,31 +31,47 @@ pub(super) enum Use {
 
 /// Pictures that were encoded before their file is written, by the map's place in memory and what they are for.
 #[derive(Clone, Debug, Default)]
-pub struct EncodedMaps(HashMap<(usize, Use), Vec<u8>>);
+pub struct EncodedMaps {
+    encoded: HashMap<(usize, Use), Arc<[u8]>>,
+    /// Files that glTF takes as they are.
+    files: HashMap<usize, Arc<[u8]>>,
+}
 
 impl EncodedMaps {
+    /// The file that a map was read from. A PNG or JPEG is written as it is where its texels are.
+    pub fn add_file(&mut self, image: &Image, bytes: Arc<[u8]>) {
+        if is_jpeg(&bytes) || bytes.starts_with(b"\x89PNG") {
+            self.files.insert(place(image), bytes);
+        }
+    }
+
     /// Encodes a picture. Whether it was not there yet.
     pub(super) fn encode(&mut self, image: &Image, purpose: Use) -> Result<bool, ExportError> {
         let key = (place(image), purpose);
-        if self.0.contains_key(&key) {
+        if self.encoded.contains_key(&key) {
             return Ok(false);
         }
-        self.0.insert(key, encoded(image, purpose)?);
+        let file = self.files.get(&key.0).filter(|_| purpose == Use::AsIs);
+        let bytes = match file {
+            Some(file) => Arc::clone(file),
+            None => encode_png(&texels(image, purpose), image.width(), image.height())?.into(),
+        };
+        self.encoded.insert(key, bytes);
         Ok(true)
     }
 
     /// How many there are.
     pub fn count(&self) -> usize {
-        self.0.len()
+        self.encoded.len()
     }
+}
+
+fn is_jpeg(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xFF\xD8\xFF")
 }
 
 fn place(image: &Image) -> usize {
     std::ptr::from_ref(image).addr()
-}
-
-fn encoded(image: &Image, purpose: Use) -> Result<Vec<u8>, ExportError> {
-    Ok(encode_png(&texels(image, purpose), image.width(), image.height())?)
 }
 
 /// The pictures that were written.
@@ -64,7 +81,7 @@ pub(super) struct Pictures {
     encoded: EncodedMaps,
     /// By the map's place in memory and what it is for.
     made: HashMap<(usize, Use), usize>,
-    by_bytes: HashMap<Vec<u8>, usize>,
+    by_bytes: HashMap<Arc<[u8]>, usize>,
 }
 
 impl Pictures {
@@ -88,17 +105,16 @@ impl Pictures {
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
-        let png = match self.encoded.0.remove(&key) {
-            Some(png) => png,
-            None => encoded(image, purpose)?,
-        };
-        let index = match self.by_bytes.get(&png) {
+        self.encoded.encode(image, purpose)?;
+        let bytes = self.encoded.encoded.remove(&key).unwrap_or_default();
+        let index = match self.by_bytes.get(&bytes) {
             Some(&index) => index,
             None => {
-                let view = binary.view(&png, Target::Other);
+                let view = binary.view(&bytes, Target::Other);
+                let mime = if is_jpeg(&bytes) { "image/jpeg" } else { "image/png" };
                 self.images
-                    .push(json!({ "bufferView": view, "mimeType": "image/png", "name": name }));
-                self.by_bytes.insert(png, self.images.len() - 1);
+                    .push(json!({ "bufferView": view, "mimeType": mime, "name": name }));
+                self.by_bytes.insert(bytes, self.images.len() - 1);
                 self.images.len() - 1
             }
         };

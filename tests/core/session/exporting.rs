@@ -12,6 +12,8 @@ use bindpose::session::{
     MaterialCommand, NameCommand, PlayCommand, Session,
 };
 
+use image::{ImageFormat, Rgb, RgbImage};
+
 use super::models::{document, file, moving, still};
 use super::opened;
 
@@ -46,6 +48,30 @@ fn mapped() -> Session {
     session.apply(FileCommand::Add(files));
     assert_eq!(session.maps().used().count(), 1);
     session
+}
+
+#[test]
+fn a_glb_has_pictures_that_gltf_takes_as_they_are_and_others_as_png() {
+    let mut document = document();
+    document.materials[0].diffuse_map = Some("red.jpg".to_owned());
+    let picture = RgbImage::from_pixel(8, 8, Rgb([200, 30, 10]));
+    let mut jpeg = Cursor::new(Vec::new());
+    picture.write_to(&mut jpeg, ImageFormat::Jpeg).expect("a picture");
+    let jpeg = jpeg.into_inner();
+    let mut tga = Cursor::new(Vec::new());
+    picture.write_to(&mut tga, ImageFormat::Tga).expect("a picture");
+    for (bytes, mime, is_kept) in [(jpeg, "image/jpeg", true), (tga.into_inner(), "image/png", false)] {
+        let name = if is_kept { "red.jpg" } else { "red.tga" };
+        let mut session = Session::new(false);
+        session.apply(FileCommand::Add(vec![
+            file("box.m3d", &document),
+            File::new(name, bytes.clone()),
+        ]));
+        let glb = written(&session, &options(ExportFormat::Glb)).bytes;
+        let has = |part: &[u8]| glb.windows(part.len()).any(|window| window == part);
+        assert!(has(mime.as_bytes()), "{name}");
+        assert_eq!(has(&bytes), is_kept, "{name}");
+    }
 }
 
 #[test]
