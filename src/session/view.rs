@@ -55,9 +55,13 @@ impl View {
         };
     }
 
-    /// Whether a picture of this view is the same as one of another, if the model stands in the world as it does there.
+    /// Whether a picture of this view is the same as one of another, if the model stands in the world as it does there. The aspect ratio
+    /// says which instances of a crowd are in sight.
     pub(super) fn shows_the_same_as(&self, other: &Self) -> bool {
-        self.camera == other.camera && self.look == other.look && self.theme == other.theme
+        self.camera == other.camera
+            && self.aspect == other.aspect
+            && self.look == other.look
+            && self.theme == other.theme
     }
 
     /// The handedness in force: chosen, or else found.

@@ -1,8 +1,9 @@
 //! What was recorded plays again: the same commands and times give the same state, to the bit.
 
 use bindpose::anim::Palette;
-use bindpose::scene::RenderFrame;
-use bindpose::session::{Changes, Command, File, FileCommand, PlayCommand, Session};
+use bindpose::scene::{Insets, RenderFrame};
+use bindpose::session::{CameraCommand, Changes, Command, CrowdCommand, File, FileCommand, PlayCommand, Session};
+use glam::Vec3;
 use proptest::prelude::*;
 
 use super::models::{moving, still};
@@ -139,17 +140,44 @@ proptest! {
 
     #[test]
     fn a_frame_that_differs_is_told_as_a_change_of_the_picture(steps in steps(40)) {
-        let mut session = Session::new(false);
-        session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
-        let mut before = (told_to_renderer(&mut session), session.picture_revision());
-        for step in steps {
-            let changes = take(&mut session, step.clone());
-            let now = (told_to_renderer(&mut session), session.picture_revision());
-            prop_assert!(now.0 == before.0 || changes.picture, "{:?}: {changes:?}", step);
-            prop_assert_eq!(now.1 > before.1, changes.picture);
-            before = now;
-        }
+        each_change_is_told(steps)?;
     }
+}
+
+/// After each step the picture is told as changed if the frame differs.
+fn each_change_is_told(steps: Vec<Step>) -> Result<(), TestCaseError> {
+    let mut session = Session::new(false);
+    session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
+    let mut before = (told_to_renderer(&mut session), session.picture_revision());
+    for step in steps {
+        let changes = take(&mut session, step.clone());
+        let now = (told_to_renderer(&mut session), session.picture_revision());
+        prop_assert!(now.0 == before.0 || changes.picture, "{:?}: {changes:?}", step);
+        prop_assert_eq!(now.1 > before.1, changes.picture);
+        before = now;
+    }
+    Ok(())
+}
+
+/// The shape of the picture decides which instances are in sight, although the camera stays where it is after a flight.
+#[test]
+fn another_shape_of_a_crowds_picture_is_told() {
+    let fly = CameraCommand::Fly {
+        direction: Vec3::new(2.143_096_7, 0.0, -0.639_14),
+        fast: false,
+    };
+    let narrow = CameraCommand::SetViewport {
+        aspect: 0.231_031_75,
+        insets: Insets::default(),
+    };
+    each_change_is_told(vec![
+        Step::Apply(CrowdCommand::Set { count: 2, seed: 0 }.into()),
+        Step::Advance(0.182_157_43),
+        Step::Apply(fly.into()),
+        Step::Advance(1.359_390_5),
+        Step::Apply(narrow.into()),
+    ])
+    .unwrap();
 }
 
 #[test]
