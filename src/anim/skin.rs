@@ -12,7 +12,7 @@ pub struct SkinnedVertices {
     pub positions: Vec<Vec3>,
     /// Unit normals.
     pub normals: Vec<Vec3>,
-    /// Unit tangents; bitangent = w · cross(normal, tangent), as in the mesh.
+    /// Unit tangents; bitangent = w · cross(normal, tangent), as in the mesh. Empty where the mesh has none.
     pub tangents: Vec<Vec4>,
 }
 
@@ -39,16 +39,18 @@ pub fn skin(mesh: &Mesh, palette: &Palette, out: &mut SkinnedVertices) {
         .iter()
         .zip(&mesh.positions)
         .zip(&mesh.normals)
-        .zip(&mesh.tangents);
-    for (((influences, &position), &normal), &tangent) in vertices {
+        .enumerate();
+    for (vertex, ((influences, &position), &normal)) in vertices {
         let model_from_bind = blended(palette, influences);
         let linear = model_from_bind.matrix3;
         out.positions.push(model_from_bind.transform_point3(position));
         let cofactor = Cofactor::of(&linear);
         out.normals.push(cofactor.normal(normal));
-        let direction = Vec3A::from_vec4(tangent);
-        let moved = direction_or(linear * direction, direction);
-        out.tangents.push(Vec3::from(moved).extend(tangent.w * cofactor.side));
+        if let Some(&tangent) = mesh.tangents.get(vertex) {
+            let direction = Vec3A::from_vec4(tangent);
+            let moved = direction_or(linear * direction, direction);
+            out.tangents.push(Vec3::from(moved).extend(tangent.w * cofactor.side));
+        }
     }
 }
 

@@ -78,7 +78,9 @@ pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
     let (mut accused, mut cleared) = (vec![false; mesh.vertex_count()], vec![false; mesh.vertex_count()]);
     let (triangles, _) = mesh.indices.as_chunks::<3>();
     for (wanted, sign) in [(Green::Down, 1.0), (Green::Up, -1.0)] {
-        let is_such = |material: usize| model.materials[material].normal_map.is_some() && green(material) == wanted;
+        let is_such = |material: usize| {
+            !mesh.tangents.is_empty() && model.materials[material].normal_map.is_some() && green(material) == wanted
+        };
         for corners in model.triangles_of(is_such).map(|triangle| triangles[triangle]) {
             let Some(along_v) = mesh.along_v(corners) else {
                 continue;

@@ -364,6 +364,12 @@ fn each<T: Copy + Default, const B: usize, const N: usize>(
     elements: &Elements<'_>,
     number: impl Fn([u8; B]) -> T,
 ) -> Vec<[T; N]> {
+    if elements.stride == B * N {
+        // Without gaps.
+        let (numbers, _) = elements.bytes.as_chunks::<B>();
+        let (rows, _) = numbers.as_chunks::<N>();
+        return rows.iter().map(|row| row.map(&number)).collect();
+    }
     let of_element = |element: &[u8]| {
         let mut numbers = [T::default(); N];
         for (read, bytes) in numbers.iter_mut().zip(element.as_chunks().0) {

@@ -11,7 +11,7 @@ const LEAST_LENGTH: f64 = 1e-6;
 
 /// Whether a stored vector can be made a unit vector.
 pub(super) fn is_direction(vector: Vec3) -> bool {
-    vector.is_finite() && vector.as_dvec3().length() > LEAST_LENGTH
+    vector.is_finite() && vector.as_dvec3().length_squared() > LEAST_LENGTH * LEAST_LENGTH
 }
 
 /// A direction at unit length. One that is as near to it as numbers are stays, so that a second time changes nothing.
@@ -33,30 +33,29 @@ pub(super) fn mend_normals(
     diagnostics: &mut Diagnostics,
 ) {
     let mut missing = Tally::default();
-    for (index, normal) in (0u32..).zip(&mesh.normals) {
-        if !is_direction(*normal) {
+    for (index, normal) in (0u32..).zip(&mut mesh.normals) {
+        if is_direction(*normal) {
+            *normal = at_unit_length(*normal);
+        } else {
             missing.add(index);
         }
     }
-    let computed = if missing.count > 0 {
-        diagnostics.add(
-            &codes::NORMALS_MISSING,
-            Place::of_rows(&missing, Subject::Vertex, &lines()),
-            format!(
-                "{} a normal that is zero or not finite; computed from the triangles.",
-                counted(missing.count, "vertex has", "vertices have")
-            ),
-        );
-        area_weighted(mesh, handedness)
-    } else {
-        Vec::new()
-    };
-    for (index, normal) in mesh.normals.iter_mut().enumerate() {
-        *normal = if is_direction(*normal) {
-            at_unit_length(*normal)
-        } else {
-            computed[index].try_normalize().unwrap_or(DVec3::Y).as_vec3()
-        };
+    if missing.count == 0 {
+        return;
+    }
+    diagnostics.add(
+        &codes::NORMALS_MISSING,
+        Place::of_rows(&missing, Subject::Vertex, &lines()),
+        format!(
+            "{} a normal that is zero or not finite; computed from the triangles.",
+            counted(missing.count, "vertex has", "vertices have")
+        ),
+    );
+    let computed = area_weighted(mesh, handedness);
+    for (normal, computed) in mesh.normals.iter_mut().zip(computed) {
+        if !is_direction(*normal) {
+            *normal = computed.try_normalize().unwrap_or(DVec3::Y).as_vec3();
+        }
     }
 }
 

@@ -20,6 +20,9 @@ impl Model {
     /// Where the green of each material's normal map points, as most corners of its triangles have it. `None` where no corner tells.
     pub fn greens(&self) -> Vec<Option<Green>> {
         let mesh = &self.mesh;
+        if mesh.tangents.is_empty() {
+            return vec![None; self.materials.len()];
+        }
         let (triangles, _) = mesh.indices.as_chunks::<3>();
         // Of all triangles before each: corners whose bitangent goes down less those where it goes up. Submeshes may overlap.
         let mut sums = Vec::with_capacity(triangles.len() + 1);
@@ -80,7 +83,7 @@ impl Model {
 }
 
 impl Mesh {
-    /// w · cross(normal, tangent).
+    /// w · cross(normal, tangent). The mesh has tangents.
     pub fn bitangent(&self, vertex: u32) -> DVec3 {
         let tangent = self.tangents[vertex as usize];
         let normal = self.normals[vertex as usize];

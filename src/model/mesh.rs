@@ -23,7 +23,8 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Unit normals in bind space.
     pub normals: Vec<Vec3>,
-    /// Unit tangents in bind space; w = ±1, bitangent = w · cross(normal, tangent).
+    /// Unit tangents in bind space; w = ±1, bitangent = w · cross(normal, tangent). Empty where the file has none and no normal map
+    /// asks for them: [`Mesh::tangents_or_computed`].
     pub tangents: Vec<Vec4>,
     /// Texture coordinates, origin top left, repeating.
     pub tex_coords: Vec<Vec2>,
@@ -77,7 +78,7 @@ impl Mesh {
         let or_none = |length: usize| if length == 0 { vertex_count } else { length };
         let streams = [
             ("normals", self.normals.len()),
-            ("tangents", self.tangents.len()),
+            ("tangents", or_none(self.tangents.len())),
             ("texture coordinates", self.tex_coords.len()),
             ("second texture coordinates", or_none(self.second_tex_coords.len())),
             ("colors", or_none(self.colors.len())),
@@ -91,7 +92,10 @@ impl Mesh {
                 });
             }
         }
-        if let Some(vertex) = self.positions.iter().position(|position| !position.is_finite()) {
+        // Nearly always all are sound. Looking at all of them without a branch is the quickest way to know.
+        let are_finite = self.positions.iter().fold(true, |are, at| are & at.is_finite());
+        let faulty = (!are_finite).then(|| self.positions.iter().position(|at| !at.is_finite()));
+        if let Some(vertex) = faulty.flatten() {
             return Err(ModelError::PositionNotFinite { vertex });
         }
         if !self.indices.len().is_multiple_of(3) {
@@ -99,8 +103,7 @@ impl Mesh {
                 index_count: self.indices.len(),
             });
         }
-        let out_of_range = self.indices.iter().position(|&vertex| vertex as usize >= vertex_count);
-        out_of_range.map_or(Ok(()), |place| {
+        out_of_range(&self.indices, vertex_count).map_or(Ok(()), |place| {
             Err(ModelError::VertexOutOfRange {
                 triangle: (place / 3) as u32,
                 vertex: self.indices[place],
@@ -108,4 +111,12 @@ impl Mesh {
             })
         })
     }
+}
+
+/// The first place of an index that names no vertex.
+pub(crate) fn out_of_range(indices: &[u32], vertex_count: usize) -> Option<usize> {
+    let is_out = |vertex: u32| vertex as usize >= vertex_count;
+    let greatest = indices.iter().copied().max()?;
+    let first = is_out(greatest).then(|| indices.iter().position(|&vertex| is_out(vertex)));
+    first.flatten()
 }

@@ -17,6 +17,7 @@ mod names;
 mod reflectance;
 mod skeleton;
 mod space;
+mod tangents;
 mod track;
 mod tree;
 
@@ -28,6 +29,7 @@ pub use error::ModelError;
 pub use joint_names::{JointNames, SavedNames, hierarchy_fingerprint};
 pub use local_joint::LocalJoint;
 pub use material::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap};
+pub(crate) use mesh::out_of_range as index_out_of_range;
 pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
 pub(crate) use names::unique as unique_names;

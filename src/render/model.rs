@@ -77,7 +77,8 @@ impl GpuModel {
         let uploader = Uploader { device, queue, limits };
 
         let positions = mesh.positions.iter().map(glam::Vec3::to_array);
-        let surface = (0..mesh.vertex_count()).map(|vertex| surface_vertex(mesh, vertex));
+        let tangents = mesh.tangents_or_computed();
+        let surface = (0..mesh.vertex_count()).map(|vertex| surface_vertex(mesh, &tangents, vertex));
         let influences = mesh.influences.iter().map(|influences| shaders::InfluenceVertex {
             joints: influences.joints,
             weights: influences.weights,
@@ -380,10 +381,10 @@ fn is_hidden(hidden: &[bool], submesh: usize) -> bool {
     hidden.get(submesh).copied().unwrap_or(false)
 }
 
-fn surface_vertex(mesh: &Mesh, vertex: usize) -> shaders::SurfaceVertex {
+fn surface_vertex(mesh: &Mesh, tangents: &[Vec4], vertex: usize) -> shaders::SurfaceVertex {
     shaders::SurfaceVertex {
         normal: mesh.normals.get(vertex).copied().unwrap_or_default().to_array(),
-        tangent: mesh.tangents.get(vertex).copied().unwrap_or_default().to_array(),
+        tangent: tangents.get(vertex).copied().unwrap_or_default().to_array(),
         tex_coord: mesh.tex_coords.get(vertex).copied().unwrap_or_default().to_array(),
     }
 }

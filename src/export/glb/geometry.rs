@@ -63,23 +63,21 @@ fn attributes(model: &Model, space: &Space, turned: &[bool], unmoving: Option<us
         .iter()
         .map(|&normal| space.vector(normal).to_array())
         .collect();
-    let are_turned = model.vertices_of(|material| turned[material]);
-    let tangents: Vec<[f32; 4]> = mesh
-        .tangents
-        .iter()
-        .zip(are_turned)
-        .map(|(&tangent, is_turned)| {
-            let [x, y, z, sign] = space.tangent(tangent).to_array();
-            [x, y, z, if is_turned { -sign } else { sign }]
-        })
-        .collect();
     let tex_coords: Vec<[f32; 2]> = mesh.tex_coords.iter().map(|at| at.to_array()).collect();
     let mut attributes = json!({
         "POSITION": binary.floats(&positions, Target::Vertices, true),
         "NORMAL": binary.floats(&normals, Target::Vertices, false),
-        "TANGENT": binary.floats(&tangents, Target::Vertices, false),
         "TEXCOORD_0": binary.floats(&tex_coords, Target::Vertices, false),
     });
+    if !mesh.tangents.is_empty() {
+        let are_turned = model.vertices_of(|material| turned[material]);
+        let tangents = mesh.tangents.iter().zip(are_turned).map(|(&tangent, is_turned)| {
+            let [x, y, z, sign] = space.tangent(tangent).to_array();
+            [x, y, z, if is_turned { -sign } else { sign }]
+        });
+        let tangents: Vec<[f32; 4]> = tangents.collect();
+        attributes["TANGENT"] = json!(binary.floats(&tangents, Target::Vertices, false));
+    }
     if !mesh.second_tex_coords.is_empty() {
         let second: Vec<[f32; 2]> = mesh.second_tex_coords.iter().map(|at| at.to_array()).collect();
         attributes["TEXCOORD_1"] = json!(binary.floats(&second, Target::Vertices, false));

@@ -2,6 +2,8 @@
 
 use std::collections::HashSet;
 
+use glam::Vec4;
+
 use crate::anim::straight;
 use crate::format::{self, AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Reflectance, Subset, Vertex};
 use crate::model::{FresnelSurface, JointIndex, LocalJoint, MapSlot, Material, Model, PhongSurface, Submesh, Track};
@@ -56,6 +58,7 @@ pub(super) fn names_materials(dialect: Dialect) -> bool {
 
 pub(super) fn document(model: &Model, dialect: Dialect) -> Document {
     let skinned = model.skeleton.joint_count() > 0;
+    let tangents = model.mesh.tangents_or_computed();
     let rests = rests_apart(model);
     let material_names = words(of_subsets(model).map(|material| material.name.as_str()));
     let clip_names = words(model.clips.iter().map(|clip| clip.name.as_str()));
@@ -68,7 +71,7 @@ pub(super) fn document(model: &Model, dialect: Dialect) -> Document {
             .collect(),
         subsets: subsets.map(|(id, submesh)| subset(model, id, submesh)).collect(),
         vertices: (0..model.mesh.vertex_count())
-            .map(|index| vertex(model, index))
+            .map(|index| vertex(model, &tangents, index))
             .collect(),
         triangles: model
             .mesh
@@ -159,7 +162,7 @@ fn subset(model: &Model, id: u32, submesh: &Submesh) -> Subset {
     }
 }
 
-fn vertex(model: &Model, index: usize) -> Vertex {
+fn vertex(model: &Model, tangents: &[Vec4], index: usize) -> Vertex {
     let mesh = &model.mesh;
     let influences = mesh.influences.get(index).copied().unwrap_or_default();
     let bone = |slot: usize| match influences.weights[slot] {
@@ -168,7 +171,7 @@ fn vertex(model: &Model, index: usize) -> Vertex {
     };
     Vertex {
         position: mesh.positions[index].to_array(),
-        tangent: mesh.tangents[index].to_array(),
+        tangent: tangents[index].to_array(),
         normal: mesh.normals[index].to_array(),
         tex_coords: mesh.tex_coords[index].to_array(),
         blend_weights: influences.weights,

@@ -40,9 +40,42 @@ impl Weighted<'_> {
     pub(super) fn read(&self, count: usize, noted: &mut Noted) -> Result<Vec<Influences>, Fault> {
         let sets = self.sets(count)?;
         let mut pairs = Vec::with_capacity(4 * sets.len());
-        (0..count)
-            .map(|vertex| self.influences(vertex, &sets, &mut pairs, noted))
-            .collect()
+        let mut all = Vec::with_capacity(count);
+        for vertex in 0..count {
+            let influences = match &sets[..] {
+                [set] => self.of_one_set(set, vertex),
+                _ => None,
+            };
+            all.push(match influences {
+                Some(influences) => influences,
+                None => self.influences(vertex, &sets, &mut pairs, noted)?,
+            });
+        }
+        Ok(all)
+    }
+
+    /// The influences of a vertex as nearly all files have them: the weights are sound, sum to 1, and those that are 0 come last. `None`
+    /// for any other; [`Weighted::influences`] gives the same for these.
+    fn of_one_set(&self, (joints, weights): &Set, vertex: usize) -> Option<Influences> {
+        let (slots, weights) = (joints[vertex], weights[vertex]);
+        let falls = |two: &[f32; 2]| (two[0] > 0.0 && two[1] >= 0.0) || two[1] == 0.0;
+        if !(weights[0] > 0.0 && weights.array_windows().all(falls)) {
+            return None;
+        }
+        let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
+        if (sum - 1.0).abs() > SUM_TOLERANCE {
+            return None;
+        }
+        let mut influences = Influences::default();
+        for (slot, weight) in weights.into_iter().enumerate().filter(|&(_, weight)| weight > 0.0) {
+            influences.joints[slot] = *self.joints.get(slots[slot] as usize)?;
+            influences.weights[slot] = if sum == 1.0 {
+                weight
+            } else {
+                (f64::from(weight) / sum) as f32
+            };
+        }
+        Some(influences)
     }
 
     /// `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1` and so on.

@@ -268,6 +268,11 @@ pub(super) fn take_second_tex_coords(materials: &[Material]) -> bool {
     maps.into_iter().any(|map| map.sampling.second_tex_coords)
 }
 
+/// Whether a material has a normal map.
+pub(super) fn have_normal_maps(materials: &[Material]) -> bool {
+    materials.iter().any(|material| material.normal_map.is_some())
+}
+
 /// The material of a book that was written into `extras`, as far as it is there.
 fn of_book(read: Material, values: &Value) -> Material {
     let number = |key: &str| {

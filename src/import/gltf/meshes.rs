@@ -12,7 +12,7 @@ use crate::diagnostic::{Subject, codes};
 use crate::gltf::{Fault, Index, Primitive, Reader, Root, fault, out_of_range};
 use crate::import::normals::{is_direction, mend_normals};
 use crate::import::tangents::mend_tangents;
-use crate::model::{Handedness, Influences, Mesh, Submesh};
+use crate::model::{Handedness, Influences, Mesh, Submesh, index_out_of_range};
 
 const TRIANGLES: u64 = 4;
 const TRIANGLE_STRIP: u64 = 5;
@@ -26,6 +26,8 @@ pub(super) struct Source<'a> {
     pub(super) rig: &'a Rig,
     /// Whether a map of some material takes the second texture coordinates.
     pub(super) second_tex_coords: bool,
+    /// Whether a material has a normal map, which asks for tangents.
+    pub(super) normal_maps: bool,
 }
 
 impl<'a> Source<'a> {
@@ -282,6 +284,8 @@ impl Builder<'_> {
         let mesh = &mut self.mesh;
         let normal_from_normal = normal_matrix(bind_from_mesh);
         let sign = bind_from_mesh.matrix3.determinant().signum() as f32;
+        mesh.positions.reserve(count);
+        mesh.normals.reserve(count);
         for (vertex, &position) in (mesh.positions.len() as u32..).zip(&vertices.positions) {
             let stored = Vec3::from_array(position);
             let placed = if stays {
@@ -307,6 +311,11 @@ impl Builder<'_> {
             }
             mesh.normals.push(normal);
         }
+        let end = mesh.positions.len();
+        if !vertices.tangents.is_empty() {
+            mesh.tangents.reserve(end - mesh.tangents.len());
+            mesh.tangents.resize(end - count, Vec4::ZERO);
+        }
         for (vertex, &[x, y, z, w]) in (mesh.tangents.len() as u32..).zip(&vertices.tangents) {
             let tangent = direction(Vec3::new(x, y, z), &bind_from_mesh.matrix3);
             if !is_direction(tangent) || w.abs() != 1.0 {
@@ -314,10 +323,11 @@ impl Builder<'_> {
             }
             mesh.tangents.push(tangent.extend(if w < 0.0 { -sign } else { sign }));
         }
-        let end = mesh.positions.len();
         debug_assert!(vertices.normals.is_empty() || vertices.normals.len() == count);
         mesh.normals.resize(end, Vec3::ZERO);
-        mesh.tangents.resize(end, Vec4::ZERO);
+        if self.source.normal_maps || !mesh.tangents.is_empty() {
+            mesh.tangents.resize(end, Vec4::ZERO);
+        }
     }
 
     fn add_tex_coords(&mut self, vertices: &Vertices) {
@@ -387,6 +397,7 @@ impl Builder<'_> {
         };
         // What joins two strips has no area.
         let has_area = |&[a, b, c]: &[u32; 3]| mode == TRIANGLES || (a != b && b != c && c != a);
+        self.mesh.indices.reserve(corners.len());
         for [a, b, c] in triangles.filter(has_area) {
             // Fronts run against the clock in glTF, and with it in a model.
             let corners = if is_mirrored { [a, b, c] } else { [a, c, b] };
@@ -424,7 +435,7 @@ impl Builder<'_> {
         };
         let pointer = format!("{pointer}/indices");
         let corners = reader.whole::<1>(Index(indices.0), &pointer)?.into_flattened();
-        if let Some(place) = corners.iter().position(|&corner| u64::from(corner) >= vertex_count) {
+        if let Some(place) = index_out_of_range(&corners, usize::try_from(vertex_count).unwrap_or(usize::MAX)) {
             let message = format!(
                 "Index {place} names vertex {}, but there are {vertex_count}.",
                 corners[place]
@@ -471,6 +482,9 @@ impl Builder<'_> {
         let mut quiet = Diagnostics::default();
         mesh.check().map_err(|rule| Box::new(rule.diagnostic()))?;
         mend_normals(mesh, Handedness::Right, Vec::new, &mut quiet);
+        if mesh.tangents.is_empty() {
+            return Ok(self.mesh);
+        }
         let computed = mesh.tangents.iter().map(|tangent| !is_direction(tangent.truncate()));
         let computed: Vec<bool> = computed.collect();
         mend_tangents(mesh, Vec::new, &mut quiet);

@@ -129,6 +129,7 @@ fn model(
         nodes: &nodes,
         rig: &rig,
         second_tex_coords: materials::take_second_tex_coords(&materials),
+        normal_maps: materials::have_normal_maps(&materials),
     };
     let mesh = meshes::mesh(&source, &uses, diagnostics)?;
     // The last one is for primitives without any.

@@ -141,6 +141,17 @@ fn static_meshes_and_vertices_without_weights_stay() {
 }
 
 #[test]
+fn a_mesh_without_tangents_is_skinned_without_them() {
+    let (mut model, _) = model_of(&arm());
+    let away = Palette(vec![Affine3A::from_rotation_z(0.5); 3]);
+    let with = skinned(&model, &away);
+    model.mesh.tangents.clear();
+    let without = skinned(&model, &away);
+    assert_eq!((&without.positions, &without.normals), (&with.positions, &with.normals));
+    assert_eq!(without.tangents, []);
+}
+
+#[test]
 fn matrices_that_flatten_space_leave_no_nan() {
     let (model, _) = model_of(&arm());
     for matrix in [

@@ -1,8 +1,8 @@
 //! Meshes: primitives, what they lack, and where they stand.
 
 use bindpose::model::{Front, Handedness, UpAxis};
-use glam::Vec3;
-use serde_json::json;
+use glam::{Vec3, Vec4};
+use serde_json::{Value, json};
 
 use super::{CORNERS, assert_at, codes_of, posed, read, triangle};
 
@@ -58,15 +58,55 @@ fn strips_fans_and_lists_wind_the_same_way_and_points_and_lines_are_left_out() {
 fn absent_normals_are_computed_and_told_and_absent_tangents_are_no_flaw() {
     let imported = read(&triangle(&json!({}), |_| json!({})));
     assert_eq!(imported.model.mesh.normals, [Vec3::Z; 3]);
+    assert_eq!(codes_of(&imported), ["gltf-normals-absent"]);
+    // No normal map asks for them.
+    let mesh = &imported.model.mesh;
+    assert_eq!(mesh.tangents, []);
+    let computed = mesh.tangents_or_computed();
+    assert_eq!(computed.len(), 3);
     assert!(
-        imported
-            .model
-            .mesh
-            .tangents
+        computed
             .iter()
             .all(|tangent| tangent.truncate().is_normalized() && tangent.w.abs() == 1.0)
     );
-    assert_eq!(codes_of(&imported), ["gltf-normals-absent"]);
+}
+
+#[test]
+fn tangents_are_those_of_the_file_and_computed_for_a_normal_map() {
+    let tex_coords = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    let read = |document: &Value, tangents: &[[f32; 4]]| {
+        let file = triangle(document, |file| {
+            let mut attributes = json!({ "TEXCOORD_0": file.floats(&tex_coords) });
+            if !tangents.is_empty() {
+                attributes["TANGENT"] = file.floats(tangents).into();
+            }
+            attributes
+        });
+        read(&file).model
+    };
+    let of_file = [[0.0, 1.0, 0.0, -1.0]; 3];
+    assert_eq!(read(&json!({}), &of_file).mesh.tangents, of_file.map(Vec4::from));
+    let mapped = json!({
+        "materials": [{ "normalTexture": { "index": 0 } }], "textures": [{ "source": 0 }], "images": [{ "uri": "n.png" }],
+        "meshes": [{ "primitives": [{ "material": 0 }] }],
+    });
+    assert_eq!(read(&mapped, &of_file).mesh.tangents, of_file.map(Vec4::from));
+    let model = read(&mapped, &[]);
+    // Along u; green points up in glTF, against v.
+    assert_eq!(model.mesh.tangents, [Vec4::new(1.0, 0.0, 0.0, -1.0); 3]);
+    // As many as there are vertices where one primitive has some and another has none.
+    let two = json!({ "meshes": [{ "primitives": [{}, {}] }] });
+    let mut file = triangle(
+        &two,
+        |file| json!({ "TANGENT": file.floats(&of_file), "TEXCOORD_0": file.floats(&tex_coords) }),
+    );
+    let bare = file.json["meshes"][0]["primitives"][1]["attributes"]
+        .as_object_mut()
+        .unwrap();
+    bare.remove("TANGENT");
+    let tangents = super::read(&file).model.mesh.tangents;
+    assert_eq!(tangents[..3], of_file.map(Vec4::from));
+    assert_eq!(tangents[3..], [Vec4::new(1.0, 0.0, 0.0, -1.0); 3]);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Skeletons out of nodes and skins. The expected places are computed by hand.
 
+use bindpose::import;
+use proptest::prelude::*;
 use serde_json::{Value, json};
 
 use super::{assert_at, codes_of, posed, read, refused, triangle};
@@ -177,6 +179,56 @@ fn the_four_greatest_weights_are_kept_and_the_loss_is_told() {
         codes_of(&imported),
         ["gltf-normals-absent", "weights-all-zero", "weights-cut"]
     );
+}
+
+/// What reading a triangle with these influences comes to: those of the model to the bit, or the code of the error; and the findings.
+fn influences_read(joints: [[u16; 4]; 3], weights: [[f32; 4]; 3], has_second_set: bool) -> String {
+    let nodes = json!([{ "mesh": 0, "skin": 0 }, {}, {}, {}, {}]);
+    let file = triangle(
+        &json!({ "scenes": [{ "nodes": [0, 1, 2, 3, 4] }], "nodes": nodes, "skins": [{ "joints": [1, 2, 3, 4] }] }),
+        |file| {
+            let mut attributes = json!({ "JOINTS_0": file.shorts(&joints), "WEIGHTS_0": file.floats(&weights) });
+            if has_second_set {
+                attributes["JOINTS_1"] = file.shorts(&[[0; 4]; 3]).into();
+                attributes["WEIGHTS_1"] = file.floats(&[[0.0; 4]; 3]).into();
+            }
+            attributes
+        },
+    );
+    match import::import(&file.glb()) {
+        Ok(imported) => {
+            let influences = imported.model.mesh.influences.iter();
+            let bits = influences.map(|influences| (influences.joints, influences.weights.map(f32::to_bits)));
+            let findings = imported.diagnostics.iter().map(|finding| &finding.message);
+            format!("{:?} {:?}", bits.collect::<Vec<_>>(), findings.collect::<Vec<_>>())
+        }
+        Err(error) => format!("{error:?}"),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// One set of four has a quicker way of its own. A second set without any weight says the same, and goes the way of all others.
+    #[test]
+    fn one_set_of_influences_is_read_as_one_of_several(
+        joints in prop::array::uniform3(prop::array::uniform4(prop_oneof![20 => 0_u16..4, 1 => Just(4)])),
+        weights in prop::array::uniform3(prop::array::uniform4(prop_oneof![
+            4 => Just(0.0_f32),
+            4 => prop::sample::select(vec![0.25, 0.5, 0.75, 1.0, 0.3, 0.7, 0.1, 1.0 / 3.0, 0.333]),
+            1 => prop::sample::select(vec![-0.0, -0.25, 1e-30, f32::NAN, f32::INFINITY, f32::MAX]),
+        ])),
+        to_one in any::<bool>(),
+    ) {
+        let mut weights = weights;
+        if to_one {
+            for weights in &mut weights {
+                let sum: f32 = weights.iter().sum();
+                *weights = weights.map(|weight| weight / sum);
+            }
+        }
+        prop_assert_eq!(influences_read(joints, weights, false), influences_read(joints, weights, true));
+    }
 }
 
 #[test]

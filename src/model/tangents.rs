@@ -1,0 +1,83 @@
+//! Tangents computed from the texture coordinates.
+
+use std::borrow::Cow;
+
+use glam::{DVec3, Vec3, Vec4};
+
+use super::Mesh;
+
+impl Mesh {
+    /// The tangents, or computed ones where the mesh has none.
+    pub fn tangents_or_computed(&self) -> Cow<'_, [Vec4]> {
+        if self.tangents.is_empty() {
+            Cow::Owned(self.computed_tangents())
+        } else {
+            Cow::Borrowed(&self.tangents)
+        }
+    }
+
+    /// A tangent for each vertex: along the u axis of the triangles around, square to the normal, which is a unit vector; w makes the
+    /// bitangent go along v. Where the texture coordinates give no direction, it is any vector square to the normal.
+    pub fn computed_tangents(&self) -> Vec<Vec4> {
+        let axes = texture_axes(self).into_iter();
+        axes.zip(&self.normals)
+            .map(|(axes, &normal)| axes.tangent(normal))
+            .collect()
+    }
+}
+
+/// Where u and v grow on the surface around a vertex.
+#[derive(Clone, Copy, Default)]
+struct TextureAxes {
+    along_u: DVec3,
+    along_v: DVec3,
+}
+
+impl TextureAxes {
+    /// Square to the normal; the sign makes w · cross(normal, tangent) point along v.
+    fn tangent(&self, normal: Vec3) -> Vec4 {
+        let normal = normal.as_dvec3();
+        let across = self.along_u - normal * normal.dot(self.along_u);
+        let Some(tangent) = across.try_normalize() else {
+            return normal.any_orthonormal_vector().as_vec3().extend(1.0);
+        };
+        let sign = if normal.cross(tangent).dot(self.along_v) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        tangent.as_vec3().extend(sign)
+    }
+}
+
+/// For each vertex the sum over its triangles, each weighted by its area. Triangles without an area on the surface or in
+/// the texture say nothing, nor do those of which the mesh lacks a corner.
+fn texture_axes(mesh: &Mesh) -> Vec<TextureAxes> {
+    let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
+    for corners in mesh.indices.chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
+        let positions = [a, b, c].map(|vertex| mesh.positions.get(vertex));
+        let tex_coords = [a, b, c].map(|vertex| mesh.tex_coords.get(vertex));
+        let ([Some(at_a), Some(at_b), Some(at_c)], [Some(on_a), Some(on_b), Some(on_c)]) = (positions, tex_coords)
+        else {
+            continue;
+        };
+        let [at_a, at_b, at_c] = [at_a, at_b, at_c].map(|at| at.as_dvec3());
+        let [on_a, on_b, on_c] = [on_a, on_b, on_c].map(|on| on.as_dvec2());
+        let (edge_1, edge_2) = (at_b - at_a, at_c - at_a);
+        let (step_1, step_2) = (on_b - on_a, on_c - on_a);
+        let texture_area = step_1.perp_dot(step_2);
+        let area = edge_1.cross(edge_2).length();
+        if texture_area == 0.0 {
+            continue;
+        }
+        let along_u = (edge_1 * step_2.y - edge_2 * step_1.y) * texture_area.signum();
+        let along_v = (edge_2 * step_1.x - edge_1 * step_2.x) * texture_area.signum();
+        let (along_u, along_v) = (along_u.normalize_or_zero() * area, along_v.normalize_or_zero() * area);
+        for corner in [a, b, c] {
+            axes[corner].along_u += along_u;
+            axes[corner].along_v += along_v;
+        }
+    }
+    axes
+}
