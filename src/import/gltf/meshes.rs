@@ -147,7 +147,12 @@ impl Builder<'_> {
         let placement = self.placement(mesh, part);
         self.place(&vertices, &placement);
         let mesh = &mut self.mesh;
-        mesh.influences.extend(influences);
+        if mesh.influences.is_empty() {
+            // Most files have one primitive, and need no copy.
+            mesh.influences = influences;
+        } else {
+            mesh.influences.extend(influences);
+        }
         self.add_tex_coords(&vertices);
         // A stream that only some primitives have is filled up for the others.
         let mesh = &mut self.mesh;
@@ -380,28 +385,30 @@ impl Builder<'_> {
             self.diagnostics.add(&codes::GLTF_RULE_BROKEN, at(), message);
         }
         let triangle_start = self.mesh.triangle_count();
-        let triangles: Box<dyn Iterator<Item = [u32; 3]>> = match mode {
-            TRIANGLES => Box::new(corners.as_chunks().0.iter().copied()),
+        // Fronts run against the clock in glTF, and with it in a model.
+        let wound = |[a, b, c]: [u32; 3]| {
+            let corners = if is_mirrored { [a, b, c] } else { [a, c, b] };
+            corners.map(|corner| start + corner)
+        };
+        // What joins two strips has no area.
+        let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+        let indices = &mut self.mesh.indices;
+        match mode {
+            TRIANGLES => {
+                let (triangles, _) = corners.as_chunks();
+                indices.extend(triangles.iter().flat_map(|&triangle| wound(triangle)));
+            }
             TRIANGLE_STRIP => {
-                Box::new(corners.array_windows().enumerate().map(
-                    |(index, &[a, b, c])| {
-                        if index % 2 == 0 { [a, b, c] } else { [a, c, b] }
-                    },
-                ))
+                let triangles = corners.array_windows().enumerate();
+                let triangles = triangles.map(|(index, &[a, b, c])| if index % 2 == 0 { [a, b, c] } else { [a, c, b] });
+                indices.extend(triangles.filter(has_area).flat_map(wound));
             }
             _ => {
                 let first = corners.first().copied().unwrap_or_default();
                 let rest = corners.get(1..).unwrap_or_default();
-                Box::new(rest.array_windows().map(move |&[b, c]| [b, c, first]))
+                let triangles = rest.array_windows().map(|&[b, c]| [b, c, first]);
+                indices.extend(triangles.filter(has_area).flat_map(wound));
             }
-        };
-        // What joins two strips has no area.
-        let has_area = |&[a, b, c]: &[u32; 3]| mode == TRIANGLES || (a != b && b != c && c != a);
-        self.mesh.indices.reserve(corners.len());
-        for [a, b, c] in triangles.filter(has_area) {
-            // Fronts run against the clock in glTF, and with it in a model.
-            let corners = if is_mirrored { [a, b, c] } else { [a, c, b] };
-            self.mesh.indices.extend(corners.map(|corner| start + corner));
         }
         let triangle_count = self.mesh.triangle_count() - triangle_start;
         let number = |count: usize| {
