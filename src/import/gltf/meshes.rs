@@ -7,6 +7,7 @@ use glam::{DAffine3, DMat3, Vec2, Vec3, Vec4};
 use super::influences::{self, Weighted};
 use super::nodes::Nodes;
 use super::skeleton::{MeshUse, Rig};
+use super::vertices::Vertices;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::gltf::{Fault, Index, Primitive, Reader, Root, fault, out_of_range};
@@ -67,17 +68,6 @@ pub(super) fn mesh(source: &Source<'_>, uses: &[MeshUse], diagnostics: &mut Diag
     builder.finish()
 }
 
-/// Attributes of the vertices of a primitive. Those that are absent are empty.
-#[derive(Default)]
-struct Vertices {
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    tangents: Vec<[f32; 4]>,
-    tex_coords: Vec<[f32; 2]>,
-    second_tex_coords: Vec<[f32; 2]>,
-    colors: Vec<[f32; 4]>,
-}
-
 struct Builder<'a> {
     source: &'a Source<'a>,
     mesh: Mesh,
@@ -133,7 +123,14 @@ impl Builder<'_> {
 
     fn add_vertices(&mut self, mesh: &MeshUse, part: &Primitive, pointer: &str) -> Result<(), Fault> {
         let weights = self.morph_weights(mesh);
-        let vertices = self.read(part, &weights, pointer)?;
+        let vertices = Vertices::read(
+            self.source.reader,
+            part,
+            &weights,
+            self.source.second_tex_coords,
+            pointer,
+            self.diagnostics,
+        )?;
         let count = vertices.positions.len();
         let start = self.mesh.vertex_count();
         if start + count > u32::MAX as usize {
@@ -172,84 +169,6 @@ impl Builder<'_> {
         let of_mesh = root.meshes()[mesh.mesh].weights.as_ref();
         let weights = of_node.or(of_mesh).map_or(&[][..], Vec::as_slice);
         weights.to_vec()
-    }
-
-    fn read(&mut self, part: &Primitive, weights: &[f32], pointer: &str) -> Result<Vertices, Fault> {
-        let reader = self.source.reader;
-        let at = |key: &str| format!("{pointer}/attributes/{key}");
-        let mut vertices = Vertices::default();
-        if let Some(&accessor) = part.attributes.get("POSITION") {
-            vertices.positions = reader.floats(accessor, &at("POSITION"))?;
-        }
-        let count = vertices.positions.len();
-        vertices.normals = self.attribute(part, "NORMAL", count, pointer)?;
-        if vertices.normals.is_empty() {
-            let message = "The primitive has no normals; smooth ones were computed from its triangles.";
-            self.diagnostics
-                .add(&codes::GLTF_NORMALS_ABSENT, Place::pointer(pointer), message.to_owned());
-        }
-        vertices.tangents = self.attribute(part, "TANGENT", count, pointer)?;
-        vertices.tex_coords = self.attribute(part, "TEXCOORD_0", count, pointer)?;
-        if self.source.second_tex_coords {
-            vertices.second_tex_coords = self.attribute(part, "TEXCOORD_1", count, pointer)?;
-        }
-        if let Some(&accessor) = part.attributes.get("COLOR_0") {
-            vertices.colors = if reader.width(accessor, &at("COLOR_0"))? == Some(3) {
-                let opaque = |[red, green, blue]: [f32; 3]| [red, green, blue, 1.0];
-                self.attribute(part, "COLOR_0", count, pointer)?
-                    .into_iter()
-                    .map(opaque)
-                    .collect()
-            } else {
-                self.attribute(part, "COLOR_0", count, pointer)?
-            };
-        }
-        for (index, (target, &weight)) in part.targets.iter().zip(weights).enumerate() {
-            if weight == 0.0 || !weight.is_finite() {
-                continue;
-            }
-            let at = |key: &str| format!("{pointer}/targets/{index}/{key}");
-            let moved = |key: &str, to: &mut dyn FnMut(usize, Vec3)| -> Result<(), Fault> {
-                if let Some(&accessor) = target.get(key) {
-                    let steps = reader.floats::<3>(accessor, &at(key))?;
-                    steps
-                        .into_iter()
-                        .enumerate()
-                        .for_each(|(vertex, step)| to(vertex, Vec3::from_array(step) * weight));
-                }
-                Ok(())
-            };
-            moved("POSITION", &mut |vertex, step| {
-                add(&mut vertices.positions, vertex, step);
-            })?;
-            moved("NORMAL", &mut |vertex, step| {
-                add(&mut vertices.normals, vertex, step);
-            })?;
-            moved("TANGENT", &mut |vertex, step| {
-                if let Some([x, y, z, _]) = vertices.tangents.get_mut(vertex) {
-                    [*x, *y, *z] = (Vec3::new(*x, *y, *z) + step).to_array();
-                }
-            })?;
-        }
-        Ok(vertices)
-    }
-
-    /// An attribute with an element for each of `count` vertices; empty where there is none, or too few.
-    fn attribute<const N: usize>(
-        &mut self,
-        part: &Primitive,
-        key: &str,
-        count: usize,
-        pointer: &str,
-    ) -> Result<Vec<[f32; N]>, Fault> {
-        let Some(&accessor) = part.attributes.get(key) else {
-            return Ok(Vec::new());
-        };
-        let pointer = format!("{pointer}/attributes/{key}");
-        let mut elements: Vec<[f32; N]> = self.source.reader.floats(accessor, &pointer)?;
-        // More are left out, fewer are none.
-        elements.truncate(if elements.len() < count { 0 } else { count });
-        Ok(elements)
     }
 
     fn influences(
@@ -500,12 +419,6 @@ impl Builder<'_> {
             tangent.w = -tangent.w;
         }
         Ok(self.mesh)
-    }
-}
-
-fn add(to: &mut [[f32; 3]], vertex: usize, step: Vec3) {
-    if let Some(numbers) = to.get_mut(vertex) {
-        *numbers = (Vec3::from_array(*numbers) + step).to_array();
     }
 }
 

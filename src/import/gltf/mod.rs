@@ -11,6 +11,7 @@ mod materials;
 mod meshes;
 mod nodes;
 mod skeleton;
+mod vertices;
 
 use self::images::Images;
 use self::meshes::Source;

@@ -1,0 +1,121 @@
+//! The attributes of the vertices of a primitive, as the file has them; morph targets are added at the weights that they have outside of clips.
+
+use glam::Vec3;
+
+use crate::diagnostic::codes;
+use crate::diagnostic::collect::{Diagnostics, Place};
+use crate::gltf::{Fault, Primitive, Reader};
+
+/// Attributes of the vertices of a primitive. Those that are absent are empty; all others have one length.
+#[derive(Default)]
+pub(super) struct Vertices {
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) normals: Vec<[f32; 3]>,
+    pub(super) tangents: Vec<[f32; 4]>,
+    pub(super) tex_coords: Vec<[f32; 2]>,
+    pub(super) second_tex_coords: Vec<[f32; 2]>,
+    pub(super) colors: Vec<[f32; 4]>,
+}
+
+impl Vertices {
+    /// The vertices of a primitive, which is at `pointer`, with its morph targets at these weights. Second texture coordinates are left out
+    /// where no map takes them.
+    ///
+    /// # Errors
+    /// When an attribute names what is not there, or numbers of the wrong kind.
+    pub(super) fn read(
+        reader: &Reader<'_>,
+        part: &Primitive,
+        morph_weights: &[f32],
+        takes_second_tex_coords: bool,
+        pointer: &str,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<Self, Fault> {
+        let attributes = Attributes { reader, part, pointer };
+        let positions: Vec<[f32; 3]> = attributes.read("POSITION")?;
+        let count = positions.len();
+        let mut vertices = Self {
+            positions,
+            normals: fitting(attributes.read("NORMAL")?, count),
+            tangents: fitting(attributes.read("TANGENT")?, count),
+            tex_coords: fitting(attributes.read("TEXCOORD_0")?, count),
+            second_tex_coords: if takes_second_tex_coords {
+                fitting(attributes.read("TEXCOORD_1")?, count)
+            } else {
+                Vec::new()
+            },
+            colors: fitting(attributes.colors()?, count),
+        };
+        if vertices.normals.is_empty() {
+            let message = "The primitive has no normals; smooth ones were computed from its triangles.";
+            diagnostics.add(&codes::GLTF_NORMALS_ABSENT, Place::pointer(pointer), message.to_owned());
+        }
+        for (target, &weight) in morph_weights.iter().enumerate() {
+            if weight != 0.0 && weight.is_finite() && target < part.targets.len() {
+                vertices.morph(&attributes, target, weight)?;
+            }
+        }
+        Ok(vertices)
+    }
+
+    /// Adds a morph target.
+    fn morph(&mut self, attributes: &Attributes<'_>, target: usize, weight: f32) -> Result<(), Fault> {
+        let steps = |key: &str| -> Result<Vec<Vec3>, Fault> {
+            let Some(&accessor) = attributes.part.targets[target].get(key) else {
+                return Ok(Vec::new());
+            };
+            let pointer = format!("{}/targets/{target}/{key}", attributes.pointer);
+            let steps: Vec<[f32; 3]> = attributes.reader.floats(accessor, &pointer)?;
+            Ok(steps.into_iter().map(|step| Vec3::from_array(step) * weight).collect())
+        };
+        for (position, step) in self.positions.iter_mut().zip(steps("POSITION")?) {
+            *position = (Vec3::from_array(*position) + step).to_array();
+        }
+        for (normal, step) in self.normals.iter_mut().zip(steps("NORMAL")?) {
+            *normal = (Vec3::from_array(*normal) + step).to_array();
+        }
+        for ([x, y, z, _], step) in self.tangents.iter_mut().zip(steps("TANGENT")?) {
+            [*x, *y, *z] = (Vec3::new(*x, *y, *z) + step).to_array();
+        }
+        Ok(())
+    }
+}
+
+/// An element for each of `count` vertices: more are left out, fewer are none.
+fn fitting<T>(mut elements: Vec<T>, count: usize) -> Vec<T> {
+    elements.truncate(if elements.len() < count { 0 } else { count });
+    elements
+}
+
+/// The attributes of a primitive.
+struct Attributes<'a> {
+    reader: &'a Reader<'a>,
+    part: &'a Primitive,
+    pointer: &'a str,
+}
+
+impl Attributes<'_> {
+    /// All elements of an attribute; empty where there is none.
+    fn read<const N: usize>(&self, key: &str) -> Result<Vec<[f32; N]>, Fault> {
+        let Some(&accessor) = self.part.attributes.get(key) else {
+            return Ok(Vec::new());
+        };
+        self.reader.floats(accessor, &self.pointer_to(key))
+    }
+
+    /// The colours, opaque where they have no alpha.
+    fn colors(&self) -> Result<Vec<[f32; 4]>, Fault> {
+        let Some(&accessor) = self.part.attributes.get("COLOR_0") else {
+            return Ok(Vec::new());
+        };
+        if self.reader.width(accessor, &self.pointer_to("COLOR_0"))? != Some(3) {
+            return self.read("COLOR_0");
+        }
+        let colors = self.read("COLOR_0")?.into_iter();
+        Ok(colors.map(|[red, green, blue]| [red, green, blue, 1.0]).collect())
+    }
+
+    fn pointer_to(&self, key: &str) -> String {
+        format!("{}/attributes/{key}", self.pointer)
+    }
+}
