@@ -1,6 +1,7 @@
 //! Accessors: ranges of buffers as numbers, proved before they are read.
 
 use std::cell::Cell;
+use std::fmt;
 
 use super::buffers::{Buffers, out_of_range};
 use super::json::{Accessor, Index, Root};
@@ -111,10 +112,10 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When it is more than is left.
-    pub fn spend(&self, count: u64, pointer: &str) -> Result<(), Fault> {
+    pub fn spend(&self, count: u64, pointer: impl fmt::Display) -> Result<(), Fault> {
         let left = self.elements_left.get().checked_sub(count).ok_or_else(|| {
             let message = "The file asks for far more numbers than it holds: the same data are used again and again.";
-            fault(&codes::GLTF_TOO_LARGE, pointer, message)
+            fault(&codes::GLTF_TOO_LARGE, pointer.to_string(), message)
         })?;
         self.elements_left.set(left);
         Ok(())
@@ -175,7 +176,8 @@ impl<'a> Reader<'a> {
         numbers: usize,
         pointer: &str,
     ) -> Result<Option<Elements<'a>>, Fault> {
-        let at = format!("/accessors/{}", index.0);
+        // Written out only where there is a fault to tell, as each pointer here: a file has hundreds of accessors.
+        let at = format_args!("/accessors/{}", index.0);
         let Some(component) = Component::of(accessor.component_type.0) else {
             let message = format!("There is no component type {}.", accessor.component_type.0);
             return Err(fault(
@@ -193,12 +195,12 @@ impl<'a> Reader<'a> {
             );
             return Err(fault(&codes::GLTF_ACCESSOR_FORMAT, pointer, message));
         }
-        self.spend(accessor.count.0, &at)?;
+        self.spend(accessor.count.0, at)?;
         let Some(view) = accessor.buffer_view else {
             return Ok(None);
         };
         let offset = accessor.byte_offset.unwrap_or_default().0;
-        let range = self.range(view, offset, accessor.count.0, component, numbers, &at, "/bufferView")?;
+        let range = self.range(view, offset, accessor.count.0, component, numbers, at, "/bufferView")?;
         Ok(Some(Elements {
             normalized: accessor.normalized,
             ..range
@@ -215,7 +217,7 @@ impl<'a> Reader<'a> {
         let Some(sparse) = &accessor.sparse else {
             return Ok(None);
         };
-        let at = format!("/accessors/{}/sparse", index.0);
+        let at = format_args!("/accessors/{}/sparse", index.0);
         if sparse.count.0 > accessor.count.0 {
             let message = format!("{} elements of {} are to be others.", sparse.count.0, accessor.count.0);
             return Err(fault(
@@ -224,7 +226,7 @@ impl<'a> Reader<'a> {
                 message,
             ));
         }
-        self.spend(sparse.count.0, &at)?;
+        self.spend(sparse.count.0, at)?;
         let indices = &sparse.indices;
         let Some(component @ (Component::U8 | Component::U16 | Component::U32)) =
             Component::of(indices.component_type.0)
@@ -243,7 +245,7 @@ impl<'a> Reader<'a> {
             sparse.count.0,
             component,
             1,
-            &at,
+            at,
             "/indices/bufferView",
         )?;
         let places: Vec<usize> = decoded_whole(&places)
@@ -269,7 +271,7 @@ impl<'a> Reader<'a> {
             sparse.count.0,
             component,
             numbers,
-            &at,
+            at,
             "/values/bufferView",
         )?;
         let values = Elements {
@@ -287,15 +289,15 @@ impl<'a> Reader<'a> {
         count: u64,
         component: Component,
         numbers: usize,
-        at: &str,
+        at: fmt::Arguments<'_>,
         key: &str,
     ) -> Result<Elements<'a>, Fault> {
-        let (bytes, stride) = self.buffers.view(view, &format!("{at}{key}"))?;
+        let (bytes, stride) = self.buffers.view(view, format_args!("{at}{key}"))?;
         let element = component.byte_count() * numbers;
         let stride = stride.unwrap_or(element as u64);
         if stride < element as u64 {
             let message = format!("Elements of {element} bytes do not fit a step of {stride} bytes.");
-            return Err(fault(&codes::GLTF_ACCESSOR_OUT_OF_RANGE, at, message));
+            return Err(fault(&codes::GLTF_ACCESSOR_OUT_OF_RANGE, at.to_string(), message));
         }
         let last = count.checked_sub(1).map(|steps| steps.checked_mul(stride));
         let end = match last {
@@ -314,7 +316,7 @@ impl<'a> Reader<'a> {
                 bytes.len(),
                 view.0
             );
-            return Err(fault(&codes::GLTF_ACCESSOR_OUT_OF_RANGE, at, message));
+            return Err(fault(&codes::GLTF_ACCESSOR_OUT_OF_RANGE, at.to_string(), message));
         };
         Ok(Elements {
             bytes: range,

@@ -1,5 +1,6 @@
 //! The bytes of buffers and of their views.
 
+use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -98,14 +99,14 @@ impl<'a> Buffers<'a> {
     ///
     /// # Errors
     /// When the view or its buffer is not there, or it reaches beyond its buffer.
-    pub fn view(&self, view: Index, pointer: &str) -> Result<(&[u8], Option<u64>), Fault> {
+    pub fn view(&self, view: Index, pointer: impl fmt::Display) -> Result<(&[u8], Option<u64>), Fault> {
         let index = view.0;
         let Some(view) = usize::try_from(index)
             .ok()
             .and_then(|index| self.root.buffer_views().get(index))
         else {
             return Err(out_of_range(
-                pointer,
+                &pointer.to_string(),
                 "buffer view",
                 index,
                 self.root.buffer_views().len(),

@@ -4,6 +4,7 @@
 //! something, one mesh of all primitives. What was mended comes back as diagnostics; what names something that is not there, or
 //! reaches beyond its data, ends the reading.
 
+mod binding;
 mod clips;
 mod images;
 mod influences;
