@@ -127,7 +127,7 @@ fn find(
                 return Found::Same(other);
             }
             views.insert(view.0, index);
-            match buffers.view(view, &format!("{pointer}/bufferView")) {
+            match buffers.view(view, format_args!("{pointer}/bufferView")) {
                 Ok((bytes, _)) => (bytes.to_vec(), "/bufferView"),
                 Err(fault) => {
                     return not_read(
