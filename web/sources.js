@@ -1,6 +1,6 @@
 // Where files come from, and how the page gets their bytes: from the person, from a program, from the server.
 
-const MODEL = /\.(m3d|a3d|glb|gltf)$/i;
+const MODEL = /\.(m3d|a3d|glb|gltf|zip)$/i;
 
 /** Whether it is a `Blob` or a `File`, also one of another window. */
 const isBlob = (item) => typeof item?.arrayBuffer === "function";

@@ -840,6 +840,11 @@ table! {
             "Pictures alone show nothing.",
             "What is open stays.",
             "Drop the `.m3d` file too, or the folder that has both.";
+        ARCHIVE_UNREADABLE = "archive-unreadable", Error,
+            "An archive cannot be unpacked.",
+            "A file in it is damaged, encrypted or packed in a way that is not read, or all are too large together; the message says which.",
+            "What is open stays.",
+            "Unpack it with another program and drop its folder.";
         MAP_MISSING = "map-missing", Note,
             "No file fits a map that a material names.",
             "The material is drawn without it. Maps are found by base name and may be dropped later.",

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::archive;
 use crate::{image, import};
 
 /// One file: where it lay relative to what was dropped, and its bytes.
@@ -65,10 +66,15 @@ const IMAGE_EXTENSIONS: [&str; 7] = ["dds", "png", "jpg", "jpeg", "tga", "bmp", 
 const MODEL_EXTENSIONS: [&str; 3] = ["m3d", "glb", "gltf"];
 
 impl FileSet {
-    /// A set of these files, in their order. Of two files with one path the later is kept.
+    /// A set of these files, in their order. Of two files with one path the later is kept. The files in a `.zip` take its place; one that
+    /// cannot be unpacked stays as it is.
     pub fn new(files: impl IntoIterator<Item = File>) -> Self {
         let mut set = Self::default();
-        for file in files {
+        let unpacked = |file: File| match archive::is_archive(&file).then(|| archive::unpack(&file)) {
+            Some(Ok(files)) => files,
+            _ => vec![file],
+        };
+        for file in files.into_iter().flat_map(unpacked) {
             match set.by_path.get(&file.path) {
                 Some(&known) => set.files[known] = file,
                 None => {

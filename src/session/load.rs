@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::archive;
 use super::files::{File, FileSet};
 use super::maps::Maps;
 use super::open_model::OpenModel;
@@ -84,6 +85,12 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
 /// # Errors
 /// As [`load`], and when a file that it needs is not there.
 pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<Arc<[u8]>>) -> Result<OpenModel, Box<LoadError>> {
+    if archive::is_archive(file)
+        && let Err(reason) = archive::unpack(file)
+    {
+        let message = format!("{} cannot be unpacked: {reason}.", file.base_name());
+        return Err(Box::new(LoadError::refused(file, &codes::ARCHIVE_UNREADABLE, message)));
+    }
     let imported = import::import_beside(&file.bytes, find);
     imported
         .map(|imported| OpenModel::new(file, imported))

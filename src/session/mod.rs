@@ -2,6 +2,7 @@
 
 mod actor;
 mod apply;
+mod archive;
 mod camera;
 mod changes;
 mod clip_swap;

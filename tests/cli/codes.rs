@@ -35,7 +35,7 @@ const TOGETHER: [(&str, &str); 2] = [
 ];
 
 /// Codes without a file in the repository: why, and the tests that meet them.
-const ELSEWHERE: [(&str, &str, &[&str]); 8] = [
+const ELSEWHERE: [(&str, &str, &[&str]); 9] = [
     (
         "A program that makes a document by itself meets it; the parser refuses or mends such a file before.",
         "tests/core/model/codes.rs",
@@ -94,6 +94,11 @@ const ELSEWHERE: [(&str, &str, &[&str]); 8] = [
             "clips-offsets-differ",
             "clips-replaced",
         ],
+    ),
+    (
+        "The viewer unpacks archives; `check` is given files and folders.",
+        "tests/core/session/archives.rs",
+        &["archive-unreadable"],
     ),
     (
         "It is about the machine that draws.",

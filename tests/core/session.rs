@@ -1,5 +1,6 @@
 //! Tests of `session`: what is open and how it is looked at, without a window.
 
+mod archives;
 mod clips;
 mod crowd;
 mod exporting;
