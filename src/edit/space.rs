@@ -174,19 +174,18 @@ impl Map {
         let Some(curves) = track.curves() else {
             return Ok(turned);
         };
-        let same = |secs| secs;
         let translation = curves.translation.as_ref();
         let rotation = curves.rotation.as_ref();
         let scale = curves.scale.as_ref();
         Ok(turned.with_curves(Curves {
             translation: translation
-                .map(|curve| mapped(curve, same, |value| self.point(value)))
+                .map(|curve| mapped(curve, |value| self.point(value)))
                 .transpose()?,
             rotation: rotation
-                .map(|curve| mapped(curve, same, |value| self.quaternion(value)))
+                .map(|curve| mapped(curve, |value| self.quaternion(value)))
                 .transpose()?,
             scale: scale
-                .map(|curve| mapped(curve, same, |value| self.scale(value)))
+                .map(|curve| mapped(curve, |value| self.scale(value)))
                 .transpose()?,
         }))
     }
@@ -230,49 +229,16 @@ impl Map {
     }
 }
 
-/// The same keys, sooner.
-pub(super) fn shifted(track: &Track, sooner_secs: f32) -> Result<Track, ModelError> {
-    let mut last: Option<f32> = None;
-    let keys = (0..track.key_count()).map(|key| {
-        let secs = track.times_secs()[key] - sooner_secs;
-        // Two keys make a jump, and rounding may bring their times together.
-        let secs = last.map_or(secs, |last| secs.max(last.next_up()));
-        last = Some(secs);
-        (secs, track.key(key))
-    });
-    let shifted = Track::new(keys)?;
-    let Some(curves) = track.curves() else {
-        return Ok(shifted);
-    };
-    let sooner = |secs| secs - sooner_secs;
-    let rotation = curves.rotation.as_ref();
-    let of = |curve: &Option<Curve<Vec3>>| {
-        curve
-            .as_ref()
-            .map(|curve| mapped(curve, sooner, |value| value))
-            .transpose()
-    };
-    Ok(shifted.with_curves(Curves {
-        translation: of(&curves.translation)?,
-        rotation: rotation.map(|curve| mapped(curve, sooner, |value| value)).transpose()?,
-        scale: of(&curves.scale)?,
-    }))
-}
-
 /// The file's names of all joints; an empty one stands for none.
 pub(super) fn names_of(skeleton: &Skeleton) -> impl Iterator<Item = String> {
     let joints = (0..skeleton.joint_count() as u32).map(JointIndex);
     joints.map(|joint| skeleton.name(joint).unwrap_or_default().to_owned())
 }
 
-/// A curve with other times and values. Values and slopes are mapped alike, so `value` is linear.
-fn mapped<T: CurveValue>(
-    curve: &Curve<T>,
-    time: impl Fn(f32) -> f32,
-    value: impl Fn(T) -> T,
-) -> Result<Curve<T>, ModelError> {
-    let times_secs = curve.times_secs().iter().map(|secs| time(*secs));
-    let keys = times_secs.zip(curve.values().iter().map(|one| value(*one)));
+/// A curve with other values. Values and slopes are mapped alike, so `value` is linear.
+fn mapped<T: CurveValue>(curve: &Curve<T>, value: impl Fn(T) -> T) -> Result<Curve<T>, ModelError> {
+    let keys = curve.times_secs().iter().copied();
+    let keys = keys.zip(curve.values().iter().map(|one| value(*one)));
     match curve.tangents() {
         None => Curve::step(keys),
         Some(tangents) => {

@@ -79,6 +79,19 @@ impl<T: CurveValue> Curve<T> {
         Ok(self)
     }
 
+    /// The same values and slopes at other times, as many as there are.
+    ///
+    /// # Errors
+    /// As [`Curve::step`].
+    pub(crate) fn with_times(&self, times_secs: Vec<f32>) -> Result<Self, ModelError> {
+        let curve = Self {
+            times_secs,
+            values: self.values.clone(),
+            tangents: self.tangents.clone(),
+        };
+        curve.checked()
+    }
+
     /// Key times in seconds, strictly increasing.
     pub fn times_secs(&self) -> &[f32] {
         &self.times_secs

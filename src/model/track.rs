@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::curve::Curves;
+use super::curve::{Curve, Curves};
 use super::{LocalJoint, ModelError};
 
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
@@ -82,6 +82,59 @@ impl Track {
     /// The ways between keys that are not straight; `None` where all are.
     pub fn curves(&self) -> Option<&Curves> {
         self.curves.as_deref()
+    }
+
+    /// The same keys and curves, `secs` sooner; a track at rest has no times. Two keys make a jump: where rounding would bring their
+    /// times together, the second has the next time that a number can name.
+    ///
+    /// # Errors
+    /// When a time is no longer finite.
+    pub(crate) fn sooner(&self, secs: f32) -> Result<Self, ModelError> {
+        if self.at_rest {
+            return Ok(self.clone());
+        }
+        let times_secs = increasing(self.times_secs.iter().map(|time_secs| time_secs - secs));
+        if let Some(key) = times_secs.iter().position(|time_secs| !time_secs.is_finite()) {
+            return Err(ModelError::KeyNotFinite { key });
+        }
+        // A curve's keys stay among the track's.
+        let of_curve = |curve_secs: &[f32]| {
+            increasing(curve_secs.iter().map(|&time_secs| {
+                let key = self.times_secs.partition_point(|&key_secs| key_secs < time_secs);
+                match self.times_secs.get(key) {
+                    Some(&key_secs) if key_secs == time_secs => times_secs[key],
+                    _ => time_secs - secs,
+                }
+            }))
+        };
+        let vectors = |curve: &Option<Curve<Vec3>>| {
+            let moved = curve
+                .as_ref()
+                .map(|curve| curve.with_times(of_curve(curve.times_secs())));
+            moved.transpose()
+        };
+        let curves = match self.curves() {
+            None => None,
+            Some(Curves {
+                translation,
+                rotation,
+                scale,
+            }) => {
+                let rotation = rotation.as_ref();
+                Some(Box::new(Curves {
+                    translation: vectors(translation)?,
+                    rotation: rotation
+                        .map(|curve| curve.with_times(of_curve(curve.times_secs())))
+                        .transpose()?,
+                    scale: vectors(scale)?,
+                }))
+            }
+        };
+        Ok(Self {
+            times_secs,
+            curves,
+            ..self.clone()
+        })
     }
 
     /// The joint at a time, relative to its parent. Blends are made in f64.
@@ -195,6 +248,16 @@ impl Track {
             scale: self.scales[index],
         }
     }
+}
+
+/// Times, each after the one before.
+fn increasing(times_secs: impl Iterator<Item = f32>) -> Vec<f32> {
+    let mut increasing: Vec<f32> = Vec::with_capacity(times_secs.size_hint().0);
+    for time_secs in times_secs {
+        let before = increasing.last();
+        increasing.push(before.map_or(time_secs, |before| time_secs.max(before.next_up())));
+    }
+    increasing
 }
 
 /// The rotation at unit length; `None` when it has no direction. One that is as near to it as numbers are stays, so that a second
