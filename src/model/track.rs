@@ -1,7 +1,8 @@
 //! The keys of one joint.
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec4};
 
+use super::between::{part_of_way, rotation_between, vector_between};
 use super::curve::{Curve, Curves};
 use super::{LocalJoint, ModelError};
 
@@ -82,6 +83,35 @@ impl Track {
     /// The ways between keys that are not straight; `None` where all are.
     pub fn curves(&self) -> Option<&Curves> {
         self.curves.as_deref()
+    }
+
+    /// The same keys and curves of other values. Rotations are x, y, z, w. All maps are linear, since slopes go the same way.
+    ///
+    /// # Errors
+    /// When a number is no longer finite, or a rotation is zero.
+    pub(crate) fn mapped(
+        &self,
+        translation: impl Fn(Vec3) -> Vec3,
+        rotation: impl Fn(Vec4) -> Vec4,
+        scale: impl Fn(Vec3) -> Vec3,
+    ) -> Result<Self, ModelError> {
+        let joint = |key: usize| LocalJoint {
+            rotation: Quat::from_vec4(rotation(self.rotations[key].into())),
+            translation: translation(self.translations[key]),
+            scale: scale(self.scales[key]),
+        };
+        if self.at_rest {
+            return Ok(Self::at_rest(joint(0)));
+        }
+        let mapped = Self::new((0..self.key_count()).map(|key| (self.times_secs[key], joint(key))))?;
+        let Some(curves) = self.curves() else {
+            return Ok(mapped);
+        };
+        Ok(mapped.with_curves(Curves {
+            translation: (curves.translation.as_ref().map(|curve| curve.mapped(translation))).transpose()?,
+            rotation: (curves.rotation.as_ref().map(|curve| curve.mapped(rotation))).transpose()?,
+            scale: (curves.scale.as_ref().map(|curve| curve.mapped(scale))).transpose()?,
+        }))
     }
 
     /// The same keys and curves, `secs` sooner; a track at rest has no times. Two keys make a jump: where rounding would bring their
@@ -171,19 +201,12 @@ impl Track {
             Some(&end_secs) if start_secs < time_secs => end_secs,
             _ => return self.key(from),
         };
-        let start_secs = f64::from(start_secs);
-        let part = (f64::from(time_secs) - start_secs) / (f64::from(end_secs) - start_secs);
+        let part = part_of_way([start_secs, end_secs], time_secs);
         let (from, to) = (self.key(from), self.key(from + 1));
-        let between = |from: Vec3, to: Vec3| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
-        let rotation = from
-            .rotation
-            .as_dquat()
-            .normalize()
-            .slerp(to.rotation.as_dquat().normalize(), part);
         LocalJoint {
-            rotation: rotation.normalize().as_quat(),
-            translation: between(from.translation, to.translation),
-            scale: between(from.scale, to.scale),
+            rotation: rotation_between([from.rotation, to.rotation], part),
+            translation: vector_between([from.translation, to.translation], part),
+            scale: vector_between([from.scale, to.scale], part),
         }
     }
 

@@ -124,7 +124,7 @@ fn unlit() -> Model {
 }
 
 /// The JSON and the binary chunk of a file.
-fn chunks(bytes: &[u8]) -> (Value, Vec<u8>) {
+pub(super) fn chunks(bytes: &[u8]) -> (Value, Vec<u8>) {
     let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize;
     assert_eq!((&bytes[..4], word(4), word(8)), (&b"glTF"[..], 2, bytes.len()));
     let json = &bytes[20..20 + word(12)];
