@@ -2,7 +2,7 @@
 //! it finds what is between. Keys are left out where what is found there is the same number, so a file that was read has no more keys than
 //! it had, and each time of a track stays in one channel at least.
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec4};
 
 use crate::model::{Curves, LocalJoint, Track, part_of_way, rotation_between, vector_between};
 
@@ -16,7 +16,7 @@ const NEAR: usize = 4;
 const TRIALS: usize = 64;
 
 /// What is found may be off by this part of the values for rounding alone.
-const ROUNDING: f32 = 1e-6;
+const ROUNDING: f32 = 2.0 * f32::EPSILON;
 
 /// The keys that the channels of a track are written with, if they go straight: rotation, translation and scale. None are left where a
 /// channel says no more than the node `rest` does. All is in glTF's space and time.
@@ -88,9 +88,8 @@ fn of_curves(curves: &Curves, times_secs: &[f32]) -> Vec<usize> {
 /// A value that goes straight from key to key.
 trait Value: Copy + PartialEq {
     fn between(ends: [Self; 2], part: f64) -> Self;
-    /// The largest of its numbers, whatever their signs.
-    fn size(self) -> f32;
-    fn less(self, other: Self) -> Self;
+    /// Whether a value between two ends is off by no more than their rounding can do.
+    fn is_rounded(self, other: Self, ends: [Self; 2]) -> bool;
 }
 
 impl Value for Vec3 {
@@ -98,12 +97,9 @@ impl Value for Vec3 {
         vector_between(ends, part)
     }
 
-    fn size(self) -> f32 {
-        self.abs().max_element()
-    }
-
-    fn less(self, other: Self) -> Self {
-        self - other
+    fn is_rounded(self, other: Self, [from, to]: [Self; 2]) -> bool {
+        let rounding = (from.abs() + to.abs()) * ROUNDING;
+        (self - other).abs().cmple(rounding).all()
     }
 }
 
@@ -112,12 +108,9 @@ impl Value for Quat {
         rotation_between(ends, part)
     }
 
-    fn size(self) -> f32 {
-        glam::Vec4::from(self).abs().max_element()
-    }
-
-    fn less(self, other: Self) -> Self {
-        self - other
+    fn is_rounded(self, other: Self, _: [Self; 2]) -> bool {
+        // All are of unit length.
+        Vec4::from(self - other).abs().max_element() <= 2.0 * ROUNDING
     }
 }
 
@@ -139,8 +132,8 @@ fn found<T: Value>(times_secs: &[f32], values: &[T], [from, to]: [usize; 2], tri
         *trials = trials.saturating_sub(1);
         let value = T::between(ends, part_of_way(span_secs, times_secs[key]));
         if value != values[key] {
-            let is_near = value.less(values[key]).size() <= ROUNDING * (ends[0].size() + ends[1].size());
-            return if is_near { Found::Rounded } else { Found::Other };
+            let is_rounded = value.is_rounded(values[key], ends);
+            return if is_rounded { Found::Rounded } else { Found::Other };
         }
     }
     Found::Same
@@ -158,6 +151,9 @@ fn fewest<T: Value>(times_secs: &[f32], values: &[T], must: &[bool]) -> Vec<usiz
     let head = (0..count - 1).find(|&key| !is_told_by_next(key)).unwrap_or(count - 1);
     let is_told_by_last = |key: usize| !must[key] && values[key] == values[key - 1];
     let tail = (1..count).rev().find(|&key| !is_told_by_last(key)).unwrap_or(0);
+    if tail <= head {
+        return vec![tail];
+    }
     // Within a run of one value no step begins or ends.
     let is_within_run =
         |key: usize| key > 0 && key + 1 < count && is_told_by_next(key) && values[key - 1] == values[key];
