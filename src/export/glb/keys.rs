@@ -22,10 +22,11 @@ const ROUNDING: f32 = 2.0 * f32::EPSILON;
 /// channel says no more than the node `rest` does. All is in glTF's space and time.
 pub(super) fn needed(track: &Track, rest: &LocalJoint) -> [Vec<usize>; 3] {
     let times_secs = track.times_secs();
-    let rotations = |must: &[bool]| fewest(times_secs, track.rotations(), must);
-    let translations = |must: &[bool]| fewest(times_secs, track.translations(), must);
-    let scales = |must: &[bool]| fewest(times_secs, track.scales(), must);
-    let channels: [&dyn Fn(&[bool]) -> Vec<usize>; 3] = [&rotations, &translations, &scales];
+    let fewest_of = |channel: usize, must: &[bool]| match channel {
+        0 => fewest(times_secs, track.rotations(), must),
+        1 => fewest(times_secs, track.translations(), must),
+        _ => fewest(times_secs, track.scales(), must),
+    };
     let curves = track.curves();
     let is_straight = [
         curves.is_none_or(|curves| curves.rotation.is_none()),
@@ -40,7 +41,7 @@ pub(super) fn needed(track: &Track, rest: &LocalJoint) -> [Vec<usize>; 3] {
         first.scale == rest.scale,
     ];
     let mut kept: [Vec<usize>; 3] = std::array::from_fn(|channel| match is_straight[channel] {
-        true => channels[channel](&none),
+        true => fewest_of(channel, &none),
         false => Vec::new(),
     });
     for (keys, is_at_rest) in kept.iter_mut().zip(is_at_rest) {
@@ -61,7 +62,7 @@ pub(super) fn needed(track: &Track, rest: &LocalJoint) -> [Vec<usize>; 3] {
             for &key in &kept[channel] {
                 must[key] = holders[key] == 1;
             }
-            let keys = channels[channel](&must);
+            let keys = fewest_of(channel, &must);
             (keys.len().saturating_sub(kept[channel].len()), channel, keys)
         });
         if let Some((_, channel, keys)) = grown.min_by_key(|&(more, ..)| more) {
