@@ -196,7 +196,7 @@ fn give_keys(edited: &mut Edited) -> Result<(), ModelError> {
             continue;
         }
         let keyed = |track: &Track| match track.has_keys() {
-            true => space::shifted(track, start_secs),
+            true => track.sooner(start_secs),
             false => Track::new([(0.0, track.key(0))]),
         };
         let tracks = clip.tracks.iter().map(keyed).collect::<Result<_, _>>()?;

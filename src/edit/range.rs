@@ -2,7 +2,6 @@
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
-use super::space::shifted;
 use crate::model::{Clip, Curve, CurveValue, Curves, ModelError, Track};
 
 /// Cuts the only clip to a range of its own time. What is left begins at 0 s, so that no player waits for it.
@@ -46,11 +45,8 @@ fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, ModelError> {
     {
         *keyed = Track::new(range_secs.map(|secs| (secs, keyed.key(0))))?;
     }
-    let from_zero = |track: &Track| match track.has_keys() {
-        true => shifted(track, range_secs[0]),
-        false => Ok(track.clone()),
-    };
-    let tracks = tracks.iter().map(from_zero).collect::<Result<_, _>>()?;
+    let from_zero = tracks.iter().map(|track| track.sooner(range_secs[0]));
+    let tracks = from_zero.collect::<Result<_, _>>()?;
     Ok(with_tracks(clip, tracks))
 }
 

@@ -8,10 +8,7 @@ use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A, Vec4};
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
-use crate::model::{
-    Curve, CurveValue, Curves, Front, Handedness, JointIndex, LocalJoint, Model, ModelError, Skeleton, Track, UpAxis,
-    world_from_model,
-};
+use crate::model::{Front, Handedness, JointIndex, LocalJoint, Model, ModelError, Skeleton, UpAxis, world_from_model};
 
 /// The space to come out with; `None` leaves what is.
 #[derive(Clone, Copy, Debug)]
@@ -148,8 +145,14 @@ impl Map {
         mesh.check()?;
         model.skeleton = self.skeleton(&model.skeleton)?;
         for clip in &mut model.clips {
-            let tracks: Result<Vec<Track>, _> = clip.tracks.iter().map(|track| self.track(track)).collect();
-            *clip = with_tracks(clip, tracks?);
+            let tracks = clip.tracks.iter().map(|track| {
+                track.mapped(
+                    |value| self.point(value),
+                    |value| self.quaternion(value),
+                    |value| self.scale(value),
+                )
+            });
+            *clip = with_tracks(clip, tracks.collect::<Result<_, _>>()?);
         }
         Ok(())
     }
@@ -163,32 +166,6 @@ impl Map {
             skeleton.file_bones().to_vec(),
         )?;
         Ok(turned.with_rest(&rest).with_names(names_of(skeleton).collect()))
-    }
-
-    fn track(&self, track: &Track) -> Result<Track, ModelError> {
-        if !track.has_keys() {
-            return Ok(Track::at_rest(self.joint(&track.key(0))));
-        }
-        let keys = (0..track.key_count()).map(|key| (track.times_secs()[key], self.joint(&track.key(key))));
-        let turned = Track::new(keys)?;
-        let Some(curves) = track.curves() else {
-            return Ok(turned);
-        };
-        let same = |secs| secs;
-        let translation = curves.translation.as_ref();
-        let rotation = curves.rotation.as_ref();
-        let scale = curves.scale.as_ref();
-        Ok(turned.with_curves(Curves {
-            translation: translation
-                .map(|curve| mapped(curve, same, |value| self.point(value)))
-                .transpose()?,
-            rotation: rotation
-                .map(|curve| mapped(curve, same, |value| self.quaternion(value)))
-                .transpose()?,
-            scale: scale
-                .map(|curve| mapped(curve, same, |value| self.scale(value)))
-                .transpose()?,
-        }))
     }
 
     /// A matrix of the old space, there and back.
@@ -230,54 +207,8 @@ impl Map {
     }
 }
 
-/// The same keys, sooner.
-pub(super) fn shifted(track: &Track, sooner_secs: f32) -> Result<Track, ModelError> {
-    let mut last: Option<f32> = None;
-    let keys = (0..track.key_count()).map(|key| {
-        let secs = track.times_secs()[key] - sooner_secs;
-        // Two keys make a jump, and rounding may bring their times together.
-        let secs = last.map_or(secs, |last| secs.max(last.next_up()));
-        last = Some(secs);
-        (secs, track.key(key))
-    });
-    let shifted = Track::new(keys)?;
-    let Some(curves) = track.curves() else {
-        return Ok(shifted);
-    };
-    let sooner = |secs| secs - sooner_secs;
-    let rotation = curves.rotation.as_ref();
-    let of = |curve: &Option<Curve<Vec3>>| {
-        curve
-            .as_ref()
-            .map(|curve| mapped(curve, sooner, |value| value))
-            .transpose()
-    };
-    Ok(shifted.with_curves(Curves {
-        translation: of(&curves.translation)?,
-        rotation: rotation.map(|curve| mapped(curve, sooner, |value| value)).transpose()?,
-        scale: of(&curves.scale)?,
-    }))
-}
-
 /// The file's names of all joints; an empty one stands for none.
 pub(super) fn names_of(skeleton: &Skeleton) -> impl Iterator<Item = String> {
     let joints = (0..skeleton.joint_count() as u32).map(JointIndex);
     joints.map(|joint| skeleton.name(joint).unwrap_or_default().to_owned())
-}
-
-/// A curve with other times and values. Values and slopes are mapped alike, so `value` is linear.
-fn mapped<T: CurveValue>(
-    curve: &Curve<T>,
-    time: impl Fn(f32) -> f32,
-    value: impl Fn(T) -> T,
-) -> Result<Curve<T>, ModelError> {
-    let times_secs = curve.times_secs().iter().map(|secs| time(*secs));
-    let keys = times_secs.zip(curve.values().iter().map(|one| value(*one)));
-    match curve.tangents() {
-        None => Curve::step(keys),
-        Some(tangents) => {
-            let slopes = tangents.iter().map(|slopes| slopes.map(&value));
-            Curve::cubic(keys.zip(slopes).map(|((secs, value), slopes)| (secs, value, slopes)))
-        }
-    }
 }

@@ -79,6 +79,33 @@ impl<T: CurveValue> Curve<T> {
         Ok(self)
     }
 
+    /// The same curve of other values. Values and slopes are mapped alike, so `map` is linear.
+    ///
+    /// # Errors
+    /// As [`Curve::step`].
+    pub(crate) fn mapped(&self, map: impl Fn(T) -> T) -> Result<Self, ModelError> {
+        let tangents = self.tangents.as_ref();
+        let curve = Self {
+            times_secs: self.times_secs.clone(),
+            values: self.values.iter().map(|&value| map(value)).collect(),
+            tangents: tangents.map(|tangents| tangents.iter().map(|slopes| slopes.map(&map)).collect()),
+        };
+        curve.checked()
+    }
+
+    /// The same values and slopes at other times, as many as there are.
+    ///
+    /// # Errors
+    /// As [`Curve::step`].
+    pub(crate) fn with_times(&self, times_secs: Vec<f32>) -> Result<Self, ModelError> {
+        let curve = Self {
+            times_secs,
+            values: self.values.clone(),
+            tangents: self.tangents.clone(),
+        };
+        curve.checked()
+    }
+
     /// Key times in seconds, strictly increasing.
     pub fn times_secs(&self) -> &[f32] {
         &self.times_secs

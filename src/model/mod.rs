@@ -3,6 +3,7 @@
 //! A model knows no format: [`import`](crate::import) makes its parts of what a file says. [`Skeleton::new`], [`Track::new`] and
 //! [`Model::checked`] prove them, or give a [`ModelError`]. What is proved here no later stage looks at again.
 
+mod between;
 mod bitangents;
 mod bounds;
 mod clip;
@@ -21,6 +22,7 @@ mod tangents;
 mod track;
 mod tree;
 
+pub(crate) use between::{part_of_way, rotation_between, vector_between};
 pub use bitangents::Green;
 pub use bounds::Aabb;
 pub use clip::Clip;

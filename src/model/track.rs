@@ -1,8 +1,9 @@
 //! The keys of one joint.
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec4};
 
-use super::curve::Curves;
+use super::between::{part_of_way, rotation_between, vector_between};
+use super::curve::{Curve, Curves};
 use super::{LocalJoint, ModelError};
 
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
@@ -84,6 +85,88 @@ impl Track {
         self.curves.as_deref()
     }
 
+    /// The same keys and curves of other values. Rotations are x, y, z, w. All maps are linear, since slopes go the same way.
+    ///
+    /// # Errors
+    /// When a number is no longer finite, or a rotation is zero.
+    pub(crate) fn mapped(
+        &self,
+        translation: impl Fn(Vec3) -> Vec3,
+        rotation: impl Fn(Vec4) -> Vec4,
+        scale: impl Fn(Vec3) -> Vec3,
+    ) -> Result<Self, ModelError> {
+        let joint = |key: usize| LocalJoint {
+            rotation: Quat::from_vec4(rotation(self.rotations[key].into())),
+            translation: translation(self.translations[key]),
+            scale: scale(self.scales[key]),
+        };
+        if self.at_rest {
+            return Ok(Self::at_rest(joint(0)));
+        }
+        let mapped = Self::new((0..self.key_count()).map(|key| (self.times_secs[key], joint(key))))?;
+        let Some(curves) = self.curves() else {
+            return Ok(mapped);
+        };
+        Ok(mapped.with_curves(Curves {
+            translation: (curves.translation.as_ref().map(|curve| curve.mapped(translation))).transpose()?,
+            rotation: (curves.rotation.as_ref().map(|curve| curve.mapped(rotation))).transpose()?,
+            scale: (curves.scale.as_ref().map(|curve| curve.mapped(scale))).transpose()?,
+        }))
+    }
+
+    /// The same keys and curves, `secs` sooner; a track at rest has no times. Two keys make a jump: where rounding would bring their
+    /// times together, the second has the next time that a number can name.
+    ///
+    /// # Errors
+    /// When a time is no longer finite.
+    pub(crate) fn sooner(&self, secs: f32) -> Result<Self, ModelError> {
+        if self.at_rest {
+            return Ok(self.clone());
+        }
+        let times_secs = increasing(self.times_secs.iter().map(|time_secs| time_secs - secs));
+        if let Some(key) = times_secs.iter().position(|time_secs| !time_secs.is_finite()) {
+            return Err(ModelError::KeyNotFinite { key });
+        }
+        // A curve's keys stay among the track's.
+        let of_curve = |curve_secs: &[f32]| {
+            increasing(curve_secs.iter().map(|&time_secs| {
+                let key = self.times_secs.partition_point(|&key_secs| key_secs < time_secs);
+                match self.times_secs.get(key) {
+                    Some(&key_secs) if key_secs == time_secs => times_secs[key],
+                    _ => time_secs - secs,
+                }
+            }))
+        };
+        let vectors = |curve: &Option<Curve<Vec3>>| {
+            let moved = curve
+                .as_ref()
+                .map(|curve| curve.with_times(of_curve(curve.times_secs())));
+            moved.transpose()
+        };
+        let curves = match self.curves() {
+            None => None,
+            Some(Curves {
+                translation,
+                rotation,
+                scale,
+            }) => {
+                let rotation = rotation.as_ref();
+                Some(Box::new(Curves {
+                    translation: vectors(translation)?,
+                    rotation: rotation
+                        .map(|curve| curve.with_times(of_curve(curve.times_secs())))
+                        .transpose()?,
+                    scale: vectors(scale)?,
+                }))
+            }
+        };
+        Ok(Self {
+            times_secs,
+            curves,
+            ..self.clone()
+        })
+    }
+
     /// The joint at a time, relative to its parent. Blends are made in f64.
     pub fn at(&self, time_secs: f32) -> LocalJoint {
         let next = self.times_secs.partition_point(|&key_secs| key_secs <= time_secs);
@@ -118,19 +201,12 @@ impl Track {
             Some(&end_secs) if start_secs < time_secs => end_secs,
             _ => return self.key(from),
         };
-        let start_secs = f64::from(start_secs);
-        let part = (f64::from(time_secs) - start_secs) / (f64::from(end_secs) - start_secs);
+        let part = part_of_way([start_secs, end_secs], time_secs);
         let (from, to) = (self.key(from), self.key(from + 1));
-        let between = |from: Vec3, to: Vec3| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
-        let rotation = from
-            .rotation
-            .as_dquat()
-            .normalize()
-            .slerp(to.rotation.as_dquat().normalize(), part);
         LocalJoint {
-            rotation: rotation.normalize().as_quat(),
-            translation: between(from.translation, to.translation),
-            scale: between(from.scale, to.scale),
+            rotation: rotation_between([from.rotation, to.rotation], part),
+            translation: vector_between([from.translation, to.translation], part),
+            scale: vector_between([from.scale, to.scale], part),
         }
     }
 
@@ -195,6 +271,16 @@ impl Track {
             scale: self.scales[index],
         }
     }
+}
+
+/// Times, each after the one before.
+fn increasing(times_secs: impl Iterator<Item = f32>) -> Vec<f32> {
+    let mut increasing: Vec<f32> = Vec::with_capacity(times_secs.size_hint().0);
+    for time_secs in times_secs {
+        let before = increasing.last();
+        increasing.push(before.map_or(time_secs, |before| time_secs.max(before.next_up())));
+    }
+    increasing
 }
 
 /// The rotation at unit length; `None` when it has no direction. One that is as near to it as numbers are stays, so that a second

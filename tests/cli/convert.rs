@@ -285,6 +285,21 @@ fn what_was_mended_is_a_change() {
 }
 
 #[test]
+fn a_bone_without_keys_is_told_or_mended_for_the_book() {
+    let empty = fixture("check/track-empty.m3d");
+    let told = convert(&empty, &out("empty", "as_it_is.m3d"), &[]);
+    assert!(codes(&told["losses"]).contains(&"track-empty"), "{told}");
+    let text = run(["convert", &empty, &out("empty", "text.m3d")]).fine();
+    assert!(
+        text.contains("track-empty") && text.contains("for the book's demo"),
+        "{text}"
+    );
+    let told = convert(&empty, &out("empty", "for_book.m3d"), &["--for-book"]);
+    assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
+    assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");
+}
+
+#[test]
 fn losses_that_are_denied_write_nothing() {
     let output = out("deny", "figure.glb");
     let denied = run(["convert", FIGURE, &output, "--deny", "losses", "--json"]);

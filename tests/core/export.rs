@@ -3,5 +3,6 @@
 mod both_ways;
 mod codes;
 mod glb;
+mod keys;
 mod m3d;
 mod others;

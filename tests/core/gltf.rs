@@ -21,6 +21,7 @@ use serde_json::{Value, json};
 use crate::gltf_files::Gltf;
 
 pub(crate) use banner::banner;
+pub(crate) use clips::moving;
 
 /// The one triangle of most files here.
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];

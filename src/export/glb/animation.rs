@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use glam::{Vec3, Vec4};
 use serde_json::{Value, json};
 
 use super::binary::{Binary, Target};
+use super::keys::needed;
 use super::space::Space;
-use crate::model::{Clip, Curve, CurveValue, Model, Track};
+use crate::model::{Clip, Curve, CurveValue, Curves, LocalJoint, Model, Track};
 
 /// The animations of all clips that have keys.
 pub(super) fn animations(model: &Model, space: &Space, binary: &mut Binary) -> Vec<Value> {
@@ -23,7 +23,8 @@ pub(super) fn animations(model: &Model, space: &Space, binary: &mut Binary) -> V
                 channels: Vec::new(),
             };
             for (bone, joint) in model.skeleton.joint_of_bone().iter().enumerate() {
-                writer.track(bone, &clip.tracks[joint.index()], space);
+                let rest = space.joint(&model.skeleton.rest()[joint.index()]);
+                writer.track(bone, &clip.tracks[joint.index()], &rest, space);
             }
             json!({ "name": clip.name, "samplers": writer.samplers, "channels": writer.channels })
         })
@@ -45,70 +46,66 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn track(&mut self, bone: usize, track: &Track, space: &Space) {
+    fn track(&mut self, bone: usize, track: &Track, rest: &LocalJoint, space: &Space) {
         if !track.has_keys() {
             return;
         }
-        let curves = track.curves();
-        let vector = |value: Vec3| space.vector(value).to_array();
-        let scale = |value: Vec3| space.scale(value).to_array();
-        let rotation = |value: Vec4| space.rotation(value).to_array();
-        match curves.and_then(|curves| curves.rotation.as_ref()) {
-            Some(curve) => self.curve(bone, "rotation", curve, rotation),
-            None => {
-                let values: Vec<_> = track
-                    .rotations()
-                    .iter()
-                    .map(|&value| rotation(Vec4::from(value)))
-                    .collect();
-                // All keys, also where they are alike: they say how long the track is.
-                self.channel(bone, "rotation", "LINEAR", track.times_secs(), &values);
-            }
+        let moved = track.sooner(self.shift_secs).and_then(|track| {
+            track.mapped(
+                |value| space.vector(value),
+                |value| space.rotation(value),
+                |value| space.scale(value),
+            )
+        });
+        // Axes are exchanged and turned round, and no time that is read overflows: there is no other track.
+        let track = &moved.unwrap_or_else(|_| track.clone());
+        let no_curves = Curves::default();
+        let curves = track.curves().unwrap_or(&no_curves);
+        let [rotations, translations, scales] = needed(track, rest);
+        match &curves.rotation {
+            Some(curve) => self.curve(bone, "rotation", curve),
+            None => self.straight(bone, "rotation", track, track.rotations(), &rotations),
         }
-        match curves.and_then(|curves| curves.translation.as_ref()) {
-            Some(curve) => self.curve(bone, "translation", curve, vector),
-            None => self.straight(bone, "translation", track, track.translations(), vector),
+        match &curves.translation {
+            Some(curve) => self.curve(bone, "translation", curve),
+            None => self.straight(bone, "translation", track, track.translations(), &translations),
         }
-        match curves.and_then(|curves| curves.scale.as_ref()) {
-            Some(curve) => self.curve(bone, "scale", curve, scale),
-            None => self.straight(bone, "scale", track, track.scales(), scale),
+        match &curves.scale {
+            Some(curve) => self.curve(bone, "scale", curve),
+            None => self.straight(bone, "scale", track, track.scales(), &scales),
         }
     }
 
-    /// Keys between which values go straight. One stands for all when they are alike.
-    fn straight(
+    /// Some keys of a track, between which values go straight; no channel without any.
+    fn straight<T: Copy + Into<[f32; N]>, const N: usize>(
         &mut self,
         bone: usize,
         path: &str,
         track: &Track,
-        values: &[Vec3],
-        in_gltf: impl Fn(Vec3) -> [f32; 3],
+        values: &[T],
+        keys: &[usize],
     ) {
-        let is_constant = track.curves().is_none() && values.iter().all(|value| *value == values[0]);
-        let count = if is_constant { 1 } else { values.len() };
-        let values: Vec<_> = values[..count].iter().map(|&value| in_gltf(value)).collect();
-        self.channel(bone, path, "LINEAR", &track.times_secs()[..count], &values);
+        if keys.is_empty() {
+            return;
+        }
+        let times_secs: Vec<f32> = keys.iter().map(|&key| track.times_secs()[key]).collect();
+        let rows: Vec<_> = keys.iter().map(|&key| values[key].into()).collect();
+        self.channel(bone, path, "LINEAR", &times_secs, &rows);
     }
 
     /// Held values, or splines.
-    fn curve<T: CurveValue, const N: usize>(
-        &mut self,
-        bone: usize,
-        path: &str,
-        curve: &Curve<T>,
-        in_gltf: impl Fn(T) -> [f32; N],
-    ) {
+    fn curve<T: CurveValue + Into<[f32; N]>, const N: usize>(&mut self, bone: usize, path: &str, curve: &Curve<T>) {
         let values = curve.values();
         match curve.tangents() {
             // A spline has two keys or more.
             Some(tangents) if values.len() > 1 => {
                 let keys = tangents.iter().zip(values);
-                let rows = keys.flat_map(|(&[before, after], &value)| [before, value, after].map(&in_gltf));
+                let rows = keys.flat_map(|(&[before, after], &value)| [before, value, after].map(Into::into));
                 let rows: Vec<_> = rows.collect();
                 self.channel(bone, path, "CUBICSPLINE", curve.times_secs(), &rows);
             }
             _ => {
-                let rows: Vec<_> = values.iter().map(|&value| in_gltf(value)).collect();
+                let rows: Vec<_> = values.iter().map(|&value| value.into()).collect();
                 self.channel(bone, path, "STEP", curve.times_secs(), &rows);
             }
         }
@@ -129,20 +126,12 @@ impl Writer<'_> {
 
     /// The accessor of some times; equal ones share it.
     fn input(&mut self, times_secs: &[f32]) -> usize {
-        let mut shifted: Vec<[f32; 1]> = Vec::with_capacity(times_secs.len());
-        for time_secs in times_secs {
-            let mut at = time_secs - self.shift_secs;
-            // What is lost of a time that is moved must not make two the same.
-            if let Some(&[before]) = shifted.last() {
-                at = at.max(before.next_up());
-            }
-            shifted.push([at]);
-        }
-        let bits = shifted.iter().map(|[time_secs]| time_secs.to_bits()).collect();
+        let bits = times_secs.iter().map(|time_secs| time_secs.to_bits()).collect();
+        let rows: Vec<[f32; 1]> = times_secs.iter().map(|&time_secs| [time_secs]).collect();
         let binary = &mut *self.binary;
         *self
             .inputs
             .entry(bits)
-            .or_insert_with(|| binary.floats(&shifted, Target::Other, true))
+            .or_insert_with(|| binary.floats(&rows, Target::Other, true))
     }
 }

@@ -3,13 +3,14 @@
 //! ```text
 //! mesh       a primitive for each submesh, over accessors that all share; corners against the clock, as glTF has them
 //! skeleton   a node for each bone, in the file's order; one above them where there are several roots, since a skin wants one
-//! clips      an animation each; keys at the model's times, held values as STEP, splines as CUBICSPLINE
+//! clips      an animation each; the model's keys but those that a reader finds between others, held values as STEP, splines as CUBICSPLINE
 //! materials  metallic-roughness, with what the books say in `extras.bindpose`; maps as PNG, each picture once; green of normal maps up
 //! ```
 
 mod animation;
 mod binary;
 mod geometry;
+mod keys;
 mod losses;
 mod material;
 mod number;

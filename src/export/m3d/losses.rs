@@ -8,8 +8,8 @@ use crate::export::Loss;
 use crate::export::losses::Losses;
 use crate::format::Dialect;
 use crate::model::{
-    AlphaMode, Front, JointIndex, JointNames, MapSlot, Material, MaterialMap, Model, Reflectance, Sampling, Track,
-    UpAxis,
+    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, MaterialMap, Model, Reflectance, Sampling,
+    Track, UpAxis,
 };
 
 /// Bones that the shaders of the books have room for.
@@ -157,6 +157,24 @@ fn keys(model: &Model, losses: &mut Losses) {
             "{} splines; straight pieces take their place, off by at most {STRAIGHT_ERROR:e} of what a track ranges over, of rotations \
              that angle in radians.",
             counted(cubic, "track follows", "tracks follow")
+        ),
+    );
+    // One that rests apart gets a key there.
+    let rests = rests_apart(model);
+    let is_empty = |(track, rest): &(&Track, &Option<LocalJoint>)| !track.has_keys() && rest.is_none();
+    let empty = model
+        .clips
+        .iter()
+        .flat_map(|clip| clip.tracks.iter().zip(&rests))
+        .filter(is_empty)
+        .count();
+    losses.add(
+        codes::TRACK_EMPTY.name,
+        empty,
+        format!(
+            "{} no keys in a clip and {} none; the books' demos need one. Written for the book's demo, each has one at rest.",
+            counted(empty, "bone has", "bones have"),
+            if empty == 1 { "gets" } else { "get" }
         ),
     );
 }

@@ -8,7 +8,10 @@ use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
 use crate::diagnostic::{Code, Moment, Subject, codes};
 use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, fault, out_of_range};
-use crate::model::{Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, unique_names, unit_rotation};
+use crate::model::{
+    Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, part_of_way, rotation_between, unique_names,
+    unit_rotation, vector_between,
+};
 
 /// A rotation whose length is off by more than this was not meant to be rounded.
 const UNIT_TOLERANCE: f32 = 1e-3;
@@ -391,7 +394,7 @@ impl<T: CurveValue> Part<T> {
     }
 
     /// The value at a time; `blend` is between two keys.
-    fn at(&self, time_secs: f32, blend: impl Fn(T, T, f64) -> T) -> T {
+    fn at(&self, time_secs: f32, blend: impl Fn([T; 2], f64) -> T) -> T {
         let keys = match self {
             Self::Curved(curve) => return curve.value_at(time_secs),
             Self::Straight(keys) => keys,
@@ -400,8 +403,7 @@ impl<T: CurveValue> Part<T> {
         let (from_secs, from) = keys[next.saturating_sub(1)];
         match keys.get(next) {
             Some(&(to_secs, to)) if from_secs < time_secs => {
-                let [from_secs, to_secs, time_secs] = [from_secs, to_secs, time_secs].map(f64::from);
-                blend(from, to, (time_secs - from_secs) / (to_secs - from_secs))
+                blend([from, to], part_of_way([from_secs, to_secs], time_secs))
             }
             _ => from,
         }
@@ -421,7 +423,13 @@ impl Parts {
     }
 
     /// A track with a key at each time of a part. Straight parts stay straight, so the keys that this adds to them change nothing.
-    fn track(self, rest: LocalJoint) -> Result<Track, ModelError> {
+    fn track(mut self, rest: LocalJoint) -> Result<Track, ModelError> {
+        // Before anything is read between them, so that the track's keys say the same of the times between.
+        if let Some(Part::Straight(keys)) = &mut self.rotation {
+            for (_, value) in keys {
+                *value = unit_rotation(Quat::from_vec4(*value)).unwrap_or(rest.rotation).into();
+            }
+        }
         let times = [
             self.translation.as_ref().map(Part::times_secs),
             self.rotation.as_ref().map(Part::times_secs),
@@ -436,10 +444,10 @@ impl Parts {
         let times_secs = times_secs.get_or_insert_default();
         times_secs.sort_by(f32::total_cmp);
         times_secs.dedup();
-        let straight = |from: Vec3, to: Vec3, part| from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3();
+        let turned = |rotations: [Vec4; 2], part| rotation_between(rotations.map(Quat::from_vec4), part).into();
         let joint_at = |time_secs: f32| {
             let vector =
-                |part: &Option<Part<Vec3>>, rest| part.as_ref().map_or(rest, |part| part.at(time_secs, straight));
+                |part: &Option<Part<Vec3>>, rest| part.as_ref().map_or(rest, |part| part.at(time_secs, vector_between));
             let rotation = self.rotation.as_ref().map(|part| part.at(time_secs, turned));
             LocalJoint {
                 rotation: rotation
@@ -456,10 +464,4 @@ impl Parts {
             scale: self.scale.and_then(Part::into_curve),
         }))
     }
-}
-
-/// Between two rotations, along the shorter arc.
-fn turned(from: Vec4, to: Vec4, part: f64) -> Vec4 {
-    let [from, to] = [from, to].map(|rotation| Quat::from_vec4(rotation).as_dquat().normalize());
-    Vec4::from(from.slerp(to, part).as_quat())
 }

@@ -1,7 +1,8 @@
 //! Parts of clips.
 
 use bindpose::edit::{EditError, Edits};
-use bindpose::model::{Clip, Model, Track};
+use bindpose::model::{Clip, Curve, Curves, LocalJoint, Model, Track};
+use glam::{Quat, Vec3, Vec4};
 use proptest::prelude::*;
 
 use super::{apart, curved, edit, seen, size, spread, try_edit};
@@ -72,6 +73,52 @@ fn the_cuts_are_keys_and_curves_stay_curves() {
             assert!(new.rotation.angle_between(old.rotation) < 1e-3, "at {secs} s");
         }
     }
+}
+
+#[test]
+fn a_jump_of_a_curve_stays_one_where_rounding_would_close_it() {
+    let mut model = curved();
+    let times_secs = [-100.0, 0.1, 0.1_f32.next_up(), 1.0];
+    assert_eq!(
+        times_secs[1] + 50.0,
+        times_secs[2] + 50.0,
+        "the cut would bring them together"
+    );
+    let turned = |secs: f32| Quat::from_rotation_x(secs * 0.01);
+    let joint = |secs: f32| LocalJoint {
+        translation: Vec3::splat(secs),
+        rotation: turned(secs),
+        ..LocalJoint::IDENTITY
+    };
+    let keys = times_secs.map(|secs| (secs, joint(secs)));
+    let held = Curve::step(times_secs.map(|secs| (secs, Vec3::splat(secs)))).expect("sound keys");
+    // A curve may have some of the track's keys.
+    let bent = times_secs[2..]
+        .iter()
+        .map(|&secs| (secs, Vec4::from(turned(secs)), [Vec4::ZERO; 2]));
+    let track = Track::new(keys).expect("sound keys").with_curves(Curves {
+        translation: Some(held),
+        rotation: Some(Curve::cubic(bent).expect("sound keys")),
+        scale: None,
+    });
+    let tracks = vec![track; model.skeleton.joint_count()];
+    model.clips = vec![Clip::new("jumps", tracks)];
+    let cut = edit(&model, &range(-50.0, 1.0)).model;
+    let track = &cut.clips[0].tracks[0];
+    let jump_secs = 0.1_f32 + 50.0;
+    let expected = [0.0, jump_secs, jump_secs.next_up(), 51.0];
+    assert_eq!(track.times_secs(), expected);
+    let curves = track.curves().expect("they stay curves");
+    let held = curves.translation.as_ref().expect("it stays a curve");
+    assert_eq!(held.times_secs(), expected);
+    assert_eq!(held.value_at(jump_secs), Vec3::splat(times_secs[1]));
+    assert_eq!(held.value_at(jump_secs.next_up()), Vec3::splat(times_secs[2]));
+    let bent = curves.rotation.as_ref().expect("it stays a curve");
+    assert_eq!(
+        bent.times_secs(),
+        [0.0, jump_secs.next_up(), 51.0],
+        "still among the track's"
+    );
 }
 
 #[test]

@@ -182,7 +182,7 @@ fn assert_clip_came_back(name: &str, (old, before): (&Model, &Clip), (new, after
 }
 
 /// Small documents of each kind that machines without the real ones have.
-fn made() -> Vec<(String, Document)> {
+pub(super) fn made() -> Vec<(String, Document)> {
     let mut roots = arm();
     roots.bone_parents = vec![-1, -1, 0];
     let mut free = arm();

@@ -8,7 +8,7 @@ use bindpose::model::{
     AlphaMode, Curve, Curves, Front, Handedness, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Track,
     UpAxis, Wrap,
 };
-use glam::{Affine2, Quat, Vec2, Vec3, Vec4};
+use glam::{Affine2, Mat2, Quat, Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
 
 use crate::documents::{arm, quad, reordered};
@@ -124,7 +124,7 @@ fn unlit() -> Model {
 }
 
 /// The JSON and the binary chunk of a file.
-fn chunks(bytes: &[u8]) -> (Value, Vec<u8>) {
+pub(super) fn chunks(bytes: &[u8]) -> (Value, Vec<u8>) {
     let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize;
     assert_eq!((&bytes[..4], word(4), word(8)), (&b"glTF"[..], 2, bytes.len()));
     let json = &bytes[20..20 + word(12)];
@@ -333,4 +333,31 @@ fn what_gltf_does_not_hold_is_said() {
         );
     }
     assert_eq!(glb_losses(&by_name("arm"), &MapImages::default()), []);
+}
+
+#[test]
+fn texture_coordinates_that_are_sheared_are_a_loss_and_turned_ones_are_none() {
+    let image = picture(&[[1, 2, 3, 255]]);
+    let maps: MapImages<'_> = MapSlot::ALL.into_iter().map(|slot| ((0, slot), &image)).collect();
+    let losses = |matrix2: Mat2| {
+        let mut model = rich();
+        let material = &mut model.materials[0];
+        for map in [&mut material.diffuse_map, &mut material.emissive_map] {
+            let map = map.as_mut().expect("it has the map");
+            map.sampling.map_from_mesh = Affine2::from_mat2(matrix2);
+        }
+        glb_losses(&model, &maps)
+    };
+    let turned = Mat2::from_angle(0.7) * Mat2::from_diagonal(Vec2::new(2.0, -0.5));
+    assert_eq!(losses(turned), [], "turned, mirrored and of two sizes");
+    let sheared = losses(turned * Mat2::from_cols(Vec2::X, Vec2::new(0.001, 1.0)));
+    let [loss] = &sheared[..] else {
+        panic!("one loss, not {sheared:?}");
+    };
+    assert_eq!((loss.code, loss.count), ("texture-shear", 2));
+    assert!(
+        loss.message.starts_with("2 maps shear texture coordinates,"),
+        "{}",
+        loss.message
+    );
 }

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use bindpose::check::book::{self, Book};
+use bindpose::edit::{Edits, apply};
 use bindpose::export::{Loss, m3d, m3d_losses, one_word};
 use bindpose::format::{Dialect, Document, LineMap, parse};
 use bindpose::import::m3d::from_document;
@@ -299,4 +300,36 @@ fn bones_that_rest_elsewhere_get_a_key_there() {
     let track = &again.clips[0].tracks[2];
     assert_eq!((track.has_keys(), track.key_count()), (true, 1));
     assert_eq!(track.key(0), model.skeleton.rest()[2]);
+}
+
+#[test]
+fn bones_without_keys_stay_so_and_are_told() {
+    let mut model = from_document(&arm(), &LineMap::default()).expect("it is sound").0;
+    let of = |model: &Model| {
+        let losses = m3d_losses(model, &JointNames::default(), Dialect::D3d12);
+        let empty = losses.into_iter().find(|loss| loss.code == "track-empty");
+        empty.map(|loss| (loss.count, loss.message))
+    };
+    assert_eq!(of(&model), None, "all have keys");
+    let rests = model.skeleton.rest().to_vec();
+    let mut tracks = model.clips[0].tracks.clone();
+    for joint in 1..3 {
+        tracks[joint] = Track::at_rest(rests[joint]);
+    }
+    model.clips[0] = bindpose::model::Clip::new("Take1", tracks);
+    let (count, message) = of(&model).expect("it is told");
+    assert_eq!(count, 2);
+    assert_eq!(
+        message,
+        "2 bones have no keys in a clip and get none; the books' demos need one. Written for the book's demo, each has one at rest."
+    );
+    let bytes = written(&model, Dialect::D3d12);
+    assert_eq!(all_of(read(&bytes)), all_of(model.clone()), "no key comes in unasked");
+    let edits = Edits {
+        for_book: true,
+        ..Edits::default()
+    };
+    let mended = apply(model, &JointNames::default(), &edits).expect("it can be mended");
+    assert!(mended.changes.iter().any(|change| change.code == "track-empty"));
+    assert_eq!(of(&mended.model), None);
 }

@@ -8,7 +8,7 @@ use super::{assert_at, codes_of, posed, read, triangle};
 use crate::gltf_files::Gltf;
 
 /// A triangle on node 1, which is below node 0, with one animation; `samplers` are (path, times, output accessor, interpolation).
-fn moving(samplers: impl FnOnce(&mut Gltf) -> Vec<(u32, &'static str, usize, usize, &'static str)>) -> Gltf {
+pub(crate) fn moving(samplers: impl FnOnce(&mut Gltf) -> Vec<(u32, &'static str, usize, usize, &'static str)>) -> Gltf {
     let mut file = triangle(
         &json!({ "nodes": [{ "name": "arm", "children": [1] }, { "mesh": 0, "translation": [0.0, 1.0, 0.0] }] }),
         |_| json!({}),
