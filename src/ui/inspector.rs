@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     };
 
     let swatch = Some(shown_color(session, material));
-    if selected_heading(ui, &values.name, Tokens::of(ui).text, swatch) {
+    if selected_heading(ui, session.submesh_name(index), Tokens::of(ui).text, swatch) {
         commands.push(SubmeshCommand::Select(None).into());
     }
     rule(ui, MARGIN);

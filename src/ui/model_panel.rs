@@ -219,7 +219,7 @@ impl<'a> SubmeshRow<'a> {
         let map = of_file.and_then(|material| material.map_name(MapSlot::Diffuse));
         Self {
             index,
-            name: session.materials().get(material).map_or("", |values| &values.name),
+            name: session.submesh_name(index),
             triangles: grouped(submesh.triangle_count as usize),
             color: shown_color(session, material),
             visible: submeshes.is_visible(index),
