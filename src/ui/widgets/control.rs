@@ -139,14 +139,14 @@ pub(crate) fn paint_name(painter: &Painter, at: Pos2, name: &str, font: FontId, 
 /// Lays a name out. One wider than `most` has an ellipsis in its middle, since names of bones and of maps differ at their ends.
 pub(crate) fn elided_name(painter: &Painter, name: &str, font: FontId, color: Color32, most: f32) -> Arc<Galley> {
     let most = most.max(0.0);
-    let line = |words| painter.layout_job(LayoutJob::simple_singleline(words, font.clone(), color));
-    let whole = line(name.to_owned());
+    let whole = painter.layout_job(LayoutJob::simple_singleline(name.to_owned(), font.clone(), color));
     // A room that was measured by this name is off by rounding.
     if whole.size().x <= most + 0.5 {
         return whole;
     }
     let ellipsis = painter.fonts_mut(|fonts| fonts.glyph_width(&font, '…'));
-    line(without_middle(&whole, most - ellipsis))
+    let short = without_middle(&whole, most - ellipsis);
+    painter.layout_job(LayoutJob::simple_singleline(short, font, color))
 }
 
 /// The beginning and the end of a line, as much as is `room` wide, with an ellipsis between them.
