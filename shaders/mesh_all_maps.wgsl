@@ -54,8 +54,9 @@ fn substance(mesh: MeshVertex) -> Substance {
     var albedo = base_color;
     var fresnel0 = material.fresnel0;
     var shininess = (1.0 - material.roughness) * gloss;
+    var metallic = 0.0;
     if material_maps.is_metallic_roughness == 1u {
-        let metallic = material_maps.metallic * roughness_metallic.y;
+        metallic = material_maps.metallic * roughness_metallic.y;
         albedo = base_color * (1.0 - metallic);
         fresnel0 = mix(vec3<f32>(DIELECTRIC_FRESNEL0), base_color, metallic);
         shininess = 1.0 - material.roughness * roughness_metallic.x;
@@ -68,6 +69,7 @@ fn substance(mesh: MeshVertex) -> Substance {
         albedo,
         fresnel0,
         shininess,
+        metallic,
         emissive,
         occlusion,
         material_maps.is_unlit == 1u,

@@ -6,10 +6,11 @@ const SHADING_NORMAL: u32 = 3u;
 const TANGENT: u32 = 4u;
 const TEX_COORDS: u32 = 5u;
 const ROUGHNESS: u32 = 6u;
-const MATERIAL: u32 = 7u;
-const DEPTH: u32 = 8u;
-const AMBIENT_OCCLUSION: u32 = 9u;
-const SHADOW: u32 = 10u;
+const METALLIC: u32 = 7u;
+const MATERIAL: u32 = 8u;
+const DEPTH: u32 = 9u;
+const AMBIENT_OCCLUSION: u32 = 10u;
+const SHADOW: u32 = 11u;
 
 // A normal map's texel on a flat surface, in bytes 128, 128, 255.
 const FLAT: vec3<f32> = vec3<f32>(128.0 / 255.0, 128.0 / 255.0, 1.0);
@@ -60,6 +61,9 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         }
         case ROUGHNESS: {
             return vec3<f32>(1.0 - point.made.shininess);
+        }
+        case METALLIC: {
+            return vec3<f32>(point.made.metallic);
         }
         case MATERIAL: {
             return material.identity_srgb.rgb * facing_shade(point);

@@ -28,6 +28,7 @@ fn substance(mesh: MeshVertex) -> Substance {
         base_color,
         material.fresnel0,
         (1.0 - material.roughness) * gloss,
+        0.0,
         vec3<f32>(0.0),
         1.0,
         false,

@@ -14,6 +14,8 @@ struct Substance {
     fresnel0: vec3<f32>,
     // 1 - roughness. The DirectX 12 book's materials have its product with the gloss in the alpha of the normal map.
     shininess: f32,
+    // 0..1 for metallic-roughness; the books' materials have none.
+    metallic: f32,
     // Light of its own.
     emissive: vec3<f32>,
     // The fraction of the environment that the occlusion map leaves.

@@ -68,6 +68,8 @@ modes! {
         /// both lights take it. For materials of the DirectX 11 book: what their power comes to. For those of glTF the number times the
         /// map's green.
         Roughness = "roughness", "Roughness";
+        /// Metalness, black none … white metal: for materials of glTF the number times the map's blue. The books' materials have none.
+        Metallic = "metallic", "Metallic";
         /// A colour of its own for each material.
         Material = "material", "Material";
         /// Distance from the viewer, near white … far black.

@@ -310,14 +310,11 @@ impl Session {
         self.content.materials.drawn()
     }
 
-    /// The name of a submesh: that of its material.
+    /// The name of a submesh: that of its material, with a number where several have the same.
     pub fn submesh_name(&self, submesh: usize) -> &str {
-        let mesh = self.content.open.as_ref().map(|open| &open.model.mesh);
-        let material = mesh
-            .and_then(|mesh| mesh.submeshes.get(submesh))
-            .map(|submesh| submesh.material);
-        let material = material.and_then(|material| self.materials().get(material as usize));
-        material.map_or("", |material| &material.name)
+        let open = self.content.open.as_ref();
+        let name = open.and_then(|open| open.submesh_names.get(submesh));
+        name.map_or("", String::as_str)
     }
 
     /// Whether a material is another one than the file's.

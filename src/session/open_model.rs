@@ -1,6 +1,7 @@
 //! A model that is open: its file, and what is known of it and of each clip beside what they hold. Most of it is computed when it
 //! is first asked for.
 
+use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
@@ -30,6 +31,8 @@ pub struct OpenModel {
     pub diagnostics: Vec<Diagnostic>,
     /// What the file says, until the books' verdicts are worked out of it.
     pub(super) document: Option<Document>,
+    /// A name for each submesh: that of its material, with a number where several have the same.
+    pub(super) submesh_names: Vec<String>,
     /// Box of the bind pose, in the file's space.
     pub bind_bounds: Aabb,
     /// The model's clips, compiled for sampling, in their order.
@@ -121,6 +124,29 @@ impl ClipFacts {
     }
 }
 
+/// The materials' names; the second that would have one is `Body (2)`, unless a material has that name itself.
+fn submesh_names(model: &Model) -> Vec<String> {
+    let of_materials: HashSet<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
+    let mut last_numbers: HashMap<&str, usize> = HashMap::new();
+    let submeshes = model.mesh.submeshes.iter();
+    let names = submeshes.map(|submesh| {
+        let material = model.materials.get(submesh.material as usize);
+        let name = material.map_or("", |material| &material.name);
+        let number = last_numbers.entry(name).or_default();
+        loop {
+            *number += 1;
+            if *number == 1 {
+                return name.to_owned();
+            }
+            let numbered = format!("{name} ({number})");
+            if !of_materials.contains(numbered.as_str()) {
+                return numbered;
+            }
+        }
+    });
+    names.collect()
+}
+
 impl OpenModel {
     /// A model that has just been read from a file.
     pub(super) fn new(file: &File, imported: Imported) -> Self {
@@ -145,6 +171,7 @@ impl OpenModel {
             diagnostics,
             document,
             compiled,
+            submesh_names: submesh_names(&model),
             bind_bounds: model.bind_bounds(),
             at_rest: Extent {
                 bounds: anim::bounds_at_rest(&model),

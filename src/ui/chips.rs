@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::icons::{self, Icon};
 use super::theme::{self, Tokens};
-use super::widgets::{control_size, focus_ring, is_touch};
+use super::widgets::{control_size, elided_name, focus_ring, is_touch};
 use super::wording::grouped;
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
@@ -138,9 +138,7 @@ impl Chip {
     fn new(ui: &Ui, mode: Mode, most: f32) -> Self {
         let tokens = Tokens::of(ui);
         let font = FontId::proportional(12.0);
-        let mut job = egui::text::LayoutJob::simple_singleline(mode.words.clone(), font, tokens.text);
-        job.wrap = egui::text::TextWrapping::truncate_at_width(MOST_WORDS.min(most));
-        let words = ui.painter().layout_job(job);
+        let words = elided_name(ui.painter(), &mode.words, font, tokens.text, MOST_WORDS.min(most));
         let shown_key = if is_touch(ui) { "" } else { mode.key };
         let key = ui
             .painter()

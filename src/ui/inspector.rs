@@ -7,7 +7,7 @@ use super::state::UiState;
 use super::textures::{holds, picture_row};
 use super::theme::{MARGIN, ROW_HEIGHT, Tokens};
 use super::widgets::{
-    Slider, color_button, control_size, hint_beside, is_touch, number_field, paint_elided, rule, section_name,
+    Slider, color_button, control_size, hint_beside, is_touch, number_field, paint_name, rule, section_name,
     section_with_action, segmented, selected_heading, switch_row, value_row,
 };
 use super::wording::{capital, grouped};
@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     };
 
     let swatch = Some(shown_color(session, material));
-    if selected_heading(ui, &values.name, Tokens::of(ui).text, swatch) {
+    if selected_heading(ui, session.submesh_name(index), Tokens::of(ui).text, swatch) {
         commands.push(SubmeshCommand::Select(None).into());
     }
     rule(ui, MARGIN);
@@ -91,7 +91,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
         .painter()
         .text(right, Align2::RIGHT_CENTER, words, font.clone(), color);
     let room = drawn.min.x - 8.0 - rect.min.x;
-    paint_elided(ui.painter(), rect.left_center(), name, font, tokens.muted, room);
+    paint_name(ui.painter(), rect.left_center(), name, font, tokens.muted, room);
     response.widget_info(|| {
         let label = format!("{what}: {name}, {words}");
         WidgetInfo::labeled(Role::Label, true, label)

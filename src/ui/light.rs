@@ -7,7 +7,7 @@ use super::icons::Icon;
 use super::panel::popover_gap;
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, color_picker, control_size, keyed_section_name, noted_switch_row, paint_elided, push_button, section_name,
+    Slider, color_picker, control_size, keyed_section_name, noted_switch_row, paint_name, push_button, section_name,
     segmented, switch_row, value_row,
 };
 use super::wording::milliseconds;
@@ -143,7 +143,7 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         let (painter, left) = (ui.painter(), rect.left_center());
         let label = painter.text(left, Align2::LEFT_CENTER, "Sky", font.clone(), tokens.muted);
         let at = pos2(label.max.x + 10.0, rect.center().y);
-        paint_elided(painter, at, name, font, tokens.text, rect.max.x - at.x);
+        paint_name(painter, at, name, font, tokens.text, rect.max.x - at.x);
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
         if push_button(ui, Icon::Close, "Remove the sky").clicked() {
             commands.push(FileCommand::ClearSky.into());

@@ -11,8 +11,8 @@ use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_elided, paint_swatch,
-    pressed_row, row_icon, rule, section_with_action, tell_popup, value_row,
+    MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_name, paint_swatch, pressed_row,
+    row_icon, rule, section_with_action, tell_popup, value_row,
 };
 use super::wording::{counted, grouped, measured};
 use crate::diagnostic::Severity;
@@ -219,7 +219,7 @@ impl<'a> SubmeshRow<'a> {
         let map = of_file.and_then(|material| material.map_name(MapSlot::Diffuse));
         Self {
             index,
-            name: session.materials().get(material).map_or("", |values| &values.name),
+            name: session.submesh_name(index),
             triangles: grouped(submesh.triangle_count as usize),
             color: shown_color(session, material),
             visible: submeshes.is_visible(index),
@@ -248,7 +248,7 @@ impl<'a> SubmeshRow<'a> {
         let left = rect.min.x + 18.0;
         let middle = pos2(left, rect.center().y);
         let font = FontId::proportional(13.0);
-        paint_elided(ui.painter(), middle, self.name, font, color, end - 6.0 - left);
+        paint_name(ui.painter(), middle, self.name, font, color, end - 6.0 - left);
         let response = hint_beside(response, Some(rect), &self.hint());
 
         if response.clicked() {

@@ -7,10 +7,9 @@ use super::panel::popover_gap;
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, action_switch, control_size, number_field, paint_elided, push_button, section_name, section_with_action,
+    Slider, action_switch, control_size, number_field, paint_name, push_button, section_name, section_with_action,
     segmented, switch_row,
 };
-use super::wording::shortened;
 use crate::actions;
 use crate::anim::{GHOST_STEP_FRAMES, GhostPlan};
 use crate::scene::{BoneStyle, Overlay, Overlays};
@@ -150,13 +149,7 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
     let trails = &session.look().trails;
     let selected = session.joints().selected();
     if let Some(joint) = selected.filter(|joint| !trails.contains(joint))
-        && switch_row(
-            ui,
-            &format!("Trail of {}", shortened(&session.joint_label(joint), 18)),
-            "",
-            false,
-        )
-        .clicked()
+        && switch_row(ui, &format!("Trail of {}", session.joint_label(joint)), "", false).clicked()
     {
         commands.push(LookCommand::ToggleTrail(joint).into());
     }
@@ -177,7 +170,7 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
         let tokens = Tokens::of(ui);
         let font = FontId::proportional(13.0);
         let room = rect.width() - side;
-        paint_elided(ui.painter(), rect.left_center(), &name, font, tokens.text, room);
+        paint_name(ui.painter(), rect.left_center(), &name, font, tokens.text, room);
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Trail: {name}")));
         let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
         let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));

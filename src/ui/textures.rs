@@ -9,7 +9,7 @@ use egui::{
 use super::state::UiState;
 use super::theme::Tokens;
 use super::thumbnails::Thumbnails;
-use super::widgets::{RowList, hint_beside, paint_elided, paint_ends, paint_fold_mark, pressed_row};
+use super::widgets::{RowList, hint_beside, paint_ends, paint_fold_mark, paint_name, pressed_row};
 use super::wording::{counted, grouped};
 use crate::image::{Channels, Image, ImageKind};
 use crate::model::MapSlot;
@@ -128,7 +128,7 @@ fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &s
     let left = frame.max.x + 8.0;
     for (text, size, color, y) in [(name, 13.0, color, -8.0), (words, 11.0, tokens.muted, 8.0)] {
         let at = pos2(left, rect.center().y + y);
-        paint_elided(
+        paint_name(
             ui.painter(),
             at,
             text,
@@ -179,7 +179,7 @@ pub(super) fn picture_row(
     ];
     for (text, font, color, right, y) in lines {
         let at = pos2(left, rect.center().y + y);
-        paint_elided(ui.painter(), at, text, font, color, right - left);
+        paint_name(ui.painter(), at, text, font, color, right - left);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, details));
     hint_beside(response, None, details)

@@ -55,12 +55,15 @@ pub(super) fn bytes(count: u64) -> String {
     format!("{amount:.decimals$} {unit}")
 }
 
-/// A name cut to some characters, with an ellipsis.
+/// A name cut to some characters, with an ellipsis in its middle.
 pub(super) fn shortened(name: &str, most: usize) -> String {
-    if name.chars().count() <= most {
+    let count = name.chars().count();
+    if count <= most {
         return name.to_owned();
     }
-    name.chars().take(most - 1).chain(['…']).collect()
+    let tail = most / 2;
+    let head = name.chars().take(most - 1 - tail);
+    head.chain(['…']).chain(name.chars().skip(count - tail)).collect()
 }
 
 /// The end of a path, after an ellipsis if something is cut.

@@ -8,7 +8,7 @@ const SIZE = { width: 192, height: 144 };
 /** A ground of one colour keeps the committed files small. */
 const PLAIN = { ...SIZE, background: "#30343c", overlays: [] };
 
-const VIEW_MODES = ["base-color", "normal-map", "normal", "tangent", "uv", "roughness", "material", "depth", "ao", "shadow"];
+const VIEW_MODES = ["base-color", "normal-map", "normal", "tangent", "uv", "roughness", "metallic", "material", "depth", "ao", "shadow"];
 
 /** Under reduced motion nothing has moved before the picture: neither the clip nor the book's lights. */
 const ALL_PASSES = { passes: true };

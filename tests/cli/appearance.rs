@@ -4,7 +4,7 @@ use image::RgbaImage;
 
 use crate::program::{FIGURE, run, scratch};
 
-const MODES: [&str; 11] = [
+const MODES: [&str; 12] = [
     "lit",
     "base-color",
     "normal-map",
@@ -12,6 +12,7 @@ const MODES: [&str; 11] = [
     "tangent",
     "uv",
     "roughness",
+    "metallic",
     "material",
     "depth",
     "ao",

@@ -251,6 +251,23 @@ on_both_backends! {
         assert!(difference(draw(gpu, &scene, &[images([(MapSlot::Normal, &gloss)])]).middle(), [204, 204, 204, 255]) <= 1);
     }
 
+    fn metalness_is_the_number_times_the_maps(gpu) {
+        let metal = |metallic| metallic_roughness([0.5; 3], metallic, 0.8);
+        let mut scene = of_material(card_once(), Material {
+            metallic_roughness_map: named(Sampling::default()),
+            ..metal(0.8)
+        });
+        scene.options.view_mode = ViewMode::Metallic;
+        let grey = |value: u8| [value, value, value, 255];
+        // Roughness in green and occlusion in red are nothing to it.
+        for (texel, expected) in [([255, 200, 128, 255], 102), ([0, 0, 255, 255], 204), ([255, 255, 0, 255], 0)] {
+            let map = plain(texel);
+            let found = draw(gpu, &scene, &[images([(MapSlot::MetallicRoughness, &map)])]).middle();
+            assert!(difference(found, grey(expected)) <= 1, "{texel:?}: {found:?}");
+        }
+        assert!(difference(draw(gpu, &scene, &[]).middle(), grey(204)) <= 1, "without its map the number alone");
+    }
+
     fn without_light_the_colour_is_the_same_under_both(gpu) {
         for light in Light::ALL {
             let mut scene = of_material(card_once(), unlit([180, 90, 40])).three_quarter(Theme::Light);

@@ -148,6 +148,10 @@ on_both_backends! {
         assert_shows(&gpu.draw_with_maps(&scene, &normal(&glossy), WIDTH, HEIGHT), [128; 3]);
     }
 
+    fn the_books_materials_are_no_metal(gpu) {
+        assert_shows(&gpu.draw(&showing(card_once(), ViewMode::Metallic), WIDTH, HEIGHT), [0; 3]);
+    }
+
     fn shadow_falls_where_the_first_light_does_not_reach(gpu) {
         let mut scene = showing(shelter(), ViewMode::Shadow);
         let mut easel = gpu.easel(&scene, &[], SIZE);

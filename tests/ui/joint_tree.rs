@@ -3,7 +3,8 @@
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, NameCommand};
 use egui::accesskit::{Action, ActionRequest};
-use egui::{Event, Key, Modifiers, PointerButton, Role};
+use egui::epaint::TextShape;
+use egui::{Event, Key, Modifiers, PointerButton, Rect, Role, Shape};
 use egui_kittest::kittest::NodeT as _;
 
 use crate::page::{WIDE, Window, phone};
@@ -375,4 +376,54 @@ fn fingers_name_a_joint_from_its_inspector() {
     window.press(Modifiers::NONE, Key::Enter);
     assert_eq!(window.session().joint_names().get(3), Some("knee"));
     assert!(window.shows("Selected: knee"), "and goes again");
+}
+
+/// The words that begin so and are drawn within one of these rows, not wider than it.
+fn drawn_in(window: &Window, rows: &[Rect], start: &str) -> Vec<String> {
+    let texts = window
+        .harness
+        .output()
+        .shapes
+        .iter()
+        .filter_map(|clipped| match &clipped.shape {
+            Shape::Text(text) => Some(text),
+            _ => None,
+        });
+    let fits = |text: &&TextShape| {
+        let drawn = Rect::from_min_size(text.pos, text.galley.size());
+        text.galley.text().starts_with(start) && rows.iter().any(|row| row.contains_rect(drawn))
+    };
+    texts.filter(fits).map(|text| text.galley.text().to_owned()).collect()
+}
+
+#[test]
+fn names_too_long_for_their_rows_keep_their_beginning_and_end() {
+    let mut window = tree(WIDE, 5);
+    let long = |end: &str| format!("mixamorig:LeftHandThumbThatIsFarLongerThanAnyRowOfAPanel_{end}");
+    for (joint, end) in [(1, "1"), (2, "e\u{301}"), (3, "3")] {
+        let (joint, name) = (JointIndex(joint), long(end));
+        window.apply(NameCommand::Rename { joint, name });
+    }
+    let rows = |window: &Window| window.named(|name| name.starts_with("mixamorig:"));
+    let in_tree = rows(&window);
+    assert_eq!(in_tree.len(), 3, "the whole name for readers: {in_tree:?}");
+    let rects: Vec<Rect> = in_tree.into_iter().map(|(_, rect)| rect).collect();
+    let drawn = drawn_in(&window, &rects, "mixa");
+    for end in ["…", "_1", "_e\u{301}", "_3"] {
+        let ends = drawn.iter().filter(|name| name.ends_with(end)).count();
+        assert_eq!(ends, usize::from(end != "…"), "{end}: {drawn:?}");
+    }
+    // The weights of a vertex leave less room.
+    window.apply(JointCommand::SelectVertex(Some(3)));
+    let weights = window.named(|name| name.starts_with("mixamorig:") && name.contains(": weight"));
+    assert!(!weights.is_empty(), "{:?}", window.widgets());
+    for (name, rect) in weights {
+        let drawn = drawn_in(&window, &[rect], "mi");
+        let (name, _) = name.split_once(": weight").expect("a weight");
+        let end = name.rsplit_once('_').expect("its end").1;
+        assert!(
+            drawn.len() == 1 && drawn[0].contains('…') && drawn[0].ends_with(end),
+            "{name}: {drawn:?}"
+        );
+    }
 }

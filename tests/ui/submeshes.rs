@@ -330,3 +330,22 @@ fn fingers_find_icons_and_inspector_in_the_sheet() {
     window.click("Clear the selection");
     assert!(window.shows("Painted, 6 triangles"), "the list is back");
 }
+
+#[test]
+fn subsets_of_one_material_are_told_apart_by_a_number() {
+    let mut document = halves();
+    // Subsets that the file has no material for share one.
+    document.materials.truncate(1);
+    let mut third = document.subsets[1];
+    document.subsets[1].face_count = 3;
+    (third.id, third.face_start, third.face_count) = (2, 9, 3);
+    document.subsets.push(third);
+    let mut window = window(WIDE, vec![models::file("a.m3d", &document)]);
+    let name = |index| window.session().submesh_name(index).to_owned();
+    let (shared, numbered) = (name(1), name(2));
+    assert_eq!(numbered, format!("{shared} (2)"));
+    assert!(![&shared, &numbered].contains(&&name(0)));
+    window.click(&format!("{numbered}, 3 triangles"));
+    assert_eq!(window.session().submeshes().selected(), Some(2));
+    assert!(window.shows(&format!("Selected: {numbered}")), "{:?}", window.widgets());
+}

@@ -1,5 +1,7 @@
 //! What glTF does not hold.
 
+use std::collections::HashSet;
+
 use super::animation::has_keys;
 use super::skeleton::is_unweighted;
 use crate::diagnostic::collect::counted;
@@ -69,16 +71,18 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
         still,
         format!("{} no keys; left out.", counted(still, "clip has", "clips have")),
     );
-    let missing = (0..)
+    // A picture that several materials name is one.
+    let missing: HashSet<&str> = (0..)
         .zip(&model.materials)
         .flat_map(|(index, material)| {
-            let named = MapSlot::ALL
+            MapSlot::ALL
                 .into_iter()
-                .filter(|&slot| material.map_name(slot).is_some());
-            named.map(move |slot| (index, slot))
+                .filter_map(move |slot| Some(((index, slot), material.map_name(slot)?)))
         })
-        .filter(|place| !maps.contains_key(place))
-        .count();
+        .filter(|(place, _)| !maps.contains_key(place))
+        .map(|(_, name)| name)
+        .collect();
+    let missing = missing.len();
     losses.add(
         "maps-missing",
         missing,

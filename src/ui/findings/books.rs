@@ -1,9 +1,7 @@
 //! What the books' programs make of the file: a row of the model panel, and a line for each book above the findings, which unfolds.
 
-use std::sync::Arc;
-
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
-use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::filter::color;
 use super::row::{INDENT, explanation, mending, tell_fold};
@@ -14,7 +12,7 @@ use crate::session::{OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{hint_beside, paint_fold_mark, pressed_row};
+use crate::ui::widgets::{hint_beside, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height};
 
 /// What a book's program does with a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,11 +172,7 @@ fn color_of(ui: &Ui, verdict: &Verdict) -> Color32 {
 
 fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
     let (book, words) = (verdict.book.label(), in_words(verdict));
-    let at = rect.left_center();
-    ui.painter()
-        .circle_filled(at + vec2(4.0, 0.0), 3.0, color_of(ui, verdict));
     let plain = |color| TextFormat {
         font_id: FontId::proportional(13.0),
         color,
@@ -187,23 +181,21 @@ fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
     let mut job = LayoutJob::default();
     job.append(&format!("{book}: "), 0.0, plain(tokens.text));
     job.append(&words, 0.0, plain(tokens.muted));
-    job.wrap = TextWrapping {
-        break_anywhere: false,
-        ..TextWrapping::truncate_at_width(rect.width() - 2.0 * INDENT)
-    };
+    // It is the answer that people came for, so all of it is seen.
+    job.wrap = TextWrapping::wrap_at_width(ui.available_width() - 2.0 * INDENT);
     let galley = ui.painter().layout_job(job);
-    let at = at + vec2(INDENT, -0.5 * galley.size().y);
-    ui.painter().galley(at, Arc::clone(&galley), tokens.text);
-    paint_fold_mark(
-        ui.painter(),
-        rect.right_center() - vec2(6.0, 0.0),
-        !is_open,
-        tokens.muted,
-    );
+    let one_line = pressed_row_height(ui);
+    let first_middle = galley.rows.first().map_or(0.0, |row| 0.5 * row.height());
+    let height = one_line + galley.size().y - 2.0 * first_middle;
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+    paint_row_ground(ui, rect, &response, false, response.contains_pointer());
+    let at = rect.left_top() + vec2(0.0, 0.5 * one_line);
+    ui.painter()
+        .circle_filled(at + vec2(4.0, 0.0), 3.0, color_of(ui, verdict));
+    let place = at + vec2(INDENT, -first_middle);
+    ui.painter().galley(place, galley, tokens.text);
+    paint_fold_mark(ui.painter(), pos2(rect.max.x - 6.0, at.y), !is_open, tokens.muted);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{book}: {words}")));
-    if galley.elided {
-        return hint_beside(response, None, &format!("{book}: {words}"));
-    }
     response
 }
 

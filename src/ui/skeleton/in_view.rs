@@ -12,7 +12,7 @@ use crate::anim::SkinView;
 use crate::scene::{LegendStop, legend};
 use crate::session::Session;
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TextButton, control_size, gradient_shape, paint_elided};
+use crate::ui::widgets::{TextButton, control_size, gradient_shape, paint_name};
 use crate::ui::wording::{shortened, trimmed};
 
 /// The most characters of a name over the view. The tree shows the whole name.
@@ -133,7 +133,7 @@ fn strip(ui: &mut Ui, view: SkinView, title: &str) {
 fn show_title(ui: &mut Ui, rect: Rect, title: &str) {
     let color = Tokens::of(ui).text;
     let room = rect.width() - 8.0;
-    paint_elided(
+    paint_name(
         ui.painter(),
         rect.left_center(),
         title,
@@ -166,7 +166,7 @@ fn words(session: &Session, view: SkinView) -> (String, Option<&'static str>) {
     match view {
         SkinView::Weight => {
             let title = match session.weighed_joint() {
-                Some(joint) => format!("Weight of {}", shortened(&session.joint_label(joint), 20)),
+                Some(joint) => format!("Weight of {}", session.joint_label(joint)),
                 None => view.label().to_owned(),
             };
             // The hint stays while another joint is hovered, so that the card keeps its height.

@@ -13,7 +13,7 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, LookCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, focus_ring, is_touch, paint_elided, paint_row_ground, pressed_row, pressed_row_height, rule,
+    TextButton, focus_ring, is_touch, paint_name, paint_row_ground, pressed_row, pressed_row_height, rule,
     section_with_action, section_with_labelled_action, segmented, selected_heading, switch_row, value_row, walked,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
@@ -198,7 +198,7 @@ fn link_row(ui: &mut Ui, label: &str, name: &str) -> Response {
     ui.painter()
         .text(left, Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
     let at = left + vec2(LABEL_WIDTH + 5.0, 0.0);
-    paint_elided(ui.painter(), at, name, font, tokens.accent, rect.max.x - at.x);
+    paint_name(ui.painter(), at, name, font, tokens.accent, rect.max.x - at.x);
     response.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     response
 }
@@ -218,7 +218,7 @@ fn joint_link(ui: &mut Ui, name: &str) -> Response {
     focus_ring(ui, rect, &response);
     let at = pos2(rect.min.x + 5.0, rect.center().y);
     let font = FontId::proportional(13.0);
-    paint_elided(ui.painter(), at, name, font, tokens.accent, width - 10.0);
+    paint_name(ui.painter(), at, name, font, tokens.accent, width - 10.0);
     response.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     response
 }

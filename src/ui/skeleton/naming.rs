@@ -8,7 +8,7 @@ use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
 use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
-use crate::ui::widgets::{TextButton, control_size, paint_elided, section_name};
+use crate::ui::widgets::{TextButton, control_size, paint_name, section_name};
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
@@ -207,7 +207,7 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
             ui.painter()
                 .text(left, Align2::LEFT_CENTER, number, font.clone(), tokens.muted);
             let at = pos2(rect.min.x + 76.0, rect.center().y);
-            paint_elided(ui.painter(), at, name, font, tokens.text, rect.max.x - at.x);
+            paint_name(ui.painter(), at, name, font, tokens.text, rect.max.x - at.x);
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Bone {bone} would be {name}")));
         }
     });

@@ -14,7 +14,7 @@ use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
-    MenuLine, control_size, is_touch, menu_item, paint_elided, paint_fold_mark, paint_row_ground, pressed_row_height,
+    MenuLine, control_size, is_touch, menu_item, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height,
     push_button, retain_plain_keys, segmented, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
@@ -288,7 +288,7 @@ impl<'a> TreeRow<'a> {
             (false, false) => tokens.muted,
         };
         let font = FontId::proportional(13.0);
-        paint_elided(ui.painter(), at, &self.label, font, color, name.width());
+        paint_name(ui.painter(), at, &self.label, font, color, name.width());
 
         // egui counts a double click soon after any other click as a triple click.
         if response.double_clicked() || response.triple_clicked() {

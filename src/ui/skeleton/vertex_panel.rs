@@ -1,7 +1,7 @@
 //! The selected vertex: which joints move it and how much, and how its position is computed.
 
 use egui::text::LayoutJob;
-use egui::{Align2, FontId, Id, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Id, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::Vec3;
 
 use super::numbers::{Digits, Formula, LINE_HEIGHT, number_column, row, rule_over_numbers, show_line, show_matrix};
@@ -11,8 +11,8 @@ use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    is_touch, paint_elided, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height, rule, section_name,
-    section_with_labelled_action, selected_heading, walked,
+    elided_name, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row, pressed_row_height, rule,
+    section_name, section_with_labelled_action, selected_heading, walked,
 };
 use crate::ui::wording::grouped;
 
@@ -22,8 +22,11 @@ const LABEL_SIZE: f32 = 12.0;
 const FORMULA_SIZE: f32 = 13.0;
 /// Width of the mark before a name.
 const CHEVRON_WIDTH: f32 = 14.0;
-/// Where bars begin, from the left, and end, from the right.
-const BAR_START: f32 = 86.0;
+/// The least room for names before bars, and the greatest as a fraction of the row.
+const NAMES_LEAST: f32 = 78.0;
+const NAMES_FRACTION: f32 = 0.45;
+/// Gap between names and bars, and where bars end, from the right.
+const BAR_GAP: f32 = 8.0;
 const BAR_END: f32 = 52.0;
 
 /// The panel's contents.
@@ -55,8 +58,9 @@ pub(super) fn show(
     let count = explanation.influences.len();
     if count > 0 {
         labelled(ui, Role::ListBox, "Weights of the vertex", count, |ui| {
+            let names_width = names_width(ui, session, explanation);
             for slot in 0..count {
-                influence_bar(ui, session, state, explanation, slot, commands);
+                influence_bar(ui, session, state, explanation, (slot, names_width), commands);
             }
         });
     }
@@ -78,13 +82,26 @@ pub(super) fn show(
     row(ui, "Place", &digits.place(explanation.position.to_array()));
 }
 
+/// Room for the names before the bars: as much as the longest needs, within bounds.
+fn names_width(ui: &Ui, session: &Session, explanation: &VertexExplanation) -> f32 {
+    let most = (NAMES_FRACTION * ui.available_width()).max(NAMES_LEAST);
+    let width_of = |influence: &ExplainedInfluence| {
+        let (name, font) = (session.joint_label(influence.joint), FontId::proportional(13.0));
+        elided_name(ui.painter(), &name, font, Color32::PLACEHOLDER, most)
+            .size()
+            .x
+    };
+    let widths = explanation.influences.iter().map(width_of);
+    widths.fold(NAMES_LEAST, f32::max).min(most)
+}
+
 /// A joint, a bar as long as its weight, and the weight.
 fn influence_bar(
     ui: &mut Ui,
     session: &Session,
     state: &mut SkeletonState,
     explanation: &VertexExplanation,
-    slot: usize,
+    (slot, names_width): (usize, f32),
     commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
@@ -101,10 +118,10 @@ fn influence_bar(
     let name = session.joint_label(influence.joint);
     let color = if selected { tokens.accent } else { tokens.text };
     let font = FontId::proportional(13.0);
-    paint_elided(ui.painter(), rect.left_center(), &name, font, color, BAR_START - 8.0);
+    paint_name(ui.painter(), rect.left_center(), &name, font, color, names_width);
     let y = rect.center().y;
     let bar = |fraction: f32| {
-        let (left, right) = (rect.min.x + BAR_START, rect.max.x - BAR_END);
+        let (left, right) = (rect.min.x + names_width + BAR_GAP, rect.max.x - BAR_END);
         Rect::from_min_max(pos2(left, y - 2.5), pos2(left + fraction * (right - left), y + 2.5))
     };
     ui.painter().rect_filled(bar(1.0), 2.5, tokens.field_hovered);
@@ -276,7 +293,7 @@ fn influence_row(
         rect.left_center() + vec2(CHEVRON_WIDTH, 0.0),
         FontId::proportional(13.0),
     );
-    paint_elided(ui.painter(), at, name, font, tokens.text, left - 8.0 - at.x);
+    paint_name(ui.painter(), at, name, font, tokens.text, left - 8.0 - at.x);
     let verb = if unfolded { "Fold" } else { "Unfold" };
     response.widget_info(|| {
         WidgetInfo::selected(

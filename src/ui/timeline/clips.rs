@@ -10,7 +10,8 @@ use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{
-    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, row_icon, section_name, section_with_action,
+    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, paint_name, row_icon, section_name,
+    section_with_action,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -94,7 +95,7 @@ fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, com
     let room = rect.width() - 14.0 - icon_width;
     let color = if on { tokens.accent } else { tokens.text };
     let name_at = pos2(rect.min.x + 9.0, rect.center().y - 8.0);
-    paint_elided(
+    paint_name(
         ui.painter(),
         name_at,
         clip.name,
@@ -183,7 +184,7 @@ fn paint_clip_names(ui: &mut Ui, [left, right]: [&str; 2]) {
     let ends = Rangef::new(rect.min.x + 90.0, rect.max.x - 56.0);
     let half = ends.span() * 0.5 - 4.0;
     let painter = ui.painter();
-    paint_elided(
+    paint_name(
         painter,
         pos2(ends.min, rect.center().y),
         left,

@@ -15,7 +15,7 @@ use crate::anim::{CurvePoint, CurveSpace, JointActivity};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch};
+use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch, paint_name};
 
 /// Distance of samples, in points.
 const SAMPLE_SPACING: f32 = 2.0;
@@ -220,13 +220,14 @@ fn paint_legend(
     let painter = ui.painter();
     let left = area.min.x + 6.0;
     let middle = area.min.y + 0.5 * RULER_HEIGHT;
-    let name = session.joint_label(joint);
-    painter.text(
-        pos2(left, middle),
-        Align2::LEFT_CENTER,
-        name,
+    let (at, name) = (pos2(left, middle), session.joint_label(joint));
+    paint_name(
+        painter,
+        at,
+        &name,
         theme::semibold(12.5),
         tokens.text,
+        split - 4.0 - left,
     );
     let most = if is_touch(ui) { TOUCH_LEGEND_STEP } else { LEGEND_STEP };
     let step = most.min((area.height() - RULER_HEIGHT) / 5.5);

@@ -12,7 +12,7 @@ use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{is_touch, paint_elided, paint_fold_mark};
+use crate::ui::widgets::{is_touch, paint_fold_mark, paint_name};
 use crate::ui::wording::{counted, measured};
 
 /// Indent of each level of the tree.
@@ -213,7 +213,7 @@ impl Sheet<'_> {
         }
         let color = if selected { tokens.accent } else { tokens.text };
         let at = pos2(left + chevron_width, rect.center().y);
-        paint_elided(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
+        paint_name(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
         if row.below > 0 {
             let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
             self.fold(ui, row, &name, place, commands);

@@ -14,8 +14,8 @@ use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
 use crate::ui::panel::{popover_gap, scrolled};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TypedValue, control_size, focus_ring, is_touch, paint_elided, pressed_row_height, section_name,
-    section_with_action, segmented,
+    TypedValue, control_size, focus_ring, is_touch, paint_name, pressed_row_height, section_name, section_with_action,
+    segmented,
 };
 use crate::ui::wording::trimmed;
 
@@ -295,7 +295,7 @@ fn joint_row(
     let room = distance_x - DISTANCE_WIDTH - at.x;
     let words = [Some(name.as_str()), jump.scaled.as_deref()];
     let words = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
-    paint_elided(ui.painter(), at, &words, FontId::proportional(12.5), color, room);
+    paint_name(ui.painter(), at, &words, FontId::proportional(12.5), color, room);
 
     response.widget_info(|| {
         let label = format!("Loop gap of {name}: {}", jump.words());

@@ -6,8 +6,8 @@ use egui::{
 };
 
 use super::control::{
-    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, is_touch, key_hint, paint_elided,
-    paint_ground, paint_row_ground,
+    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, is_touch, key_hint, paint_ground, paint_name,
+    paint_row_ground,
 };
 use crate::actions::Action;
 use crate::session::{Command, Session};
@@ -293,7 +293,7 @@ pub(crate) fn noted_switch_row(
         .painter()
         .text(note_at, Align2::RIGHT_CENTER, note, note_font, note_color);
     let room = note.min.x - 6.0 - rect.min.x;
-    paint_elided(ui.painter(), rect.left_center(), label, font, tokens.text, room);
+    paint_name(ui.painter(), rect.left_center(), label, font, tokens.text, room);
     response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
     response
 }

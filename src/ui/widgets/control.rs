@@ -1,13 +1,14 @@
 //! What controls have in common: their size, the focus ring, words that end in an ellipsis, arrow keys. And chips: small rounded labels.
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use egui::accesskit::{Action, ActionData, HasPopup};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align2, Color32, CornerRadius, Event, EventFilter, FocusDirection, FontId, Id, Key, Modifiers, Painter, Popup,
-    Pos2, Rect, RectAlign, Response, Role, Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo, WidgetRect,
-    vec2,
+    Align2, Color32, CornerRadius, Event, EventFilter, FocusDirection, FontId, Galley, Id, Key, Modifiers, Painter,
+    Popup, Pos2, Rect, RectAlign, Response, Role, Sense, Shape, Stroke, StrokeKind, Tooltip, Ui, Vec2, WidgetInfo,
+    WidgetRect, vec2,
 };
 
 use crate::ui::theme::{CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
@@ -124,6 +125,47 @@ pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId
     job.wrap = TextWrapping::truncate_at_width(most.max(0.0));
     let galley = painter.layout_job(job);
     painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
+}
+
+/// The part of the room that the end of a name has at least, where its middle is left out. Names of one rig often begin alike.
+const END_OF_NAME: f32 = 0.55;
+
+/// Draws a name that the file gives from a point at its left centre, as [`elided_name`] has it.
+pub(crate) fn paint_name(painter: &Painter, at: Pos2, name: &str, font: FontId, color: Color32, most: f32) {
+    let galley = elided_name(painter, name, font, color, most);
+    painter.galley(at - Vec2::new(0.0, galley.size().y * 0.5), galley, color);
+}
+
+/// Lays a name out. One wider than `most` has an ellipsis in its middle, since names of bones and of maps differ at their ends.
+pub(crate) fn elided_name(painter: &Painter, name: &str, font: FontId, color: Color32, most: f32) -> Arc<Galley> {
+    let most = most.max(0.0);
+    let whole = painter.layout_job(LayoutJob::simple_singleline(name.to_owned(), font.clone(), color));
+    // A room that was measured by this name is off by rounding.
+    if whole.size().x <= most + 0.5 {
+        return whole;
+    }
+    let ellipsis = painter.fonts_mut(|fonts| fonts.glyph_width(&font, '…'));
+    let short = without_middle(&whole, most - ellipsis);
+    painter.layout_job(LayoutJob::simple_singleline(short, font, color))
+}
+
+/// The beginning and the end of a line, as much as is `room` wide, with an ellipsis between them.
+fn without_middle(line: &Galley, room: f32) -> String {
+    let glyphs = line.rows.first().map_or(&[][..], |row| &row.glyphs);
+    let end_x = glyphs.last().map_or(0.0, |glyph| glyph.max_x());
+    // What has no width of its own, as accents, stays with the character before it.
+    let tail = glyphs
+        .iter()
+        .rposition(|glyph| end_x - glyph.pos.x > END_OF_NAME * room);
+    let tail = tail.map_or(0, |before| before + 1);
+    let accents = glyphs[tail..].iter().take_while(|glyph| glyph.advance_width == 0.0);
+    let tail = tail + accents.count();
+    let tail_width = glyphs.get(tail).map_or(0.0, |first| end_x - first.pos.x);
+    let head = glyphs[..tail]
+        .iter()
+        .take_while(|glyph| glyph.max_x() <= room - tail_width);
+    let tail = glyphs[tail..].iter().map(|glyph| glyph.chr);
+    head.map(|glyph| glyph.chr).chain(['…']).chain(tail).collect()
 }
 
 /// A tooltip at the side of a row of a panel, so that it covers no other row. `row` is the row that the widget is in, if it is not one

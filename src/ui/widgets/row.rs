@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Stroke, Ui,
 use super::button::push_button;
 use super::color::paint_swatch;
 use super::control::{
-    MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_elided, paint_ground,
+    MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_ground, paint_name,
     paint_row_ground, pressed_row_height, walked,
 };
 use crate::ui::icons::{self, Icon};
@@ -169,7 +169,7 @@ pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: 
         at.x += 18.0;
     }
     let side = control_size(ui);
-    paint_elided(
+    paint_name(
         ui.painter(),
         at,
         name,

@@ -361,3 +361,23 @@ fn texture_coordinates_that_are_sheared_are_a_loss_and_turned_ones_are_none() {
         loss.message
     );
 }
+
+#[test]
+fn a_missing_picture_that_two_materials_name_is_one_map() {
+    let mut model = model(&arm());
+    let one = model.materials[0].clone();
+    model.materials = ["skin.dds", "skin.dds", "coat.dds"]
+        .map(|name| Material {
+            diffuse_map: Some(name.into()),
+            ..one.clone()
+        })
+        .into();
+    let losses = glb_losses(&model, &MapImages::default());
+    let found: Vec<_> = losses.iter().map(|loss| (loss.code, loss.count)).collect();
+    assert_eq!(found, [("maps-missing", 2)], "as the list of maps counts them");
+    assert!(
+        losses[0].message.starts_with("2 maps are left out"),
+        "{}",
+        losses[0].message
+    );
+}
