@@ -1,32 +1,28 @@
-//! A `.zip` among dropped files: the files in it take its place, as if its folder had been dropped.
+//! The files in a `.zip`.
 
 use std::io::{Cursor, Read as _};
 
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-use super::files::File;
-
 /// The files of an archive may have so many bytes together: more than models with all their textures have, and little enough for a page.
 const MOST_BYTES: u64 = 1 << 29;
 
-/// Whether a file is an archive, by its name and its first bytes.
-pub(super) fn is_archive(file: &File) -> bool {
-    file.extension() == "zip" && (file.bytes.starts_with(b"PK\x03\x04") || file.bytes.starts_with(b"PK\x05\x06"))
+/// Whether bytes begin like an archive.
+pub(super) fn begins_like_archive(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
 }
 
-/// The files in an archive, in its order; their paths begin with the archive's folder. What systems hide in archives is left out.
+/// The files in an archive with their paths, in its order. What systems hide in archives is left out.
 ///
 /// # Errors
 /// In words, when a file in it cannot be unpacked, when there is none, or when they have too many bytes together.
-pub(super) fn unpack(archive: &File) -> Result<Vec<File>, String> {
+pub(super) fn unpack(archive: &[u8]) -> Result<Vec<(String, Vec<u8>)>, String> {
     unpack_within(archive, MOST_BYTES)
 }
 
-fn unpack_within(archive: &File, most_bytes: u64) -> Result<Vec<File>, String> {
-    let mut entries =
-        ZipArchive::new(Cursor::new(&archive.bytes[..])).map_err(|error| format!("it {}", fault(&error)))?;
-    let folder = archive.path.strip_suffix(archive.base_name()).unwrap_or_default();
+fn unpack_within(archive: &[u8], most_bytes: u64) -> Result<Vec<(String, Vec<u8>)>, String> {
+    let mut entries = ZipArchive::new(Cursor::new(archive)).map_err(|error| format!("it {}", fault(&error)))?;
     let mut files = Vec::new();
     let mut bytes_left = most_bytes;
     for index in 0..entries.len() {
@@ -49,7 +45,7 @@ fn unpack_within(archive: &File, most_bytes: u64) -> Result<Vec<File>, String> {
         bytes_left = bytes_left
             .checked_sub(bytes.len() as u64)
             .ok_or_else(|| format!("its files have more than {} MiB together", most_bytes >> 20))?;
-        files.push(File::new(&format!("{folder}{name}"), bytes));
+        files.push((name, bytes));
     }
     if files.is_empty() {
         return Err("there is no file in it".to_owned());
@@ -96,10 +92,9 @@ mod tests {
         }
         let bytes = writer.finish().expect("an archive").into_inner();
         assert!(bytes.len() < 1 << 14);
-        let archive = File::new("bomb.zip", bytes);
-        assert_eq!(unpack_within(&archive, 3 << 20).map(|files| files.len()), Ok(3));
+        assert_eq!(unpack_within(&bytes, 3 << 20).map(|files| files.len()), Ok(3));
         assert_eq!(
-            unpack_within(&archive, (3 << 20) - 1).map(|files| files.len()),
+            unpack_within(&bytes, (3 << 20) - 1).map(|files| files.len()),
             Err("its files have more than 2 MiB together".to_owned())
         );
     }

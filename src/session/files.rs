@@ -39,6 +39,21 @@ impl File {
             .unwrap_or_default()
     }
 
+    /// The files in a `.zip`, as if its folder had been dropped, or why it cannot be unpacked; `None` for any other file.
+    pub(super) fn unpacked(&self) -> Option<Result<Vec<Self>, String>> {
+        if self.extension() != "zip" || !archive::begins_like_archive(&self.bytes) {
+            return None;
+        }
+        let folder = self.path.strip_suffix(self.base_name()).unwrap_or_default();
+        let files = archive::unpack(&self.bytes).map(|files| {
+            let files = files.into_iter();
+            files
+                .map(|(path, bytes)| Self::new(&format!("{folder}{path}"), bytes))
+                .collect()
+        });
+        Some(files)
+    }
+
     /// Whether it is a picture by its name.
     pub fn is_image(&self) -> bool {
         IMAGE_EXTENSIONS.contains(&self.extension().as_str())
@@ -70,7 +85,7 @@ impl FileSet {
     /// cannot be unpacked stays as it is.
     pub fn new(files: impl IntoIterator<Item = File>) -> Self {
         let mut set = Self::default();
-        let unpacked = |file: File| match archive::is_archive(&file).then(|| archive::unpack(&file)) {
+        let unpacked = |file: File| match file.unpacked() {
             Some(Ok(files)) => files,
             _ => vec![file],
         };

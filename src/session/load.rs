@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::archive;
 use super::files::{File, FileSet};
 use super::maps::Maps;
 use super::open_model::OpenModel;
@@ -85,9 +84,7 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
 /// # Errors
 /// As [`load`], and when a file that it needs is not there.
 pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<Arc<[u8]>>) -> Result<OpenModel, Box<LoadError>> {
-    if archive::is_archive(file)
-        && let Err(reason) = archive::unpack(file)
-    {
+    if let Some(Err(reason)) = file.unpacked() {
         let message = format!("{} cannot be unpacked: {reason}.", file.base_name());
         return Err(Box::new(LoadError::refused(file, &codes::ARCHIVE_UNREADABLE, message)));
     }
