@@ -57,7 +57,10 @@ impl fmt::Display for Stranger {
                 )
             }
             Self::Utf16 | Self::Utf32 => write!(f, "This file is {}. Save it as UTF-8 or ASCII.", self.name()),
-            Self::Binary => write!(f, "This file is binary data, not an .m3d file, which is text."),
+            Self::Binary => write!(
+                f,
+                "This file is binary data: no .m3d file, which is text, and no .glb file, which begins with the letters glTF."
+            ),
         }
     }
 }

@@ -32,7 +32,12 @@ pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
             Ok(_) => String::new(),
             Err(error) => pointer(error.path()),
         };
-        let message = format!("This is not what glTF has here: {}.", words(&error));
+        let words = words(&error);
+        let value = ["invalid type: ", "invalid value: "].map(|start| words.strip_prefix(start));
+        let message = match value {
+            [Some(value), _] | [_, Some(value)] => format!("Found {value}."),
+            _ => format!("The JSON lacks what glTF needs here: {words}."),
+        };
         let diagnostic = codes::GLTF_WRONG_TYPE.says(message).pointing_at(pointer);
         Box::new(placed(diagnostic, &error, container))
     })

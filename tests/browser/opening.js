@@ -229,6 +229,7 @@ test("R opens again the model of a folder that was chosen", {}, async (page) => 
   writeFileSync(join(folder, "pack", "large.m3d"), `${readFileSync(path, "utf8")}\n\n\n\n`);
   await dropAndWait(page, [join(folder, "pack")]);
   assert.equal((await state(page)).model.name, "large.m3d");
+  await settled(page);
   await page.mouse.click(...FILE_MENU);
   await page.waitForSelector('[aria-label="pack/small.m3d"]', { state: "attached" });
   await settled(page);
