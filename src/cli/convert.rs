@@ -169,6 +169,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         model: open.model.clone(),
         names: &JointNames::default(),
         changes: open.mended().collect(),
+        losses: open.left_out().collect(),
         edits: arguments.edits(format, &open.model),
         maps: &maps,
         format,

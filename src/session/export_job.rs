@@ -9,7 +9,7 @@ use super::load::Progress;
 use super::maps::Maps;
 use crate::diagnostic::collect::counted;
 use crate::edit::{Change, EditError, EditJob, Edited, Edits};
-use crate::export::{self, EncodedMaps, ExportError, Exported};
+use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
 use crate::format::Dialect;
 use crate::model::{Front, JointNames, MapSlot, Model};
 use crate::modes::modes;
@@ -104,8 +104,8 @@ pub struct ExportJob {
 
 #[derive(Debug)]
 enum State {
-    /// What was changed before, and the edits.
-    Edit(Vec<Change>, Box<EditJob>),
+    /// What was changed and lost before, and the edits.
+    Edit(ExportPlan, Box<EditJob>),
     /// The pictures of a `.glb` are encoded one by one first.
     Glb(Box<Edited>, EncodedMaps, ExportPlan),
     /// So are those beside a file of the books.
@@ -122,6 +122,8 @@ pub struct ToExport<'a> {
     pub names: &'a JointNames,
     /// What was changed before.
     pub changes: Vec<Change>,
+    /// What was lost before.
+    pub losses: Vec<Loss>,
     /// What is to be changed.
     pub edits: Edits,
     /// Its maps. A `.glb` has them inside.
@@ -148,6 +150,7 @@ impl ExportJob {
             model,
             names,
             changes,
+            losses,
             edits,
             maps,
             format,
@@ -169,7 +172,14 @@ impl ExportJob {
                 only_dds: format == ExportFormat::D3d12,
                 turns_green: model.front == Front::Positive,
             },
-            state: State::Edit(changes, Box::new(EditJob::new(model, names, edits))),
+            state: State::Edit(
+                ExportPlan {
+                    changes,
+                    losses,
+                    maps: 0,
+                },
+                Box::new(EditJob::new(model, names, edits)),
+            ),
         }
     }
 
@@ -273,14 +283,11 @@ impl ExportJob {
     fn write_next(&mut self) -> Result<Option<WrittenModel>, ExportRefusal> {
         let images = lent(&self.maps);
         match &mut self.state {
-            State::Edit(changes, edits) => {
+            State::Edit(before, edits) => {
                 if !edits.step()? {
                     let mut edited = edits.clone().finish();
-                    changes.append(&mut edited.changes);
-                    let mut plan = ExportPlan {
-                        changes: std::mem::take(changes),
-                        ..ExportPlan::default()
-                    };
+                    let mut plan = std::mem::take(before);
+                    plan.changes.append(&mut edited.changes);
                     self.state = match self.format.dialect() {
                         None => {
                             plan_glb(&edited.model, &images, &mut plan);

@@ -123,6 +123,7 @@ impl Session {
             model,
             names: self.joint_names(),
             changes: open.mended().chain(changes).collect(),
+            losses: open.left_out().collect(),
             edits: self.edits(options),
             maps: self.maps(),
             format: options.format,

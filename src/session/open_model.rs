@@ -11,6 +11,7 @@ use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
 use crate::diagnostic::{Diagnostic, Position, Severity, codes};
 use crate::edit::Change;
+use crate::export::Loss;
 use crate::format::{self, Document, Excerpt};
 use crate::import::{FileFormat, Imported};
 use crate::model::{Clip, JointIndex, Model};
@@ -198,13 +199,28 @@ impl OpenModel {
             let groups = [codes::OF_MESH_AND_RIG, codes::OF_MOTION];
             groups.iter().any(|group| group.iter().any(|row| row.name == name))
         };
-        let warnings = self.diagnostics.iter();
+        let warnings = self.reading_warnings();
         warnings
-            .filter(move |diagnostic| diagnostic.severity == Severity::Warning && !is_check(diagnostic.code))
-            .map(|diagnostic| Change {
-                code: diagnostic.code,
-                message: diagnostic.message.clone(),
+            .filter(move |warning| !is_check(warning.code) && !is_loss(warning))
+            .map(|warning| Change {
+                code: warning.code,
+                message: warning.message.clone(),
             })
+    }
+
+    /// What of the file was left out while it was read, as losses: no file that is written has it.
+    pub fn left_out(&self) -> impl Iterator<Item = Loss> {
+        let losses = self.reading_warnings().filter(|warning| is_loss(warning));
+        losses.map(|loss| Loss {
+            code: loss.code,
+            message: loss.message.clone(),
+            count: loss.count as usize,
+        })
+    }
+
+    fn reading_warnings(&self) -> impl Iterator<Item = &Diagnostic> {
+        let all = self.diagnostics.iter();
+        all.filter(|diagnostic| diagnostic.severity == Severity::Warning)
     }
 
     /// Lines of the file around a diagnostic.
@@ -289,4 +305,15 @@ impl OpenModel {
             None => facts.key_times.get_or_init(|| anim::merged_key_times(clip)),
         }
     }
+}
+
+/// Whether a part of the file is not in the model.
+fn is_loss(warning: &Diagnostic) -> bool {
+    let losses = [
+        &codes::GLTF_PRIMITIVE_LEFT_OUT,
+        &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,
+        &codes::GLTF_IMAGE_NOT_READ,
+        &codes::WEIGHTS_CUT,
+    ];
+    losses.iter().any(|code| code.name == warning.code)
 }

@@ -205,9 +205,9 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
             options.for_book = !options.for_book;
         }
         let words = if options.for_book {
-            "The demo plays one clip, Take1: the first of those above. Maps come along as DDS."
+            "The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS."
         } else {
-            "As it is, the demo may show nothing: it wants a clip Take1, keys for each bone, its size and maps."
+            "As it is, the demo may show nothing: it wants a clip Take1, keys for each bone, a figure of its size, and maps as DDS."
         };
         ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
     }

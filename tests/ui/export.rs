@@ -133,7 +133,7 @@ fn the_clip_of_the_demo_is_told_before_what_was_mended_on_reading() {
     window.press(Modifiers::NONE, Key::E);
     window.click("Format: .m3d D3D12");
     window.click("For the book's demo");
-    assert!(window.shows("The demo plays one clip, Take1: the first of those above. Maps come along as DDS."));
+    assert!(window.shows("The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS."));
     window.click("What changes: show all");
     let top = |words: &str| {
         let named = window.named(|name| name.contains(words));

@@ -4,7 +4,7 @@ use bindpose::anim::SkinView;
 use bindpose::format::{Material, Subset};
 use bindpose::model::{Handedness, JointIndex, UpAxis};
 use bindpose::scene::{Light, Projection, ViewMode, ViewPreset};
-use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, LookCommand};
+use bindpose::session::{CameraCommand, ExportOptions, File, FileCommand, JointCommand, LookCommand};
 use bindpose::ui::Request;
 use egui::{Key, Modifiers, OutputCommand};
 
@@ -106,6 +106,20 @@ fn a_sound_model_has_no_findings_and_says_so() {
     assert!(window.shows("Looked at: 24 vertices, 12 triangles, 0 bones, 0 clips, 0 keys."));
     window.click("Findings: none");
     assert!(!window.shows(said));
+}
+
+#[test]
+fn of_a_glb_it_is_said_that_the_books_read_their_own_format_only() {
+    let plain = window(WIDE, vec![still("a.m3d")]);
+    let job = plain.session().export_job(&ExportOptions::default()).expect("a model");
+    let glb = job.run().expect("it can be written");
+    let mut window = window(WIDE, vec![File::new("a.glb", glb.bytes)]);
+    window.click("Findings: none");
+    assert!(
+        window.shows("Nothing found; the books' programs read .m3d only."),
+        "{:?}",
+        window.widgets()
+    );
 }
 
 #[test]

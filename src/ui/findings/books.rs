@@ -115,6 +115,9 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
 
 /// `the D3D12 book's program reads it`, for all verdicts. One that reads it and then ends shows nothing.
 pub(super) fn who_reads(verdicts: &[Verdict]) -> String {
+    if verdicts.is_empty() {
+        return "the books' programs read .m3d only".to_owned();
+    }
     let all: Vec<_> = newest_first(verdicts)
         .filter(|verdict| verdict.reads() && !verdict.ends)
         .collect();

@@ -13,9 +13,11 @@ use bindpose::session::{
 };
 
 use image::{ImageFormat, Rgb, RgbImage};
+use serde_json::json;
 
 use super::models::{document, file, moving, still};
 use super::opened;
+use crate::gltf_files::Gltf;
 
 fn options(format: ExportFormat) -> ExportOptions {
     ExportOptions {
@@ -396,4 +398,24 @@ fn a_job_that_encodes_pictures_one_by_one_writes_the_same_glb() {
     assert_eq!(images.len(), 1);
     let whole = export::glb(model, &JointNames::default(), &images).expect("it can be written");
     assert_eq!(written(&session, &options(ExportFormat::Glb)).bytes, whole.bytes);
+}
+
+#[test]
+fn what_was_left_out_on_reading_is_a_loss_and_no_change() {
+    let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+    let mut gltf = Gltf::new(&json!({ "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }] }));
+    let attributes = json!({ "POSITION": gltf.floats(&positions) });
+    gltf.json["meshes"] =
+        json!([{ "primitives": [{ "attributes": attributes }, { "attributes": attributes, "mode": 0 }] }]);
+    let session = opened(File::new("points.glb", gltf.glb()));
+    for format in [ExportFormat::Glb, ExportFormat::D3d11] {
+        let plan = written(&session, &options(format)).plan;
+        let code = "gltf-primitive-left-out";
+        let losses: Vec<_> = plan.losses.iter().filter(|loss| loss.code == code).collect();
+        let [loss] = losses[..] else {
+            panic!("one loss, not {losses:?}");
+        };
+        assert!(loss.message.contains("is of points") && loss.count == 1, "{loss:?}");
+        assert!(plan.changes.iter().all(|change| change.code != code));
+    }
 }
