@@ -27,21 +27,44 @@ pub struct Messages {
 #[derive(Debug)]
 struct Message {
     words: String,
-    /// It is about a picture, which can be saved elsewhere.
-    saves_picture: bool,
+    offer: Option<Offer>,
     /// When it goes, in egui's time. None until it was shown once.
     ends_secs: Option<f64>,
+}
+
+/// What a message offers beside its words: a button.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Offer {
+    /// To save the picture that it is about elsewhere.
+    SavePicture,
+    /// To take back the last step.
+    Undo,
+}
+
+impl Offer {
+    /// The button's label, its name and its width.
+    fn button(&self) -> (&'static str, &'static str, f32) {
+        match self {
+            Self::SavePicture => ("Save as…", "Save the picture as…", 78.0),
+            Self::Undo => ("Undo", "Undo what the message tells of", 54.0),
+        }
+    }
 }
 
 impl Messages {
     /// Shows a message.
     pub fn say(&mut self, words: impl Into<String>) {
-        self.show_next(words.into(), false);
+        self.show_next(words.into(), None);
+    }
+
+    /// Shows a message with a button.
+    pub(super) fn offer(&mut self, words: impl Into<String>, offer: Offer) {
+        self.show_next(words.into(), Some(offer));
     }
 
     /// Shows that a picture was saved, and offers to save it elsewhere.
     pub fn say_saved(&mut self, name: &str, [width, height]: [u32; 2]) {
-        self.show_next(format!("Saved {name}, {width} × {height}"), true);
+        self.offer(format!("Saved {name}, {width} × {height}"), Offer::SavePicture);
     }
 
     /// Says that a file was saved.
@@ -50,11 +73,11 @@ impl Messages {
         self.say(format!("Saved {}, {size}", file.name));
     }
 
-    fn show_next(&mut self, words: String, saves_picture: bool) {
+    fn show_next(&mut self, words: String, offer: Option<Offer>) {
         self.unspoken = true;
         self.shown = Some(Message {
             words,
-            saves_picture,
+            offer,
             ends_secs: None,
         });
     }
@@ -72,20 +95,19 @@ impl Messages {
     }
 }
 
-/// Shows the message at the bottom of a room. Returns whether the picture that it is about is to be saved elsewhere.
-pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
-    let Some(message) = &mut messages.shown else {
-        return false;
-    };
+/// Shows the message at the bottom of a room. Returns what the person took of what it offers.
+pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> Option<Offer> {
+    let message = messages.shown.as_mut()?;
     let now_secs = ui.input(|input| input.time);
     let ends_secs = *message.ends_secs.get_or_insert(now_secs + SHOWN_SECS);
     if now_secs >= ends_secs || room.width() < LEAST_WIDTH {
         messages.shown = None;
         // What it stood in the place of comes back.
         ui.ctx().request_repaint();
-        return false;
+        return None;
     }
-    let (mut shut, mut saves, mut held) = (false, false, false);
+    let (mut shut, mut taken, mut held) = (false, false, false);
+    let button = message.offer.as_ref().map(Offer::button);
     let tokens = Tokens::of(ui);
     let rect = Panel::new("message", "Message", Align2::CENTER_BOTTOM)
         .margin(Margin {
@@ -98,17 +120,16 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = SPACING;
                 let side = control_size(ui);
-                let save_width = if message.saves_picture { 78.0 + SPACING } else { 0.0 };
-                let most = ui.available_width() - side - save_width - 2.0 * SPACING;
+                let button_width = button.map_or(0.0, |(_, _, width)| width + SPACING);
+                let most = ui.available_width() - side - button_width - 2.0 * SPACING;
                 ui.scope(|ui| {
                     ui.set_max_width(most.max(0.0));
                     let words = RichText::new(&message.words).color(tokens.text);
                     ui.add(Label::new(words).truncate());
                 });
-                if message.saves_picture {
-                    let button = TextButton::new("Save as…", "Save the picture as…");
-                    let button = button.width(Rangef::point(78.0)).show(ui);
-                    saves = button.clicked();
+                if let Some((label, name, width)) = button {
+                    let button = TextButton::new(label, name).width(Rangef::point(width)).show(ui);
+                    taken = button.clicked();
                     held |= button.has_focus();
                 }
                 let cross = push_button(ui, Icon::Close, "Close the message");
@@ -119,12 +140,13 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> bool {
     held |= ui.input(|input| input.pointer.hover_pos().is_some_and(|at| rect.contains(at)));
     let ends_secs = if held { now_secs + SHOWN_SECS } else { ends_secs };
     message.ends_secs = Some(ends_secs);
-    if shut || saves {
+    let offer = if taken { message.offer.take() } else { None };
+    if shut || taken {
         messages.shown = None;
         ui.ctx().request_repaint();
     } else {
         let left = std::time::Duration::from_secs_f64(ends_secs - now_secs);
         ui.ctx().request_repaint_after(left);
     }
-    saves
+    offer
 }

@@ -47,6 +47,7 @@ pub use theme::Contrast;
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCommand};
 use input::{Grip, InputOrder, MOST_PASSES};
+use message::Offer;
 use state::Framed;
 use theme::MARGIN;
 
@@ -114,8 +115,10 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         // In a narrow window they would lie over the model's head.
         free.min.y = free.min.y.max(bottom + MARGIN);
     }
-    if message::show(ui, &mut state.messages, uncovered) {
-        state.requests.push(Request::SavePictureAs);
+    match message::show(ui, &mut state.messages, uncovered) {
+        Some(Offer::SavePicture) => state.requests.push(Request::SavePictureAs),
+        Some(Offer::Undo) => commands.push(HistoryCommand::Undo.into()),
+        None => {}
     }
     if ui.ctx().will_discard() {
         state.frames_selection |= frames_selection;
