@@ -52,7 +52,7 @@ async function drawnAt(page, clip, secs) {
   return picture(page, SIZE);
 }
 
-test("glTF opens with its joints, clips and maps, and what is exported of it is posed and looks alike", { passes: true }, async (page) => {
+test("glTF opens with its joints, clips and maps, and what is exported of it is posed and looks alike", { draws: true, passes: true }, async (page) => {
   for (const { path, clip, clips, bones, triangles, joint } of FILES) {
     const absent = path.startsWith(SHARED) && unless(path);
     if (absent) continue;

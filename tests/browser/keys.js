@@ -76,7 +76,7 @@ test("the keys for time", SMALL, async (page) => {
   ]);
 });
 
-test("the keys for bones and skin", SMALL, async (page) => {
+test("the keys for bones and skin", { ...SMALL, draws: true }, async (page) => {
   await focusView(page);
   const before = await picture(page);
   await presses(page, [

@@ -31,6 +31,7 @@ function loseGpu(page) {
 }
 
 test("after the GPU was lost the model, the time and the camera are there again", {
+  draws: true,
   prepare: watchGpu,
   expectErrors: true,
 }, async (page) => {
@@ -98,7 +99,7 @@ async function held(page) {
   return { ...objects, jsEventListeners, scriptMB: usedSize / 1e6, wasmMB: wasm / 1e6, gpuMB };
 }
 
-test(`the GPU comes back ${LOSSES} times in a row, and nothing of those before it is left`, { prepare: watchGpu, expectErrors: true }, async (page) => {
+test(`the GPU comes back ${LOSSES} times in a row, and nothing of those before it is left`, { draws: true, prepare: watchGpu, expectErrors: true }, async (page) => {
   await call(page, "pause");
   await call(page, "seek", 0.4);
   await atRest(page);
@@ -135,6 +136,7 @@ test(`the GPU comes back ${LOSSES} times in a row, and nothing of those before i
 });
 
 test("a GPU that does not come back ends in words, once some starts have failed", {
+  draws: true,
   prepare: async (page) => {
     await watchGpu(page);
     await withViewer(`
@@ -161,6 +163,7 @@ test("a GPU that does not come back ends in words, once some starts have failed"
 });
 
 test("a GPU that comes back after some starts that failed is as good as new", {
+  draws: true,
   prepare: async (page) => {
     await watchGpu(page);
     // The second, third and fourth start fail, and so do the sixth, seventh and eighth.
@@ -183,6 +186,7 @@ test("a GPU that comes back after some starts that failed is as good as new", {
 });
 
 test("a GPU that goes away during the first start and does not come back ends in words", {
+  draws: true,
   bare: true,
   expectErrors: true,
   prepare: withViewer(`
@@ -203,6 +207,7 @@ test("a GPU that goes away during the first start and does not come back ends in
 });
 
 test("a start that was overtaken by another leaves nothing behind", {
+  draws: true,
   expectErrors: true,
   // The GPU goes away while the first start is under way, and that one comes to its end all the same, late.
   prepare: withViewer(`

@@ -21,7 +21,7 @@ async function press(page, key, predicate) {
   return (await until(page, ({ look }) => predicate(look))).look;
 }
 
-test("V switches the light, and back to the same picture", {}, async (page) => {
+test("V switches the light, and back to the same picture", { draws: true }, async (page) => {
   await focusView(page);
   const studio = await picture(page);
   await press(page, "v", ({ light }) => light === "book");
@@ -33,7 +33,7 @@ test("V switches the light, and back to the same picture", {}, async (page) => {
   assert.equal((await picture(page)).digest, studio.digest);
 });
 
-test("T goes through the view modes and round again", {}, async (page) => {
+test("T goes through the view modes and round again", { draws: true }, async (page) => {
   await focusView(page);
   const lit = await picture(page);
   const modes = [(await state(page)).look.viewMode];
@@ -49,7 +49,7 @@ test("T goes through the view modes and round again", {}, async (page) => {
   await atRest(page);
 });
 
-test("the keys for lines draw them and take them away", {}, async (page) => {
+test("the keys for lines draw them and take them away", { draws: true }, async (page) => {
   await focusView(page);
   const before = await picture(page);
   for (const [key, overlay] of [["z", "wireframe"], ["n", "normals"], ["x", "axes"], ["g", "grid"]]) {
@@ -66,7 +66,7 @@ test("the keys for lines draw them and take them away", {}, async (page) => {
   await keep(page, "look-lines");
 });
 
-test("Alt and a drag turn the surroundings, and the camera stays", {}, async (page) => {
+test("Alt and a drag turn the surroundings, and the camera stays", { draws: true }, async (page) => {
   await focusView(page);
   const [before, { camera }] = [await picture(page), await state(page)];
   await page.keyboard.down("Alt");
@@ -78,7 +78,7 @@ test("Alt and a drag turn the surroundings, and the camera stays", {}, async (pa
   assert.ok(difference(before, turned) > 0.02, `${difference(before, turned)} of the pixels`);
 });
 
-test("the picture is divided, and its handle moves where the lights meet", { passes: true }, async (page) => {
+test("the picture is divided, and its handle moves where the lights meet", { draws: true, passes: true }, async (page) => {
   await page.mouse.click(...LIGHT_BUTTON);
   await settled(page);
   await page.mouse.click(...LIGHT_POPOVER.split);
@@ -101,7 +101,7 @@ test("the picture is divided, and its handle moves where the lights meet", { pas
   await keep(page, "look-split");
 });
 
-test("a pass that is left out is missing in the picture", { passes: true }, async (page) => {
+test("a pass that is left out is missing in the picture", { draws: true, passes: true }, async (page) => {
   await page.mouse.click(...LIGHT_BUTTON);
   await settled(page);
   for (const [pass, row] of Object.entries(LIGHT_POPOVER.passes)) {
@@ -127,7 +127,7 @@ function cubeMap(faces, side = 8) {
   return Buffer.concat([header, ...texels]);
 }
 
-test("a dropped cube map becomes the sky and lights the model", {}, async (page) => {
+test("a dropped cube map becomes the sky and lights the model", { draws: true }, async (page) => {
   await atRest(page);
   const before = await picture(page, { background: "none" });
   const file = join(mkdtempSync(join(tmpdir(), "bindpose-")), "evening.dds");

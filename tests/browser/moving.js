@@ -88,6 +88,7 @@ test("with the right button held WASD and QE fly, each its own way, and letting 
 });
 
 test("a moving picture has less detail where the device is slow; at rest, and when saved, it has all", {
+  draws: true,
   fine: true,
   passes: true,
   motion: true,

@@ -255,7 +255,7 @@ test("R tells of a file from the dialog that has changed since", { expectErrors:
   assert.equal((await state(page)).model.clips[0].name, "Walk", "the model that was open stays");
 });
 
-test("maps are found beside the model and join it later, and are drawn", {}, async (page) => {
+test("maps are found beside the model and join it later, and are drawn", { draws: true }, async (page) => {
   const { folder, path } = copyOfSample("mapped.m3d");
   const plain = readFileSync(path, "utf8").replace(/^(DiffuseMap|NormalMap):.*$/gm, "$1: None");
   const named = plain.replace(/^DiffuseMap:.*$/m, "DiffuseMap: C:\\art\\Coat.dds");

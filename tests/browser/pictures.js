@@ -20,7 +20,7 @@ export async function inStep(page) {
   await settled(page);
 }
 
-test("both lights, alone and side by side", ALL_PASSES, async (page) => {
+test("both lights, alone and side by side", { ...ALL_PASSES, draws: true }, async (page) => {
   await inStep(page);
   const studio = await picture(page, { ...SIZE, light: "studio" });
   const book = await picture(page, { ...SIZE, light: "book" });
@@ -34,7 +34,7 @@ test("both lights, alone and side by side", ALL_PASSES, async (page) => {
   await assertGolden(page, "book", book);
 });
 
-test("every view mode shows something of its own", ALL_PASSES, async (page) => {
+test("every view mode shows something of its own", { ...ALL_PASSES, draws: true }, async (page) => {
   await inStep(page);
   const seen = { lit: await picture(page, { ...PLAIN, viewMode: "lit" }) };
   for (const mode of VIEW_MODES) {
@@ -47,7 +47,7 @@ test("every view mode shows something of its own", ALL_PASSES, async (page) => {
   }
 });
 
-test("every background, and lines over the model", ALL_PASSES, async (page) => {
+test("every background, and lines over the model", { ...ALL_PASSES, draws: true }, async (page) => {
   await inStep(page);
   const backdrop = await picture(page, { ...SIZE, background: "backdrop" });
   const sky = await picture(page, { ...SIZE, background: "sky" });
@@ -71,7 +71,7 @@ test("every background, and lines over the model", ALL_PASSES, async (page) => {
   await assertGolden(page, "lines", lines);
 });
 
-test("a model of the first book, in both lights", ALL_PASSES, async (page) => {
+test("a model of the first book, in both lights", { ...ALL_PASSES, draws: true }, async (page) => {
   await dropAndWait(page, [`${FIXTURES}good/d3d11_static.m3d`]);
   await settled(page);
   const book = await picture(page, { ...PLAIN, light: "book" });
@@ -81,7 +81,7 @@ test("a model of the first book, in both lights", ALL_PASSES, async (page) => {
   await assertGolden(page, "phong-studio", studio);
 });
 
-test("what a script asks for changes the picture and not the page", ALL_PASSES, async (page) => {
+test("what a script asks for changes the picture and not the page", { ...ALL_PASSES, draws: true }, async (page) => {
   await inStep(page);
   const { look } = await state(page);
   const before = await picture(page);

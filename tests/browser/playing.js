@@ -25,7 +25,7 @@ test("time advances, with events, and pauses", { motion: true }, async (page) =>
   assert.deepEqual(heard, ["pause", "play", "timeupdate"]);
 });
 
-test("scrubbing moves pixels, and the same time is the same picture", {}, async (page) => {
+test("scrubbing moves pixels, and the same time is the same picture", { draws: true }, async (page) => {
   await call(page, "pause");
   const [first] = (await state(page)).model.clips;
   await call(page, "selectClip", first.name);

@@ -86,7 +86,7 @@ const inUse = (page) =>
 /** A canvas as it is on screen. */
 const onScreen = async (page, which) => decoded(page, await page.locator("canvas").nth(which).screenshot());
 
-test("two viewers live on one page, and when one is freed the other goes on", { query: "two.html", bare: true, prepare: pageOfTwo }, async (page) => {
+test("two viewers live on one page, and when one is freed the other goes on", { draws: true, query: "two.html", bare: true, prepare: pageOfTwo }, async (page) => {
   const before = await inUse(page);
   await makeViewers(page);
   const started = await inUse(page);

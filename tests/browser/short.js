@@ -138,7 +138,63 @@ check("the dialog's files open, and one that cannot be read says why and leaves 
   await page.screenshot(`${OUT}${BROWSER}-error.png`);
 });
 
+check("a file that is dropped opens", async () => {
+  const outcome = await page.evaluate(async () => {
+    const bytes = await (await fetch("web/sample/figure.m3d")).arrayBuffer();
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([bytes], "dropped.m3d"));
+    const opened = new Promise((done) => {
+      for (const type of ["load", "error"]) globalThis.bindpose.addEventListener(type, () => done(type), { once: true });
+    });
+    const canvas = document.querySelector("#view canvas");
+    for (const type of ["dragenter", "dragover", "drop"]) canvas.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, cancelable: true }));
+    return opened;
+  });
+  assert.equal(outcome, "load");
+  assert.equal((await state()).model.name, "dropped.m3d");
+});
+
+check("Tab goes from the view into the controls, and their elements do what the viewer's do", async () => {
+  await page.click(GROUND);
+  await page.press("Tab");
+  const focused = () => page.evaluate(() => [document.activeElement.closest("[data-mirror]") !== null, document.activeElement.ariaLabel ?? document.activeElement.textContent]);
+  const names = new Set();
+  for (let stop = 0; stop < 3; stop += 1) {
+    const [isControl, name] = await focused();
+    assert.ok(isControl, `stop ${stop} is ${name}`);
+    names.add(name);
+    await page.press("Tab");
+  }
+  assert.equal(names.size, 3, [...names].join(", "));
+  const clickPlay = () => page.evaluate(() => {
+    const buttons = Array.from(document.querySelectorAll("button[data-mirror]"));
+    buttons.find((button) => /^(Play|Pause)/.test(button.ariaLabel ?? button.textContent)).click();
+  });
+  await clickPlay();
+  await until(({ playing }) => playing);
+  await clickPlay();
+  await until(({ playing }) => !playing);
+});
+
+check("glTF opens, and what is exported of it opens again", async () => {
+  assert.equal(await outcomeOf(() => page.choose("#files", `${FIXTURES}gltf/banner.glb`)), "load");
+  const { model } = await state();
+  assert.equal(model.name, "banner.glb");
+  const again = await page.evaluate(async () => {
+    const opened = [];
+    for (const options of [{ format: "glb" }, { format: "d3d12" }]) {
+      const { name, bytes } = await globalThis.bindpose.export(options);
+      const { model, error } = await globalThis.bindpose.open([{ name, bytes }]);
+      opened.push([name.split(".").pop(), error, model.counts.triangles, model.clips.length]);
+    }
+    return opened;
+  });
+  const { triangles } = model.counts;
+  assert.deepEqual(again, [["glb", null, triangles, model.clips.length], ["zip", null, triangles, model.clips.length]]);
+});
+
 check("a lost context comes back with the model", async () => {
+  const opened = await state();
   await page.evaluate(() => {
     globalThis.lostCanvas = document.querySelector("#view canvas");
     globalThis.lostCanvas.getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
@@ -149,7 +205,7 @@ check("a lost context comes back with the model", async () => {
     await new Promise((done) => setTimeout(done, 50));
   }
   const { model } = await until(({ backend }) => backend === "webgl2");
-  assert.equal(model.name, "d3d12_skinned.m3d");
+  assert.equal(model.name, opened.model.name);
   const { colours } = await snapshot({ width: 160, height: 120 });
   assert.ok(colours > 50, `${colours} colours`);
 });

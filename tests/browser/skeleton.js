@@ -111,7 +111,7 @@ const channels = ({ pixels, width }, x, y) => {
   return [...pixels.subarray(at, at + 3)];
 };
 
-test("vertices have the colours that the legend has for their weights", { fine: true }, async (page) => {
+test("vertices have the colours that the legend has for their weights", { draws: true, fine: true }, async (page) => {
   const bone = 19;
   await showBones(page);
   await selectBone(page, bone);

@@ -31,7 +31,7 @@ test("a click in the view selects what is there, and the inspector comes and goe
   assert.equal(difference(nothing, await inspectorArea(page)), 0, "and Esc lets go");
 });
 
-test("the eye of a subset hides it and shows it again", {}, async (page) => {
+test("the eye of a subset hides it and shows it again", { draws: true }, async (page) => {
   await atRest(page);
   const all = await picture(page);
   const clickEye = async () => {
@@ -59,7 +59,7 @@ test("the eye of a subset hides it and shows it again", {}, async (page) => {
   assert.equal((await picture(page)).digest, all.digest);
 });
 
-test("roughness is edited in the inspector, and Reset brings the very same picture back", { passes: true }, async (page) => {
+test("roughness is edited in the inspector, and Reset brings the very same picture back", { draws: true, passes: true }, async (page) => {
   await atRest(page);
   const before = await picture(page);
   await page.mouse.click(...CHEST);
@@ -77,7 +77,7 @@ test("roughness is edited in the inspector, and Reset brings the very same pictu
   assert.equal((await picture(page)).digest, before.digest);
 });
 
-test("Shift+P saves the picture without what is behind the model", { fine: true }, async (page) => {
+test("Shift+P saves the picture without what is behind the model", { draws: true, fine: true }, async (page) => {
   await page.mouse.click(...GROUND);
   await atRest(page);
   const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+P")]);

@@ -111,7 +111,7 @@ fn as_said(document: &Document) -> Document {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(100))]
 
     #[test]
     fn documents_as_the_books_write_them_are_read_as_they_are_meant(mut document in written_documents()) {
@@ -174,7 +174,7 @@ fn damaged(text: &str, damage: &[(usize, &str)]) -> Vec<u8> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(400))]
 
     #[test]
     fn rows_that_are_read_as_a_whole_are_read_as_word_by_word(

@@ -30,9 +30,15 @@ fn try_edit(model: &Model, edits: &Edits) -> Result<Edited, EditError> {
 
 /// The model as the world sees it at a time.
 fn seen(model: &Model, clip: usize, secs: f32) -> SkinnedVertices {
+    let clip = model.clips.get(clip).map(CompiledClip::new);
+    seen_in(model, clip.as_ref(), secs)
+}
+
+/// The same with a clip that was compiled before, for many times.
+fn seen_in(model: &Model, clip: Option<&CompiledClip>, secs: f32) -> SkinnedVertices {
     let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
-    if let Some(clip) = model.clips.get(clip) {
-        pose.evaluate(&model.skeleton, &CompiledClip::new(clip), secs);
+    if let Some(clip) = clip {
+        pose.evaluate(&model.skeleton, clip, secs);
     }
     let mut skinned = SkinnedVertices::default();
     skin(&model.mesh, &pose.palette, &mut skinned);

@@ -16,6 +16,7 @@ mod image;
 mod light;
 mod model;
 mod order;
+mod properties;
 mod rigs;
 mod scene;
 mod session;

@@ -14,10 +14,11 @@ Bindpose's own commands. Each does its set-up itself.
         --release   optimised, slower to build
         --watch     build again when a source file changes; reload the page to see it
 
-    cargo xtask test [--browser [webgpu | webgl2 | firefox | webkit] [--only PATTERN]]
+    cargo xtask test [--long] [--browser [webgpu | webgl2 | firefox | webkit] [--only PATTERN]]
         Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests: all of them
-        in Chromium on WebGPU and on WebGL2, a few in Firefox and in WebKit. Stops at the first failure and prints the
-        command that repeats it.
+        in Chromium on WebGPU, those that draw on WebGL2 too, a walk in Firefox and in WebKit. Stops at the first failure
+        and prints the command that repeats it.
+        --long      what takes longer too: every browser test on both backends, properties with ten times as many cases
         --browser   the browser tests alone: all, or those in Chromium on one backend, or those in another browser
         --only      of these the tests whose name fits a regular expression
 
@@ -54,6 +55,8 @@ pub(crate) struct ServeOptions {
 /// Options of `test`.
 #[derive(Debug, PartialEq)]
 pub(crate) struct TestOptions {
+    /// Also what takes too long for every change.
+    pub(crate) long: bool,
     /// Only the browser tests.
     pub(crate) browser_alone: bool,
     /// The browsers, in turn.
@@ -89,12 +92,17 @@ fn nothing_more(name: &str, rest: &[String]) -> Result<(), Failure> {
 }
 
 fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
-    let words: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let mut words: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let long = words.first() == Some(&"--long");
+    if long {
+        words.remove(0);
+    }
     let (words, only) = match words[..] {
         [ref words @ .., "--only", pattern] if !words.is_empty() => (words, Some(pattern.to_owned())),
         ref words => (words, None),
     };
     let options = |browser_alone: bool, browsers: Vec<BrowserRun>| TestOptions {
+        long,
         browser_alone,
         browsers,
         only,
@@ -170,23 +178,33 @@ mod tests {
         };
         assert_eq!(parsed("serve --watch --port=0"), Ok(Task::Serve(expected)));
         let expected = TestOptions {
+            long: false,
             browser_alone: true,
             browsers: vec![RUNS[1]],
             only: None,
         };
         assert_eq!(parsed("test --browser webgl2"), Ok(Task::Test(expected)));
         let expected = TestOptions {
+            long: false,
             browser_alone: true,
             browsers: RUNS.to_vec(),
             only: Some("keys".to_owned()),
         };
         assert_eq!(parsed("test --browser --only keys"), Ok(Task::Test(expected)));
         let expected = TestOptions {
+            long: false,
             browser_alone: false,
             browsers: RUNS.to_vec(),
             only: None,
         };
         assert_eq!(parsed("test"), Ok(Task::Test(expected)));
+        let expected = TestOptions {
+            long: true,
+            browser_alone: false,
+            browsers: RUNS.to_vec(),
+            only: None,
+        };
+        assert_eq!(parsed("test --long"), Ok(Task::Test(expected)));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
         assert_eq!(parsed(""), Ok(Task::Help));
     }

@@ -16,26 +16,32 @@ pub(crate) struct BrowserRun {
     pub(crate) browser: Browser,
     /// As the page's address names it.
     pub(crate) backend: &'static str,
+    /// The checks run all tests on it, not only those that draw.
+    pub(crate) has_all_tests: bool,
 }
 
-/// Every run, in order: all tests in Chromium on both backends, a short walk through the page in the others, which have
-/// WebGL2 only on the machines that the tests are made for.
+/// Every run, in order: all tests in Chromium on WebGPU, those that draw on WebGL2 too, and a walk through the page in the others, which
+/// have WebGL2 only on the machines that the tests are made for.
 pub(crate) const RUNS: [BrowserRun; 4] = [
     BrowserRun {
         browser: Browser::Chromium,
         backend: "webgpu",
+        has_all_tests: true,
     },
     BrowserRun {
         browser: Browser::Chromium,
         backend: "webgl2",
+        has_all_tests: false,
     },
     BrowserRun {
         browser: Browser::Firefox,
         backend: "webgl2",
+        has_all_tests: true,
     },
     BrowserRun {
         browser: Browser::Webkit,
         backend: "webgl2",
+        has_all_tests: true,
     },
 ];
 

@@ -2,15 +2,21 @@
 
 use std::time::{Duration, Instant};
 
-use crate::absent::{self, Absent};
+use crate::absent;
 use crate::args::TestOptions;
 use crate::browsers::{Browser, BrowserRun, RUNS};
 use crate::failure::Failure;
+use crate::list::List;
 use crate::prerequisites;
 use crate::process::Line;
+use crate::second_tries;
 use crate::serve;
 use crate::site::Site;
 use crate::wasm::{self, Profile};
+
+/// The environment variable that says how many times as many cases a property is tried with, and how many `--long` takes.
+const CASES: &str = "BINDPOSE_CASES";
+const LONG_CASES: &str = "10";
 
 /// The package with the browser tests.
 const BROWSER_TESTS: &str = "tests/browser";
@@ -18,11 +24,12 @@ const BROWSER_TESTS: &str = "tests/browser";
 /// Runs all of them, or those in the browser alone.
 pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     let mut steps = Steps::default();
-    let absent = Absent::new()?;
+    let absent = List::new("absent-files")?;
+    let second_tries = List::new("second-tries")?;
     steps.step("What the tests draw with", prerequisites::ensure)?;
     steps.step("The wasm target", wasm::ensure_target)?;
     if !options.browser_alone {
-        native(&mut steps, &absent)?;
+        native(&mut steps, &absent, options.long)?;
     }
     let page = page(&mut steps)?;
     if !options.browser_alone {
@@ -38,7 +45,10 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     let tests = BrowserTests {
         page: &page,
         only: options.only.as_deref(),
+        // What does not draw is the same program on both backends: the first run has all tests.
+        all_on_each: options.long || options.browser_alone,
         absent: &absent,
+        second_tries: &second_tries,
     };
     for run in here {
         steps.step(&format!("The page in {run}"), || {
@@ -47,6 +57,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
                 // that does not the next time: WebKit's compiler was seen to give the program wrong numbers.
                 Err(_) if run.browser != Browser::Chromium => {
                     eprintln!("── The page in {run} is tried again; what fails twice is broken.");
+                    second_tries.add(&format!("The page in {run}"))?;
                     browser(run, tests).run()
                 }
                 outcome => outcome,
@@ -58,7 +69,8 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     for run in elsewhere {
         eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");
     }
-    absent.tell()
+    eprint!("{}", absent::words(&absent.read()?));
+    second_tries::judge(&second_tries.read()?)
 }
 
 /// Draws the README's pictures.
@@ -84,7 +96,7 @@ fn page(steps: &mut Steps) -> Result<String, Failure> {
 }
 
 /// What needs no browser.
-fn native(steps: &mut Steps, absent: &Absent) -> Result<(), Failure> {
+fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
     steps.step("Formatting", || Line::cargo().args(["fmt", "--all", "--check"]).run())?;
     // The library only: its tests bring egui and wgpu, which would be checked once more with other features.
     steps.step("Lints: the core alone", || clippy(&["--no-default-features", "--lib"]))?;
@@ -110,17 +122,15 @@ fn native(steps: &mut Steps, absent: &Absent) -> Result<(), Failure> {
     // The tests marked as needing a GPU run too: the software one is there by now.
     steps.step("Native tests", || {
         Line::cargo()
-            .env(absent::VARIABLE, absent.list())
-            .args(["test", "--package", "bindpose", "--", "--include-ignored"])
+            .env(absent::VARIABLE, absent.path())
+            .env(CASES, if long { LONG_CASES } else { "1" })
+            .args(["test", "--package", "bindpose", "--package", "sample-figure"])
+            .args(["--", "--include-ignored"])
             .run()
     })?;
     // Apart from the others: together, cargo would build what binds the wasm a second time, with the features of both.
     steps.step("Tests of these commands", || {
         Line::cargo().args(["test", "--package", "xtask"]).run()
-    })?;
-    // Apart too: it stands on the core alone, without wgpu and egui.
-    steps.step("The sample is what its tool makes", || {
-        Line::cargo().args(["test", "--package", "sample-figure"]).run()
     })
 }
 
@@ -157,17 +167,27 @@ fn node(run: BrowserRun, only: Option<&str>, tests: &str, page: &str) -> Line {
 struct BrowserTests<'a> {
     page: &'a str,
     only: Option<&'a str>,
-    absent: &'a Absent,
+    /// Also tests that do not draw, on a backend that is not the first.
+    all_on_each: bool,
+    absent: &'a List,
+    second_tries: &'a List,
 }
 
 /// The line that runs a browser's tests.
-fn browser(run: BrowserRun, BrowserTests { page, only, absent }: BrowserTests<'_>) -> Line {
+fn browser(run: BrowserRun, wanted: BrowserTests<'_>) -> Line {
     let tests = match run.browser {
         Browser::Chromium => "tests/browser/all.js",
         Browser::Firefox | Browser::Webkit => "tests/browser/short.js",
     };
-    let only = only.map(|pattern| format!("--test-name-pattern={pattern}"));
-    node(run, only.as_deref(), tests, page).env(absent::VARIABLE, absent.list())
+    let only = wanted.only.map(|pattern| format!("--test-name-pattern={pattern}"));
+    let line = node(run, only.as_deref(), tests, wanted.page)
+        .env(absent::VARIABLE, wanted.absent.path())
+        .env(second_tries::VARIABLE, wanted.second_tries.path());
+    if wanted.all_on_each || run.has_all_tests {
+        line
+    } else {
+        line.env("TESTS", "draws")
+    }
 }
 
 /// The page that was served here ends with this program, so node alone could not repeat what failed.

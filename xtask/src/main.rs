@@ -13,7 +13,9 @@
 //! | [`check`] | every check, in order |
 //! | [`browsers`] | which browsers the page is tested in, and what they draw with |
 //! | [`prerequisites`] | what the checks need beside Rust |
+//! | [`list`] | what tests tell the checks |
 //! | [`absent`] | which real files the tests could not look at |
+//! | [`second_tries`] | which browser tests had to be tried again |
 //! | [`dist`] | the static site: hashed names, compressed twice |
 
 mod absent;
@@ -24,8 +26,10 @@ mod compress;
 mod dist;
 mod failure;
 mod http;
+mod list;
 mod prerequisites;
 mod process;
+mod second_tries;
 mod serve;
 mod site;
 mod wasm;

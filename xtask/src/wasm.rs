@@ -41,9 +41,12 @@ impl Profile {
 
 /// The arguments that build the library for the browser.
 pub(crate) fn build_args(profile: Profile) -> Vec<&'static str> {
+    // Natively nobody needs the library in this shape, so the manifest does not ask for it.
     let mut args = vec![
-        "build",
+        "rustc",
         "--lib",
+        "--crate-type",
+        "cdylib",
         "--target",
         TARGET,
         "--no-default-features",

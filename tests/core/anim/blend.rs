@@ -128,7 +128,7 @@ fn joints() -> impl Strategy<Value = LocalJoint> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(256))]
 
     #[test]
     fn any_two_joints_blend_as_in_the_oracle(from in joints(), to in joints(), share in 0.0f32..=1.0) {

@@ -51,7 +51,7 @@ fn weight() -> impl Strategy<Value = f32> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(64))]
 
     /// One update after another, so that poses that stay and slots that are used again are among them.
     #[test]

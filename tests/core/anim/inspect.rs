@@ -59,7 +59,7 @@ fn scales() -> impl Strategy<Value = Vec3> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(500))]
 
     #[test]
     fn parts_make_the_matrix_again(rotation in directions(), scale in scales(), position in prop::array::uniform3(-9.0_f32..9.0)) {

@@ -100,7 +100,7 @@ fn documents() -> impl Strategy<Value = Document> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(200))]
 
     #[test]
     fn any_skeleton_poses_as_in_the_textbook(document in documents(), times_secs in prop::collection::vec(-2.0_f32..7.0, 8)) {

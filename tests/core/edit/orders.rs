@@ -11,7 +11,7 @@ use bindpose::model::{Front, Handedness, JointNames, Model, UpAxis};
 use glam::Vec3;
 use proptest::prelude::*;
 
-use super::{apart, curved, edit, seen, size, spread, swaying};
+use super::{apart, curved, edit, seen, seen_in, size, spread, swaying};
 use crate::documents::model_of;
 use crate::rigs;
 
@@ -162,6 +162,9 @@ fn assert_kept(before: &Model, one: One, after: &Model) {
         One::Range(from, _) if new.duration_secs() < old.duration_secs() => old.start_secs + from * old.duration_secs(),
         _ => 0.0,
     };
+    let [old_compiled, new_compiled] = [old, new].map(CompiledClip::new);
+    let seen_before = |secs| seen_in(before, Some(&old_compiled), secs).positions;
+    let seen_after = |secs| seen_in(after, Some(&new_compiled), secs).positions;
     for secs in spread(old) {
         let new_secs = secs - shift_secs;
         let off = match one {
@@ -171,10 +174,10 @@ fn assert_kept(before: &Model, one: One, after: &Model) {
             One::Fix => apart(&joint_places(before, secs), &joint_places(after, secs)),
             One::Reduce(_) => continue,
             _ => {
-                let mut seen_before = seen(before, 0, secs).positions;
+                let mut seen_before = seen_before(secs);
                 seen_before.iter_mut().for_each(|position| *position *= scale);
                 // A shifted key of a STEP curve may stand one rounding apart from the shifted time.
-                let off = |late_secs| apart(&seen_before, &seen(after, 0, new_secs + late_secs).positions) / scale;
+                let off = |late_secs| apart(&seen_before, &seen_after(new_secs + late_secs)) / scale;
                 [0.0, 1e-6, -1e-6].map(off).into_iter().fold(f32::INFINITY, f32::min)
             }
         };
@@ -189,7 +192,7 @@ fn assert_kept(before: &Model, one: One, after: &Model) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(crate::properties::cases(48))]
     #[test]
     fn edits_in_any_order_keep_what_they_must(number in 0_usize..3, order in prop::collection::vec(ones(), 1..8)) {
         let mut model = model(number);

@@ -128,7 +128,7 @@ fn a_tolerance_that_is_none_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::properties::cases(24))]
     #[test]
     fn random_rigs_stay_within_their_tolerance(bones in 1_u32..40, exponent in -5.0_f32..-1.0) {
         let (model, _) = model_of(&rigs::rig(bones, vec![rigs::ragged("ragged", bones), rigs::even("even", bones, 1.0, 90, 30.0)]));

@@ -310,7 +310,7 @@ pub(super) fn characters() -> impl Strategy<Value = Document> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(100))]
 
     #[test]
     fn random_characters_come_back_from_gltf_with_their_palettes(document in characters()) {

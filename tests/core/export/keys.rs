@@ -197,7 +197,7 @@ fn with_track(track: &Track) -> Model {
 
 #[test]
 fn a_track_of_many_keys_is_written_in_time_that_grows_with_them() {
-    const KEYS: u32 = 100_000;
+    const KEYS: u32 = 30_000;
     let still = |_: u32| 1.0;
     // Off by roundings alone, so that no way ends for being bent.
     let noisy = |key: u32| f32::from_bits(1.0_f32.to_bits() + key.wrapping_mul(2_654_435_761) % 3);
@@ -248,7 +248,7 @@ fn curves_hold_times_for_the_channels_beside_them() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(200))]
 
     /// Values of few kinds, so that runs, straight ways and jumps come together.
     #[test]

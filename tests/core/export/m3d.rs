@@ -73,7 +73,7 @@ pub(super) fn plain(mut document: Document) -> Document {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(300))]
 
     #[test]
     fn a_written_model_reads_back_bit_for_bit(document in document()) {

@@ -102,7 +102,7 @@ fn halfway_points_and_their_neighbours_are_exact() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(64))]
 
     #[test]
     fn random_floats_are_exact_in_every_spelling(all in prop::collection::vec(any::<u32>(), 300)) {

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::{fixtures, one_line};
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(200))]
 
     #[test]
     fn a_written_document_reads_back(document in document()) {

@@ -214,7 +214,7 @@ fn assert_total(bytes: &[u8]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(400))]
 
     #[test]
     fn changed_bytes_never_end_in_a_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6), digits in any::<bool>()) {

@@ -207,7 +207,7 @@ fn influences_read(joints: [[u16; 4]; 3], weights: [[f32; 4]; 3], has_second_set
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(400))]
 
     /// One set of four has a quicker way of its own. A second set without any weight says the same, and goes the way of all others.
     #[test]

@@ -92,7 +92,7 @@ fn four_cc() -> impl Strategy<Value = [u8; 4]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+    #![proptest_config(crate::properties::cases(2000))]
 
     #[test]
     fn invented_headers_never_panic(

@@ -123,7 +123,7 @@ fn the_soldiers_counts_are_those_of_a_walk_over_all_parents() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(100))]
 
     #[test]
     fn any_hierarchy_is_a_tree(parents in prop::collection::vec(any::<Option<prop::sample::Index>>(), 1..40)) {

@@ -155,7 +155,7 @@ fn files_in_an_archive_are_refused_as_other_files() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(300))]
 
     #[test]
     fn no_damage_to_an_archive_breaks_anything(

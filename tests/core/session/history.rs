@@ -409,7 +409,7 @@ fn edit() -> impl Strategy<Value = Command> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(256))]
 
     #[test]
     fn what_is_undone_is_as_before_and_what_is_redone_is_as_after(

@@ -415,7 +415,7 @@ fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(96))]
 
     #[test]
     fn no_order_of_commands_brings_it_out_of_order(

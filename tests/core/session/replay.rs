@@ -121,7 +121,7 @@ fn steps(most: usize) -> impl Strategy<Value = Vec<Step>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(48))]
 
     #[test]
     fn a_recorded_list_gives_the_same_state_again(steps in steps(40)) {
@@ -136,7 +136,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(48))]
 
     #[test]
     fn a_frame_that_differs_is_told_as_a_change_of_the_picture(steps in steps(40)) {

@@ -29,7 +29,7 @@ fn json(state: &ViewState) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::properties::cases(96))]
 
     #[test]
     fn a_state_that_is_restored_is_the_state_again(
