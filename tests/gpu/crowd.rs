@@ -1,6 +1,7 @@
 //! A crowd is drawn as its instances are drawn alone.
 
 use bindpose::anim::Palette;
+use bindpose::render::{Renderer, Target};
 use bindpose::scene::{Aabb, CrowdInstance, FrameCost, Light, Overlay, Pass, Passes, Projection, Theme, ViewMode};
 use glam::{Affine3A, Vec3};
 
@@ -140,13 +141,22 @@ fn compare(gpu: &Gpu, what: &str, stage: &Scene, own: usize, dress: impl Fn(&mut
     assert_composed(what, &easel.draw(&scene), &alone, &without);
 }
 
-/// The cost of drawing a scene with a renderer that drew another one before.
-fn cost_after(gpu: &Gpu, before: &Scene, scene: &Scene) -> FrameCost {
-    let mut renderer = gpu.renderer();
-    let mut target = gpu.target(SIZE[0], SIZE[1]);
-    renderer.set_model(&scene.model).expect("small");
-    renderer.render(&before.frame(), &mut target);
-    renderer.render(&scene.frame(), &mut target)
+/// What counts the cost of frames of one model.
+struct Costs(Renderer, Target);
+
+impl Costs {
+    fn new(gpu: &Gpu, scene: &Scene) -> Self {
+        let mut renderer = gpu.renderer();
+        renderer.set_model(&scene.model).expect("small");
+        Self(renderer, gpu.target(SIZE[0], SIZE[1]))
+    }
+
+    /// The cost of drawing a scene after another one.
+    fn after(&mut self, before: &Scene, scene: &Scene) -> FrameCost {
+        let Self(renderer, target) = self;
+        renderer.render(&before.frame(), target);
+        renderer.render(&scene.frame(), target)
+    }
 }
 
 /// A row of many tubes, more than a row of the bone texture holds.
@@ -302,11 +312,12 @@ on_both_backends! {
 
     fn only_the_rows_that_differ_are_uploaded(gpu) {
         let before = many();
-        let still = cost_after(gpu, &before, &before);
-        let uploaded = |change: fn(&mut Scene)| {
+        let mut costs = Costs::new(gpu, &before);
+        let still = costs.after(&before, &before);
+        let mut uploaded = |change: fn(&mut Scene)| {
             let mut scene = many();
             change(&mut scene);
-            cost_after(gpu, &before, &scene).uploaded_bytes - still.uploaded_bytes
+            costs.after(&before, &scene).uploaded_bytes - still.uploaded_bytes
         };
         assert!(still.uploaded_bytes < ROW_BYTES, "{}: uniforms alone", still.uploaded_bytes);
         assert_eq!(uploaded(|scene| scene.crowd_palettes[0] = Affine3A::from_scale(Vec3::splat(1.5))), ROW_BYTES);
@@ -345,14 +356,15 @@ on_both_backends! {
         let indices = scene.model.mesh.indices.len() as u64;
         scene.in_sight = 1;
         let other = without_model(&scene);
-        let drawn = cost_after(gpu, &other, &scene).vertices;
+        let mut costs = Costs::new(gpu, &scene);
+        let drawn = costs.after(&other, &scene).vertices;
         assert_eq!(drawn, indices * (2 + 3 + 2 + 3));
-        assert_eq!(cost_after(gpu, &scene, &scene).vertices, indices * 2, "maps are kept");
+        assert_eq!(costs.after(&scene, &scene).vertices, indices * 2, "maps are kept");
         scene.options.passes = Passes::none();
-        assert_eq!(cost_after(gpu, &other, &scene).vertices, indices * 2);
+        assert_eq!(costs.after(&other, &scene).vertices, indices * 2);
         scene.crowd.push(CrowdInstance { world_from_model: Affine3A::IDENTITY, palette: 0 });
         scene.in_sight = 3;
         scene.camera.projection = Projection::Orthographic;
-        assert_eq!(cost_after(gpu, &other, &scene).vertices, indices * 4);
+        assert_eq!(costs.after(&other, &scene).vertices, indices * 4);
     }
 }

@@ -82,6 +82,8 @@ fn a_window_at_rest_builds_pipelines_and_then_costs_nothing() {
 #[test]
 fn a_window_that_moves_builds_no_pipeline_for_later() {
     let (mut harness, session, _app) = window(moving("a.m3d"));
+    // Each pass draws a frame, on a GPU of software.
+    harness.set_size(egui::vec2(240.0, 180.0));
     session.borrow_mut().apply(PlayCommand::Play);
     harness.run_steps(MANY);
     session.borrow_mut().apply(PlayCommand::Pause);
