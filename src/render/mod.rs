@@ -43,7 +43,7 @@ pub use target::{SampleCount, Target};
 
 use crate::image::Image;
 use crate::model::{Material, Model};
-use crate::scene::{Background, FrameCost, Light, Pass, RenderFrame, ViewMode};
+use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
 use instances::{InstanceRange, Instances, Standing, pose_count, poses};
@@ -396,19 +396,11 @@ impl Renderer {
             nothing,
             ..
         } = &self.common;
-        // A background covers all that the model leaves, but smooth edges store no alpha: it is there from the beginning.
-        let has_background = options.background != Background::None;
         let is_lit = options.view_mode == ViewMode::Lit;
         // Colours of the skin are the own instance's alone.
         let colored = frame.vertex_colors.is_some();
-        let mut pass = target.begin_pass(
-            encoder,
-            if has_background {
-                wgpu::Color::BLACK
-            } else {
-                wgpu::Color::TRANSPARENT
-            },
-        );
+        // The backdrop replaces all that the model leaves, alpha too. Smooth edges store no alpha: it is there from the beginning.
+        let mut pass = target.begin_pass(encoder, wgpu::Color::BLACK);
         let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
             let passes = self.lights.iter().find(|passes| passes.light() == *light);
             let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
@@ -424,10 +416,8 @@ impl Renderer {
                 && begin_part(&mut pass, part)
             {
                 let shading = if is_lit { Shading::Lit(part.0) } else { Shading::Inspect };
-                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
-                let cut = if has_background { Cut::Smooth } else { Cut::Hard };
                 // A property that is seen through another could not be read off: blended surfaces show theirs alone.
-                let of_blended = if is_lit { Cut::OpaquePart } else { cut };
+                let of_blended = if is_lit { Cut::OpaquePart } else { Cut::Smooth };
                 let instances = if colored {
                     self.instances.crowd_in_sight()
                 } else {
@@ -435,7 +425,7 @@ impl Renderer {
                 };
                 if instances.count > 0 {
                     let (_, posed) = with((model, own), instances);
-                    model.draw(&mut pass, posed, [cut, of_blended], |cut, maps| {
+                    model.draw(&mut pass, posed, [Cut::Smooth, of_blended], |cut, maps| {
                         ModelDraw::Mesh(shading, cut, maps)
                     });
                 }
@@ -446,13 +436,11 @@ impl Renderer {
             }
         }
         // Backgrounds from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle.
-        if has_background {
-            for part in parts.iter().rev() {
-                if begin_part(&mut pass, part) {
-                    pass.set_pipeline(&pipelines.get(Draw::Backdrop));
-                    pass.set_bind_group(1, nothing, &[]);
-                    pass.draw(0..3, 0..1);
-                }
+        for part in parts.iter().rev() {
+            if begin_part(&mut pass, part) {
+                pass.set_pipeline(&pipelines.get(Draw::Backdrop));
+                pass.set_bind_group(1, nothing, &[]);
+                pass.draw(0..3, 0..1);
             }
         }
         // After the background, which shows through it.

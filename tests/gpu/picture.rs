@@ -3,7 +3,7 @@
 use bindpose::anim::Palette;
 use bindpose::model::AlphaMode;
 use bindpose::render::{Compositor, Renderer, SampleCount, Target};
-use bindpose::scene::{Background, Light, Overlays, Projection, Theme};
+use bindpose::scene::{Background, Light, Overlays, Passes, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
 use crate::gpu::{Gpu, Picture, difference};
@@ -98,6 +98,7 @@ on_both_backends! {
     fn nothing_is_behind_a_transparent_picture(gpu) {
         let mut scene = Scene::of(card(FRONT)).three_quarter(Theme::Light);
         scene.options.background = Background::None;
+        scene.options.passes = Passes::none();
         let picture = gpu.draw(&scene, 160, 100);
         for (x, y) in [(0, 0), (159, 0), (0, 99), (159, 99)] {
             assert_eq!(picture.pixel(x, y), [0, 0, 0, 0]);
