@@ -45,10 +45,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
         state.picture.size = Some(typed);
     }
     ui.add_space(6.0);
-    let response = switch_row(ui, "Transparent ground", "", state.picture.transparent);
-    if response.clicked() {
-        state.picture.transparent = !state.picture.transparent;
-    }
+    transparent_row(ui, "Transparent ground", &mut state.picture.transparent);
     popover_gap(ui);
     let width = Rangef::point(ui.available_width());
     if TextButton::new(actions::SAVE_PICTURE.label, &actions::SAVE_PICTURE.hint())
@@ -61,6 +58,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     if session.open_model().is_some() {
         popover_gap(ui);
         contact_sheet(ui, session, state);
+    }
+}
+
+fn transparent_row(ui: &mut Ui, label: &str, transparent: &mut bool) {
+    if switch_row(ui, label, "", *transparent).clicked() {
+        *transparent = !*transparent;
     }
 }
 
@@ -78,6 +81,8 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
     if let Some(typed) = pair_fields(ui, ["Columns", "Rows"], cells, MOST_CELLS, (0.1, "")) {
         state.picture.cells = typed;
     }
+    ui.add_space(6.0);
+    transparent_row(ui, "Transparent sheet", &mut state.picture.sheet_transparent);
     ui.add_space(8.0);
     // One button in two shapes: the focus stays on it.
     let button = || UiBuilder::new().scope_id(Id::unique("contact sheet"));
