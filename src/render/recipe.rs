@@ -174,9 +174,10 @@ pub(super) enum WorldShape {
     Triangles,
 }
 
-/// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal.
+/// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal. No constant:
+/// its unit is the last bit of the depth as a float, which is nothing.
 const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
-    constant: 2,
+    constant: 0,
     slope_scale: 2.5,
     clamp: 0.0,
 };
