@@ -346,8 +346,10 @@ impl Renderer {
         let own = model.map(|model| with(model, self.instances.own()));
         pipelines.set_samples(target.samples());
         self.draw_picture(frame, target, &parts, own, encoder);
+        let [draws, vertices] = model.map_or([0; 2], |(model, _)| model.take_drawn());
         FrameCost {
-            vertices: model.map_or(0, |(model, _)| model.take_drawn_vertices()),
+            draws,
+            vertices,
             uploaded_bytes: self.common.queue.take_bytes(),
             ..FrameCost::default()
         }
