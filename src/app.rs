@@ -139,9 +139,14 @@ impl App {
             ui.ctx().request_repaint();
         } else if let Some(secs) = session.quality().rests_in_secs() {
             ui.ctx().request_repaint_after_secs(secs);
-        } else if !self.painter.renderer.is_prepared() {
+        } else {
+            let lowered = session.quality().lowered();
+            let moves_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
+            let samples = [SampleCount::One, self.painter.samples];
+            let samples = if moves_plain { &samples[..] } else { &samples[1..] };
             let is_idle = cost.is_none() && ui.input(|input| input.events.is_empty());
-            if !is_idle || self.painter.renderer.prepare_next() {
+            let renderer = &mut self.painter.renderer;
+            if !renderer.is_prepared(samples) && (!is_idle || renderer.prepare_next(samples)) {
                 ui.ctx().request_repaint_after_secs(PREPARE_PAUSE_SECS);
             }
         }

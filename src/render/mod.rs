@@ -88,8 +88,10 @@ pub struct Renderer {
     maps: MapTextures,
     model: Option<GpuModel>,
     shape: Shape,
-    /// For ambient occlusion; fits the last size of the picture.
+    /// For ambient occlusion; has room for the last picture that had it.
     geometry: Option<GeometryMap>,
+    /// Size that the textures of the window's last picture have room for, pixels. None before the first.
+    window: Option<[u32; 2]>,
     /// None where the device tells no times.
     timer: Option<FrameTimer>,
 }
@@ -132,6 +134,10 @@ impl Shape {
     }
 }
 
+/// Textures of ambient occlusion are kept for a window that is so many times smaller: a picture that moves may have a quarter of the
+/// pixels of one at rest, which may have twice the room that it needs.
+const MOST_TIMES: u64 = 8;
+
 /// A range of columns of the picture, pixels, under one light.
 type Columns = (Light, std::ops::Range<u32>);
 
@@ -172,6 +178,7 @@ impl Renderer {
             model: None,
             shape: Shape::default(),
             geometry: None,
+            window: None,
         }
     }
 
@@ -238,15 +245,17 @@ impl Renderer {
         self.shape.replace();
     }
 
-    /// Whether all pipelines are built that one key or the pointer may ask for while this model is open.
-    pub fn is_prepared(&self) -> bool {
-        self.unprepared().is_none()
+    /// Whether all pipelines are built that one key or the pointer may ask for while this model is open, for targets with each of these
+    /// numbers of samples.
+    pub fn is_prepared(&self, samples: &[SampleCount]) -> bool {
+        self.unprepared(samples).is_none()
     }
 
     /// Builds one more of these pipelines, which takes a moment: call it while nothing moves. False when all are there.
-    pub fn prepare_next(&mut self) -> bool {
-        let next = self.unprepared();
-        next.is_some_and(|draw| {
+    pub fn prepare_next(&mut self, samples: &[SampleCount]) -> bool {
+        let next = self.unprepared(samples);
+        next.is_some_and(|(draw, samples)| {
+            self.common.pipelines.set_samples(samples);
             self.common.pipelines.get(draw);
             true
         })
@@ -257,15 +266,39 @@ impl Renderer {
         self.common.pipelines.count()
     }
 
-    fn unprepared(&self) -> Option<Draw> {
-        let model = self.model.as_ref()?;
-        let wanted = Draw::within_reach(model.bones.is_some(), &model.kinds());
-        wanted.into_iter().find(|draw| !self.common.pipelines.has(*draw))
+    /// What was drawn already may have been drawn with another number of samples.
+    fn unprepared(&self, samples: &[SampleCount]) -> Option<(Draw, SampleCount)> {
+        let (model, pipelines) = (self.model.as_ref()?, &self.common.pipelines);
+        let mut wanted = pipelines.drawn();
+        wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds()));
+        let each = wanted
+            .into_iter()
+            .flat_map(|draw| samples.iter().map(move |&samples| (draw, samples)));
+        each.into_iter().find(|&(draw, samples)| !pipelines.has(draw, samples))
+    }
+
+    /// The textures whose size goes with the picture's: those of ambient occlusion, whatever light they are for. They have room for
+    /// larger pictures.
+    pub fn view_textures(&self) -> Vec<&wgpu::Texture> {
+        let geometry = self.geometry.iter().flat_map(GeometryMap::textures);
+        geometry
+            .chain(self.lights.iter().flat_map(LightPasses::view_textures))
+            .collect()
+    }
+
+    /// Drops them where they are more than so many times those for pictures of this size.
+    fn drop_view_textures(&mut self, times: u64, size: [u32; 2]) {
+        if self.geometry.as_ref().is_some_and(|map| map.exceeds(times, size)) {
+            self.geometry = None;
+            self.lights.iter_mut().for_each(LightPasses::forget_view);
+        }
     }
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
     /// for the GPU's times, which are those of an earlier frame.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        self.window = Some(target.capacity());
+        self.drop_view_textures(MOST_TIMES, target.capacity());
         let mut encoder = FrameEncoder::new(&self.common.device, "frame");
         if let Some(timer) = &mut self.timer {
             timer.begin_frame(&mut encoder);
@@ -309,6 +342,13 @@ impl Renderer {
             }
         }
 
+        let reads_geometry = |light| self.model.is_some() && frame.draws_under(Pass::AmbientOcclusion, light);
+        if parts.iter().any(|(light, _)| reads_geometry(*light))
+            && !self.geometry.as_ref().is_some_and(|map| map.has_room(target.size()))
+        {
+            self.drop_view_textures(0, target.size());
+            self.geometry = Some(GeometryMap::new(&self.common.device, target.capacity()));
+        }
         let pipelines = &self.common.pipelines;
         let model = self.model.as_ref().map(|model| {
             let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
@@ -322,24 +362,20 @@ impl Renderer {
             (model, posed)
         });
         let columns_of = |light| parts.iter().find(|part| part.0 == light).map(|(_, columns)| columns);
-        let mut geometry = None;
         for passes in &mut self.lights {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
             passes.write(&self.common.queue, frame, target.size());
-            if let (true, Some(model)) = (frame.draws_under(Pass::AmbientOcclusion, passes.light()), model) {
-                let kept = self.geometry.take().filter(|map| map.size() == target.size());
-                let fresh = || GeometryMap::new(&self.common.device, target.size());
-                let map = self.geometry.insert(kept.unwrap_or_else(fresh));
+            let is_read = frame.draws_under(Pass::AmbientOcclusion, passes.light());
+            if let (true, Some(model), Some(map)) = (is_read, model, &mut self.geometry) {
                 let model = with(model, self.instances.in_sight());
                 passes.draw_geometry(&self.common, encoder, map, (self.shape.revision_in_sight, model));
-                geometry = Some(&*map);
             }
         }
         for passes in &mut self.lights {
             if let Some(columns) = columns_of(passes.light()) {
-                let shape = (self.shape.revision, model);
+                let (geometry, shape) = (self.geometry.as_ref(), (self.shape.revision, model));
                 passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
             }
         }
@@ -379,6 +415,10 @@ impl Renderer {
             let mut encoder = FrameEncoder::new(&self.common.device, "picture");
             self.draw(frame, target, &mut encoder);
             self.common.queue.inner.submit([encoder.commands.finish()]);
+            // A window at rest would hold what a large picture took.
+            if let Some(window) = self.window {
+                self.drop_view_textures(1, window);
+            }
         })
     }
 
