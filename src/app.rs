@@ -141,9 +141,8 @@ impl App {
             ui.ctx().request_repaint_after_secs(secs);
         } else {
             let lowered = session.quality().lowered();
-            let moves_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
-            let samples = [SampleCount::One, self.painter.samples];
-            let samples = if moves_plain { &samples[..] } else { &samples[1..] };
+            let is_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
+            let samples = &[SampleCount::One, self.painter.samples][usize::from(!is_plain)..];
             let is_idle = cost.is_none() && ui.input(|input| input.events.is_empty());
             let renderer = &mut self.painter.renderer;
             if !renderer.is_prepared(samples) && (!is_idle || renderer.prepare_next(samples)) {

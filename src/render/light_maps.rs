@@ -124,7 +124,7 @@ impl GeometryMap {
         self.capacity().iter().zip(half(size)).all(|(&has, needs)| has >= needs)
     }
 
-    /// Whether its textures are more than so many times those for pictures of this size.
+    /// Whether it has more than so many times the texels that a picture of this size needs.
     pub(super) fn exceeds(&self, times: u64, size: [u32; 2]) -> bool {
         pixels(self.capacity()) > times * pixels(half(size))
     }

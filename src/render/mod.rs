@@ -271,22 +271,19 @@ impl Renderer {
         let (model, pipelines) = (self.model.as_ref()?, &self.common.pipelines);
         let mut wanted = pipelines.drawn();
         wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds()));
-        let each = wanted
-            .into_iter()
-            .flat_map(|draw| samples.iter().map(move |&samples| (draw, samples)));
-        each.into_iter().find(|&(draw, samples)| !pipelines.has(draw, samples))
+        let with_each = |draw| samples.iter().map(move |&samples| (draw, samples));
+        let mut wanted = wanted.into_iter().flat_map(with_each);
+        wanted.find(|&(draw, samples)| !pipelines.has(draw, samples))
     }
 
-    /// The textures whose size goes with the picture's: those of ambient occlusion, whatever light they are for. They have room for
-    /// larger pictures.
+    /// The textures whose size goes with the picture's: those of ambient occlusion. They may have room for larger pictures.
     pub fn view_textures(&self) -> Vec<&wgpu::Texture> {
+        let occlusion = self.lights.iter().flat_map(LightPasses::view_textures);
         let geometry = self.geometry.iter().flat_map(GeometryMap::textures);
-        geometry
-            .chain(self.lights.iter().flat_map(LightPasses::view_textures))
-            .collect()
+        geometry.chain(occlusion).collect()
     }
 
-    /// Drops them where they are more than so many times those for pictures of this size.
+    /// Drops them where they have more than so many times the texels that a picture of this size needs.
     fn drop_view_textures(&mut self, times: u64, size: [u32; 2]) {
         if self.geometry.as_ref().is_some_and(|map| map.exceeds(times, size)) {
             self.geometry = None;
@@ -342,10 +339,8 @@ impl Renderer {
             }
         }
 
-        let reads_geometry = |light| self.model.is_some() && frame.draws_under(Pass::AmbientOcclusion, light);
-        if parts.iter().any(|(light, _)| reads_geometry(*light))
-            && !self.geometry.as_ref().is_some_and(|map| map.has_room(target.size()))
-        {
+        let has_room = |map: &GeometryMap| map.has_room(target.size());
+        if frame.options.draws(Pass::AmbientOcclusion) && !self.geometry.as_ref().is_some_and(has_room) {
             self.drop_view_textures(0, target.size());
             self.geometry = Some(GeometryMap::new(&self.common.device, target.capacity()));
         }

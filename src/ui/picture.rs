@@ -45,7 +45,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
         state.picture.size = Some(typed);
     }
     ui.add_space(6.0);
-    transparent_row(ui, "Transparent ground", &mut state.picture.transparent);
+    let transparent = &mut state.picture.transparent;
+    *transparent ^= switch_row(ui, "Transparent ground", "", *transparent).clicked();
     popover_gap(ui);
     let width = Rangef::point(ui.available_width());
     if TextButton::new(actions::SAVE_PICTURE.label, &actions::SAVE_PICTURE.hint())
@@ -58,12 +59,6 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     if session.open_model().is_some() {
         popover_gap(ui);
         contact_sheet(ui, session, state);
-    }
-}
-
-fn transparent_row(ui: &mut Ui, label: &str, transparent: &mut bool) {
-    if switch_row(ui, label, "", *transparent).clicked() {
-        *transparent = !*transparent;
     }
 }
 
@@ -82,7 +77,8 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
         state.picture.cells = typed;
     }
     ui.add_space(6.0);
-    transparent_row(ui, "Transparent sheet", &mut state.picture.sheet_transparent);
+    let transparent = &mut state.picture.sheet_transparent;
+    *transparent ^= switch_row(ui, "Transparent sheet", "", *transparent).clicked();
     ui.add_space(8.0);
     // One button in two shapes: the focus stays on it.
     let button = || UiBuilder::new().scope_id(Id::unique("contact sheet"));
