@@ -369,7 +369,7 @@ impl SessionPainter {
                 let stayed = target.resize(&device, sizes.now, largest);
                 (stayed, self.renderer.render(&session.frame(), target))
             });
-            // Maps of the light have the picture's size, but they are small.
+            // Maps of the light go with the picture's size, but they are small.
             if !stayed {
                 self.target_answer = Some(answer);
             }
