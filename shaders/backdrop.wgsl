@@ -1,5 +1,6 @@
 // Backdrop, ground grid and the shadows on the ground in one draw wherever the model is not, after it. One draw is rounded and dithered
-// once instead of blended several times in eight bits.
+// once instead of blended several times in eight bits. Without a background the shadows alone are drawn, as black that covers what the
+// picture is later laid over.
 
 // How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
 const BACKDROP_FALLOFF: f32 = 0.76;
@@ -41,6 +42,8 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         color = sky_color(normalize(ray));
     }
     let behind = color;
+    // The fraction of the ground's light that its shadows leave.
+    var left = 1.0;
     let along = (ground.height - eye.y) / ray.y;
     if ray.y != 0.0 && along > 0.0 {
         let point = eye + ray * along;
@@ -49,13 +52,14 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         if away < 1.0 {
             if ray.y < 0.0 && ground.shadow_strength > 0.0 {
                 let lit = key_visibility(point, ground.shadow_radius_texels);
-                color *= 1.0 - ground.shadow_strength * (1.0 - lit);
+                left *= 1.0 - ground.shadow_strength * (1.0 - lit);
             }
             if ray.y < 0.0 && ground.contact_strength > 0.0 {
                 let in_contact_map = (point.xz - ground.contact_center) / ground.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
                 let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).r;
-                color *= 1.0 - ground.contact_strength * contact;
+                left *= 1.0 - ground.contact_strength * contact;
             }
+            color *= left;
             // How far the point moves from one pixel to the next. Exact, since screen derivatives would tear at the horizon.
             let along_x = -(camera.eye_per_x.y + along * camera.forward_per_x.y) / ray.y;
             let along_y = -(camera.eye_per_y.y + along * camera.forward_per_y.y) / ray.y;
@@ -75,6 +79,9 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             color = mix(color, ground.grid_minor.rgb, minor * strength);
             color = mix(color, ground.grid_major.rgb, major * strength);
         }
+    }
+    if ground.background == 3u {
+        return vec4<f32>(0.0, 0.0, 0.0, dithered(1.0 - left, view.clip.xy));
     }
     // A plain background is stored exactly, without dither.
     if ground.background == 2u && all(color == behind) {

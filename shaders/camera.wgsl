@@ -23,6 +23,11 @@ struct Camera {
 
 @group(0) @binding(0) var<uniform> camera: Camera;
 
+// Size of maps at half the picture's resolution, texels. Their textures may be larger.
+fn half_size() -> vec2<f32> {
+    return ceil(camera.viewport_pixels * 0.5);
+}
+
 // Unit vector from a point of the world towards the viewer.
 fn towards_eye(world_position: vec3<f32>) -> vec3<f32> {
     if camera.is_perspective > 0.5 {

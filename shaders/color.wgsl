@@ -17,8 +17,13 @@ fn dither_noise(pixel: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
 }
 
-// Dithers the rounding to eight bits, so that dark gradients show no bands. A little less than a whole step, so that what needs no
-// rounding is not changed. Takes an encoded colour and returns it linear: the target encodes it again.
+// Dithers the rounding to eight bits, so that gradients show no bands. A little less than a whole step, so that what needs no rounding
+// is not changed.
+fn dithered(value: f32, pixel: vec2<f32>) -> f32 {
+    return clamp(value + dither_noise(pixel) * (0.96 / 255.0), 0.0, 1.0);
+}
+
+// The same of an encoded colour. It is returned linear: the target encodes it again.
 fn dithered_linear_from_srgb(srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
     return linear_from_srgb(clamp(srgb + dither_noise(pixel) * (0.96 / 255.0), vec3<f32>(0.0), vec3<f32>(1.0)));
 }

@@ -8,7 +8,7 @@ struct Ground {
     grid_minor: vec4<f32>,
     grid_major: vec4<f32>,
     background_srgb: vec3<f32>,
-    // What is behind the model: 0 the gradient, 1 the sky, 2 `background_srgb`.
+    // What is behind the model: 0 the gradient, 1 the sky, 2 `background_srgb`, 3 nothing.
     background: u32,
     // World x and z.
     grid_center: vec2<f32>,

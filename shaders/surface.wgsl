@@ -49,7 +49,8 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // Seen from behind, a bump is a dent.
     let normal = mapped_normal(made.normal_texel.rgb, made.normal_scale, vertex_normal, mesh.world_tangent) * side;
-    let in_view = mesh.clip.xy / camera.viewport_pixels;
+    // Its last texels are not blended with what lies beside the map in its texture.
+    let in_map = min(mesh.clip.xy / camera.viewport_pixels * half_size(), half_size() - 0.5);
     return SurfacePoint(
         mesh.world_position,
         to_eye,
@@ -59,7 +60,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         mesh.world_tangent,
         mesh.tex_coord,
         made,
-        textureSampleLevel(occlusion_map, environment_sampler, in_view, 0.0).r * made.occlusion,
+        textureSampleLevel(occlusion_map, environment_sampler, in_map / vec2<f32>(textureDimensions(occlusion_map)), 0.0).r * made.occlusion,
     );
 }
 

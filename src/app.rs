@@ -139,9 +139,13 @@ impl App {
             ui.ctx().request_repaint();
         } else if let Some(secs) = session.quality().rests_in_secs() {
             ui.ctx().request_repaint_after_secs(secs);
-        } else if !self.painter.renderer.is_prepared() {
+        } else {
+            let lowered = session.quality().lowered();
+            let is_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
+            let samples = &[SampleCount::One, self.painter.samples][usize::from(!is_plain)..];
             let is_idle = cost.is_none() && ui.input(|input| input.events.is_empty());
-            if !is_idle || self.painter.renderer.prepare_next() {
+            let renderer = &mut self.painter.renderer;
+            if !renderer.is_prepared(samples) && (!is_idle || renderer.prepare_next(samples)) {
                 ui.ctx().request_repaint_after_secs(PREPARE_PAUSE_SECS);
             }
         }
@@ -365,7 +369,7 @@ impl SessionPainter {
                 let stayed = target.resize(&device, sizes.now, largest);
                 (stayed, self.renderer.render(&session.frame(), target))
             });
-            // Maps of the light have the picture's size, but they are small.
+            // Maps of the light go with the picture's size, but they are small.
             if !stayed {
                 self.target_answer = Some(answer);
             }

@@ -20,7 +20,7 @@ pub(super) struct AppearanceArguments {
     /// the textures, else backdrop].
     #[arg(long, value_name = "BACKGROUND", value_parser = background)]
     background: Option<Background>,
-    /// Leave out everything behind the model; the same as `--background none`.
+    /// Leave out everything behind the model but its shadows on the ground; the same as `--background none`.
     #[arg(long, conflicts_with = "background")]
     transparent: bool,
     /// Lines to draw; may be given several times.

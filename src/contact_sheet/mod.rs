@@ -14,7 +14,7 @@ use layout::{Layout, Place};
 /// sRGB.
 type Ink = [u8; 3];
 
-/// Colours of a sheet: the ground between the pictures, the first part of a label, the others.
+/// Colours of a sheet: the ground between the pictures and under labels, the first part of a label, the others.
 struct Inks {
     ground: Ink,
     text: Ink,
@@ -43,6 +43,8 @@ pub struct ContactSheet {
     layout: Layout,
     inks: Inks,
     labels: Labels,
+    /// Room beside the text of a label, pixels.
+    margin: f32,
     /// RGBA, sRGB, straight alpha, rows from the top.
     pixels: Vec<u8>,
     /// With the places that they are for.
@@ -50,7 +52,8 @@ pub struct ContactSheet {
 }
 
 impl ContactSheet {
-    /// Without pictures, of a size in pixels, for so many columns and rows of pictures. A transparent one has no ground.
+    /// Without pictures, of a size in pixels, for so many columns and rows of pictures. A transparent one has no ground
+    /// but under labels, so that they can be read wherever it is laid.
     ///
     /// # Errors
     /// When it has too many pixels, or too few for so many pictures.
@@ -62,6 +65,7 @@ impl ContactSheet {
         Ok(Self {
             pixels: ground.repeat(layout.pixel_count()),
             labels: Labels::new(layout.text_size()),
+            margin: if transparent { 0.5 * layout.text_size() } else { 0.0 },
             layout,
             inks,
             captions: Vec::new(),
@@ -105,8 +109,13 @@ impl ContactSheet {
             let (Some((_, label)), Some((first, others))) = (self.layout.places(*index), ends(caption, parts)) else {
                 continue;
             };
-            self.write(label, 0.0, first, self.inks.text);
-            let left = label.size[0] as f32 - self.labels.width(&others);
+            for row in (label.at[1]..).take(label.size[1] as usize) {
+                let start = self.layout.pixel_index([label.at[0], row]) * 4;
+                let row = self.pixels[start..].chunks_exact_mut(4).take(label.size[0] as usize);
+                row.for_each(|pixel| blend(pixel, self.inks.ground, 255));
+            }
+            self.write(label, self.margin, first, self.inks.text);
+            let left = label.size[0] as f32 - self.margin - self.labels.width(&others);
             self.write(label, left, &others, self.inks.muted);
         }
     }
@@ -121,7 +130,8 @@ impl ContactSheet {
         } else {
             2.0 * self.labels.size()
         };
-        self.labels.width(first) + gap + self.labels.width(&others) <= self.layout.cell_size()[0] as f32
+        let width = self.labels.width(first) + gap + self.labels.width(&others);
+        width + 2.0 * self.margin <= self.layout.cell_size()[0] as f32
     }
 
     /// Writes text into a place, beginning so far from its left end.
@@ -238,15 +248,20 @@ mod tests {
         assert_eq!(written([60, 100]), [[0, 0]; 2], "nothing");
     }
 
+    /// Labels are read on a dark page and on a light one: they bring their ground, and text does not touch its ends.
     #[test]
-    fn without_ground_there_is_nothing_but_pictures_and_labels() {
+    fn without_ground_there_is_nothing_but_pictures_and_labels_on_theirs() {
         let mut sheet = sheet(true);
         assert!(sheet.pixels.chunks_exact(4).all(|pixel| pixel[3] == 0));
-        sheet.place(0, &vec![0; red(sheet.cell_size()).len()], vec!["1.000 s".to_owned()]);
+        let nothing = vec![0; red(sheet.cell_size()).len()];
+        sheet.place(0, &nothing, ["1.000 s", "frame 30"].map(str::to_owned).to_vec());
         sheet.write_captions();
-        let opaque = sheet.pixels.chunks_exact(4).filter(|pixel| pixel[3] > 0);
-        let inks: Vec<_> = opaque.map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-        assert!(inks.len() > 30 && inks.iter().all(|&ink| ink == sheet.inks.text));
+        let (_, label) = sheet.layout.places(0).expect("is there");
+        let opaque = sheet.pixels.chunks_exact(4).filter(|pixel| pixel[3] == 255);
+        assert_eq!(opaque.count() as u32, label.size[0] * label.size[1]);
+        let ([left, top], right) = (label.at, label.at[0] + label.size[0]);
+        let text = |columns| bright(&sheet, columns, top..top + label.size[1]);
+        assert!(text(left..right) > 60 && text(left..left + 3) == 0 && text(right - 3..right) == 0);
     }
 
     #[test]

@@ -134,12 +134,16 @@ fn daylight(direction: Vec3) -> Vec3 {
     ground.lerp(sky, smoothstep(-0.035, 0.015, up))
 }
 
+/// A number of a file as radiance: NaN and what is negative become 0.
+pub fn sound_radiance(value: f32) -> f32 {
+    value.max(0.0)
+}
+
 /// One face of a picture as linear light that can be averaged: neither negative nor infinite.
 fn linear_texels(image: &Image, face: u32, level: u32) -> Option<Vec<Vec3>> {
     if image.format().is_float() {
         let texels = image.to_rgba32f(face, level)?;
-        // `max` also turns NaN into 0.
-        let sound = |value: f32| if value > 0.0 { value.min(MAX_RADIANCE) } else { 0.0 };
+        let sound = |value| sound_radiance(value).min(MAX_RADIANCE);
         let rgb = |&[red, green, blue, _]: &[f32; 4]| Vec3::new(sound(red), sound(green), sound(blue));
         return Some(texels.as_chunks().0.iter().map(rgb).collect());
     }

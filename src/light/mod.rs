@@ -22,5 +22,5 @@ mod prefilter;
 mod studio_set;
 
 pub use brdf_table::{BRDF_TABLE_SIDE, BrdfTable, brdf_table};
-pub use environment::Environment;
+pub use environment::{Environment, sound_radiance};
 pub use prefilter::{Irradiance, Prefiltered};

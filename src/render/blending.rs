@@ -1,5 +1,7 @@
 //! In which order submeshes are blended over what is behind them: the farthest first.
 
+use std::ops::Range;
+
 use glam::{Affine3A, Vec3, Vec4};
 
 use super::triangles::DrawRange;
@@ -53,14 +55,21 @@ impl Center {
     }
 }
 
+/// Instances that follow each other in the stream, and the range that is drawn of them.
+pub(super) type Run = (Range<u32>, usize);
+
+/// More instances than this are blended in the order of the stream, so that a range of all of them is one draw.
+const MOST_SORTED: usize = 64;
+
 /// Instances in sight and ranges, the farthest first, by where their centres lie along the view. Equally far ones are in the order of
-/// the file. `is_blended` says which ranges; without `own`, the frame's own instance is left out.
+/// the file. Of many instances the first says in which order the ranges come. `is_blended` says which ranges; without `own`, the frame's
+/// own instance is left out.
 pub(super) fn farthest_first(
     frame: &RenderFrame<'_>,
     centers: &[Center],
     is_blended: impl Fn(usize) -> bool,
     own: bool,
-) -> Vec<(u32, usize)> {
+) -> Vec<Run> {
     let ranges: Vec<usize> = (0..centers.len()).filter(|&range| is_blended(range)).collect();
     if ranges.is_empty() {
         return Vec::new();
@@ -73,15 +82,29 @@ pub(super) fn farthest_first(
     });
     let instances = std::iter::once((frame.world_from_model, &frame.palette.0[..])).chain(crowd);
     let forward = frame.camera.forward();
+    let instances: Vec<_> = (0..).zip(instances).skip(usize::from(!own)).collect();
+    let together = if instances.len() > MOST_SORTED {
+        instances.len()
+    } else {
+        1
+    };
     let mut order = Vec::new();
-    for (instance, (world_from_model, palette)) in (0..).zip(instances).skip(usize::from(!own)) {
+    for &(instance, (world_from_model, palette)) in instances.iter().step_by(together) {
         order.extend(ranges.iter().map(|&range| {
             let center = world_from_model.transform_point3(centers[range].posed(palette));
             (center.dot(forward), (instance, range))
         }));
     }
     order.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-    order.into_iter().map(|(_, which)| which).collect()
+    let mut runs: Vec<Run> = Vec::new();
+    for (_, (instance, range)) in order {
+        let instances = instance..instance + together as u32;
+        match runs.last_mut() {
+            Some((run, of)) if *of == range && run.end == instance => run.end = instances.end,
+            _ => runs.push((instances, range)),
+        }
+    }
+    runs
 }
 
 #[cfg(test)]

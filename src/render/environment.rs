@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use super::buffers::{Queue, uniform_buffer};
 use crate::image::{Image, ImageKind, MapKind};
-use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
+use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, sound_radiance};
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
@@ -223,8 +223,11 @@ impl Cube {
     }
 }
 
+/// Radiance of a file. All of it becomes finite: filtering would spread what is not.
 fn half_floats(texels: &[f32]) -> Vec<u8> {
-    let halves = texels.iter().map(|&value| crate::image::half::from_f32(value));
+    let halves = texels
+        .iter()
+        .map(|&value| crate::image::half::from_f32(sound_radiance(value)));
     halves.flat_map(u16::to_ne_bytes).collect()
 }
 

@@ -7,7 +7,7 @@ use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Cut, Draw, ModelDraw};
-use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture};
+use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, pixels};
 use super::timing::FrameEncoder;
 use crate::scene::{Light, TimedPass};
 use crate::shaders;
@@ -87,8 +87,10 @@ const NO_GEOMETRY: wgpu::Color = wgpu::Color {
 /// Texels beside a light's columns that its blurs read: one radius for each of the book's four blurs.
 const BLUR_MARGIN: u32 = 4 * 5;
 
-/// Normals and depth of the model in view, at half the resolution of pictures of one size. Both lights read it.
+/// Normals and depth of the model in view, at half the picture's resolution. Both lights read it. It may fill a part of its textures, from
+/// the top left.
 pub(super) struct GeometryMap {
+    /// Texels that are filled.
     size: [u32; 2],
     geometry: wgpu::TextureView,
     depth: wgpu::TextureView,
@@ -99,20 +101,36 @@ pub(super) struct GeometryMap {
 }
 
 impl GeometryMap {
-    pub(super) fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+    /// For pictures up to this size, pixels.
+    pub(super) fn new(device: &wgpu::Device, capacity: [u32; 2]) -> Self {
+        let capacity = half(capacity);
         let depth = wgpu::TextureUsages::RENDER_ATTACHMENT;
         Self {
-            size,
-            geometry: flat_texture(device, "geometry", half(size), GEOMETRY_FORMAT, DRAWN_AND_READ),
-            depth: flat_texture(device, "geometry depth", half(size), DEPTH_FORMAT, depth),
+            size: capacity,
+            geometry: flat_texture(device, "geometry", capacity, GEOMETRY_FORMAT, DRAWN_AND_READ),
+            depth: flat_texture(device, "geometry depth", capacity, DEPTH_FORMAT, depth),
             drawn_from: DrawnFrom(None),
             revision: 0,
         }
     }
 
-    /// Size of the pictures that it fits, pixels.
-    pub(super) fn size(&self) -> [u32; 2] {
-        self.size
+    /// Width and height of its textures.
+    fn capacity(&self) -> [u32; 2] {
+        [self.geometry.texture().width(), self.geometry.texture().height()]
+    }
+
+    /// Whether a picture of this size fits, pixels.
+    pub(super) fn has_room(&self, size: [u32; 2]) -> bool {
+        self.capacity().iter().zip(half(size)).all(|(&has, needs)| has >= needs)
+    }
+
+    /// Whether it has more than so many times the texels that a picture of this size needs.
+    pub(super) fn exceeds(&self, times: u64, size: [u32; 2]) -> bool {
+        pixels(self.capacity()) > times * pixels(half(size))
+    }
+
+    pub(super) fn textures(&self) -> [&wgpu::Texture; 2] {
+        [self.geometry.texture(), self.depth.texture()]
     }
 
     pub(super) fn draw(
@@ -131,9 +149,11 @@ impl GeometryMap {
             return;
         }
         self.revision += 1;
+        self.size = half(camera.viewport_pixels.map(|side| side as u32));
         let targets = PassTargets {
             color: Some((&self.geometry, NO_GEOMETRY)),
             depth: Some(&self.depth),
+            filled: Some(self.size),
             ..PassTargets::default()
         };
         let mut pass = begin_pass(encoder, TimedPass::Geometry, targets);
@@ -156,8 +176,6 @@ struct OcclusionSource {
 
 /// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view.
 pub(super) struct AmbientOcclusion {
-    /// The geometry that it reads.
-    geometry: wgpu::TextureView,
     occlusion: wgpu::TextureView,
     half_blurred: wgpu::TextureView,
     /// Reads the geometry and `occlusion`.
@@ -169,14 +187,13 @@ pub(super) struct AmbientOcclusion {
 
 impl AmbientOcclusion {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, map: &GeometryMap) -> Self {
-        let texture = |label| flat_texture(device, label, half(map.size), FRACTION_FORMAT, DRAWN_AND_READ);
+        let texture = |label| flat_texture(device, label, map.capacity(), FRACTION_FORMAT, DRAWN_AND_READ);
         let (occlusion, half_blurred) = (texture("occlusion"), texture("occlusion, half blurred"));
         let group = |rough| {
             let resources = [&map.geometry, rough].map(wgpu::BindingResource::TextureView);
             bind_group(device, "occlusion", &pipelines.layouts.occlusion, resources)
         };
         Self {
-            geometry: map.geometry.clone(),
             occlusion_group: group(&occlusion),
             half_blurred_group: group(&half_blurred),
             occlusion,
@@ -185,9 +202,8 @@ impl AmbientOcclusion {
         }
     }
 
-    /// Whether it reads this map.
-    pub(super) fn reads(&self, map: &GeometryMap) -> bool {
-        self.geometry == map.geometry
+    pub(super) fn textures(&self) -> [&wgpu::Texture; 2] {
+        [self.occlusion.texture(), self.half_blurred.texture()]
     }
 
     /// Once drawn: the fraction of the environment that reaches each pixel.
@@ -214,12 +230,13 @@ impl AmbientOcclusion {
         if !self.drawn_from.update(source) {
             return;
         }
-        let [width, height] = half(map.size);
+        let [width, height] = map.size;
         let start = (columns.start / 2).saturating_sub(BLUR_MARGIN);
         let end = (columns.end.div_ceil(2) + BLUR_MARGIN).min(width);
         let mut fill = |draw, source: &wgpu::BindGroup, target: &wgpu::TextureView| {
             let targets = PassTargets {
                 color: Some((target, wgpu::Color::WHITE)),
+                filled: Some(map.size),
                 scissor: Some([start, 0, end - start, height]),
                 ..PassTargets::default()
             };

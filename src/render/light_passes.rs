@@ -109,6 +109,15 @@ impl LightPasses {
         self.lighting.as_ref().map(|(_, group)| group)
     }
 
+    /// Drops what reads the geometry in view.
+    pub(super) fn forget_view(&mut self) {
+        (self.occlusion, self.lighting) = (None, None);
+    }
+
+    pub(super) fn view_textures(&self) -> impl Iterator<Item = &wgpu::Texture> {
+        self.occlusion.iter().flat_map(AmbientOcclusion::textures)
+    }
+
     /// Writes the uniforms for a picture of this size, pixels.
     pub(super) fn write(&mut self, queue: &Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
         let camera = camera_uniform(frame, size);
@@ -132,7 +141,7 @@ impl LightPasses {
     }
 
     /// Draws the maps that the picture will read. `columns` of the picture are those of this light; `geometry` is there when
-    /// ambient occlusion is wanted. After [`LightPasses::write`].
+    /// ambient occlusion is wanted, and the same until [`LightPasses::forget_view`]. After [`LightPasses::write`].
     pub(super) fn draw(
         &mut self,
         common: &Common,
@@ -159,9 +168,8 @@ impl LightPasses {
         let mut contact = &common.black;
         if let Some(model) = model {
             if let (true, Some(geometry)) = (draws(Pass::AmbientOcclusion), geometry) {
-                let kept = self.occlusion.take().filter(|occlusion| occlusion.reads(geometry));
                 let fresh = || AmbientOcclusion::new(device, pipelines, geometry);
-                let map = self.occlusion.insert(kept.unwrap_or_else(fresh));
+                let map = self.occlusion.get_or_insert_with(fresh);
                 map.draw(encoder, pipelines, (group, light), (self.light, columns), geometry);
                 occlusion = map.view();
             }

@@ -43,7 +43,7 @@ pub use target::{SampleCount, Target};
 
 use crate::image::Image;
 use crate::model::{Material, Model};
-use crate::scene::{Background, FrameCost, Light, Pass, RenderFrame, ViewMode};
+use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
 use instances::{InstanceRange, Instances, Standing, pose_count, poses};
@@ -88,8 +88,10 @@ pub struct Renderer {
     maps: MapTextures,
     model: Option<GpuModel>,
     shape: Shape,
-    /// For ambient occlusion; fits the last size of the picture.
+    /// For ambient occlusion; has room for the last picture that had it.
     geometry: Option<GeometryMap>,
+    /// Size that the textures of the window's last picture have room for, pixels. None before the first.
+    window: Option<[u32; 2]>,
     /// None where the device tells no times.
     timer: Option<FrameTimer>,
 }
@@ -132,6 +134,10 @@ impl Shape {
     }
 }
 
+/// Textures of ambient occlusion are kept for a window that is so many times smaller: a picture that moves may have a quarter of the
+/// pixels of one at rest, which may have twice the room that it needs.
+const MOST_TIMES: u64 = 8;
+
 /// A range of columns of the picture, pixels, under one light.
 type Columns = (Light, std::ops::Range<u32>);
 
@@ -172,6 +178,7 @@ impl Renderer {
             model: None,
             shape: Shape::default(),
             geometry: None,
+            window: None,
         }
     }
 
@@ -238,15 +245,17 @@ impl Renderer {
         self.shape.replace();
     }
 
-    /// Whether all pipelines are built that one key or the pointer may ask for while this model is open.
-    pub fn is_prepared(&self) -> bool {
-        self.unprepared().is_none()
+    /// Whether all pipelines are built that one key or the pointer may ask for while this model is open, for targets with each of these
+    /// numbers of samples.
+    pub fn is_prepared(&self, samples: &[SampleCount]) -> bool {
+        self.unprepared(samples).is_none()
     }
 
     /// Builds one more of these pipelines, which takes a moment: call it while nothing moves. False when all are there.
-    pub fn prepare_next(&mut self) -> bool {
-        let next = self.unprepared();
-        next.is_some_and(|draw| {
+    pub fn prepare_next(&mut self, samples: &[SampleCount]) -> bool {
+        let next = self.unprepared(samples);
+        next.is_some_and(|(draw, samples)| {
+            self.common.pipelines.set_samples(samples);
             self.common.pipelines.get(draw);
             true
         })
@@ -257,15 +266,36 @@ impl Renderer {
         self.common.pipelines.count()
     }
 
-    fn unprepared(&self) -> Option<Draw> {
-        let model = self.model.as_ref()?;
-        let wanted = Draw::within_reach(model.bones.is_some(), &model.kinds());
-        wanted.into_iter().find(|draw| !self.common.pipelines.has(*draw))
+    /// What was drawn already may have been drawn with another number of samples.
+    fn unprepared(&self, samples: &[SampleCount]) -> Option<(Draw, SampleCount)> {
+        let (model, pipelines) = (self.model.as_ref()?, &self.common.pipelines);
+        let mut wanted = pipelines.drawn();
+        wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds()));
+        let with_each = |draw| samples.iter().map(move |&samples| (draw, samples));
+        let mut wanted = wanted.into_iter().flat_map(with_each);
+        wanted.find(|&(draw, samples)| !pipelines.has(draw, samples))
+    }
+
+    /// The textures whose size goes with the picture's: those of ambient occlusion. They may have room for larger pictures.
+    pub fn view_textures(&self) -> Vec<&wgpu::Texture> {
+        let occlusion = self.lights.iter().flat_map(LightPasses::view_textures);
+        let geometry = self.geometry.iter().flat_map(GeometryMap::textures);
+        geometry.chain(occlusion).collect()
+    }
+
+    /// Drops them where they have more than so many times the texels that a picture of this size needs.
+    fn drop_view_textures(&mut self, times: u64, size: [u32; 2]) {
+        if self.geometry.as_ref().is_some_and(|map| map.exceeds(times, size)) {
+            self.geometry = None;
+            self.lights.iter_mut().for_each(LightPasses::forget_view);
+        }
     }
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
     /// for the GPU's times, which are those of an earlier frame.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        self.window = Some(target.capacity());
+        self.drop_view_textures(MOST_TIMES, target.capacity());
         let mut encoder = FrameEncoder::new(&self.common.device, "frame");
         if let Some(timer) = &mut self.timer {
             timer.begin_frame(&mut encoder);
@@ -309,6 +339,11 @@ impl Renderer {
             }
         }
 
+        let has_room = |map: &GeometryMap| map.has_room(target.size());
+        if frame.options.draws(Pass::AmbientOcclusion) && !self.geometry.as_ref().is_some_and(has_room) {
+            self.drop_view_textures(0, target.size());
+            self.geometry = Some(GeometryMap::new(&self.common.device, target.capacity()));
+        }
         let pipelines = &self.common.pipelines;
         let model = self.model.as_ref().map(|model| {
             let bones = model.bones.as_ref().filter(|_| !frame.palette.0.is_empty());
@@ -322,32 +357,30 @@ impl Renderer {
             (model, posed)
         });
         let columns_of = |light| parts.iter().find(|part| part.0 == light).map(|(_, columns)| columns);
-        let mut geometry = None;
         for passes in &mut self.lights {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
             passes.write(&self.common.queue, frame, target.size());
-            if let (true, Some(model)) = (frame.draws_under(Pass::AmbientOcclusion, passes.light()), model) {
-                let kept = self.geometry.take().filter(|map| map.size() == target.size());
-                let fresh = || GeometryMap::new(&self.common.device, target.size());
-                let map = self.geometry.insert(kept.unwrap_or_else(fresh));
+            let is_read = frame.draws_under(Pass::AmbientOcclusion, passes.light());
+            if let (true, Some(model), Some(map)) = (is_read, model, &mut self.geometry) {
                 let model = with(model, self.instances.in_sight());
                 passes.draw_geometry(&self.common, encoder, map, (self.shape.revision_in_sight, model));
-                geometry = Some(&*map);
             }
         }
         for passes in &mut self.lights {
             if let Some(columns) = columns_of(passes.light()) {
-                let shape = (self.shape.revision, model);
+                let (geometry, shape) = (self.geometry.as_ref(), (self.shape.revision, model));
                 passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
             }
         }
         let own = model.map(|model| with(model, self.instances.own()));
         pipelines.set_samples(target.samples());
         self.draw_picture(frame, target, &parts, own, encoder);
+        let [draws, vertices] = model.map_or([0; 2], |(model, _)| model.take_drawn());
         FrameCost {
-            vertices: model.map_or(0, |(model, _)| model.take_drawn_vertices()),
+            draws,
+            vertices,
             uploaded_bytes: self.common.queue.take_bytes(),
             ..FrameCost::default()
         }
@@ -377,6 +410,10 @@ impl Renderer {
             let mut encoder = FrameEncoder::new(&self.common.device, "picture");
             self.draw(frame, target, &mut encoder);
             self.common.queue.inner.submit([encoder.commands.finish()]);
+            // A window at rest would hold what a large picture took.
+            if let Some(window) = self.window {
+                self.drop_view_textures(1, window);
+            }
         })
     }
 
@@ -396,19 +433,11 @@ impl Renderer {
             nothing,
             ..
         } = &self.common;
-        // A background covers all that the model leaves, but smooth edges store no alpha: it is there from the beginning.
-        let has_background = options.background != Background::None;
         let is_lit = options.view_mode == ViewMode::Lit;
         // Colours of the skin are the own instance's alone.
         let colored = frame.vertex_colors.is_some();
-        let mut pass = target.begin_pass(
-            encoder,
-            if has_background {
-                wgpu::Color::BLACK
-            } else {
-                wgpu::Color::TRANSPARENT
-            },
-        );
+        // The backdrop replaces all that the model leaves, alpha too. Smooth edges store no alpha: it is there from the beginning.
+        let mut pass = target.begin_pass(encoder, wgpu::Color::BLACK);
         let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
             let passes = self.lights.iter().find(|passes| passes.light() == *light);
             let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
@@ -424,10 +453,8 @@ impl Renderer {
                 && begin_part(&mut pass, part)
             {
                 let shading = if is_lit { Shading::Lit(part.0) } else { Shading::Inspect };
-                // Smooth edges need an opaque background: it shows in the samples that alpha leaves out.
-                let cut = if has_background { Cut::Smooth } else { Cut::Hard };
                 // A property that is seen through another could not be read off: blended surfaces show theirs alone.
-                let of_blended = if is_lit { Cut::OpaquePart } else { cut };
+                let of_blended = if is_lit { Cut::OpaquePart } else { Cut::Smooth };
                 let instances = if colored {
                     self.instances.crowd_in_sight()
                 } else {
@@ -435,7 +462,7 @@ impl Renderer {
                 };
                 if instances.count > 0 {
                     let (_, posed) = with((model, own), instances);
-                    model.draw(&mut pass, posed, [cut, of_blended], |cut, maps| {
+                    model.draw(&mut pass, posed, [Cut::Smooth, of_blended], |cut, maps| {
                         ModelDraw::Mesh(shading, cut, maps)
                     });
                 }
@@ -446,13 +473,11 @@ impl Renderer {
             }
         }
         // Backgrounds from the right: Mesa's software rasteriser fills one column too many at the left of a scissor rectangle.
-        if has_background {
-            for part in parts.iter().rev() {
-                if begin_part(&mut pass, part) {
-                    pass.set_pipeline(&pipelines.get(Draw::Backdrop));
-                    pass.set_bind_group(1, nothing, &[]);
-                    pass.draw(0..3, 0..1);
-                }
+        for part in parts.iter().rev() {
+            if begin_part(&mut pass, part) {
+                pass.set_pipeline(&pipelines.get(Draw::Backdrop));
+                pass.set_bind_group(1, nothing, &[]);
+                pass.draw(0..3, 0..1);
             }
         }
         // After the background, which shows through it.

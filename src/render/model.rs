@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::Vec4;
 
-use super::blending::{Center, farthest_first};
+use super::blending::{Center, Run, farthest_first};
 use super::buffers::{Queue, UploadError, Uploader};
 use super::instances::{BoneTexture, InstanceRange};
 use super::maps::{MapTextures, MaterialImages};
@@ -53,7 +53,8 @@ pub(super) struct GpuModel {
     pub(super) bones: Option<BoneTexture>,
     /// See [`winding`].
     pub(super) winding: f32,
-    drawn_vertices: Cell<u64>,
+    /// Draws and vertices.
+    drawn: Cell<[u64; 2]>,
 }
 
 impl GpuModel {
@@ -118,7 +119,7 @@ impl GpuModel {
             colors: None,
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
             winding: winding(mesh),
-            drawn_vertices: Cell::new(0),
+            drawn: Cell::default(),
         })
     }
 
@@ -211,14 +212,14 @@ impl GpuModel {
                     self.materials.bind(pass, range.material);
                 }
                 for part in parts {
-                    self.draw_indices(pass, posed, part);
+                    self.draw_indices(pass, part, posed.instances.count);
                 }
             }
         }
     }
 
     /// Instances and ranges to blend, the farthest first; without `own`, those of the crowd alone.
-    pub(super) fn blended(&self, frame: &RenderFrame<'_>, own: bool) -> Vec<(u32, usize)> {
+    pub(super) fn blended(&self, frame: &RenderFrame<'_>, own: bool) -> Vec<Run> {
         let is_blended = |range: usize| {
             let range = &self.ranges[range];
             !is_hidden(frame.hidden_submeshes, range.submesh) && self.materials.kind(range.material).0 == Alpha::Blended
@@ -231,18 +232,17 @@ impl GpuModel {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         posed: Posed<'_>,
-        order: &[(u32, usize)],
+        order: &[Run],
         draw: ModelDraw,
     ) {
         if !order.is_empty() {
             self.bind(pass, posed, draw);
         }
-        for &(instance, range) in order {
-            let range = &self.ranges[range];
-            pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instance));
+        for (instances, range) in order {
+            let range = &self.ranges[*range];
+            pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instances.start));
             self.materials.bind(pass, range.material);
-            self.count(range.indices.len() as u64);
-            pass.draw_indexed(range.indices.clone(), 0, 0..1);
+            self.draw_indices(pass, range.indices.clone(), instances.len() as u32);
         }
     }
 
@@ -257,7 +257,7 @@ impl GpuModel {
             }
         }
         for range in shape.ranges() {
-            self.draw_indices(pass, posed, range);
+            self.draw_indices(pass, range, posed.instances.count);
         }
     }
 
@@ -293,7 +293,7 @@ impl GpuModel {
         let mut ranges = self.in_view(posed.hidden);
         if let Some(range) = ranges.find(|range| range.submesh == submesh) {
             self.bind(pass, posed, draw);
-            self.draw_indices(pass, posed, range.indices.clone());
+            self.draw_indices(pass, range.indices.clone(), posed.instances.count);
         }
     }
 
@@ -307,7 +307,7 @@ impl GpuModel {
         pass.set_index_buffer(edges.buffer.slice(..), wgpu::IndexFormat::Uint32);
         for (range, edges) in self.ranges.iter().zip(&edges.ranges) {
             if !is_hidden(posed.hidden, range.submesh) {
-                self.draw_indices(pass, posed, edges.clone());
+                self.draw_indices(pass, edges.clone(), posed.instances.count);
             }
         }
     }
@@ -335,18 +335,19 @@ impl GpuModel {
         }
     }
 
-    /// The vertices that were drawn since this was last asked: each index once for each instance.
-    pub(super) fn take_drawn_vertices(&self) -> u64 {
-        self.drawn_vertices.take()
+    /// The draws since this was last asked, and the vertices that they drew: each index once for each instance.
+    pub(super) fn take_drawn(&self) -> [u64; 2] {
+        self.drawn.take()
     }
 
-    fn draw_indices(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, indices: Range<u32>) {
-        self.count(indices.len() as u64 * u64::from(posed.instances.count));
-        pass.draw_indexed(indices, 0, 0..posed.instances.count);
+    fn draw_indices(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>, instances: u32) {
+        self.count(indices.len() as u64 * u64::from(instances));
+        pass.draw_indexed(indices, 0, 0..instances);
     }
 
     fn count(&self, vertices: u64) {
-        self.drawn_vertices.set(self.drawn_vertices.get() + vertices);
+        let [draws, before] = self.drawn.get();
+        self.drawn.set([draws + 1, before + vertices]);
     }
 
     fn in_view<'a>(&'a self, hidden: &'a [bool]) -> impl Iterator<Item = &'a DrawRange> {

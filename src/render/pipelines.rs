@@ -105,6 +105,15 @@ impl Layouts {
     }
 }
 
+/// How many samples it is drawn with in pictures with so many a pixel.
+fn samples_of(draw: Draw, picture: SampleCount) -> SampleCount {
+    if draw.is_in_picture() {
+        picture
+    } else {
+        SampleCount::One
+    }
+}
+
 fn uniform<T>() -> wgpu::BindingType {
     wgpu::BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
@@ -166,7 +175,7 @@ impl Pipelines {
 
     /// The pipeline that draws this, built at the first call.
     pub(super) fn get(&self, draw: Draw) -> wgpu::RenderPipeline {
-        let samples = self.samples_of(draw);
+        let samples = samples_of(draw, self.samples.get());
         let known = self.built.borrow().get(&(draw, samples)).cloned();
         known.unwrap_or_else(|| {
             let pipeline = self.build(draw, samples);
@@ -175,17 +184,14 @@ impl Pipelines {
         })
     }
 
-    /// Whether it is built.
-    pub(super) fn has(&self, draw: Draw) -> bool {
-        self.built.borrow().contains_key(&(draw, self.samples_of(draw)))
+    /// Whether it is built, for targets with so many samples a pixel.
+    pub(super) fn has(&self, draw: Draw, samples: SampleCount) -> bool {
+        self.built.borrow().contains_key(&(draw, samples_of(draw, samples)))
     }
 
-    fn samples_of(&self, draw: Draw) -> SampleCount {
-        if draw.is_in_picture() {
-            self.samples.get()
-        } else {
-            SampleCount::One
-        }
+    /// What was drawn or prepared so far, for targets with any number of samples.
+    pub(super) fn drawn(&self) -> Vec<Draw> {
+        self.built.borrow().keys().map(|(draw, _)| *draw).collect()
     }
 
     /// How many are built.

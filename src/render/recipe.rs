@@ -32,7 +32,7 @@ pub(super) enum Alpha {
 }
 
 impl Alpha {
-    /// How a material is drawn under a light, over a background.
+    /// How a material is drawn under a light.
     fn cuts_when_lit(self) -> impl Iterator<Item = Cut> {
         let cuts: &[Cut] = match self {
             Self::Whole => &[Cut::Whole],
@@ -50,8 +50,7 @@ pub(super) enum Cut {
     Whole,
     /// Whole pixels.
     Hard,
-    /// With smooth edges, over an opaque background: alpha chooses the samples of a pixel and is not stored. With one sample a
-    /// pixel it is [`Cut::Hard`].
+    /// With smooth edges: alpha chooses the samples of a pixel and is not stored. With one sample a pixel it is [`Cut::Hard`].
     Smooth,
     /// Those of a blended material that are opaque.
     OpaquePart,
@@ -134,8 +133,7 @@ impl Draw {
         }
     }
 
-    /// What one key or the pointer may ask for while a model is open, in a picture with a background, the likeliest first: what the
-    /// pointer marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials.
+    /// What one key or the pointer may ask for while a model is open, the likeliest first: what the pointer marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials.
     pub(super) fn within_reach(skinned: bool, kinds: &[(Alpha, Maps)]) -> Vec<Self> {
         let cuts = |cut| {
             kinds.iter().map(move |&(alpha, maps)| match alpha {
@@ -176,9 +174,10 @@ pub(super) enum WorldShape {
     Triangles,
 }
 
-/// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal.
+/// Keeps the map's own steps from shadowing the surface that made them; the mesh shader adds an offset along the normal. No constant:
+/// its unit is the last bit of the depth as a float, which is nothing.
 const CASTER_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState {
-    constant: 2,
+    constant: 0,
     slope_scale: 2.5,
     clamp: 0.0,
 };

@@ -66,6 +66,8 @@ pub(super) struct PassTargets<'a> {
     pub(super) depth: Option<&'a wgpu::TextureView>,
     /// Whether a later pass reads the depth.
     pub(super) depth_is_kept: bool,
+    /// Width and height of the part that is filled, from the top left; without it, all.
+    pub(super) filled: Option<[u32; 2]>,
     /// Left, top, width and height of the pixels that are drawn; without it, all.
     pub(super) scissor: Option<[u32; 4]>,
 }
@@ -108,6 +110,10 @@ pub(super) fn begin_pass<'a>(
         ..Default::default()
     };
     let mut pass = encoder.begin_pass(pass, &descriptor);
+    if let Some([width, height]) = targets.filled {
+        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
+        pass.set_scissor_rect(0, 0, width, height);
+    }
     if let Some([left, top, width, height]) = targets.scissor {
         pass.set_scissor_rect(left, top, width, height);
     }
@@ -192,7 +198,7 @@ impl Target {
     }
 
     /// Width and height of the textures in pixels.
-    fn capacity(&self) -> [u32; 2] {
+    pub(super) fn capacity(&self) -> [u32; 2] {
         [self.resolved.width(), self.resolved.height()]
     }
 
@@ -206,7 +212,6 @@ impl Target {
     /// than twice as large. Returns whether they stayed.
     pub fn resize(&mut self, device: &wgpu::Device, size: [u32; 2], largest: [u32; 2]) -> bool {
         let largest = within_limit(device, std::array::from_fn(|axis| largest[axis].max(size[axis])));
-        let pixels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
         let capacity = self.capacity();
         let has_room = capacity.iter().zip(largest).all(|(&has, needs)| has >= needs);
         let wanted = within_limit(device, largest.map(|side| side.next_multiple_of(CAPACITY_STEP)));
@@ -219,9 +224,9 @@ impl Target {
     }
 
     /// By how much the sides of a picture in a window have to be smaller so that its textures do not take too much memory: at most 1.
-    pub fn affordable_scale([width, height]: [u32; 2], samples: SampleCount) -> f32 {
+    pub fn affordable_scale(size: [u32; 2], samples: SampleCount) -> f32 {
         let per_pixel = u64::from(samples.count()) * BYTES_PER_SAMPLE + BYTES_PER_RESOLVED_PIXEL;
-        let bytes = u64::from(width) * u64::from(height) * per_pixel;
+        let bytes = pixels(size) * per_pixel;
         (MOST_BYTES as f32 / bytes.max(1) as f32).sqrt().min(1.0)
     }
 
@@ -253,14 +258,16 @@ impl Target {
             color: Some((view, color)),
             resolved,
             depth: Some(&self.depth_view),
+            filled: Some(self.size),
             ..PassTargets::default()
         };
-        let mut pass = begin_pass(encoder, TimedPass::Picture, targets);
-        let [width, height] = self.size;
-        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
-        pass.set_scissor_rect(0, 0, width, height);
-        pass
+        begin_pass(encoder, TimedPass::Picture, targets)
     }
+}
+
+/// How many pixels a picture of this size has.
+pub(super) fn pixels([width, height]: [u32; 2]) -> u64 {
+    u64::from(width) * u64::from(height)
 }
 
 fn within_limit(device: &wgpu::Device, size: [u32; 2]) -> [u32; 2] {

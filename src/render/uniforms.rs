@@ -153,9 +153,10 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u3
     let (_, shadow) = key_light(frame, light, map_side);
     let center = bounds.center();
     let (background, background_srgb) = match options.background {
-        Background::Backdrop | Background::None => (0, [0; 3]),
+        Background::Backdrop => (0, [0; 3]),
         Background::Sky => (1, [0; 3]),
         Background::Color(color) => (2, color),
+        Background::None => (3, [0; 3]),
     };
     let when = |is_drawn, strength| if is_drawn { strength } else { 0.0 };
     let has_shadow = options.view_mode == ViewMode::Lit && options.passes.has(Pass::Shadow);

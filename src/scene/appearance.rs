@@ -99,7 +99,7 @@ pub enum Background {
     Sky,
     /// One colour, sRGB.
     Color([u8; 3]),
-    /// Nothing: alpha 0, for saved pictures.
+    /// Nothing, for saved pictures: alpha 0 but for shadows on the ground.
     None,
 }
 

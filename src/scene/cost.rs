@@ -26,6 +26,8 @@ pub struct FrameCost {
     /// Time that the GPU spent on each of [`TimedPass::ALL`], seconds, in an earlier frame: its answer takes a while. 0 for a pass that was
     /// not drawn. `None` where the device tells no times.
     pub gpu_secs: Option<[f32; TimedPass::ALL.len()]>,
+    /// Draws of the model, in all passes.
+    pub draws: u64,
     /// Vertices of the model that were drawn, in all passes: an index counts each time that it is drawn, for each instance. Of several
     /// equal indices a GPU may transform the vertex once. A map that is kept draws none.
     pub vertices: u64,

@@ -53,7 +53,7 @@ impl FrameOptions {
             && match pass {
                 Pass::Shadow => lit || self.view_mode == ViewMode::Shadow,
                 Pass::AmbientOcclusion => lit || self.view_mode == ViewMode::AmbientOcclusion,
-                Pass::ContactShadow => lit && light == Light::Studio && self.background != Background::None,
+                Pass::ContactShadow => lit && light == Light::Studio,
                 Pass::Environment => lit,
             }
     }

@@ -45,10 +45,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
         state.picture.size = Some(typed);
     }
     ui.add_space(6.0);
-    let response = switch_row(ui, "Transparent ground", "", state.picture.transparent);
-    if response.clicked() {
-        state.picture.transparent = !state.picture.transparent;
-    }
+    let transparent = &mut state.picture.transparent;
+    *transparent ^= switch_row(ui, "Transparent ground", "", *transparent).clicked();
     popover_gap(ui);
     let width = Rangef::point(ui.available_width());
     if TextButton::new(actions::SAVE_PICTURE.label, &actions::SAVE_PICTURE.hint())
@@ -78,6 +76,9 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
     if let Some(typed) = pair_fields(ui, ["Columns", "Rows"], cells, MOST_CELLS, (0.1, "")) {
         state.picture.cells = typed;
     }
+    ui.add_space(6.0);
+    let transparent = &mut state.picture.sheet_transparent;
+    *transparent ^= switch_row(ui, "Transparent sheet", "", *transparent).clicked();
     ui.add_space(8.0);
     // One button in two shapes: the focus stays on it.
     let button = || UiBuilder::new().scope_id(Id::unique("contact sheet"));

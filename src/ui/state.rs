@@ -210,7 +210,7 @@ impl UiState {
     /// Asks for a contact sheet as chosen.
     pub(super) fn save_sheet(&mut self, ui: &Ui) {
         let PictureChoice {
-            transparent,
+            sheet_transparent: transparent,
             cells,
             turntable,
             ..
@@ -284,8 +284,10 @@ impl VertexCount {
 pub(super) struct PictureChoice {
     /// Width and height in pixels. None: the window's.
     pub(super) size: Option<[u32; 2]>,
-    /// Without a background.
+    /// A picture is without a background.
     pub(super) transparent: bool,
+    /// A contact sheet is.
+    pub(super) sheet_transparent: bool,
     /// Columns and rows of a contact sheet.
     pub(super) cells: [u32; 2],
     /// A contact sheet shows the model from all sides, not through the clip.
@@ -297,6 +299,7 @@ impl Default for PictureChoice {
         Self {
             size: None,
             transparent: false,
+            sheet_transparent: false,
             cells: [4, 3],
             turntable: false,
         }

@@ -293,6 +293,7 @@ fn cost(session: &Session) -> Cost {
         gpu_secs,
         vertices,
         uploaded_bytes,
+        ..
     } = session.frame_cost();
     let passes = TimedPass::ALL.map(|pass| pass.name().replace(' ', "_"));
     Cost {

@@ -114,7 +114,7 @@ impl Viewer {
 
     /// Many pictures on one, as the bytes of a PNG: of the clip or the range that plays, or with `turntable` from all sides, each with a label.
     /// `columns` and `rows` are 4 and 3 where they are absent, `width` and `height`, of the whole sheet, those of the canvas; `transparent`
-    /// leaves out all grounds. What is open plays on meanwhile. An `AbortSignal` as `signal` ends it.
+    /// leaves out all grounds but those of labels. What is open plays on meanwhile. An `AbortSignal` as `signal` ends it.
     ///
     /// Rejects as [`Viewer::snapshot`] does, when another model is opened meanwhile, and with an `AbortError` after the signal.
     #[wasm_bindgen(js_name = contactSheet)]

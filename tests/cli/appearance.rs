@@ -83,6 +83,18 @@ fn the_background_is_the_one_that_was_asked_for() {
         [0x20, 0x50, 0x80, 255]
     );
     assert_eq!(corner(&draw("none", &["--background", "none"]))[3], 0);
+    let shadow = |picture: RgbaImage| {
+        picture
+            .pixels()
+            .filter(|pixel| pixel.0[..3] == [0; 3] && pixel.0[3] > 20)
+            .count()
+    };
+    let kept = shadow(draw("shadow", &["--transparent"]));
+    let without = shadow(draw(
+        "no-shadow",
+        &["--transparent", "--without", "shadow", "--without", "contact"],
+    ));
+    assert!(kept > 50 && without == 0, "{kept} pixels of shadow, {without} without");
     let (sky, backdrop) = (draw("sky", &["--background", "sky"]), draw("backdrop", &[]));
     assert!(differs(&sky, &backdrop) > 0.3);
 }

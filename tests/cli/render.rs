@@ -27,7 +27,9 @@ pub(crate) fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) ->
 
 /// Columns and rows that hold something, of a picture with nothing behind: left, right, top, bottom.
 pub(crate) fn extent(picture: &RgbaImage) -> Option<[u32; 4]> {
-    let covered = picture.enumerate_pixels().filter(|(_, _, pixel)| pixel.0[3] > 127);
+    // A shadow on the ground is black.
+    let is_model = |[red, green, blue, alpha]: [u8; 4]| alpha > 127 && [red, green, blue] != [0; 3];
+    let covered = picture.enumerate_pixels().filter(|(_, _, pixel)| is_model(pixel.0));
     covered.fold(None, |extent, (x, y, _)| {
         let [left, right, top, bottom] = extent.unwrap_or([x, x, y, y]);
         Some([left.min(x), right.max(x), top.min(y), bottom.max(y)])

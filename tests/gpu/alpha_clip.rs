@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bindpose::image::{Image, decode};
 use bindpose::model::AlphaMode;
 use bindpose::render::{Renderer, SampleCount, Target};
-use bindpose::scene::{Background, Theme};
+use bindpose::scene::{Background, Passes, Theme};
 use glam::Vec2;
 
 use crate::gpu::{Gpu, Picture, difference};
@@ -150,5 +150,15 @@ on_both_backends! {
         let mut target = Target::with_samples(device, WIDTH, HEIGHT, SampleCount::One);
         renderer.render(&scene.frame(), &mut target);
         assert_eq!(between(&gpu.read(&target)), 0, "with one sample a pixel is whole or nothing");
+
+        // On nothing too: there the edge has alphas between, and the colour of the card.
+        let mut scene = scene;
+        scene.options.background = Background::None;
+        scene.options.passes = Passes::none();
+        let on_nothing = draw(gpu, &scene, &map);
+        let inside = pixels_of_card(&scene).filter(|(_, _, place)| place.min_element() > 0.05 && place.max_element() < 0.95);
+        let edge: Vec<_> = inside.map(|(x, y, _)| on_nothing.pixel(x, y)).filter(|pixel| (1..255).contains(&pixel[3])).collect();
+        assert!(edge.len() > 20, "{}", edge.len());
+        assert!(edge.iter().all(|[red, green, blue, _]| green > red && green > blue), "{edge:?}");
     }
 }

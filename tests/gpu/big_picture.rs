@@ -1,6 +1,7 @@
 //! Pictures by themselves: all of it, or an error in words.
 
-use bindpose::scene::Background;
+use bindpose::render::Renderer;
+use bindpose::scene::{Background, Theme};
 
 use crate::gpu::Gpu;
 use crate::scenes::{FRONT, Scene, bent_tube, card};
@@ -21,6 +22,29 @@ on_both_backends! {
             let picture = renderer.picture(&scene.frame(), [123, 45]).expect("a small picture");
             assert_eq!(picture.pixels_blocking().expect("drawn"), gpu.draw(&scene, 123, 45).rgba);
         }
+    }
+
+    /// While a window stands still nothing is drawn, so it would keep what the picture took.
+    fn what_a_large_picture_took_is_given_back(gpu) {
+        let scene = bent_tube(0.5).three_quarter(Theme::Light);
+        let mut easel = gpu.easel(&scene, &[], [200, 120]);
+        let bytes = |renderer: &Renderer| {
+            let of = |texture: &wgpu::Texture| {
+                let texel = texture.format().block_copy_size(None).expect("whole texels");
+                u64::from(texture.width() * texture.height() * texel)
+            };
+            renderer.view_textures().into_iter().map(of).sum::<u64>()
+        };
+        let before = easel.draw(&scene);
+        let of_window = bytes(&easel.renderer);
+        assert!(of_window > 0);
+        let picture = easel.renderer.picture(&scene.frame(), [900, 700]).expect("it fits");
+        assert_eq!(picture.pixels_blocking().expect("drawn"), gpu.draw(&scene, 900, 700).rgba);
+        assert!(bytes(&easel.renderer) <= of_window, "{} of {of_window}", bytes(&easel.renderer));
+        assert_eq!(easel.draw(&scene), before);
+        let of_small = easel.renderer.picture(&scene.frame(), [100, 60]).expect("it fits");
+        assert_eq!(of_small.pixels_blocking().expect("drawn"), gpu.draw(&scene, 100, 60).rgba);
+        assert_eq!(bytes(&easel.renderer), of_window, "a small picture is drawn in the window's");
     }
 
     /// Nothing in view is no error: what proves the target is not in the picture.

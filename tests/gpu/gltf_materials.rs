@@ -440,6 +440,44 @@ on_both_backends! {
         assert!(difference(found, expected) <= 3, "{found:?} for {expected:?}");
     }
 
+    /// Few are sorted, each pane by itself. Of many all first panes are one draw, and all second panes another.
+    fn a_crowd_of_panes_takes_few_draws(gpu) {
+        let draws = |others: u32| {
+            let mut scene = panes([blended([220, 40, 40], 0.5), blended([40, 60, 220], 0.25)]);
+            scene.options.passes = Passes::none();
+            for other in 0..others {
+                // Each a little behind the one before.
+                let place = Vec3::new((other % 40) as f32 * 2.5, 0.0, 1.0 + other as f32 * 0.01);
+                scene.add_to_crowd(Affine3A::from_translation(place), &bindpose::anim::Palette::default());
+            }
+            let mut renderer = gpu.renderer();
+            renderer.set_model(&scene.model).expect("small");
+            renderer.render(&scene.frame(), &mut gpu.target(WIDTH, HEIGHT))
+        };
+        // The opaque parts of all are drawn before, in one draw for each pane.
+        for (others, blended) in [(0, 2), (1, 4), (63, 128), (64, 2), (999, 2)] {
+            let cost = draws(others);
+            assert_eq!(cost.draws, blended + 2, "{others} others");
+            assert_eq!(cost.vertices, 2 * 12 * u64::from(others + 1), "{others} others: all are drawn");
+        }
+    }
+
+    /// Of many, too, each pane is before what is behind it of the same instance, from either side.
+    fn of_many_panes_those_behind_come_first(gpu) {
+        let (red, blue) = ([220, 40, 40], [40, 60, 220]);
+        let mut scene = panes([blended(red, 0.5), blended(blue, 0.25)]);
+        for other in 1..100 {
+            let aside = Affine3A::from_translation(Vec3::X * 5.0 * f32::from(other as u8));
+            scene.add_to_crowd(aside, &bindpose::anim::Palette::default());
+        }
+        for (yaw, layers) in [(0.0, [(blue, 0.25), (red, 0.5)]), (std::f32::consts::PI, [(red, 0.5), (blue, 0.25)])] {
+            scene.camera.yaw_radians = yaw;
+            let found = draw(gpu, &scene, &[]).middle();
+            let expected = over([0; 3], &layers);
+            assert!(difference(found, expected) <= 2, "from {yaw}: {found:?} for {expected:?}");
+        }
+    }
+
     /// Parts with alpha 1 of a blended material hide what is behind them, in whatever order they are drawn.
     fn what_is_opaque_of_a_blended_surface_hides(gpu) {
         let map = square(16, |x, _| [255, 255, 255, if x < 8 { 255 } else { 64 }]);

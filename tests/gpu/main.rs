@@ -28,6 +28,7 @@ mod alpha_clip;
 mod big_picture;
 mod book_light;
 mod crowd;
+mod cut_out;
 mod exported;
 #[path = "../common/gltf.rs"]
 mod gltf_files;

@@ -3,7 +3,7 @@
 use bindpose::anim::Palette;
 use bindpose::model::AlphaMode;
 use bindpose::render::{Compositor, Renderer, SampleCount, Target};
-use bindpose::scene::{Background, Light, Overlays, Projection, Theme};
+use bindpose::scene::{Background, Light, Overlays, Passes, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
 use crate::gpu::{Gpu, Picture, difference};
@@ -98,6 +98,7 @@ on_both_backends! {
     fn nothing_is_behind_a_transparent_picture(gpu) {
         let mut scene = Scene::of(card(FRONT)).three_quarter(Theme::Light);
         scene.options.background = Background::None;
+        scene.options.passes = Passes::none();
         let picture = gpu.draw(&scene, 160, 100);
         for (x, y) in [(0, 0), (159, 0), (0, 99), (159, 99)] {
             assert_eq!(picture.pixel(x, y), [0, 0, 0, 0]);
@@ -143,6 +144,37 @@ on_both_backends! {
                 assert_eq!(gpu.read(&target).share_that_differs(&alone, 0), 0.0, "{light:?} {size:?}");
             }
         }
+    }
+
+    /// Textures of ambient occlusion have as much room as the target, and are made anew when it is, or when a window became much smaller.
+    fn a_picture_that_changes_its_size_keeps_its_textures(gpu) {
+        let scene = Scene::of(card(FRONT)).three_quarter(Theme::Dark);
+        let device = &gpu.open.device;
+        let mut renderer = gpu.renderer();
+        renderer.set_model(&scene.model).expect("small");
+        let mut textures = |target: &mut Target, size: [u32; 2], largest| {
+            target.resize(device, size, largest);
+            renderer.render(&scene.frame(), target);
+            renderer.view_textures().into_iter().cloned().collect::<Vec<_>>()
+        };
+        let (mut target, mut plain) = (gpu.target(1, 1), Target::with_samples(device, 1, 1, SampleCount::One));
+        let first = textures(&mut target, [200, 100], [200, 100]);
+        assert_eq!(first.len(), 4, "normals, depth, occlusion, and half blurred");
+        for width in (201..256).step_by(9) {
+            assert_eq!(textures(&mut target, [width, 100], [width, 100]), first, "{width} wide");
+        }
+        // A picture that moves, with fewer and fewer pixels.
+        for scale in [0.85, 0.7, 0.6, 0.5] {
+            let size = [256.0, 100.0].map(|side: f32| (side * scale) as u32);
+            assert_eq!(textures(&mut plain, size, size), first, "at {scale}");
+            assert_eq!(textures(&mut target, size, [256, 100]), first, "at {scale}, with smooth edges");
+        }
+        let wide = textures(&mut target, [257, 100], [257, 100]);
+        assert!(wide != first && wide.iter().all(|texture| texture.width() == 192), "{wide:?}");
+        let large = textures(&mut target, [1000, 500], [1000, 500]);
+        let small = textures(&mut target, [100, 50], [100, 50]);
+        assert!(small[0].width() < large[0].width(), "{small:?}");
+        assert_eq!(gpu.read(&target), gpu.draw(&scene, 100, 50));
     }
 
     /// Where a device has no multisampling: the same picture but for edges.

@@ -1,8 +1,8 @@
 //! Pipelines are built before somebody asks for what they draw, and each once.
 
 use bindpose::model::AlphaMode;
-use bindpose::render::MaterialImages;
-use bindpose::scene::{Light, Overlay, Theme, ViewMode};
+use bindpose::render::{MaterialImages, SampleCount, Target};
+use bindpose::scene::{Background, Light, Overlay, Theme, ViewMode};
 use glam::Vec3;
 
 use crate::gpu::{Gpu, vulkan};
@@ -15,8 +15,11 @@ const SIZE: [u32; 2] = [32, 24];
 type Ask = (&'static str, fn(&mut Scene));
 
 /// One after another, and what was asked for before stays.
-const ASKED: [Ask; 9] = [
+const ASKED: [Ask; 10] = [
     ("nothing", |_| {}),
+    ("a picture on nothing", |scene| {
+        scene.options.background = Background::None
+    }),
     ("V", |scene| scene.options.light = Light::Book),
     ("the divider", |scene| scene.options.split = Some(0.5)),
     ("Z", |scene| scene.options.overlays.set(Overlay::Wireframe, true)),
@@ -37,8 +40,9 @@ fn check(gpu: &Gpu, mut scene: Scene, maps: &[MaterialImages<'_>]) {
     easel.draw(&scene);
     let of_first_picture = easel.renderer.pipelines_built();
     let mut prepared = 0;
-    while !easel.renderer.is_prepared() {
-        assert!(easel.renderer.prepare_next());
+    let samples = [gpu.open.samples];
+    while !easel.renderer.is_prepared(&samples) {
+        assert!(easel.renderer.prepare_next(&samples));
         prepared += 1;
         assert_eq!(
             easel.renderer.pipelines_built(),
@@ -47,7 +51,7 @@ fn check(gpu: &Gpu, mut scene: Scene, maps: &[MaterialImages<'_>]) {
         );
     }
     assert!(prepared > 5);
-    assert!(!easel.renderer.prepare_next(), "nothing is left");
+    assert!(!easel.renderer.prepare_next(&samples), "nothing is left");
     let all = easel.renderer.pipelines_built();
     for (what, ask) in ASKED {
         ask(&mut scene);
@@ -71,11 +75,33 @@ on_both_backends! {
         scene.model.materials[0].alpha = AlphaMode::clipped(true);
         check(gpu, scene, &diffuse(&map));
     }
+
+    /// A slow device draws what moves with one sample a pixel: the first drag, and keys while a clip plays.
+    fn a_picture_that_moves_with_one_sample_builds_none(gpu) {
+        let mut scene = bent_tube(0.3).three_quarter(Theme::Dark);
+        scene.options.overlays.set(Overlay::Bounds, true);
+        let mut easel = gpu.easel(&scene, &[], SIZE);
+        let at_rest = easel.draw(&scene);
+        let samples = [SampleCount::One, SampleCount::Four];
+        while easel.renderer.prepare_next(&samples) {}
+        let all = easel.renderer.pipelines_built();
+        let mut plain = Target::with_samples(&gpu.open.device, SIZE[0], SIZE[1], SampleCount::One);
+        let mut now = Scene { options: scene.options, ..bent_tube(0.3) };
+        for (what, ask) in ASKED {
+            ask(&mut now);
+            easel.renderer.render(&now.frame(), &mut plain);
+            assert_eq!(easel.renderer.pipelines_built(), all, "{what} builds none");
+            easel.draw(&now);
+            assert_eq!(easel.renderer.pipelines_built(), all, "{what}, at rest, builds none");
+        }
+        assert!(easel.draw(&scene) == at_rest, "at rest it is drawn as ever");
+    }
 }
 
 #[test]
 fn without_a_model_there_is_nothing_to_prepare() {
     let mut renderer = vulkan().renderer();
-    assert!(renderer.is_prepared() && !renderer.prepare_next());
+    let samples = [SampleCount::One, SampleCount::Four];
+    assert!(renderer.is_prepared(&samples) && !renderer.prepare_next(&samples));
     assert_eq!(renderer.pipelines_built(), 0);
 }

@@ -2,6 +2,7 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
+use bindpose::image::{Image, decode};
 use bindpose::model::{Model, Reflectance};
 use bindpose::scene::{Background, Light, Pass, Passes, Projection, Theme};
 use glam::Vec3;
@@ -24,6 +25,25 @@ const FACES: [[u8; 3]; 6] = [
     [20, 190, 40],
     [30, 40, 210],
 ];
+
+/// A cube map of half floats, with a texel for each face, column and row.
+fn float_cube(side: u32, texel: impl Fn(u32, u32, u32) -> [u16; 4]) -> Image {
+    let mut words = [0; 31];
+    words[..4].copy_from_slice(&[124, 0x1007, side, side]);
+    words[18..21].copy_from_slice(&[32, 4, u32::from_le_bytes(*b"DX10")]);
+    words[26..28].copy_from_slice(&[0x1008, 0xfe00]);
+    // R16G16B16A16_FLOAT, flat textures, which are a cube.
+    let dx10 = [10, 3, 4, 1, 0];
+    let mut file = b"DDS ".to_vec();
+    file.extend(words.iter().chain(&dx10).flat_map(|word: &u32| word.to_le_bytes()));
+    let places = (0..6 * side * side).map(|index| (index / (side * side), index % side, index / side % side));
+    file.extend(
+        places
+            .flat_map(|(face, x, y)| texel(face, x, y))
+            .flat_map(u16::to_le_bytes),
+    );
+    decode(&file, "cube.dds").unwrap_or_else(|error| panic!("{error}"))
+}
 
 /// Nothing but what is behind, seen at these angles.
 fn empty(background: Background, light: Light, yaw_radians: f32, pitch_radians: f32) -> Scene {
@@ -99,6 +119,33 @@ on_both_backends! {
         for (yaw_radians, face) in [(FRAC_PI_2, FACES[0]), (-FRAC_PI_2, FACES[1]), (0.0, FACES[4]), (PI, FACES[5])] {
             let picture = easel.draw(&empty(Background::Sky, Light::Book, yaw_radians, 0.0));
             assert_color(&picture, face, "a large sky");
+        }
+    }
+
+    /// Filtering would spread it over the texels beside it.
+    fn what_is_no_radiance_of_a_sky_is_cleaned(gpu) {
+        // Half floats: 0.2, 0.3, 0.4 and 1.
+        let [low, between, high, one] = [0x3266, 0x34cd, 0x3666, 0x3c00];
+        let sky = |odd: [u16; 4]| {
+            float_cube(16, |face, x, y| {
+                let index = ((x / 4 + y / 4) % 4) as usize;
+                if face == 4 && x % 4 == 1 && y % 4 == 1 {
+                    [odd[index], high, odd[(index + 1) % 4], one]
+                } else {
+                    [low, high, between, one]
+                }
+            })
+        };
+        let mut easel = gpu.easel(&empty(Background::Sky, Light::Book, 0.0, 0.0), &[], SIZE);
+        for light in Light::ALL {
+            // NaN, infinity, -3 and minus infinity; 0 and the largest.
+            let [odd, clean] = [[0x7e00, 0x7c00, 0xc200, 0xfc00], [0, 0x7bff, 0, 0]].map(|odd| {
+                assert!(easel.renderer.set_sky(Some(&sky(odd))));
+                easel.draw(&empty(Background::Sky, light, 0.0, 0.0))
+            });
+            assert!(odd == clean, "{light:?}: {} of the pixels differ", odd.share_that_differs(&clean, 0));
+            let channel = |channel: usize| clean.rgba.chunks_exact(4).map(move |pixel| pixel[channel]);
+            assert!(channel(0).min() < Some(60) && channel(2).max() > Some(200), "{light:?}: odd texels are in view");
         }
     }
 

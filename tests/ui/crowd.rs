@@ -21,6 +21,7 @@ fn crowd(window: &Window) -> (usize, u32, usize) {
 const COST: FrameCost = FrameCost {
     cpu_secs: Some(0.004_2),
     gpu_secs: Some([0.000_5, 0.000_25, 0.001, 0.0, 0.002]),
+    draws: 12,
     vertices: 1_234_567,
     uploaded_bytes: 48_000,
 };

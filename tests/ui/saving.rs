@@ -103,6 +103,7 @@ fn a_contact_sheet_is_asked_for_as_chosen() {
     type_into(&mut window, "Columns", "6");
     type_into(&mut window, "Rows", "0");
     window.click("Contact sheet of: Turntable");
+    // A switch of its own: the picture's does not count.
     window.click("Transparent ground");
     window.click("Square");
     window.click("Save contact sheet");
@@ -110,9 +111,24 @@ fn a_contact_sheet_is_asked_for_as_chosen() {
         size: [2048, 2048],
         cells: [6, 1],
         turntable: true,
-        transparent: true,
+        transparent: false,
     };
     assert_eq!(pictures(&window).last(), Some(&Request::SaveSheet(second)));
+
+    window.harness.state_mut().state.end_sheet();
+    window.pass_on();
+    window.click("Transparent ground");
+    window.click("Transparent sheet");
+    window.click("Save contact sheet");
+    let third = SheetRequest {
+        transparent: true,
+        ..second
+    };
+    assert_eq!(pictures(&window).last(), Some(&Request::SaveSheet(third)));
+    window.click("Save PNG");
+    let (size, transparent) = ([2048, 2048], false);
+    let last = pictures(&window).last().cloned();
+    assert_eq!(last, Some(Request::SavePicture { size, transparent }));
 }
 
 #[test]
