@@ -83,14 +83,13 @@ fn esc_shuts_the_menu_and_gives_the_focus_back_to_the_name() {
 
 #[test]
 fn in_a_menu_that_the_pointer_opened_the_first_arrow_goes_on_from_the_open_model() {
-    let mut window = window(WIDE, drop());
-    window.apply(FileCommand::Open("in/Middle.m3d".to_owned()));
     for (arrow, next) in [(Key::ArrowDown, "in/small.m3d"), (Key::ArrowUp, "in/large.m3d")] {
+        let mut window = window(WIDE, drop());
+        window.apply(FileCommand::Open("in/Middle.m3d".to_owned()));
         window.click("Open model: Middle.m3d · 2 of 3");
         assert_eq!(window.focused(), None);
         window.press(Modifiers::NONE, arrow);
         assert_eq!(window.focused().as_deref(), Some(next));
-        window.press(Modifiers::NONE, Key::Escape);
     }
 }
 
@@ -202,10 +201,9 @@ fn a_cube_map_among_textures_is_offered_as_sky_and_a_sky_can_be_taken_back() {
     assert_eq!(sky(&window).as_deref(), Some("noon.dds"));
     window.click("Remove the sky");
     assert_eq!(sky(&window), None);
-    assert!(
-        window.shows("Cube map dusk.dds") && window.shows("Use noon.dds as sky"),
-        "both can still be chosen"
-    );
+    for words in ["Use dusk.dds as sky", "Use noon.dds as sky"] {
+        assert!(window.shows(words), "both can still be chosen");
+    }
 }
 
 #[test]
