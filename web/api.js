@@ -1,18 +1,19 @@
 // A viewer for programs, as `globalThis.bindpose` is one. It is there before its viewer is: what is asked of it waits.
 
+import { onlyJoins } from "./files.js";
 import { readBytes } from "./sources.js";
 
 /** What `state()` says before there is a viewer to ask. */
-const EMPTY = { backend: null, model: null, clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, error: null };
+const EMPTY = { backend: null, model: null, models: [], clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, error: null };
 
 /** A failure of the viewer itself, in the shape that `state().error` has for a file. */
 const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, subject: null, count: 1, places: [], file: null });
 
-/** Commands that are handed on to the viewer as they are. */
+/** Commands that are handed on to the viewer as they are, and return what it returns; nothing while there is no viewer. */
 const COMMANDS = [
   "seek", "play", "pause", "selectClip", "stepFrames", "nextKey", "previousKey", "seekStart", "seekEnd",
   "setRangeStart", "setRangeEnd", "clearRange", "setSpeed", "setLoop", "setWrap", "setPass", "setRenderScale", "setQuality", "setCrowd",
-  "undo", "redo",
+  "undo", "redo", "openModel", "closeModel",
 ];
 
 /**
@@ -26,7 +27,8 @@ export function createApi() {
   let failure = null;
   let used = false;
   let resolve, reject;
-  let opening = Promise.resolve();
+  let opening = Promise.resolve(); // The last opening that others wait for.
+  let current = new AbortController(); // Of the openings that no newer one has replaced.
   const pending = new Set(); // Rejects open promises when the viewer stops: it would never settle them.
   const bindpose = new EventTarget();
   const ready = new Promise((...settle) => ([resolve, reject] = settle));
@@ -48,20 +50,33 @@ export function createApi() {
     return new Blob([await unlessStopped(running[how](options))], { type: "image/png" });
   };
 
-  /** Opens files, or adds their clips, one call after the other. `then(before, after)` hears of the states around it. */
+  /**
+   * Opens files, or adds their clips. What can bring a model replaces every opening before it that has not ended: those reject with an
+   * `AbortError`. Clips and pictures wait for what was asked before them. `then(before, after)` hears of the states around it.
+   */
   const give = (files, how, then = () => {}) => {
     // A FileList empties itself when its input is used again, so it is copied before anything waits.
     const copied = Array.from(files);
+    if (how !== "addClips" && !onlyJoins(copied)) {
+      current.abort(new DOMException("another opening came after this one", "AbortError"));
+      current = new AbortController();
+      opening = Promise.resolve();
+    }
+    const { signal } = current;
     const opened = opening.then(async () => {
       const records = await Promise.all(copied.map(readBytes));
       const running = await unlessStopped(ready);
+      signal.throwIfAborted();
       const before = running.state();
       const after = await running[how](records);
       then(before, after);
       return after;
     });
     opening = opened.catch(() => {});
-    return unlessStopped(opened);
+    const replaced = new Promise((_, fail) => signal.addEventListener("abort", () => fail(signal.reason)));
+    const first = Promise.race([opened, replaced]);
+    first.catch(() => {}); // Nobody hears of it once the viewer has stopped.
+    return unlessStopped(first);
   };
 
   /** The same for programs. */
@@ -72,8 +87,8 @@ export function createApi() {
 
   for (const name of COMMANDS) {
     bindpose[name] = (...values) => {
-      if (viewer) viewer[name](...values);
-      else if (!failure) ready.then(() => viewer?.[name](...values), () => {});
+      if (viewer) return viewer[name](...values);
+      if (!failure) ready.then(() => viewer?.[name](...values), () => {});
     };
   }
 
@@ -81,10 +96,10 @@ export function createApi() {
     ready,
     state: () => viewer?.state() ?? { ...EMPTY, error: failure && stopped(failure) },
 
-    /** Opens `File`s or `{name, bytes}` records, one call after the other. Resolves with the state after it. */
+    /** Opens `File`s or `{name, bytes}` records, in place of what is being opened. Resolves with the state after it. */
     open: asked("open"),
 
-    /** The same, but the clips of models with the same bones join those of the open one. */
+    /** The same after what was asked before, but the clips of models with the same bones join those of the open one. */
     addClips: asked("addClips"),
 
     /** A picture of the current view: a PNG `Blob`, as large as the canvas unless told otherwise. */

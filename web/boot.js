@@ -49,6 +49,8 @@ let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
 let openName = ""; // Of the open model: a drag reads it many times a second.
 let mirror = null; // The viewer's controls as elements, of its present canvas.
 let gpuWasLost = false;
+let handing = 0; // How much of the person's is being opened.
+let replaced = []; // Names of what was dropped before something else, and gave way to it.
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
 
@@ -99,17 +101,35 @@ const receive = async (files, addsClips = false) => {
 
 /** Opens the person's files in the viewer, and remembers them for R. */
 const hand = async (files, addsClips) => {
+  const { name } = files[0];
+  handing += 1;
   try {
-    // Without a model to join, a file of clips is opened.
-    await give(files, addsClips ? "addClips" : "open", (before, { error }) => sources.add(files, addsClips && Boolean(before.model), !error));
+    await give(files, addsClips ? "addClips" : "open", (before, after) => sources.add(files, addsClips, before, after));
+    replaced = replaced.filter((other) => other !== name);
   } catch (error) {
-    refuseError(error);
+    if (error.name === "AbortError") replaced.push(name);
+    else refuse(wordsOf(error));
   }
+  handing -= 1;
+  tellReplaced();
+};
+
+/** Names what was dropped and never opened, once all that came after it is. */
+const tellReplaced = () => {
+  if (handing || !replaced.length) return;
+  showNotice(`Not opened: ${replaced.join(", ")}`, "Something else was dropped after it, and opens in its place.");
+  replaced = [];
+};
+
+/** Hears of a dropped folder that came too late. */
+const gaveWay = (name) => {
+  replaced.push(name);
+  tellReplaced();
 };
 
 const pick = takeChoices({ files: element("files"), folder: element("folder"), clips: element("clips") }, { receive, refuse });
 // The page has one viewer, so all of it is the viewer's.
-takeDrops(globalThis, { receive, refuse, openModel: () => openName, show: showDrop });
+takeDrops(globalThis, { receive, refuse, gaveWay, openModel: () => openName, show: showDrop });
 takeUnclaimedKeys();
 printView(bindpose, () => view.querySelector("canvas"));
 element("open-files").addEventListener("click", () => pick("files"));
@@ -322,13 +342,14 @@ function onPanic(message) {
 
 /** Opens what is open once more, as it is on disk or on the server now; while an error is shown, what it is about. */
 async function readSourcesAgain() {
-  const refused = bindpose.state().error && sources.refused();
+  const state = bindpose.state();
+  const refused = state.error && sources.refused();
   // What a script opened, only the script can open again.
-  if (!refused && !sources.hasModel() && wasUsed()) return;
+  if (!refused && !sources.hasModel(state) && wasUsed()) return;
   try {
     if (refused) return await hand(await readAgain(refused.files), refused.addsClips);
-    const { files, clips } = await sources.again(fetchOpening);
-    if (files.length) await give(files, "open");
+    const { files, clips } = await sources.again(state, fetchOpening);
+    if (files.length) await give(files, "open", sources.move);
     if (clips.length) await give(clips, "addClips");
   } catch (error) {
     if (error.name === "AbortError") return;

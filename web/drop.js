@@ -1,7 +1,6 @@
 // Files and folders from the person: dropped on a viewer, or chosen in a dialog.
 
-/** What a model can use out of a folder; the rest of the folder is left where it is. */
-const USEFUL = /\.(m3d|a3d|glb|gltf|bin|dds|png|jpe?g|bmp|tga)$/i;
+import { CLIP_FILES, isUseful, onlyJoins } from "./files.js";
 
 /** A folder with more than this in it was not meant for a viewer. */
 const MAX_ENTRIES = 20_000;
@@ -10,9 +9,12 @@ const MAX_ENTRIES = 20_000;
  * Takes every drop on `area`: an element of one viewer among several, or `window` for the only one of its page. `receive(files, addsClips)`
  * gets `{name, file}` records, name being the path inside what was dropped, and whether only their clips are wanted, as Shift says;
  * `refuse(words)` hears what could not be read; `openModel()` names the model that a drop would replace, if any; `show({title, what})` says
- * while files are over the area what a drop would do, and `show(null)` that none are.
+ * while files are over the area what a drop would do, and `show(null)` that none are. A folder that is listed after a newer drop was received
+ * is not; `gaveWay(name)` hears of it.
  */
-export function takeDrops(area, { receive, refuse, openModel, show }) {
+export function takeDrops(area, { receive, refuse, openModel, show, gaveWay = () => {} }) {
+  let drops = 0;
+  let received = 0; // Number of the newest drop that could bring a model.
   const onDrag = (event) => {
     if (!carriesFiles(event)) return;
     claim(event);
@@ -34,7 +36,10 @@ export function takeDrops(area, { receive, refuse, openModel, show }) {
     // The list is emptied when this listener returns, so the entries are taken now.
     const roots = entriesOf(event.dataTransfer);
     const addsClips = event.shiftKey;
+    const mine = ++drops;
     const { files, problems } = await collect(roots);
+    if (mine < received) return gaveWay(roots[0].name);
+    if (files.length && !addsClips && !onlyJoins(files)) received = mine;
     if (problems.length) refuse(problems.join("\n"));
     if (files.length) receive(files, addsClips);
     else if (!problems.length) refuse("There is no model and no picture in what was dropped.");
@@ -46,11 +51,12 @@ export function takeDrops(area, { receive, refuse, openModel, show }) {
  * dialog.
  */
 export function takeChoices(inputs, { receive, refuse }) {
+  inputs.clips.accept = CLIP_FILES;
   for (const [what, input] of Object.entries(inputs)) {
     input.addEventListener("change", () => {
       const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
       input.value = ""; // So that choosing the same file again is a change.
-      const files = what === "folder" ? chosen.filter(({ name }) => USEFUL.test(name)) : chosen;
+      const files = what === "folder" ? chosen.filter(({ name }) => isUseful(name)) : chosen;
       if (files.length) receive(files, what === "clips");
       else if (chosen.length) refuse("There is no model and no picture in this folder.");
     });
@@ -99,7 +105,7 @@ async function collect(roots) {
         for (let batch = await next(reader); batch.length && seen <= MAX_ENTRIES; batch = await next(reader)) {
           for (const child of batch) await visit(child, false);
         }
-      } else if (isRoot || USEFUL.test(path)) {
+      } else if (isRoot || isUseful(path)) {
         // A file that was changed since cannot be read through its old `File`, so another can be asked for.
         const again = () => new Promise((done, fail) => entry.file(done, fail));
         files.push({ name: path, file: await again(), again });

@@ -1,7 +1,5 @@
 // Where files come from, and how the page gets their bytes: from the person, from a program, from the server.
 
-const MODEL = /\.(m3d|a3d|glb|gltf|zip)$/i;
-
 /** Whether it is a `Blob` or a `File`, also one of another window. */
 const isBlob = (item) => typeof item?.arrayBuffer === "function";
 
@@ -38,26 +36,40 @@ const joined = (before, files) => {
 export const readAgain = (files) =>
   Promise.all(files.map(async (item) => ({ ...item, file: item.again ? await item.again() : item.file })));
 
-/** Remembers the files that the person opened, for another reading: they may have changed on disk. */
+/**
+ * Remembers the files that the person opened, for another reading: they may have changed on disk. What a drop was, the states around it say:
+ * `state.model.opening` is the number of the opening that brought the model on screen.
+ */
 export function rememberSources() {
-  let model = null; // The files that brought the model.
-  let beside = []; // Maps and skies that came later.
-  let clips = []; // Files whose clips were added.
+  let all = new Map(); // By that number: `files` that brought the model, `beside` maps and skies that came later, `clips` that were added.
   let refused = null; // What came last, if it could not be opened: it may be mended on disk.
+  const of = ({ model }) => all.get(model?.opening);
   return {
-    add(files, addsClips, opened) {
-      refused = opened ? null : { files, addsClips };
-      if (!opened) return;
-      if (addsClips) clips = joined(clips, files);
-      else if (files.some(({ name }) => MODEL.test(name))) [model, beside, clips] = [files, [], []];
-      else beside = joined(beside, files);
+    add(files, addsClips, before, after) {
+      refused = after.error ? { files, addsClips } : null;
+      if (refused) return;
+      const number = after.model?.opening;
+      const opened = number !== before.model?.opening;
+      const known = (!opened && of(after)) || { files: opened ? files : null, beside: [], clips: [] };
+      if (!opened) {
+        const list = addsClips ? "clips" : "beside";
+        known[list] = joined(known[list], files);
+      }
+      all.set(number, known);
     },
-    forget: () => ([model, beside, clips, refused] = [null, [], [], null]),
+    /** What was remembered of the model on screen before, is now of the one on screen after. */
+    move(before, after) {
+      const known = of(before);
+      all.delete(before.model?.opening);
+      if (known) all.set(after.model?.opening, known);
+    },
+    forget: () => ([all, refused] = [new Map(), null]),
     refused: () => refused,
-    hasModel: () => Boolean(model),
-    /** All of it, read again: `files` to open and `clips` to add. Without a model of the person's, `own()` gives the page's. */
-    async again(own) {
-      const opened = model ? await readAgain(model) : await own();
+    hasModel: (state) => Boolean(of(state)?.files),
+    /** All that belongs to the model on screen, read again: `files` to open and `clips` to add. Without a file of the person's `own()` gives the page's. */
+    async again(state, own) {
+      const { files, beside, clips } = of(state) ?? { files: null, beside: [], clips: [] };
+      const opened = files ? await readAgain(files) : await own();
       const rest = await Promise.all([beside, clips].map(readAgain));
       return { files: [...(opened ?? []), ...rest[0]], clips: rest[1] };
     },

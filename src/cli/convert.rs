@@ -12,7 +12,7 @@ use super::failure::{Failure, Outcome};
 use super::input::{self, one_of};
 use super::paths;
 use super::text::{Plain, grouped};
-use super::textures::{Folders, Textures, Wanted};
+use super::textures::{Folders, Textures};
 use crate::check::book::Book;
 use crate::edit::{Change, Edits};
 use crate::export::Loss;
@@ -153,7 +153,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let format = arguments.format(open.format);
     let is_glb = format == ExportFormat::Glb;
     let folders = Folders::walk(&arguments.textures, err)?;
-    let mut textures = Textures::of(&folders, &open.model.materials, Wanted::Maps);
+    let mut textures = Textures::of(&folders, &open.model.materials);
     textures.write_warnings(err)?;
     // What is not written beside the file is only named; of what lies inside the input that is a loss.
     let pictures = match std::mem::take(&mut textures.pictures) {

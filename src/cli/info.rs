@@ -9,7 +9,7 @@ use super::diagnostic::worded_place;
 use super::failure::Failure;
 use super::input;
 use super::text::{Plain, column_width, counted, grouped};
-use super::textures::{Folders, MapState, NamedMap, Textures, Wanted, by_name, named_maps};
+use super::textures::{Folders, MapState, NamedMap, Textures, by_name, named_maps};
 use crate::anim::animated_bounds;
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::model::{Aabb, Handedness, Model, UpAxis};
@@ -106,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         named_maps(materials).collect()
     } else {
         let folders = Folders::walk(&arguments.textures, err)?;
-        textures = Textures::of(&folders, materials, Wanted::Maps);
+        textures = Textures::of(&folders, materials);
         textures.write_warnings(err)?;
         let pictures = std::mem::take(&mut textures.pictures).into_iter();
         found.add(materials, pictures.chain(open.pictures.iter().cloned()));

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use walkdir::WalkDir;
 
 use super::failure::Failure;
+use crate::session::{File, FileKind};
 
 /// The name of standard input.
 const STDIN: &str = "-";
@@ -34,13 +35,7 @@ pub(super) fn models(arguments: &[PathBuf]) -> Vec<Result<PathBuf, Failure>> {
 }
 
 fn is_model(path: &Path) -> bool {
-    path.extension()
-        .and_then(|extension| extension.to_str())
-        .is_some_and(|extension| {
-            ["m3d", "glb", "gltf"]
-                .iter()
-                .any(|known| extension.eq_ignore_ascii_case(known))
-        })
+    File::new(&path.to_string_lossy(), []).kind() == Some(FileKind::Model)
 }
 
 /// The bytes of a file, or of standard input where the path says `-`.

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use super::appearance::AppearanceArguments;
-use super::diagnostic::write_diagnostic;
 use super::failure::{Failure, Outcome};
 use super::input;
 use super::paths;
@@ -14,14 +13,14 @@ use super::progress::progress;
 use super::quiet::quietly;
 use super::series::SeriesArguments;
 use super::text::{Plain, counted};
-use super::textures::{Folders, Textures, Wanted, read_sky, write_missing};
+use super::textures::{Folders, Textures, write_missing};
 use crate::contact_sheet::ContactSheet;
-use crate::image::encode_png;
+use crate::image::{self, ImageKind, encode_png};
 use crate::render::device::{self, Gpu};
 use crate::render::{PictureTarget, Renderer, watched};
 use crate::scene::{Background, Shot, Theme, ViewPreset};
 use crate::session::{
-    CameraCommand, Command, CrowdCommand, CrowdState, FileCommand, MAX_CROWD, PlayCommand, Series, Session,
+    CameraCommand, Command, CrowdCommand, CrowdState, File, FileCommand, MAX_CROWD, PlayCommand, Series, Session,
 };
 
 /// Draw a model into PNG files.
@@ -65,10 +64,13 @@ pub(super) struct Arguments {
     theme: Theme,
     /// A folder with the model's textures, folders and links in it included; may be given several times.
     ///
-    /// Reads the pictures that the model names, and the largest cube map, which becomes the sky. Maps that are missing
-    /// or cannot be read are listed on standard error, a line each; the picture is drawn without them.
+    /// Reads the pictures that the model names. Maps that are missing or cannot be read are listed on standard error, a line each; the
+    /// picture is drawn without them. A cube map is named in a note.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
+    /// A cube map (.dds) for the sky: it is behind the model, and lights it in the studio.
+    #[arg(long, value_name = "FILE")]
+    sky: Option<PathBuf>,
     /// What to refuse.
     #[arg(long, value_name = "WHAT", value_enum, requires = "textures")]
     deny: Vec<Denied>,
@@ -77,7 +79,7 @@ pub(super) struct Arguments {
 }
 
 const OUTPUT: &str = "\
-Warnings, on standard error:
+Warnings and notes, on standard error:
   PATH: warning[CODE]: MESSAGE
   map-missing          no file of the folders fits a map; PATH is the model's
   image-*, dds-*       the picture that fits a map is damaged or of a kind that is not read
@@ -86,6 +88,7 @@ Warnings, on standard error:
   folder-too-large     a folder with more entries than are looked at
   link-broken          a link to nothing
   not-a-file           a pipe or device with the name of a map
+  map-is-cube          a cube map: a warning where it has the name of a map, else a note
 
 Pictures of a folder become a film with, for example:
   bindpose render walk.m3d -o frames --fps 30
@@ -214,6 +217,9 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
         });
     }
     let lacks_maps = add_textures(arguments, &mut session, err)?;
+    if let Some(path) = &arguments.sky {
+        add_sky(path, &mut session)?;
+    }
     if let (Some(open), Some(asked)) = (session.open_model(), &arguments.clip)
         && let Some(clip) = input::choose_clip(&open.model, path, Some(asked))?
     {
@@ -229,8 +235,7 @@ fn open(arguments: &Arguments, err: &mut dyn Write) -> Result<(Session, bool), F
     Ok((session, lacks_maps))
 }
 
-/// Adds the model's maps from the folders, and the largest readable cube map as the sky. Gives whether maps are
-/// missing.
+/// Adds the model's maps from the folders. Gives whether maps are missing.
 fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Write) -> Result<bool, Failure> {
     let folders = arguments.textures.as_slice();
     let materials = match session.open_model() {
@@ -238,23 +243,37 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
         _ => return Ok(false),
     };
     let folders = Folders::walk(folders, err)?;
-    let mut textures = Textures::of(&folders, &materials, Wanted::MapsAndSky);
+    let mut textures = Textures::of(&folders, &materials);
     textures.write_warnings(err)?;
+    textures.write_cubes(err)?;
     let pictures = std::mem::take(&mut textures.pictures);
     if !pictures.is_empty() {
         session.apply(FileCommand::Add(pictures));
     }
-    let lacks_maps = write_missing(err, &arguments.file, &textures.states(&materials, session.maps()))?;
-    for path in &textures.cubes {
-        match read_sky(path) {
-            Ok(file) => {
-                session.apply(FileCommand::Add(vec![file]));
-                break;
-            }
-            Err(warning) => write_diagnostic(err, path, &warning, None)?,
+    Ok(write_missing(
+        err,
+        &arguments.file,
+        &textures.states(&materials, session.maps()),
+    )?)
+}
+
+/// Makes a cube map the sky. Its first bytes tell what it is, whatever its name.
+fn add_sky(path: &Path, session: &mut Session) -> Result<(), Failure> {
+    let bytes = std::fs::read(path).map_err(|reason| Failure::Unreadable {
+        path: path.to_owned(),
+        reason,
+    })?;
+    match image::decode(&bytes, &path.to_string_lossy()).map(|image| image.kind()) {
+        Ok(ImageKind::Cube) => {
+            session.apply(FileCommand::Add(vec![File::new("sky.dds", bytes)]));
+            Ok(())
         }
+        Ok(_) => Err(Failure::WrongUse(format!(
+            "{} is a flat picture; --sky takes a cube map",
+            path.display()
+        ))),
+        Err(error) => Err(Failure::WrongUse(error.to_string())),
     }
-    Ok(lacks_maps)
 }
 
 fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure> {
@@ -304,19 +323,5 @@ impl Painter {
     fn draw(&mut self, series: &mut Series, index: usize) -> Result<Vec<u8>, Failure> {
         let picture = self.renderer.picture_into(&series.frame(index), &mut self.target)?;
         Ok(picture.pixels_blocking()?)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_are_two_numbers_above_zero() {
-        assert_eq!(size("1280x720"), Ok([1280, 720]));
-        assert_eq!(size("1X2"), Ok([1, 2]));
-        for wrong in ["", "1280", "0x5", "5x0", "-1x5", "axb", "1x2x3", "99999999999x1"] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
     }
 }

@@ -28,8 +28,6 @@ pub(super) struct Folders {
 pub(super) struct Textures {
     /// Flat pictures whose names fit a map.
     pub(super) pictures: Vec<File>,
-    /// Cube maps, the largest first. They are not read yet.
-    pub(super) cubes: Vec<PathBuf>,
     /// Pictures that no map's name fits. Their contents are not known.
     pub(super) unnamed: Vec<PathBuf>,
     /// Pictures whose names fit a map, but that the system does not let us read, or that are cube maps. They hold no bytes.
@@ -40,13 +38,6 @@ pub(super) struct Textures {
     paths: HashMap<String, PathBuf>,
     /// Of [`Folders::not_files`] those whose names fit a map.
     pub(super) not_files: Vec<PathBuf>,
-}
-
-/// What to look for in the folders.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Wanted {
-    Maps,
-    MapsAndSky,
 }
 
 /// A map that a material names.
@@ -111,40 +102,26 @@ impl Folders {
 
 impl Textures {
     /// Reads what the materials name.
-    pub(super) fn of(folders: &Folders, materials: &[Material], wanted: Wanted) -> Self {
+    pub(super) fn of(folders: &Folders, materials: &[Material]) -> Self {
         let names = MapNames::new(materials);
         let mut textures = Self::default();
         let fits = |path: &&PathBuf| names.fit(&path.to_string_lossy());
         textures.not_files = folders.not_files.iter().filter(fits).cloned().collect();
-        let mut cubes = Vec::new();
         for path in &folders.pictures {
             let name = path.to_string_lossy();
-            let is_named = names.fit(&name);
-            if !is_named && wanted == Wanted::Maps {
+            if !names.fit(&name) {
                 textures.unnamed.push(path.clone());
                 continue;
             }
-            match read_picture(path, is_named) {
-                Ok(Picture::Cube(size)) => {
-                    cubes.push((size, path.clone()));
-                    if is_named {
-                        textures.add_unopened(path, is_cube());
-                    }
-                }
-                Ok(Picture::Flat(bytes)) if is_named => {
+            match fs::read(path) {
+                Ok(bytes) if image::cube_side(&bytes).is_some() => textures.add_unopened(path, is_cube()),
+                Ok(bytes) => {
                     let file = File::new(&name, bytes);
                     textures.paths.insert(file.path.clone(), path.clone());
                     textures.pictures.push(file);
                 }
-                Ok(Picture::Flat(_)) => {}
-                Err(reason) if is_named => textures.add_unopened(path, unreadable(&reason)),
-                // No material names it.
-                Err(_) => {}
+                Err(reason) => textures.add_unopened(path, unreadable(&reason)),
             }
-        }
-        if wanted == Wanted::MapsAndSky {
-            cubes.sort_by_key(|(size, _)| std::cmp::Reverse(*size));
-            textures.cubes = cubes.into_iter().map(|(_, path)| path).collect();
         }
         textures
     }
@@ -192,6 +169,19 @@ impl Textures {
     pub(super) fn write_warnings(&self, err: &mut dyn Write) -> io::Result<()> {
         let mut paths = self.not_files.iter();
         paths.try_for_each(|path| write_diagnostic(err, path, &not_a_file(), None))
+    }
+
+    /// Notes which of the other pictures are cube maps, a line each: the sky has an option of its own.
+    pub(super) fn write_cubes(&self, err: &mut dyn Write) -> io::Result<()> {
+        let note = Diagnostic {
+            severity: Severity::Note,
+            ..codes::MAP_IS_CUBE.says("This is a cube map; --sky takes it.".to_owned())
+        };
+        let mut cubes = self
+            .unnamed
+            .iter()
+            .filter(|path| begins_like_cube(path).unwrap_or(false));
+        cubes.try_for_each(|path| write_diagnostic(err, path, &note, None))
     }
 }
 
@@ -258,40 +248,12 @@ fn warning(code: &Code, message: String) -> Diagnostic {
     }
 }
 
-/// What a file holds.
-enum Picture {
-    /// By texels a side, then by bytes.
-    Cube((u32, u64)),
-    Flat(Vec<u8>),
-}
-
-/// Reads a flat picture when it `is_named`; of all others only the beginning, which tells a cube map.
-fn read_picture(path: &Path, is_named: bool) -> io::Result<Picture> {
-    let mut file = fs::File::open(path)?;
+/// Whether a picture is a cube map, by its beginning.
+fn begins_like_cube(path: &Path) -> io::Result<bool> {
     let mut bytes = Vec::new();
-    Read::by_ref(&mut file)
-        .take(image::CUBE_HEADER_LEN as u64)
-        .read_to_end(&mut bytes)?;
-    if let Some(side) = image::cube_side(&bytes) {
-        return Ok(Picture::Cube((side, file.metadata()?.len())));
-    }
-    if is_named {
-        file.read_to_end(&mut bytes)?;
-    }
-    Ok(Picture::Flat(bytes))
-}
-
-/// Reads a cube map.
-///
-/// # Errors
-/// A warning when it cannot be read or is damaged.
-pub(super) fn read_sky(path: &Path) -> Result<File, Box<Diagnostic>> {
-    let bytes = fs::read(path).map_err(|reason| Box::new(unreadable(&reason)))?;
-    let file = File::new(&path.to_string_lossy(), bytes);
-    match image::check(&file.bytes, file.base_name()) {
-        Ok(()) => Ok(file),
-        Err(error) => Err(Box::new(without_name(&error.diagnostic(), path))),
-    }
+    let mut header = fs::File::open(path)?.take(image::CUBE_HEADER_LEN as u64);
+    header.read_to_end(&mut bytes)?;
+    Ok(image::cube_side(&bytes).is_some())
 }
 
 /// That something has the name of a map, but cannot be read as a file.

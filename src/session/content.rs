@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::changes::Changes;
-use super::files::FileSet;
+use super::event::News;
+use super::files::{File, FileSet};
 use super::load::LoadError;
 use super::maps::Maps;
 use super::materials::Materials;
@@ -13,11 +14,30 @@ use super::verdicts::Verdicts;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Clip, JointNames};
 
-/// Files that can be opened again, with the pictures that were found for them.
+/// So many bytes of files are kept, with all their pictures: more than a person looks at in turn, and little enough for a page.
+const MOST_BYTES: usize = 1 << 29;
+
+/// Files that came together, and the pictures that were found for their models.
 #[derive(Clone, Debug)]
-pub(super) struct OtherFiles {
+pub(super) struct Opened {
     pub(super) files: Arc<FileSet>,
+    /// While a model of them is on screen, its maps are those of [`Content`].
     pub(super) maps: Maps,
+    /// The number of the opening that brought them.
+    pub(super) number: u64,
+}
+
+impl Opened {
+    fn byte_count(&self) -> usize {
+        let came_later = |picture: &&File| self.files.get(&picture.path).is_none();
+        let later = self.maps.pictures().iter().filter(came_later);
+        self.files
+            .files()
+            .iter()
+            .chain(later)
+            .map(|file| file.bytes.len())
+            .sum()
+    }
 }
 
 /// A model is replaced together with all that belongs to it; the sky belongs to no model.
@@ -25,10 +45,10 @@ pub(super) struct OtherFiles {
 pub(super) struct Content {
     /// Shared with the copy that [`Session::go_back`](super::Session::go_back) returns to.
     pub(super) open: Option<Arc<OpenModel>>,
-    /// Files of the last drop that had a model.
+    /// Those of `opened` that the model came with.
     pub(super) files: Arc<FileSet>,
-    /// What was open before that drop, or the drop while what was open before it is open again.
-    pub(super) others: Option<Arc<OtherFiles>>,
+    /// All that can be opened again, in the order of opening.
+    pub(super) opened: Arc<Vec<Opened>>,
     pub(super) maps: Maps,
     pub(super) materials: Materials,
     /// What joints are called.
@@ -51,27 +71,47 @@ impl Content {
         self.clips().len()
     }
 
-    /// What stands beside the files of the next drop: the model that was open, or the one before it if the drop has this one too.
-    pub(super) fn others_of(&self, next: &Arc<FileSet>) -> Option<Arc<OtherFiles>> {
-        let beside = |others: &&Arc<OtherFiles>| {
-            let models = others.files.models();
-            !models.iter().any(|file| next.get(&file.path).is_some())
-        };
-        if Arc::ptr_eq(next, &self.files) {
-            return self.others.clone();
+    /// The list when a model of `next` is shown. New files stand at the end, or in the place of those whose models all come again. The
+    /// oldest leave when all have too many bytes. The second is what is to be told of it.
+    pub(super) fn opened_with(&self, next: &Arc<FileSet>, number: u64) -> (Vec<Opened>, Vec<News>) {
+        let mut list = Vec::clone(&self.opened);
+        if let Some(shown) = list.iter_mut().find(|opened| Arc::ptr_eq(&opened.files, &self.files)) {
+            // They can be decoded again; until then their memory is free.
+            shown.maps = self.maps.undecoded();
         }
-        let swaps = |others: &&Arc<OtherFiles>| Arc::ptr_eq(next, &others.files);
-        let files = match (&self.open, self.others.iter().find(swaps)) {
-            (None, _) => return None,
-            (_, Some(_)) => Arc::clone(&self.files),
-            (Some(open), None) if next.get(&open.file.path).is_none() => {
-                Arc::new(self.files.with_one_model(&open.file))
+        if list.iter().any(|opened| Arc::ptr_eq(&opened.files, next)) {
+            return (list, Vec::new());
+        }
+        let comes_again = |file: &File| next.get(&file.path).is_some();
+        let models = next.models();
+        let is_next = |of: Vec<&File>| of.len() == models.len() && of.into_iter().all(comes_again);
+        let is_new = !list.iter().any(|opened| is_next(opened.files.models()));
+        let largest = models.first().filter(|_| is_new && models.len() > 1);
+        let largest = largest.map(|file| News::OpenedLargest(file.base_name().to_owned(), models.len()));
+        let mut news: Vec<News> = largest.into_iter().collect();
+        for opened in &mut list {
+            if opened.files.models().into_iter().any(comes_again) {
+                opened.files = Arc::new(opened.files.without(comes_again));
             }
-            (Some(_), None) => return self.others.as_ref().filter(beside).cloned(),
-        };
-        // They can be decoded again; until then their memory is free.
-        let maps = self.maps.undecoded();
-        Some(Arc::new(OtherFiles { files, maps }))
+        }
+        let is_empty = |opened: &Opened| opened.files.models().is_empty();
+        let place = list.iter().position(is_empty).unwrap_or(list.len());
+        list.retain(|opened| !is_empty(opened));
+        let files = Arc::clone(next);
+        let maps = Maps::default();
+        list.insert(place, Opened { files, maps, number });
+
+        let mut bytes: usize = list.iter().map(Opened::byte_count).sum();
+        let mut closed = 0;
+        while bytes > MOST_BYTES
+            && let Some(oldest) = list.iter().position(|opened| !Arc::ptr_eq(&opened.files, next))
+        {
+            let oldest = list.remove(oldest);
+            bytes -= oldest.byte_count();
+            closed += oldest.files.models().len();
+        }
+        news.extend((closed > 0).then_some(News::ModelsClosed(closed)));
+        (list, news)
     }
 
     /// What was mended or is worth knowing about the model, its maps and the sky.

@@ -17,6 +17,19 @@ pub enum Event {
     PlaybackChange,
 }
 
+/// What a command about files did out of sight. A message tells of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum News {
+    /// Of so many models that came together, the largest was opened, of this name.
+    OpenedLargest(String, usize),
+    /// A cube map of this name became the sky. Undo takes it back.
+    SkyUsed(String),
+    /// A cube map with this path came among other files, and can be the sky.
+    SkyFound(String),
+    /// So many models were closed, the oldest, since the files of all had too many bytes.
+    ModelsClosed(usize),
+}
+
 impl Event {
     /// The name that listeners use.
     pub fn name(self) -> &'static str {

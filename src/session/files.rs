@@ -1,6 +1,6 @@
 //! Dropped files by name, as they came from one drop.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use super::archive;
@@ -41,7 +41,7 @@ impl File {
 
     /// The files in a `.zip`, as if its folder had been dropped, or why it cannot be unpacked; `None` for any other file.
     pub(super) fn unpacked(&self) -> Option<Result<Vec<Self>, String>> {
-        if self.extension() != "zip" || !archive::begins_like_archive(&self.bytes) {
+        if self.kind() != Some(FileKind::Archive) || !archive::begins_like_archive(&self.bytes) {
             return None;
         }
         let folder = self.path.strip_suffix(self.base_name()).unwrap_or_default();
@@ -54,9 +54,21 @@ impl File {
         Some(files)
     }
 
+    /// What it is by its name; `None` where that says nothing.
+    pub fn kind(&self) -> Option<FileKind> {
+        let extension = self.extension();
+        let is_of = |(_, extensions): &&(_, &[&str])| extensions.contains(&extension.as_str());
+        FILE_KINDS.iter().find(is_of).map(|&(kind, _)| kind)
+    }
+
     /// Whether it is a picture by its name.
     pub fn is_image(&self) -> bool {
-        IMAGE_EXTENSIONS.contains(&self.extension().as_str())
+        self.kind() == Some(FileKind::Picture)
+    }
+
+    /// Why a file of [`FileKind::Unread`] is not shown.
+    pub(super) fn unread_words(&self) -> String {
+        format!("{} cannot be read yet; a cube map as .dds can.", self.base_name())
     }
 
     /// Whether it is a cube map, by its name and its first bytes.
@@ -74,11 +86,29 @@ pub struct FileSet {
     models: Vec<usize>,
 }
 
-/// Extensions of pictures that models name as their maps.
-const IMAGE_EXTENSIONS: [&str; 7] = ["dds", "png", "jpg", "jpeg", "tga", "bmp", "hdr"];
+/// What a file is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A model.
+    Model,
+    /// Files in one file.
+    Archive,
+    /// A map or a cube map.
+    Picture,
+    /// Data that a model names.
+    Buffer,
+    /// A picture of an environment, in a format that is not read yet.
+    Unread,
+}
 
-/// Extensions of models.
-const MODEL_EXTENSIONS: [&str; 3] = ["m3d", "glb", "gltf"];
+/// The extensions of each kind. The page has the same table, in web/files.js.
+pub const FILE_KINDS: [(FileKind, &[&str]); 5] = [
+    (FileKind::Model, &["m3d", "glb", "gltf"]),
+    (FileKind::Archive, &["zip"]),
+    (FileKind::Picture, &["dds", "png", "jpg", "jpeg", "tga", "bmp"]),
+    (FileKind::Buffer, &["bin"]),
+    (FileKind::Unread, &["hdr", "exr"]),
+];
 
 impl FileSet {
     /// A set of these files, in their order. Of two files with one path the later is kept. The files in a `.zip` take its place; one that
@@ -114,12 +144,28 @@ impl FileSet {
         self.models.iter().map(|&index| &self.files[index]).collect()
     }
 
-    /// One of its files, what that one names, and all pictures: what is needed to open that model again.
-    pub(super) fn with_one_model(&self, model: &File) -> Self {
-        let pictures = self.files.iter().filter(|file| file.is_image());
+    /// One of its models, by its path.
+    pub(super) fn model(&self, path: &str) -> Option<&File> {
+        let index = self.by_path.get(path)?;
+        self.models.contains(index).then(|| &self.files[*index])
+    }
+
+    /// A model of it and the data that it names: what is needed to read that model again.
+    pub(super) fn needed_by(&self, model: &File) -> Self {
         let named = import::files_beside(&model.bytes);
-        let named = named.iter().filter_map(|path| self.beside(model, path));
-        Self::new(pictures.chain(named).chain([model]).cloned())
+        let named = named.iter().filter_map(|path| self.data_beside(model, path));
+        Self::new(named.chain([model]).cloned())
+    }
+
+    /// The same without some of its models.
+    pub(super) fn without(&self, is_gone: impl Fn(&File) -> bool) -> Self {
+        let (gone, left): (Vec<&File>, Vec<&File>) = self.models().into_iter().partition(|file| is_gone(file));
+        let paths = |files: Vec<_>| -> HashSet<&str> { files.into_iter().map(|file: &File| &*file.path).collect() };
+        let (gone, left) = (paths(gone), paths(left));
+        let mut set = Self::new(self.files.iter().filter(|file| !gone.contains(&*file.path)).cloned());
+        // When the last model goes, no other file is taken for one.
+        set.models.retain(|&index| left.contains(&*set.files[index].path));
+        set
     }
 
     /// Flat pictures: those that a model can name.
@@ -130,6 +176,16 @@ impl FileSet {
     /// Cube maps: one of them is the sky.
     pub fn cubes(&self) -> impl Iterator<Item = &File> {
         self.files.iter().filter(|file| file.is_cube())
+    }
+
+    /// Pictures of environments that cannot be read yet.
+    pub fn unread(&self) -> impl Iterator<Item = &File> {
+        self.files.iter().filter(|file| file.kind() == Some(FileKind::Unread))
+    }
+
+    /// What `from` names as [`FileSet::beside`] finds it, unless that is a picture: pictures are found by their names later.
+    pub(super) fn data_beside(&self, from: &File, path: &str) -> Option<&File> {
+        self.beside(from, path).filter(|file| !file.is_image())
     }
 
     /// The file that `from` names by a relative path: at that path, or else any of that base name.
@@ -161,87 +217,13 @@ fn models_among(files: &[File]) -> Vec<usize> {
         let files = files.iter().enumerate().filter(|(_, file)| wanted(file));
         files.map(|(index, _)| index).collect::<Vec<_>>()
     };
-    let mut models = by_name(|file| MODEL_EXTENSIONS.contains(&file.extension().as_str()));
+    let mut models = by_name(|file| file.kind() == Some(FileKind::Model));
     if models.is_empty() {
-        models = by_name(|file| !file.is_image());
+        models = by_name(|file| !matches!(file.kind(), Some(FileKind::Picture | FileKind::Unread)));
         if models.len() < files.len() {
             models.retain(|&index| import::begins_like_model(&files[index].bytes));
         }
     }
     models.sort_by_key(|&index| std::cmp::Reverse(files[index].bytes.len()));
     models
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn file(path: &str, len: usize) -> File {
-        File::new(path, vec![0; len])
-    }
-
-    #[test]
-    fn paths_have_one_form_and_names_are_their_last_part() {
-        let file = file("\\media\\Soldier.M3D", 1);
-        assert_eq!(
-            (file.path.as_str(), file.base_name()),
-            ("media/Soldier.M3D", "Soldier.M3D")
-        );
-        assert_eq!(file.extension(), "m3d");
-        assert_eq!(File::new("./a", []).path, "a");
-        assert_eq!(File::new("README", []).extension(), "");
-    }
-
-    #[test]
-    fn models_come_largest_first_and_pictures_are_none() {
-        let set = FileSet::new([
-            file("a.m3d", 3),
-            file("t/b.dds", 100),
-            file("c.m3d", 9),
-            file("notes.txt", 50),
-        ]);
-        assert_eq!(
-            set.models().iter().map(|f| f.base_name()).collect::<Vec<_>>(),
-            ["c.m3d", "a.m3d"]
-        );
-        assert_eq!(set.images().count(), 1);
-    }
-
-    #[test]
-    fn without_a_model_by_name_anything_but_pictures_is_tried_and_beside_them_what_begins_like_one() {
-        let names = |files: &[File]| {
-            let set = FileSet::new(files.iter().cloned());
-            set.models()
-                .iter()
-                .map(|f| f.base_name().to_owned())
-                .collect::<Vec<_>>()
-        };
-        let model = File::new("model.txt", *b"***m3d-File-Header***\n#Materials 1\n");
-        let (picture, notes) = (file("a.png", 3), file("notes.txt", 100));
-        assert_eq!(names(&[notes.clone(), model.clone()]), ["notes.txt", "model.txt"]);
-        assert_eq!(names(&[picture.clone(), notes.clone(), model]), ["model.txt"]);
-        assert!(names(&[picture.clone(), notes]).is_empty());
-        assert!(names(&[picture]).is_empty());
-    }
-
-    #[test]
-    fn one_model_of_a_drop_keeps_the_pictures_of_the_drop() {
-        let set = FileSet::new([
-            file("a.m3d", 9),
-            file("a.png", 3),
-            file("b.m3d", 5),
-            file("notes.txt", 2),
-        ]);
-        let kept = set.with_one_model(set.get("b.m3d").expect("it is there"));
-        let names: Vec<_> = kept.files().iter().map(|file| file.base_name()).collect();
-        assert_eq!(names, ["a.png", "b.m3d"]);
-        assert_eq!(kept.models().len(), 1);
-    }
-
-    #[test]
-    fn the_later_of_two_files_with_one_path_is_kept() {
-        let set = FileSet::new([file("a.m3d", 3), file("a.m3d", 4)]);
-        assert_eq!(set.files().len(), 1);
-        assert_eq!(set.get("a.m3d").map(|f| f.bytes.len()), Some(4));
-    }
 }

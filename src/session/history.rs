@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::clip_swap::ClipSwap;
 use super::open_model::OpenModel;
+use super::sky::Taken;
 use super::submeshes::Visibility;
 use crate::anim::WrapMode;
 use crate::model::{Handedness, Material, UpAxis, hierarchy_fingerprint};
@@ -28,8 +29,8 @@ pub enum HistoryCommand {
 
 /// The steps of a session that can be undone and redone. It belongs to the open model.
 ///
-/// Steps are edits of materials, names of joints, which submeshes are shown, the range, added clips, and what was chosen instead of what
-/// was found in the file. Playing, the camera, the selection and the look are no steps.
+/// Steps are edits of materials, names of joints, which submeshes are shown, the range, added clips, the sky, and what was chosen
+/// instead of what was found in the file. Playing, the camera, the selection and the look are no steps.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     undo: Vec<Step>,
@@ -86,6 +87,7 @@ pub(super) enum Value {
     Handedness(Option<Handedness>),
     UpAxis(Option<UpAxis>),
     NormalGreenFlipped(bool),
+    Sky(Option<Arc<Taken>>),
 }
 
 impl Value {

@@ -1,9 +1,11 @@
 //! Clips of other files with the same bones join those of the open model.
 
+use std::sync::Arc;
+
 use glam::Affine3A;
 
-use super::files::File;
-use super::load::{LoadError, load};
+use super::files::{File, FileSet};
+use super::load::{LoadError, load_among};
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
 use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
 use crate::model::{Skeleton, unique_names};
@@ -13,13 +15,13 @@ use crate::model::{Skeleton, unique_names};
 const OFFSET_TOLERANCE: f32 = 1e-3;
 
 impl OpenModel {
-    /// Adds the clips of a file to the list, under names that are free. With `replaces` they take the place of clips that files
+    /// Adds the clips of a file among others to the list, under names that are free. With `replaces` they take the place of clips that files
     /// of this name brought before, if there are any; then it is true.
     ///
     /// # Errors
     /// When the file makes no model, has no clips, or its bones are not those of this model; then nothing is added.
-    pub(super) fn join_clips(&mut self, file: &File, replaces: bool) -> Result<bool, Box<LoadError>> {
-        let other = load(file)?;
+    pub(super) fn join_clips(&mut self, file: &File, files: &FileSet, replaces: bool) -> Result<bool, Box<LoadError>> {
+        let other = load_among(file, files)?;
         let refuse = |code, message| Err(Box::new(LoadError::refused(file, code, message)));
         let (ours, theirs) = (self.file.base_name(), file.base_name());
         if let Some(difference) = difference(&self.model.skeleton, ours, &other.model.skeleton, theirs) {
@@ -60,6 +62,7 @@ impl OpenModel {
         }
         let joined = JoinedFile {
             file: file.clone(),
+            files: Arc::new(files.needed_by(file)),
             offsets_differ,
         };
         self.joined.insert(place.unwrap_or(self.joined.len()), joined);
@@ -67,9 +70,9 @@ impl OpenModel {
     }
 
     /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a diagnostic.
-    pub(super) fn join_again<'a>(&mut self, files: impl Iterator<Item = &'a File>) {
-        for file in files {
-            if let Err(error) = self.join_clips(file, false) {
+    pub(super) fn join_again(&mut self, joined: &[JoinedFile]) {
+        for JoinedFile { file, files, .. } in joined {
+            if let Err(error) = self.join_clips(file, files, false) {
                 self.diagnostics.push(Diagnostic {
                     severity: Severity::Warning,
                     position: None,

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::files::{File, FileSet};
 use super::maps::Maps;
-use super::open_model::OpenModel;
-use super::sky::FoundSky;
+use super::open_model::{JoinedFile, OpenModel};
 use super::verdicts::Verdicts;
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
@@ -25,6 +24,7 @@ pub struct LoadError {
 impl LoadError {
     /// A drop without any file that could be a model.
     pub fn no_model(files: &FileSet) -> Self {
+        let unread = files.unread().next().map(File::unread_words);
         let files = files.files();
         let message = match files.len() {
             0 => "No file was dropped.",
@@ -36,11 +36,10 @@ impl LoadError {
                 "No model was dropped: there are pictures, and no other file begins like a model. Drop them together \
                  with their model."
             }
-        }
-        .to_owned();
+        };
         Self {
             file_name: String::new(),
-            diagnostic: codes::NO_MODEL.says(message),
+            diagnostic: codes::NO_MODEL.says(unread.unwrap_or_else(|| message.to_owned())),
             excerpt: None,
         }
     }
@@ -104,6 +103,13 @@ pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<Arc<[u8]>>) -> Res
         })
 }
 
+/// Reads a model of a drop, which may name others of its files.
+pub(super) fn load_among(file: &File, files: &FileSet) -> Result<OpenModel, Box<LoadError>> {
+    load_beside(file, &|path| {
+        files.data_beside(file, path).map(|file| Arc::clone(&file.bytes))
+    })
+}
+
 /// Makes what can be shown of the files of a drop, in steps, without a session: it can run anywhere, tell how far it is, and be
 /// dropped between two steps.
 #[derive(Clone, Debug)]
@@ -111,9 +117,7 @@ pub struct LoadJob {
     files: Arc<FileSet>,
     file: File,
     maps: Maps,
-    cubes: Vec<File>,
-    sky: Option<File>,
-    joined: Vec<File>,
+    joined: Vec<JoinedFile>,
     state: State,
 }
 
@@ -122,7 +126,6 @@ enum State {
     Model,
     Maps(Box<OpenModel>),
     Verdicts(Box<OpenModel>),
-    Sky(Box<OpenModel>, Verdicts),
 }
 
 /// A model with all that belongs to it, ready to be shown.
@@ -132,7 +135,6 @@ pub struct Loaded {
     pub(super) open: OpenModel,
     pub(super) maps: Maps,
     pub(super) verdicts: Verdicts,
-    pub(super) sky: Option<FoundSky>,
 }
 
 impl Loaded {
@@ -144,11 +146,6 @@ impl Loaded {
     /// Its maps.
     pub fn maps(&self) -> &Maps {
         &self.maps
-    }
-
-    /// Whether a cube map came with it that becomes the sky.
-    pub fn has_sky(&self) -> bool {
-        self.sky.as_ref().is_some_and(FoundSky::is_another)
     }
 }
 
@@ -174,32 +171,18 @@ impl LoadJob {
     /// A job that opens one file of a drop, which is one of [`FileSet::models`].
     pub fn new(files: Arc<FileSet>, file: File) -> Self {
         Self {
-            cubes: files.cubes().cloned().collect(),
             files,
             file,
             maps: Maps::default(),
-            sky: None,
             joined: Vec::new(),
             state: State::Model,
         }
     }
 
     /// Uses what an open model of the same file has: decoded images, and files whose clips joined.
-    pub(super) fn reusing(mut self, maps: Maps, joined: Vec<File>) -> Self {
+    pub(super) fn reusing(mut self, maps: Maps, joined: Vec<JoinedFile>) -> Self {
         self.maps = maps;
         self.joined = joined;
-        self
-    }
-
-    /// Leaves the sky that is there as it is when the drop brings it again.
-    pub(super) fn keeping_sky(mut self, sky: Option<File>) -> Self {
-        self.sky = sky;
-        self
-    }
-
-    /// Leaves the drop's cube maps alone.
-    pub(super) fn without_sky(mut self) -> Self {
-        self.cubes.clear();
         self
     }
 
@@ -210,12 +193,11 @@ impl LoadJob {
 
     /// How far it is.
     pub fn progress(&self) -> Progress {
-        // Reading the model, saying what is missing, the books' verdicts, and the sky are a step each.
+        // Reading the model, saying what is missing, and the books' verdicts are a step each.
         let (done, left) = match &self.state {
-            State::Model => (0, 3),
-            State::Maps(_) => (1, self.maps.waiting_count() + 3),
-            State::Verdicts(_) => (2, 2),
-            State::Sky(..) => (3, 1),
+            State::Model => (0, 2),
+            State::Maps(_) => (1, self.maps.waiting_count() + 2),
+            State::Verdicts(_) => (2, 1),
         };
         let done = done + self.maps.decoded_count();
         Progress {
@@ -224,19 +206,13 @@ impl LoadJob {
         }
     }
 
-    fn load(&self) -> Result<OpenModel, Box<LoadError>> {
-        // Pictures of the drop are found by their names later.
-        let find = |path: &str| self.files.beside(&self.file, path).filter(|file| !file.is_image());
-        load_beside(&self.file, &|path| find(path).map(|file| Arc::clone(&file.bytes)))
-    }
-
-    /// Reads the model, decodes one image, works out the books' verdicts, or decodes the sky.
+    /// Reads the model, decodes one image, or works out the books' verdicts.
     pub fn step(mut self) -> LoadStep {
         match self.state {
-            State::Model => match self.load() {
+            State::Model => match load_among(&self.file, &self.files) {
                 Err(error) => LoadStep::Ended(Err(error)),
                 Ok(mut open) => {
-                    open.join_again(self.joined.iter());
+                    open.join_again(&self.joined);
                     let pictures = self.files.images().chain(&open.pictures).cloned();
                     self.maps.begin(&open.model.materials, pictures);
                     self.state = State::Maps(Box::new(open));
@@ -259,17 +235,11 @@ impl LoadJob {
                 let verdicts = Verdicts::default();
                 verdicts.of(&open, &self.maps);
                 open.document = None;
-                self.state = State::Sky(open, verdicts);
-                LoadStep::Working(Box::new(self))
-            }
-            State::Sky(open, verdicts) => {
-                let sky = FoundSky::among(self.cubes, self.sky.as_ref());
                 LoadStep::Ended(Ok(Box::new(Loaded {
                     files: self.files,
                     open: *open,
                     maps: self.maps,
                     verdicts,
-                    sky,
                 })))
             }
         }

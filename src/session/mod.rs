@@ -61,11 +61,11 @@ pub use camera::CameraCommand;
 pub use changes::Changes;
 pub use command::Command;
 pub use crowd::CrowdCommand;
-pub use event::Event;
+pub use event::{Event, News};
 pub use export::{Export, ExportCommand, ExportOptions, ExportRange};
 pub use export_job::{ExportFormat, ExportJob, ExportRefusal, ExportStep, ExportedFile, ToExport, WrittenModel};
 pub use export_plan::ExportPlan;
-pub use files::{File, FileSet};
+pub use files::{FILE_KINDS, File, FileKind, FileSet};
 pub use history::{History, HistoryCommand};
 pub use instances::{CrowdState, MAX_CROWD};
 pub use joint_rows::JointRow;
@@ -131,6 +131,7 @@ pub struct Session {
     caches: Caches,
     revisions: Revisions,
     events: Vec<Event>,
+    news: Vec<News>,
     reduced_motion: bool,
     /// The session as it was when the GPU last took all of it, until it has taken what is open now.
     before: Option<Box<Self>>,
@@ -184,7 +185,7 @@ impl Session {
         self.content.open.as_deref()
     }
 
-    /// Files of the last drop that had a model.
+    /// The files that the model on screen came with.
     pub fn files(&self) -> &FileSet {
         &self.content.files
     }
@@ -300,6 +301,11 @@ impl Session {
         self.content.sky.file()
     }
 
+    /// Cube maps that came and can be the sky, in their order. [`FileCommand::UseSky`] takes one of them.
+    pub fn skies(&self) -> &[File] {
+        &self.content.sky.found
+    }
+
     /// Counts changes of the sky: another number, another sky.
     pub fn sky_revision(&self) -> u64 {
         self.revisions.sky
@@ -355,6 +361,11 @@ impl Session {
     /// What happened since the last call, in order, each kind of a run once.
     pub fn take_events(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.events)
+    }
+
+    /// What commands about files did out of sight since the last call, in order.
+    pub fn take_news(&mut self) -> Vec<News> {
+        std::mem::take(&mut self.news)
     }
 
     /// Moves time by `dt_secs` while it plays, and the camera while it moves.

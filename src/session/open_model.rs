@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::Vec3;
 
-use super::files::File;
+use super::files::{File, FileSet};
 use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
 use crate::diagnostic::{Diagnostic, Position, Severity, codes};
@@ -50,6 +50,8 @@ pub struct OpenModel {
 #[derive(Clone, Debug)]
 pub(super) struct JoinedFile {
     pub(super) file: File,
+    /// The file and what it names.
+    pub(super) files: Arc<FileSet>,
     /// What is noted of it when its bones stand elsewhere than the model's. It goes with the file.
     pub(super) offsets_differ: Option<Diagnostic>,
 }

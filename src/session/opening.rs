@@ -5,26 +5,31 @@ use std::sync::Arc;
 
 use super::actor::Actor;
 use super::changes::Changes;
-use super::content::Content;
+use super::content::{Content, Opened};
 use super::files::{File, FileSet};
 use super::instances::Instances;
 use super::load::{LoadError, LoadJob, Loaded};
 use super::materials::Materials;
 use super::mixer::Blend;
 use super::player::Player;
-use super::sky::FoundSky;
-use super::{Event, Session};
+use super::{Event, News, Session};
 
 /// A command about files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileCommand {
-    /// Opens the largest model of a drop; the others are listed, pictures are kept beside it, a cube map becomes the sky.
+    /// Opens the largest model of a drop; the others are listed, pictures are kept beside it. A cube map by itself becomes the sky; beside
+    /// other files it can become it.
     Add(Vec<File>),
     /// Adds the clips of other models with the same bones to the open one; without an open model it opens them. One whose
     /// bones differ is refused as an error, and the model stays.
     AddClips(Vec<File>),
     /// Opens another of [`Session::models`], by its path.
     Open(String),
+    /// Closes one of [`Session::models`], by its path. In the place of the one on screen comes the next, or the one before the last. The only
+    /// one stays.
+    Close(String),
+    /// Makes one of [`Session::skies`] the sky, by its path.
+    UseSky(String),
     /// Removes the sky that was dropped.
     ClearSky,
     /// Dismisses the error.
@@ -34,7 +39,7 @@ pub enum FileCommand {
 impl FileCommand {
     /// Whether it may bring something that a renderer uploads.
     pub(super) fn opens(&self) -> bool {
-        matches!(self, Self::Add(_) | Self::AddClips(_) | Self::Open(_))
+        !matches!(self, Self::ClearSky | Self::DismissError)
     }
 }
 
@@ -53,6 +58,11 @@ impl Session {
             FileCommand::Add(files) => self.add_files(files),
             FileCommand::AddClips(files) => self.add_clips(files),
             FileCommand::Open(path) => self.open_file(&path),
+            FileCommand::Close(path) => self.close_file(&path),
+            FileCommand::UseSky(path) => {
+                let found = self.skies().iter().find(|file| file.path == path).cloned();
+                self.use_as_sky(found);
+            }
             FileCommand::ClearSky => self.clear_sky(),
             FileCommand::DismissError => self.content.error = None,
         }
@@ -95,40 +105,66 @@ impl Session {
     fn job(&mut self, files: &Arc<FileSet>) -> Option<LoadJob> {
         let file = files.get(&self.wanted_model(files)?).cloned()?;
         self.revisions.openings += 1;
-        let job = LoadJob::new(Arc::clone(files), file).keeping_sky(self.sky_file().cloned());
-        Some(self.reuse(job))
+        Some(self.reuse(LoadJob::new(Arc::clone(files), file)))
     }
 
     /// Opens one of [`Session::models`]. The pictures that were found for the models of its drop stay.
     fn open_file(&mut self, path: &str) {
         let content = &self.content;
-        let here = content
-            .files
-            .get(path)
-            .map(|file| (file, &content.files, &content.maps));
-        let others = content.others.as_deref();
-        let there = others.and_then(|others| Some((others.files.get(path)?, &others.files, &others.maps)));
-        let Some((file, files, maps)) = here.or(there) else {
+        let mut list = content.opened.iter();
+        let Some((opened, file)) = list.find_map(|opened| Some((opened, opened.files.model(path)?))) else {
             return;
         };
+        let is_shown = Arc::ptr_eq(&opened.files, &content.files);
+        let maps = if is_shown { &content.maps } else { &opened.maps };
         let again = content.open.as_ref().filter(|open| open.file.path == path);
-        let joined = again
-            .into_iter()
-            .flat_map(|open| open.joined.iter().map(|joined| joined.file.clone()));
-        let job = LoadJob::new(Arc::clone(files), file.clone())
-            .without_sky()
-            .reusing(maps.clone(), joined.collect());
+        let joined = again.map_or(Vec::new(), |open| open.joined.clone());
+        let job = LoadJob::new(Arc::clone(&opened.files), file.clone()).reusing(maps.clone(), joined);
         self.revisions.openings += 1;
         self.show(job.run());
     }
 
-    /// The models that [`FileCommand::Open`] opens, sorted by their paths: those of the drop, and what was open before it.
+    fn close_file(&mut self, path: &str) {
+        let is_on_screen = |session: &Self| session.open_model().is_some_and(|open| open.file.path == path);
+        if is_on_screen(self) {
+            let paths: Vec<&str> = self.models().iter().map(|file| &*file.path).collect();
+            let place = paths.iter().position(|&listed| listed == path);
+            let beside = place.and_then(|place| paths.get(place + 1).or_else(|| paths.get(place.checked_sub(1)?)));
+            if let Some(beside) = beside.map(|&beside| beside.to_owned()) {
+                self.open_file(&beside);
+            }
+            // It is the only one, or that one could not be read.
+            if is_on_screen(self) {
+                return;
+            }
+        }
+        let Content { opened, files, .. } = &mut self.content;
+        let list = Arc::make_mut(opened);
+        for opened in list.iter_mut().filter(|opened| opened.files.model(path).is_some()) {
+            let left = Arc::new(opened.files.without(|file| file.path == path));
+            if Arc::ptr_eq(files, &opened.files) {
+                *files = Arc::clone(&left);
+            }
+            opened.files = left;
+        }
+        list.retain(|opened| !opened.files.models().is_empty());
+    }
+
+    /// The models that [`FileCommand::Open`] opens, in the order of opening; those that came together by their paths.
     pub fn models(&self) -> Vec<&File> {
-        let others = self.content.others.as_ref();
-        let mut models = self.content.files.models();
-        models.extend(others.into_iter().flat_map(|others| others.files.models()));
-        models.sort_by_cached_key(|file| (file.path.to_lowercase(), file.path.clone()));
-        models
+        fn sorted(opened: &Opened) -> Vec<&File> {
+            let mut models = opened.files.models();
+            models.sort_by_cached_key(|file| (file.path.to_lowercase(), file.path.clone()));
+            models
+        }
+        self.content.opened.iter().flat_map(sorted).collect()
+    }
+
+    /// The number of the opening that brought the model on screen.
+    pub fn shown_opening(&self) -> Option<u64> {
+        let Content { opened, files, .. } = &self.content;
+        let shown = opened.iter().find(|opened| Arc::ptr_eq(&opened.files, files));
+        shown.map(|opened| opened.number)
     }
 
     fn show(&mut self, outcome: Result<Box<Loaded>, Box<LoadError>>) {
@@ -143,9 +179,8 @@ impl Session {
     fn reuse(&self, job: LoadJob) -> LoadJob {
         match &self.content.open {
             Some(open) if open.file.base_name() == job.file_name() => {
-                let joined = open.joined.iter().map(|joined| joined.file.clone());
                 // The model alone, dropped again, keeps the pictures that came before.
-                job.reusing(self.content.maps.clone(), joined.collect())
+                job.reusing(self.content.maps.clone(), open.joined.clone())
             }
             _ => job,
         }
@@ -167,7 +202,7 @@ impl Session {
         again.or(files.models().first().map(|file| &file.path)).cloned()
     }
 
-    /// A drop without a model: maps join the open one, and a cube map needs none.
+    /// A drop without a model: maps join the open one, and cube maps by themselves need none.
     fn add_pictures(&mut self, files: &FileSet) {
         let has_maps = files.images().next().is_some();
         let has_cubes = files.cubes().next().is_some();
@@ -184,7 +219,12 @@ impl Session {
             _ if has_cubes => self.content.error = None,
             _ => self.fail(LoadError::no_model(files)),
         }
-        self.use_as_sky(FoundSky::among(files.cubes().cloned().collect(), self.sky_file()));
+        if has_maps {
+            self.offer_skies(files);
+        } else {
+            let cubes = self.content.sky.note(files);
+            self.use_as_sky(cubes.into_iter().next());
+        }
     }
 
     pub(super) fn fail(&mut self, error: LoadError) {
@@ -199,11 +239,10 @@ impl Session {
             open,
             maps,
             verdicts,
-            sky,
         } = loaded;
         let was_playing = self.playback().is_playing();
         let clips_before = self.shown_clips();
-        let others = self.content.others_of(&files);
+        let (opened, news) = self.content.opened_with(&files, self.revisions.openings);
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
         let again = before.is_some();
@@ -235,7 +274,7 @@ impl Session {
         self.content = Content {
             open: Some(Arc::new(open)),
             files,
-            others,
+            opened: Arc::new(opened),
             maps,
             materials,
             names,
@@ -258,7 +297,9 @@ impl Session {
             self.note(if was_playing { Event::Pause } else { Event::Play });
         }
         self.note(Event::TimeUpdate);
-        self.use_as_sky(sky);
+        self.news.extend(news);
+        let files = Arc::clone(&self.content.files);
+        self.offer_skies(&files);
     }
 
     /// Goes to the first clip, if there is one, and plays it unless motion is reduced.
@@ -296,7 +337,7 @@ impl Session {
         for file in set.files().iter().filter(|file| models.contains(file.path.as_str())) {
             // Files of one drop that have one name in several folders do not replace each other.
             let replaces = !joined.contains(file.base_name());
-            match open.join_clips(file, replaces) {
+            match open.join_clips(file, &set, replaces) {
                 Ok(replaced_some) => {
                     joined.insert(file.base_name());
                     replaced |= replaced_some;
@@ -362,9 +403,25 @@ impl Session {
         }
     }
 
-    fn use_as_sky(&mut self, found: Option<FoundSky>) {
+    fn use_as_sky(&mut self, cube: Option<File>) {
         let Content { sky, changes, .. } = &mut self.content;
-        changes.sky |= found.is_some_and(|found| sky.choose(found, &mut self.view.look.background));
+        if let Some(cube) = cube.filter(|cube| sky.choose(cube, &mut self.view.look.background)) {
+            changes.sky = true;
+            self.news.push(News::SkyUsed(cube.base_name().to_owned()));
+        }
+    }
+
+    /// Notes the cube maps that came among other files. Where the sky came again and is another now, it is shown.
+    fn offer_skies(&mut self, files: &FileSet) {
+        let Content { sky, changes, .. } = &mut self.content;
+        let known = sky.found.len();
+        let cubes = sky.note(files);
+        let is_sky = |cube: &&File| sky.file().is_some_and(|file| file.path == cube.path);
+        if let Some(again) = cubes.iter().find(is_sky) {
+            changes.sky |= sky.choose(again, &mut self.view.look.background);
+        }
+        let new = sky.found.get(known);
+        self.news.extend(new.map(|cube| News::SkyFound(cube.path.clone())));
     }
 
     pub(super) fn clear_sky(&mut self) {

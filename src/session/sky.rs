@@ -2,24 +2,33 @@
 
 use std::sync::Arc;
 
-use super::files::File;
-use crate::diagnostic::Diagnostic;
+use super::files::{File, FileSet};
+use crate::diagnostic::{Diagnostic, codes};
 use crate::image::{self, Image};
 use crate::scene::Background;
 
 /// The sky of a session. It belongs to no model, and stays when another opens.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sky {
-    taken: Option<Taken>,
+    taken: Option<Arc<Taken>>,
+    /// Cube maps that can be the sky, in the order in which they came.
+    pub(super) found: Vec<File>,
     diagnostics: Vec<Diagnostic>,
 }
 
+/// A cube map that is the sky, or was it at a step of the history.
 #[derive(Clone, Debug)]
-struct Taken {
+pub(super) struct Taken {
     file: File,
     image: Arc<Image>,
     /// What was behind the model before there was a sky.
     background_before: Background,
+}
+
+impl PartialEq for Taken {
+    fn eq(&self, other: &Self) -> bool {
+        self.file == other.file
+    }
 }
 
 impl Sky {
@@ -36,18 +45,66 @@ impl Sky {
         self.taken.as_ref().map(|taken| &taken.file)
     }
 
-    /// Makes what was found the sky, and the background of the view. Whether there is another sky now.
-    pub(super) fn choose(&mut self, found: FoundSky, background: &mut Background) -> bool {
-        self.diagnostics = found.diagnostics;
-        let Some((file, image)) = found.image else { return false };
-        let before = self.taken.take();
-        self.taken = Some(Taken {
-            file,
-            image,
-            background_before: before.map_or(*background, |taken| taken.background_before),
+    /// Notes which cube maps of a drop can be the sky, the largest first, and returns them. What cannot be read is a diagnostic.
+    pub(super) fn note(&mut self, files: &FileSet) -> Vec<File> {
+        let unread = files
+            .unread()
+            .map(|file| codes::IMAGE_UNRECOGNIZED.says(file.unread_words()));
+        let mut diagnostics: Vec<_> = unread.collect();
+        let mut cubes: Vec<File> = files.cubes().cloned().collect();
+        if cubes.is_empty() && diagnostics.is_empty() {
+            return cubes;
+        }
+        cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
+        cubes.retain(|file| {
+            let checked = image::check(&file.bytes, file.base_name());
+            diagnostics.extend(checked.as_ref().err().map(|error| error.diagnostic()));
+            checked.is_ok()
         });
+        for cube in &cubes {
+            match self.found.iter_mut().find(|known| known.path == cube.path) {
+                Some(known) => known.clone_from(cube),
+                None => self.found.push(cube.clone()),
+            }
+        }
+        self.diagnostics = diagnostics;
+        cubes
+    }
+
+    /// Makes a cube map the sky, and the background of the view. Whether it was another and could be read.
+    pub(super) fn choose(&mut self, file: &File, background: &mut Background) -> bool {
+        if self.file() == Some(file) {
+            return false;
+        }
+        let image = match image::decode(&file.bytes, file.base_name()) {
+            Ok(image) => Arc::new(image),
+            Err(error) => {
+                self.diagnostics.push(error.diagnostic());
+                return false;
+            }
+        };
+        let before = self.taken.as_ref().map(|taken| taken.background_before);
+        self.taken = Some(Arc::new(Taken {
+            file: file.clone(),
+            image,
+            background_before: before.unwrap_or(*background),
+        }));
         *background = Background::Sky;
         true
+    }
+
+    /// What is the sky, for [`Sky::restore`].
+    pub(super) fn taken(&self) -> Option<Arc<Taken>> {
+        self.taken.clone()
+    }
+
+    /// Brings back what was the sky, or that there was none.
+    pub(super) fn restore(&mut self, taken: Option<Arc<Taken>>, background: &mut Background) {
+        self.clear(background);
+        if taken.is_some() {
+            self.taken = taken;
+            *background = Background::Sky;
+        }
     }
 
     /// Takes the sky away. The background that was there before it comes back. Whether there was one.
@@ -60,47 +117,5 @@ impl Sky {
             *background = taken.background_before;
         }
         taken.is_some()
-    }
-}
-
-/// What became of the cube maps of a drop.
-#[derive(Clone, Debug, Default)]
-pub(super) struct FoundSky {
-    /// The largest that can be read, unless it is the sky already.
-    image: Option<(File, Arc<Image>)>,
-    /// The largest that can be read is the sky already: the same folder was dropped again, and the background stays as chosen.
-    is_kept: bool,
-    /// Those that could not be read.
-    diagnostics: Vec<Diagnostic>,
-}
-
-impl FoundSky {
-    /// Whether one was found that is not the sky already.
-    pub(super) fn is_another(&self) -> bool {
-        self.image.is_some()
-    }
-
-    /// Decodes the largest of these cube maps, or else the next largest. `current` is the sky that is there. None without any.
-    pub(super) fn among(mut cubes: Vec<File>, current: Option<&File>) -> Option<Self> {
-        if cubes.is_empty() {
-            return None;
-        }
-        cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
-        let mut found = Self::default();
-        for file in cubes {
-            let looked_at = if found.image.is_some() || found.is_kept {
-                image::check(&file.bytes, file.base_name())
-            } else if current == Some(&file) {
-                found.is_kept = true;
-                Ok(())
-            } else {
-                image::decode(&file.bytes, file.base_name())
-                    .map(|image| found.image = Some((file.clone(), Arc::new(image))))
-            };
-            found
-                .diagnostics
-                .extend(looked_at.err().map(|error| error.diagnostic()));
-        }
-        Some(found)
     }
 }

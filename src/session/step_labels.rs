@@ -38,6 +38,10 @@ impl Session {
             Value::Handedness(_) => "set the handedness".to_owned(),
             Value::UpAxis(_) => "set the up axis".to_owned(),
             Value::NormalGreenFlipped(_) => "flip green of normal maps".to_owned(),
+            Value::Sky(_) => match self.sky_file() {
+                Some(file) => format!("use {} as the sky", brief(file.base_name())),
+                None => "remove the sky".to_owned(),
+            },
         }
     }
 

@@ -7,6 +7,7 @@ use super::clip_swap::ClipSwap;
 use super::history::{ClipRange, History, HistoryCommand, Step, Value};
 use super::materials::Materials;
 use super::open_model::OpenModel;
+use super::sky::Taken;
 use super::submeshes::Visibility;
 use super::{Event, Session};
 use crate::anim::WrapMode;
@@ -23,6 +24,7 @@ pub(super) struct Undoable {
     handedness: Option<Handedness>,
     up_axis: Option<UpAxis>,
     normal_green_flipped: bool,
+    sky: Option<Arc<Taken>>,
 }
 
 impl Session {
@@ -97,6 +99,7 @@ impl Session {
             Value::Handedness(_) => Value::Handedness(self.handedness_override()),
             Value::UpAxis(_) => Value::UpAxis(self.up_axis_override()),
             Value::NormalGreenFlipped(_) => Value::NormalGreenFlipped(self.look().normal_green_flipped),
+            Value::Sky(_) => Value::Sky(self.content.sky.taken()),
         }
     }
 
@@ -128,6 +131,10 @@ impl Session {
                 self.change_goal(Self::frame_model);
             }
             Value::NormalGreenFlipped(flipped) => self.view.look.normal_green_flipped = flipped,
+            Value::Sky(taken) => {
+                self.content.sky.restore(taken, &mut self.view.look.background);
+                self.content.changes.sky = true;
+            }
         }
     }
 
@@ -143,6 +150,7 @@ impl Session {
             handedness: self.handedness_override(),
             up_axis: self.up_axis_override(),
             normal_green_flipped: self.look().normal_green_flipped,
+            sky: self.content.sky.taken(),
         }
     }
 
@@ -171,6 +179,7 @@ impl Session {
             Value::Handedness(before.handedness),
             Value::UpAxis(before.up_axis),
             Value::NormalGreenFlipped(before.normal_green_flipped),
+            Value::Sky(before.sky.clone()),
         ];
         values.extend(others.into_iter().filter(|value| self.now(value) != *value));
         if self.clip_range(before.range.instance).secs != before.range.secs {

@@ -7,10 +7,10 @@ use super::icons::Icon;
 use super::panel::popover_gap;
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, color_picker, control_size, keyed_section_name, noted_switch_row, paint_name, push_button, section_name,
-    segmented, switch_row, value_row,
+    MenuLine, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, paint_name,
+    push_button, section_name, segmented, switch_row, value_row,
 };
-use super::wording::milliseconds;
+use super::wording::{milliseconds, shortened};
 use crate::actions;
 use crate::scene::{Background, Detail, Light, Pass, TimedPass};
 use crate::session::{
@@ -22,11 +22,12 @@ use crate::session::{
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
 const FIRST_COLOR_LIGHT: [u8; 3] = [0xF4, 0xF5, 0xF7];
 
-/// The button's label: the light that is on.
+/// The button's label: the light that is on. With a sky the studio's light is the sky's.
 pub(super) fn label(session: &Session) -> &'static str {
-    match session.look().split {
-        Some(_) => "Split",
-        None => session.look().light.label(),
+    match (session.look().split, session.look().light) {
+        (Some(_), _) => "Split",
+        (None, Light::Studio) if session.sky().is_some() => "Sky",
+        (None, light) => light.label(),
     }
 }
 
@@ -122,6 +123,12 @@ fn background(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
     if let Some(file) = session.sky_file() {
         sky_row(ui, file.base_name(), commands);
+    }
+    for file in session.skies() {
+        let words = format!("Use {} as sky", shortened(file.base_name(), 30));
+        if session.sky_file() != Some(file) && menu_item(ui, &words, MenuLine::Action).clicked() {
+            commands.push(FileCommand::UseSky(file.path.clone()).into());
+        }
     }
     if let Background::Color(color) = in_force {
         ui.add_space(8.0);

@@ -39,6 +39,8 @@ pub(super) enum Offer {
     SavePicture,
     /// To take back the last step.
     Undo,
+    /// To make the cube map with this path the sky.
+    UseSky(String),
 }
 
 impl Offer {
@@ -47,6 +49,7 @@ impl Offer {
         match self {
             Self::SavePicture => ("Save as…", "Save the picture as…", 78.0),
             Self::Undo => ("Undo", "Undo what the message tells of", 54.0),
+            Self::UseSky(_) => ("Use as sky", "Use the cube map as sky", 88.0),
         }
     }
 }

@@ -45,11 +45,12 @@ pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, SheetRequest, UiState};
 pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
-use crate::session::{CameraCommand, Command, HistoryCommand, Session, SubmeshCommand};
+use crate::session::{CameraCommand, Command, FileCommand, HistoryCommand, News, Session, SubmeshCommand};
 use input::{Grip, InputOrder, MOST_PASSES};
 use message::Offer;
 use state::Framed;
 use theme::MARGIN;
+use wording::{counted, shortened};
 
 /// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
 const LEAST_BELOW_CHIPS: f32 = 0.2;
@@ -71,11 +72,11 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     state.contrast.apply(ui.ctx());
     widgets::size_for_touch(ui.ctx(), touch);
     state.focus.begin(ui.ctx());
+    tell(session.take_news(), &mut state.messages);
     if state.shown_model != session.model_revision() {
         state.shown_model = session.model_revision();
         state.show_findings_of(session);
         state.maps_open = false;
-        tell_of_drop(session, state);
     }
 
     state.skeleton.read(ui, session, window);
@@ -118,6 +119,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     match message::show(ui, &mut state.messages, uncovered) {
         Some(Offer::SavePicture) => state.requests.push(Request::SavePictureAs),
         Some(Offer::Undo) => commands.push(HistoryCommand::Undo.into()),
+        Some(Offer::UseSky(path)) => commands.push(FileCommand::UseSky(path).into()),
         None => {}
     }
     if ui.ctx().will_discard() {
@@ -164,20 +166,30 @@ fn end_edit(state: &mut UiState, grip: Option<Grip>, commands: &mut Vec<Command>
     }
 }
 
-/// Says which of the models of a drop was opened, once for each drop of several.
-fn tell_of_drop(session: &Session, state: &mut UiState) {
-    let models = session.files().models();
-    let Some(largest) = models.first().filter(|_| models.len() > 1) else {
-        return;
-    };
-    let paths: Vec<String> = models.iter().map(|file| file.path.clone()).collect();
-    if state.told_models == paths {
-        return;
-    }
-    state.told_models = paths;
-    if session.open_model().is_some_and(|open| open.file.path == largest.path) {
-        let (name, count) = (wording::shortened(largest.base_name(), 40), models.len());
-        state.messages.say(format!("Opened {name}, the largest of {count}"));
+/// Says in one message what a drop did that is not seen on the model.
+fn tell(news: Vec<News>, messages: &mut Messages) {
+    let mut offer = None;
+    let words = news.into_iter().map(|news| match news {
+        News::OpenedLargest(name, count) => format!("Opened {}, the largest of {count}", shortened(&name, 40)),
+        News::ModelsClosed(count) => format!("{} closed, the oldest, to make room", counted(count, "model")),
+        News::SkyUsed(name) => {
+            offer = Some(Offer::Undo);
+            format!("{} is the sky", shortened(&name, 40))
+        }
+        News::SkyFound(path) => {
+            let words = format!(
+                "{} is a cube map",
+                shortened(path.rsplit('/').next().unwrap_or_default(), 40)
+            );
+            offer = Some(Offer::UseSky(path));
+            words
+        }
+    });
+    let words = words.collect::<Vec<_>>().join(" · ");
+    match offer {
+        Some(offer) => messages.offer(words, offer),
+        None if words.is_empty() => {}
+        None => messages.say(words),
     }
 }
 

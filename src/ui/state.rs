@@ -118,8 +118,6 @@ pub struct UiState {
     pub(super) findings: FindingsState,
     /// The maps are listed.
     pub(super) maps_open: bool,
-    /// The models of the drop that a message told of last, by their paths.
-    pub(super) told_models: Vec<String>,
     /// What was selected in this pass will be framed in the next.
     pub(super) frames_selection: bool,
     pub(super) shown_model: u64,

@@ -1,25 +1,27 @@
 //! The bar at the top. On the left: the title and the open file. On the right: view mode, light, overlays, directions, pictures, files,
 //! help.
 
-use egui::{Color32, Label, Popup, Rangef, RectAlign, RichText, Role, Ui, WidgetInfo, vec2};
+use egui::{
+    Color32, Key, Label, Modifiers, Popup, Rangef, Rect, RectAlign, RichText, Role, Sense, Ui, Vec2, WidgetInfo, vec2,
+};
 
 use super::cost::SteadyCost;
-use super::icons::Icon;
+use super::icons::{self, Icon};
 use super::model_panel::summary;
 use super::panel::{popover, popover_menu, unscrolled_popover};
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
-    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, hint_beside, icon_button, keyed_menu_item,
-    menu_item, pressed_chip, push_button, section_name, untold_icon_button, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, icon_button,
+    keyed_menu_item, menu_item, pressed_chip, push_button, section_name, untold_icon_button, valued_menu_item,
 };
-use super::wording::shortened_front;
+use super::wording::{bytes, shortened_front};
 use super::{export, light, overlays, picture};
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
-use crate::session::{CameraCommand, Command, FileCommand, LookCommand, OpenModel, Session};
+use crate::session::{CameraCommand, Command, File, FileCommand, LookCommand, OpenModel, Session};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -36,8 +38,8 @@ const SPACING: f32 = 4.0;
 /// The least width that chips leave to the name of the file.
 const LEAST_NAME: f32 = 90.0;
 /// Width of the menu of files, and how much of a path it shows.
-const FILES_WIDTH: f32 = 280.0;
-const MOST_OF_PATH: usize = 38;
+const FILES_WIDTH: f32 = 330.0;
+const MOST_OF_PATH: usize = 34;
 
 /// Makes buttons that were shown a toolbar for screen readers.
 fn as_toolbar(ui: &Ui) {
@@ -144,7 +146,8 @@ fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands:
 }
 
 fn lighting(session: &Session) -> String {
-    format!("Lighting: {}", light::label(session))
+    let sky = session.sky_file().map(|file| format!(", {}", file.base_name()));
+    format!("Lighting: {}{}", light::label(session), sky.unwrap_or_default())
 }
 
 fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
@@ -378,18 +381,52 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
         .on_hover_text(path);
     popover_menu(ui, &button, RectAlign::BOTTOM_START, FILES_WIDTH, |ui| {
         for file in models {
-            let is_open = file.path == path;
-            let item = menu_item(
-                ui,
-                &shortened_front(&file.path, MOST_OF_PATH),
-                MenuLine::Choice(is_open),
-            );
-            if hint_beside(item, None, &file.path).clicked() {
-                if !is_open {
-                    commands.push(FileCommand::Open(file.path.clone()).into());
-                }
-                ui.close();
-            }
+            file_line(ui, file, file.path == path, commands);
+        }
+    });
+}
+
+/// A line of the menu of files: path, size, and a cross. Delete does what the cross does.
+fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        let room = ui.available_width() - control_size(ui);
+        let (path, size) = (
+            shortened_front(&file.path, MOST_OF_PATH),
+            bytes(file.bytes.len() as u64),
+        );
+        let line = ui.scope(|ui| {
+            ui.set_max_width(room);
+            valued_menu_item(ui, &path, &size, is_open)
+        });
+        let line = hint_beside(line.inner, None, &file.path);
+        let note = format!("{size}, Delete closes it");
+        ui.ctx()
+            .accesskit_node_builder(line.id, |node| node.set_description(note));
+        // It takes no focus, so that arrows go from line to line.
+        let (rect, cross) = ui.allocate_exact_size(Vec2::splat(control_size(ui)), Sense::CLICK);
+        let (icon, tokens) = (
+            Rect::from_center_size(rect.center(), Vec2::splat(ICON_SIZE)),
+            Tokens::of(ui),
+        );
+        let color = if cross.hovered() { tokens.text } else { tokens.faint };
+        icons::paint(ui.painter(), icon, Icon::Close, color);
+        cross.widget_info(|| WidgetInfo::labeled(Role::MenuItem, true, format!("Close {}", file.base_name())));
+        let cross = cross.on_hover_text("Close (Delete)");
+        let arrow = |input: &egui::InputState| input.key_pressed(Key::ArrowDown) || input.key_pressed(Key::ArrowUp);
+        if is_open && ui.input(arrow) && ui.memory(|memory| memory.focused().is_none()) {
+            // The menu was opened with the pointer. The arrow goes on from here.
+            line.request_focus();
+        }
+        if line.clicked() && !is_open {
+            commands.push(FileCommand::Open(file.path.clone()).into());
+        }
+        let deletes = line.has_focus() && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Delete));
+        if cross.clicked() || deletes {
+            commands.push(FileCommand::Close(file.path.clone()).into());
+        }
+        if line.clicked() || cross.clicked() {
+            ui.close();
         }
     });
 }

@@ -44,6 +44,26 @@ impl Viewer {
         Ok(self.state())
     }
 
+    /// Opens one of the state's `models` again, by its path. Returns whether it is listed.
+    ///
+    /// # Errors
+    /// When the path is no text.
+    #[wasm_bindgen(js_name = openModel)]
+    pub fn open_model(&self, path: &JsValue) -> Result<bool, JsValue> {
+        self.shared
+            .apply_to_listed("openModel", path, Session::models, FileCommand::Open)
+    }
+
+    /// Closes one of the state's `models`, by its path, unless it is the only one. Returns whether it is listed.
+    ///
+    /// # Errors
+    /// When the path is no text.
+    #[wasm_bindgen(js_name = closeModel)]
+    pub fn close_model(&self, path: &JsValue) -> Result<bool, JsValue> {
+        self.shared
+            .apply_to_listed("closeModel", path, Session::models, FileCommand::Close)
+    }
+
     /// Begins anew, as a new viewer does: every choice is forgotten and these files are opened, an array as [`Viewer::open`] takes
     /// it. What the GPU has compiled stays. Returns the state.
     ///
@@ -70,6 +90,12 @@ struct Opening {
 }
 
 impl Shared {
+    /// Applies a command with the path of a listed model.
+    fn apply_to_listed(&self, call: &str, path: &JsValue, command: fn(String) -> FileCommand) -> Result<bool, JsValue> {
+        let is_listed = |path: &str| self.session.borrow().models().iter().any(|file| file.path == path);
+        self.apply_named(call, path, |path| is_listed(path).then(|| path.to_owned()), command)
+    }
+
     /// Begins to open a drop, at once. A drop without a model is taken whole, and nothing is left to do.
     fn begin_opening(&self, files: Vec<File>) -> Option<Opening> {
         let job = self.session.borrow_mut().begin_opening(files.clone());

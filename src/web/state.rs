@@ -17,6 +17,8 @@ pub(super) struct State<'a> {
     backend: Option<&'a str>,
     adapter: Option<&'a str>,
     model: Option<Model<'a>>,
+    /// Paths of all models that are open, in the order of opening.
+    models: Vec<&'a str>,
     textures: Textures<'a>,
     blend: Option<Blend<'a>>,
     time_secs: f32,
@@ -42,6 +44,8 @@ pub(super) struct State<'a> {
 struct Model<'a> {
     name: &'a str,
     path: &'a str,
+    /// The number of the opening that brought it: another number, another drop.
+    opening: Option<u64>,
     #[serde(flatten)]
     summary: summary::Model<'a>,
 }
@@ -164,6 +168,7 @@ impl<'a> State<'a> {
             backend,
             adapter,
             model: model(session),
+            models: session.models().into_iter().map(|file| &*file.path).collect(),
             textures: Textures {
                 named: *named,
                 missing,
@@ -201,6 +206,7 @@ fn model(session: &Session) -> Option<Model<'_>> {
     Some(Model {
         name: open.file.base_name(),
         path: &open.file.path,
+        opening: session.shown_opening(),
         summary: summary::Model {
             // The person may have corrected them.
             handedness: session.handedness().name(),

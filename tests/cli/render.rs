@@ -369,3 +369,66 @@ fn textures_of_a_folder_are_drawn_at_any_depth() {
     let missing = run(["render", model, "-o", "nothing.png", "--textures", "/no/such/folder"]);
     assert_eq!(missing.code, Some(2));
 }
+
+#[test]
+fn a_cube_map_is_the_sky_by_its_own_option_and_only_noted_among_textures() {
+    let folder = scratch("skies");
+    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let sky = folder.join("dusk.dds");
+    let faces = [200, 40, 20, 255].repeat(6 * 4 * 4);
+    let header = cube_header(4);
+    std::fs::write(&sky, [&header[..], &faces].concat()).expect("writes");
+    let sky = sky.to_str().expect("UTF-8");
+    let size = ["--size", "64x48"];
+    let plain = draw("plain.png", FIGURE, &size).0;
+    let with_sky = draw("with_sky.png", FIGURE, &[&size[..], &["--sky", sky]].concat()).0;
+    let corner = with_sky.get_pixel(1, 1).0;
+    assert!(
+        corner[0] > 120 && corner[0] > 2 * corner[1].max(corner[2]),
+        "{corner:?}"
+    );
+    assert!(share_that_differs(&plain, &with_sky, 16) > 0.3);
+
+    let output = scratch("noted.png");
+    let arguments = ["render", FIGURE, "-o", output.to_str().expect("UTF-8"), "--textures"];
+    let noted = run([&arguments[..], &[folder.to_str().expect("UTF-8")], &size].concat());
+    let line = format!("{sky}: note[map-is-cube]: This is a cube map; --sky takes it.\n");
+    assert!(noted.code == Some(0) && noted.err.contains(&line), "{noted:?}");
+    let drawn = image::open(&output).expect("is a picture").into_rgba8();
+    assert!(share_that_differs(&plain, &drawn, 2) < 0.001, "it is not the sky");
+
+    save_texel(folder.join("flat.png"));
+    let flat = folder.join("flat.png");
+    for (wrong, words) in [
+        (
+            flat.to_str().expect("UTF-8"),
+            "flat.png is a flat picture; --sky takes a cube map",
+        ),
+        (FIGURE, "this is none of DDS, PNG, JPEG, TGA and BMP"),
+        ("/no/such.dds", "/no/such.dds cannot be read"),
+    ] {
+        let refused = run(["render", FIGURE, "-o", "nothing.png", "--sky", wrong]);
+        assert!(refused.code == Some(2) && refused.err.contains(words), "{refused:?}");
+    }
+}
+
+#[test]
+fn a_size_is_two_numbers_above_zero() {
+    assert_eq!(draw("tiny.png", FIGURE, &["--size=2X1"]).0.dimensions(), (2, 1));
+    for wrong in ["", "1280", "0x5", "5x0", "-1x5", "axb", "1x2x3", "99999999999x1"] {
+        let refused = run(["render", FIGURE, "-o", "nothing.png", &format!("--size={wrong}")]);
+        let told = refused.err.contains("a size is a width and a height in pixels");
+        assert!(refused.code == Some(2) && told, "{wrong}: {refused:?}");
+    }
+}
+
+/// How a cube map of 32 bits a texel begins.
+fn cube_header(side: u32) -> Vec<u8> {
+    let mut words = [0_u32; 31];
+    (words[0], words[1], words[2], words[3]) = (124, 0x1007, side, side);
+    // Colour and alpha by masks; all six faces.
+    (words[18], words[19], words[21], words[27]) = (32, 0x41, 32, 0xfe00);
+    words[22..26].copy_from_slice(&[0xff, 0xff00, 0xff_0000, 0xff00_0000]);
+    let words = words.iter().flat_map(|word| word.to_le_bytes());
+    b"DDS ".iter().copied().chain(words).collect()
+}

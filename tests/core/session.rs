@@ -4,6 +4,7 @@ mod archives;
 mod clips;
 mod crowd;
 mod exporting;
+mod files;
 mod folders;
 mod going_back;
 mod history;

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::cli::text::counted;
-use crate::cli::textures::{Folders, MapState, Textures, Wanted, by_name, missing, not_a_file, without_name};
+use crate::cli::textures::{Folders, MapState, Textures, by_name, missing, not_a_file, without_name};
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::import::Imported;
 use crate::session::{File, Maps};
@@ -20,7 +20,7 @@ pub(super) struct FoundMaps {
 /// Looks for the maps that the materials of a file name. `is_only`: no other file is read, so that pictures without a name are worth a word.
 pub(super) fn find(imported: &Imported, folders: &Folders, is_only: bool) -> FoundMaps {
     let materials = imported.model.materials.as_slice();
-    let mut textures = Textures::of(folders, materials, Wanted::Maps);
+    let mut textures = Textures::of(folders, materials);
     let mut maps = Maps::without_mips();
     let pictures = std::mem::take(&mut textures.pictures).into_iter();
     let own = imported

@@ -5,6 +5,7 @@ use bindpose::session::{File, FileCommand, FileFormat, FileSet, Session};
 use glam::Affine3A;
 use serde_json::json;
 
+use super::banner::banner;
 use super::triangle;
 use crate::gltf_files::Gltf;
 
@@ -106,4 +107,48 @@ fn without_a_clip_joints_are_at_rest_and_have_the_files_names() {
     assert!(posed.abs_diff_eq(glam::Vec3::new(-1.0, 1.0, 0.0), 1e-5), "{posed}");
     let (bounds, _) = session.open_model().expect("it is open").extent(None);
     assert!(bounds.max.y < 3.1 && bounds.min.y > 0.9, "{bounds:?}");
+}
+
+#[test]
+fn clips_of_a_text_with_its_data_join_and_join_again() {
+    let file = banner();
+    let beside = |name: &str| {
+        vec![
+            File::new(&format!("in/{name}.gltf"), file.text_beside(&format!("{name}.bin"))),
+            File::new(&format!("in/{name}.bin"), file.bin.clone()),
+        ]
+    };
+    let mut session = opened(beside("banner"));
+    let clips = |session: &Session| {
+        let open = session.open_model().expect("it is open");
+        open.clip_list()
+            .map(|clip| clip.file_name.to_owned())
+            .collect::<Vec<_>>()
+    };
+    let joined = ["banner.gltf", "banner.gltf", "walk.gltf", "walk.gltf"];
+    for _ in 0..2 {
+        session.apply(FileCommand::AddClips(beside("walk")));
+        assert_eq!(
+            (session.error(), clips(&session)),
+            (None, joined.map(str::to_owned).to_vec())
+        );
+    }
+    for again in [
+        FileCommand::Add(beside("banner")),
+        FileCommand::Open("in/banner.gltf".to_owned()),
+    ] {
+        session.apply(again);
+        assert_eq!(
+            (session.error(), clips(&session)),
+            (None, joined.map(str::to_owned).to_vec())
+        );
+    }
+    assert!(session.diagnostics().all(|notice| notice.code != "gltf-buffer-missing"));
+
+    session.apply(FileCommand::AddClips(beside("run")[..1].to_vec()));
+    let error = session.error().expect("its data are not there");
+    assert_eq!(
+        (error.diagnostic.code, &*error.file_name),
+        ("gltf-buffer-missing", "run.gltf")
+    );
 }

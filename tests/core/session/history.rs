@@ -56,7 +56,8 @@ fn kept(session: &Session) -> String {
         .collect();
     let playback = session.playback();
     format!(
-        "{clips:?}\n{compiled:?}\n{diagnostics:?}\n{:?}\n{:?}\n{:?}\n{hidden:?} {:?} {:?}\n{:?}",
+        "{clips:?}\n{compiled:?}\n{diagnostics:?}\n{:?}\n{:?}\n{:?}\n{:?}\n{hidden:?} {:?} {:?}\n{:?}",
+        session.sky_file().map(|file| &file.path),
         session.materials(),
         session.joint_names(),
         playback
@@ -400,7 +401,7 @@ fn edit() -> impl Strategy<Value = Command> {
     command().prop_filter("it is no edit of this model", |command| {
         !matches!(
             command,
-            Command::File(FileCommand::Add(_) | FileCommand::Open(_))
+            Command::File(FileCommand::Add(_) | FileCommand::Open(_) | FileCommand::Close(_))
                 | Command::Crowd(_)
                 | Command::Name(NameCommand::Import(_))
                 | Command::History(HistoryCommand::Undo | HistoryCommand::Redo)

@@ -7,7 +7,6 @@ use bindpose::session::{File, FileSet, LoadJob, LoadStep, Progress};
 
 use super::maps::{mapped, picture};
 use super::models::broken;
-use super::sky::cube;
 
 fn job(files: Vec<File>) -> LoadJob {
     let files = Arc::new(FileSet::new(files));
@@ -21,7 +20,6 @@ fn each_step_does_one_thing_and_the_way_to_the_end_never_grows_once_the_model_is
         mapped("a.m3d", "a.png", "none.png"),
         picture("a.png", [255, 0, 0, 255]),
         picture("stranger.png", [0, 255, 0, 255]),
-        cube("sky.dds", 2, [7; 4]),
     ]);
     let mut told = Vec::new();
     let loaded = loop {
@@ -33,8 +31,8 @@ fn each_step_does_one_thing_and_the_way_to_the_end_never_grows_once_the_model_is
     };
     let [before, after_model] = [told[0], told[1]];
     assert_eq!(before.done, 0);
-    // The model, two images, the end of the images, the books' verdicts, the sky.
-    assert_eq!(after_model, Progress { done: 1, total: 6 });
+    // The model, two images, the end of the images, the books' verdicts.
+    assert_eq!(after_model, Progress { done: 1, total: 5 });
     assert!(
         told[1..]
             .windows(2)
@@ -42,7 +40,6 @@ fn each_step_does_one_thing_and_the_way_to_the_end_never_grows_once_the_model_is
     );
     assert_eq!(loaded.model().file.base_name(), "a.m3d");
     assert!(loaded.maps().image(0, MapSlot::Diffuse).is_some());
-    assert!(loaded.has_sky());
 }
 
 #[test]

@@ -303,7 +303,7 @@ fn pictures_that_fit_nothing_are_noted_until_the_next_drop() {
         messages(&session, "map-unused"),
         ["a.tga and a.jpg are not used: there is a picture with the very name that the model gives."]
     );
-    drop_pictures(&mut session, vec![super::sky::cube("sky.dds", 4, [9; 4])]);
+    drop_pictures(&mut session, vec![super::models::cube("sky.dds", 4, [9; 4])]);
     assert!(messages(&session, "map-unused").is_empty(), "another drop came");
 
     let session = opened(vec![mapped("box.m3d", "a.png", "b.png"), picture("stray.png", [5; 4])]);

@@ -133,3 +133,22 @@ pub(crate) fn document() -> Document {
         ..Document::default()
     }
 }
+
+/// A cube map of one colour, 32 bits a texel.
+pub(crate) fn cube(path: &str, side: u32, color: [u8; 4]) -> File {
+    let mut words = [0_u32; 31];
+    words[0] = 124;
+    words[1] = 0x1007;
+    (words[2], words[3]) = (side, side);
+    words[18] = 32;
+    // Colour and alpha by masks.
+    words[19] = 0x41;
+    words[21] = 32;
+    words[22..26].copy_from_slice(&[0xff, 0xff00, 0xff_0000, 0xff00_0000]);
+    // A cube with all of its faces.
+    words[27] = 0xfe00;
+    let mut bytes = b"DDS ".to_vec();
+    bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+    bytes.extend(color.repeat(6 * (side * side) as usize));
+    File::new(path, bytes)
+}

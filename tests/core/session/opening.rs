@@ -4,7 +4,7 @@ use bindpose::anim::LoopMode;
 use bindpose::model::Handedness;
 use bindpose::scene::{FrameCost, Pass, ViewPreset};
 use bindpose::session::{
-    CameraCommand, Command, Event, File, FileCommand, PassChoice, PlayCommand, QualityCommand, Session,
+    CameraCommand, Command, Event, File, FileCommand, News, PassChoice, PlayCommand, QualityCommand, Session,
 };
 use glam::Vec2;
 
@@ -226,24 +226,144 @@ fn listed(session: &Session) -> Vec<&str> {
 }
 
 #[test]
-fn what_was_open_before_a_drop_stands_among_its_models_and_can_be_opened_again() {
-    let mut session = opened(still("figure.m3d"));
-    assert_eq!(listed(&session), ["figure.m3d"]);
+fn every_model_that_came_stays_listed_in_the_order_of_opening_and_can_be_opened_again() {
+    let mut session = opened(still("z.m3d"));
+    assert_eq!(listed(&session), ["z.m3d"]);
     let drop = || vec![moving("x/b.m3d"), still("x/A.m3d"), jointed("x/c.m3d")];
     session.apply(FileCommand::Add(drop()));
-    let all = ["figure.m3d", "x/A.m3d", "x/b.m3d", "x/c.m3d"];
+    let all = ["z.m3d", "x/A.m3d", "x/b.m3d", "x/c.m3d"];
     assert_eq!((open_path(&session), listed(&session)), (Some("x/b.m3d"), all.to_vec()));
-    for path in ["figure.m3d", "x/c.m3d", "x/A.m3d", "figure.m3d", "x/b.m3d"] {
+    let first = session.shown_opening();
+    for path in ["z.m3d", "x/c.m3d", "x/A.m3d", "z.m3d", "x/b.m3d"] {
         assert!(session.apply(FileCommand::Open(path.to_owned())).model);
         assert_eq!((open_path(&session), listed(&session)), (Some(path), all.to_vec()));
+        assert_eq!(
+            session.shown_opening() == first,
+            path != "z.m3d",
+            "{path} came with another drop"
+        );
     }
-    session.apply(FileCommand::Add(drop()));
-    assert_eq!(listed(&session), all, "the same drop again");
 
-    session.apply(FileCommand::Add(vec![still("y/d.m3d")]));
-    assert_eq!(listed(&session), ["x/b.m3d", "y/d.m3d"], "one of each drop before");
-    session.apply(FileCommand::Add(vec![still("y/d.m3d"), moving("x/b.m3d")]));
-    assert_eq!(listed(&session), ["x/b.m3d", "y/d.m3d"], "none stands there twice");
+    session.apply(FileCommand::Add(vec![still("a.m3d")]));
+    let all = ["z.m3d", "x/A.m3d", "x/b.m3d", "x/c.m3d", "a.m3d"];
+    assert_eq!(listed(&session), all, "what comes stands at the end");
+    session.apply(FileCommand::Add(drop()));
+    assert_eq!(listed(&session), all, "the same again stands where it stood");
+    session.apply(FileCommand::Add(vec![still("d.m3d"), moving("x/b.m3d")]));
+    assert_eq!(
+        listed(&session),
+        ["z.m3d", "x/A.m3d", "x/c.m3d", "a.m3d", "d.m3d", "x/b.m3d"],
+        "none stands there twice"
+    );
+    let largest = |count| News::OpenedLargest("b.m3d".to_owned(), count);
+    assert_eq!(
+        session.take_news(),
+        [largest(3), largest(2)],
+        "told of each drop of several, once"
+    );
+}
+
+#[test]
+fn a_model_can_be_closed_and_the_one_beside_it_comes_in_its_place() {
+    let mut session = opened(still("a.m3d"));
+    session.apply(FileCommand::Add(vec![
+        still("b.m3d"),
+        moving("c.m3d"),
+        picture("c.png"),
+    ]));
+    session.apply(FileCommand::Add(vec![still("d.m3d")]));
+    let revision = session.model_revision();
+    let mut close = |path: &str| {
+        session.apply(FileCommand::Close(path.to_owned()));
+        let listed: Vec<_> = listed(&session).into_iter().map(str::to_owned).collect();
+        (
+            open_path(&session).map(str::to_owned),
+            listed.join(" "),
+            session.model_revision(),
+        )
+    };
+    let now = |open: &str, listed: &str, revision| (Some(open.to_owned()), listed.to_owned(), revision);
+    assert_eq!(close("none.m3d"), now("d.m3d", "a.m3d b.m3d c.m3d d.m3d", revision));
+    assert_eq!(
+        close("a.m3d"),
+        now("d.m3d", "b.m3d c.m3d d.m3d", revision),
+        "not on screen"
+    );
+    assert_eq!(
+        close("d.m3d"),
+        now("c.m3d", "b.m3d c.m3d", revision + 1),
+        "the last: the one before"
+    );
+    assert_eq!(
+        close("b.m3d"),
+        now("c.m3d", "c.m3d", revision + 1),
+        "another of the same drop"
+    );
+    assert_eq!(
+        close("c.m3d"),
+        now("c.m3d", "c.m3d", revision + 1),
+        "the only one stays"
+    );
+    assert_eq!(session.files().files().len(), 2, "with its picture");
+    session.apply(FileCommand::Add(vec![still("b.m3d"), moving("c.m3d"), still("e.m3d")]));
+    session.apply(FileCommand::Open("b.m3d".to_owned()));
+    session.apply(FileCommand::Close("b.m3d".to_owned()));
+    assert_eq!(
+        (open_path(&session), listed(&session)),
+        (Some("c.m3d"), vec!["c.m3d", "e.m3d"])
+    );
+}
+
+#[test]
+fn a_model_on_screen_stays_listed_when_the_one_in_its_place_cannot_be_read() {
+    let mut session = opened(still("b.m3d"));
+    session.apply(FileCommand::Add(vec![moving("large.m3d"), broken("small.m3d")]));
+    session.apply(FileCommand::Close("b.m3d".to_owned()));
+    session.apply(FileCommand::Close("large.m3d".to_owned()));
+    assert_eq!(
+        (open_path(&session), listed(&session)),
+        (Some("large.m3d"), vec!["large.m3d", "small.m3d"])
+    );
+    assert_eq!(session.error().map(|error| &*error.file_name), Some("small.m3d"));
+}
+
+#[test]
+fn the_oldest_models_are_closed_when_their_files_have_too_many_bytes() {
+    // Bytes that all of them share, since they are counted for each.
+    let bytes: std::sync::Arc<[u8]> = vec![0; 150 << 20].into();
+    let drop = |name: &str| {
+        vec![
+            still(&format!("{name}1.m3d")),
+            still(&format!("{name}2.m3d")),
+            File::new(&format!("{name}.bin"), bytes.clone()),
+        ]
+    };
+    let closed = |session: &mut Session| {
+        let news = session.take_news().into_iter();
+        news.filter(|news| matches!(news, News::ModelsClosed(_)))
+            .collect::<Vec<_>>()
+    };
+    let mut session = Session::new(false);
+    for name in ["a", "b", "c"] {
+        session.apply(FileCommand::Add(drop(name)));
+    }
+    assert_eq!((listed(&session).len(), closed(&mut session)), (6, vec![]));
+    session.apply(FileCommand::Add(drop("d")));
+    assert_eq!(
+        listed(&session),
+        ["b1.m3d", "b2.m3d", "c1.m3d", "c2.m3d", "d1.m3d", "d2.m3d"]
+    );
+    assert_eq!(closed(&mut session), [News::ModelsClosed(2)]);
+    let many: Vec<_> = (0..4)
+        .map(|index| File::new(&format!("{index}.bin"), bytes.clone()))
+        .collect();
+    session.apply(FileCommand::Add([many, vec![still("large.m3d")]].concat()));
+    assert_eq!(
+        listed(&session),
+        ["large.m3d"],
+        "the one on screen stays, whatever it needs"
+    );
+    assert_eq!(closed(&mut session), [News::ModelsClosed(6)]);
 }
 
 #[test]

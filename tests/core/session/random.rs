@@ -15,8 +15,8 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
 use super::joints::{over_model, skin_colors};
+use super::models::cube;
 use super::models::{self, broken, jointed, moving, still};
-use super::sky::cube;
 use super::submeshes::parted;
 use crate::chains::mirrored;
 
@@ -237,6 +237,8 @@ pub(super) fn command() -> impl Strategy<Value = Command> {
         files().prop_map(FileCommand::Add),
         files().prop_map(FileCommand::AddClips),
         prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| FileCommand::Open(path.to_owned())),
+        prop::sample::select(vec!["a.m3d", "c.m3d", "none"]).prop_map(|path| FileCommand::Close(path.to_owned())),
+        prop::sample::select(vec!["sky.dds", "none"]).prop_map(|path| FileCommand::UseSky(path.to_owned())),
         Just(FileCommand::DismissError),
     ];
     let alone = prop_oneof![

@@ -1,31 +1,12 @@
-//! Cube maps that are dropped become the sky.
+//! Cube maps: dropped by themselves they become the sky, beside other files they can.
 
 use bindpose::image::ImageKind;
 use bindpose::scene::Background;
-use bindpose::session::{File, FileCommand, LookCommand, Session};
+use bindpose::session::{File, FileCommand, HistoryCommand, LookCommand, News, Session};
 
-use super::models::{self, still};
+use super::models::{self, cube, still};
 use super::opened;
 use crate::documents::shared_bytes;
-
-/// A cube map of one colour, 32 bits a texel.
-pub(super) fn cube(path: &str, side: u32, color: [u8; 4]) -> File {
-    let mut words = [0_u32; 31];
-    words[0] = 124;
-    words[1] = 0x1007;
-    (words[2], words[3]) = (side, side);
-    words[18] = 32;
-    // Colour and alpha by masks.
-    words[19] = 0x41;
-    words[21] = 32;
-    words[22..26].copy_from_slice(&[0xff, 0xff00, 0xff_0000, 0xff00_0000]);
-    // A cube with all of its faces.
-    words[27] = 0xfe00;
-    let mut bytes = b"DDS ".to_vec();
-    bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
-    bytes.extend(color.repeat(6 * (side * side) as usize));
-    File::new(path, bytes)
-}
 
 fn cut(mut file: File) -> File {
     file.bytes = file.bytes[..200].into();
@@ -89,33 +70,90 @@ fn taking_the_sky_away_brings_back_what_was_behind() {
     );
 }
 
+fn found(session: &Session) -> Vec<&str> {
+    session.skies().iter().map(|file| file.path.as_str()).collect()
+}
+
 #[test]
-fn a_cube_beside_a_model_is_the_sky_and_stays_for_the_next_model() {
+fn a_cube_beside_a_model_or_among_pictures_is_offered_and_not_put_in_place_of_the_studio() {
     let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![still("a.m3d"), cube("sky.dds", 4, [9; 4])]));
-    assert!(session.open_model().is_some());
-    assert_eq!(sky_name(&session), Some("sky.dds"));
-    assert!(session.maps().pictures().is_empty());
-    let revision = session.sky_revision();
+    let drop = || {
+        vec![
+            still("a.m3d"),
+            cube("in/small.dds", 2, [1; 4]),
+            cube("in/sky.dds", 4, [9; 4]),
+        ]
+    };
+    session.apply(FileCommand::Add(drop()));
+    assert_eq!(
+        (sky_name(&session), session.look().background),
+        (None, Background::Backdrop)
+    );
+    assert_eq!(found(&session), ["in/sky.dds", "in/small.dds"], "the largest first");
+    assert_eq!(session.take_news(), [News::SkyFound("in/sky.dds".to_owned())]);
+    session.apply(FileCommand::Add(drop()));
+    session.apply(FileCommand::Open("a.m3d".to_owned()));
+    assert!(session.take_news().is_empty(), "it is known");
+
+    session.apply(FileCommand::Add(vec![
+        File::new("flat.png", *b"not looked at"),
+        cube("other.dds", 4, [8; 4]),
+    ]));
+    assert_eq!((sky_name(&session), found(&session).len()), (None, 3));
+    assert_eq!(session.take_news(), [News::SkyFound("other.dds".to_owned())]);
+
+    session.apply(FileCommand::UseSky("none.dds".to_owned()));
+    assert_eq!(sky_name(&session), None);
+    assert!(session.apply(FileCommand::UseSky("in/sky.dds".to_owned())).sky);
+    assert_eq!(
+        (sky_name(&session), session.look().background),
+        (Some("sky.dds"), Background::Sky)
+    );
+    assert_eq!(session.take_news(), [News::SkyUsed("sky.dds".to_owned())]);
     session.apply(LookCommand::SetBackground(Background::Backdrop));
-    session.apply(FileCommand::Add(vec![still("a.m3d"), cube("sky.dds", 4, [9; 4])]));
+    session.apply(FileCommand::Add(drop()));
     assert_eq!(
         session.look().background,
         Background::Backdrop,
         "the same again changes nothing"
     );
     session.apply(FileCommand::Add(vec![still("b.m3d")]));
-    assert_eq!(
-        (sky_name(&session), session.sky_revision()),
-        (Some("sky.dds"), revision)
-    );
+    assert_eq!(sky_name(&session), Some("sky.dds"), "it belongs to no model");
 
+    session.apply(FileCommand::Add(vec![still("a.m3d"), cube("in/sky.dds", 4, [7; 4])]));
+    assert_eq!(first_texel(&session), Some(vec![7; 4]), "it was read again");
     session.apply(FileCommand::Add(vec![
         models::broken("c.m3d"),
-        cube("other.dds", 4, [8; 4]),
+        cube("last.dds", 4, [8; 4]),
     ]));
-    assert!(session.error().is_some());
-    assert_eq!(sky_name(&session), Some("sky.dds"), "a drop that fails changes nothing");
+    assert!(session.error().is_some() && !found(&session).contains(&"last.dds"));
+}
+
+#[test]
+fn a_sky_is_a_step_that_undo_takes_back_with_its_background() {
+    let white = Background::Color([255; 3]);
+    let mut session = opened(still("a.m3d"));
+    session.apply(LookCommand::SetBackground(white));
+    for (name, color) in [("a.dds", [1; 4]), ("b.dds", [2; 4])] {
+        session.apply(FileCommand::Add(vec![cube(name, 4, color)]));
+    }
+    assert_eq!(session.history().undo_label(), Some("use b.dds as the sky"));
+    session.apply(FileCommand::ClearSky);
+    assert_eq!(session.history().undo_label(), Some("remove the sky"));
+    let now = |session: &Session| (sky_name(session).map(str::to_owned), session.look().background);
+    let [a, b] = ["a.dds", "b.dds"].map(|name| (Some(name.to_owned()), Background::Sky));
+    for (command, expected) in [
+        (HistoryCommand::Undo, &b),
+        (HistoryCommand::Undo, &a),
+        (HistoryCommand::Undo, &(None, white)),
+        (HistoryCommand::Redo, &a),
+        (HistoryCommand::Redo, &b),
+        (HistoryCommand::Redo, &(None, white)),
+    ] {
+        let revision = session.sky_revision();
+        assert!(session.apply(command).sky && session.sky_revision() > revision);
+        assert_eq!(&now(&session), expected);
+    }
 }
 
 #[test]
@@ -123,12 +161,37 @@ fn a_cube_needs_no_model_and_flat_pictures_do() {
     let mut session = Session::new(false);
     session.apply(FileCommand::Add(vec![cube("sky.dds", 4, [9; 4])]));
     assert_eq!((session.error(), sky_name(&session)), (None, Some("sky.dds")));
+    assert_eq!(session.take_news(), [News::SkyUsed("sky.dds".to_owned())]);
     session.apply(FileCommand::Add(vec![
         File::new("flat.png", *b"not looked at"),
         cube("other.dds", 4, [9; 4]),
     ]));
     assert_eq!(session.error().map(|error| error.diagnostic.code), Some("no-model"));
-    assert_eq!(sky_name(&session), Some("other.dds"));
+    assert_eq!(
+        (sky_name(&session), found(&session)),
+        (Some("sky.dds"), vec!["sky.dds", "other.dds"])
+    );
+}
+
+#[test]
+fn pictures_of_environments_that_cannot_be_read_yet_are_refused_in_words() {
+    let words = "studio.hdr cannot be read yet; a cube map as .dds can.";
+    let hdr = || File::new("in/studio.hdr", *b"#?RADIANCE\n");
+    for mut session in [Session::new(false), opened(still("a.m3d"))] {
+        session.apply(FileCommand::Add(vec![hdr()]));
+        let error = session.error().expect("it is refused");
+        assert_eq!((error.diagnostic.code, &*error.diagnostic.message), ("no-model", words));
+        assert!(session.maps().pictures().is_empty(), "it is no map");
+    }
+    let mut session = Session::new(false);
+    session.apply(FileCommand::Add(vec![still("a.m3d"), hdr()]));
+    let noted: Vec<_> = session.diagnostics().map(|notice| &*notice.message).collect();
+    assert_eq!(
+        (session.error(), noted),
+        (None, vec![words]),
+        "beside a model it is a finding"
+    );
+    assert!(session.models().len() == 1 && session.skies().is_empty());
 }
 
 #[test]

@@ -13,7 +13,9 @@ fn looking() -> impl Strategy<Value = Command> {
     command().prop_filter("it opens another model", |command| {
         !matches!(
             command,
-            Command::File(FileCommand::Add(_) | FileCommand::AddClips(_) | FileCommand::Open(_))
+            Command::File(
+                FileCommand::Add(_) | FileCommand::AddClips(_) | FileCommand::Open(_) | FileCommand::Close(_)
+            )
         )
     })
 }

@@ -1,0 +1,21 @@
+// Which file is what, by its name.
+
+/** The extensions of each kind, as the program has them in src/session/files.rs. "unread" are pictures that the viewer names and cannot read. */
+const KINDS = {
+  model: ["m3d", "glb", "gltf"],
+  archive: ["zip"],
+  picture: ["dds", "png", "jpg", "jpeg", "tga", "bmp"],
+  buffer: ["bin"],
+  unread: ["hdr", "exr"],
+};
+
+const isOf = (name, kinds) => kinds.some((kind) => KINDS[kind].includes(/\.([^./\\]*)$/.exec(name)?.[1].toLowerCase()));
+
+/** Whether a viewer has a use for the file. The rest of a folder is left where it is. */
+export const isUseful = (name) => isOf(name, Object.keys(KINDS));
+
+/** Whether files can only join what is open: none of them can be a model. */
+export const onlyJoins = (files) => files.length > 0 && files.every((file) => isOf(file?.webkitRelativePath || file?.name || "", ["picture", "unread"]));
+
+/** What a dialog for files with clips offers, as `accept` takes it. */
+export const CLIP_FILES = ["model", "archive", "buffer"].flatMap((kind) => KINDS[kind]).map((extension) => `.${extension}`).join();
