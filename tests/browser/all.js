@@ -15,3 +15,4 @@ import "./crowd.js";
 import "./fingers.js";
 import "./several.js";
 import "./lasting.js";
+import "./visits.js";

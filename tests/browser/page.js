@@ -312,7 +312,7 @@ test("after a panic programs hear of it, and calls end", { own: true, motion: tr
     const told = (promise) => promise.then(() => "resolved", ({ message }) => message);
     for (const name of ["play", "pause", "nextKey", "clearRange"]) bindpose[name]();
     bindpose.seek(0.5);
-    bindpose.selectClip("Walk");
+    bindpose.selectClip("Take1");
     return {
       open: await told(bindpose.open([{ name: "a.m3d", bytes: new Uint8Array(1) }])),
       addClips: await told(bindpose.addClips([])),

@@ -11,7 +11,10 @@ use crate::failure::{Doing as _, Failure};
 /// What the page may do. `index.html` carries the same words for hosts that cannot set headers.
 pub(crate) const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
      style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; worker-src 'self' blob:; base-uri 'none'; \
-     object-src 'none'";
+     object-src 'none'; form-action 'none'";
+
+/// Who may show the page in a frame. Only a header can say it.
+pub(crate) const FRAME_ANCESTORS: &str = "frame-ancestors 'self'";
 
 /// The address of the wasm.
 const WASM: &str = "pkg/bindpose_bg.wasm";
@@ -103,6 +106,7 @@ pub(crate) fn media_type(address: &str) -> &'static str {
         "wasm" => "application/wasm",
         "svg" => "image/svg+xml",
         "png" => "image/png",
+        "jpg" | "jpeg" => "image/jpeg",
         "m3d" | "txt" => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }
