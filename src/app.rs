@@ -60,7 +60,7 @@ impl App {
         options: AppOptions,
     ) -> Self {
         ui::install(ctx);
-        state.borrow_mut().change_context();
+        state.borrow_mut().change_context(options.coarse_pointer);
         gpu.renderer
             .write()
             .callback_resources

@@ -60,8 +60,8 @@ use Part::{Fingers, Keys, Mouse};
 /// Parts in two columns of about the same length; one below the other where there is room for one. Gestures come first, by touch those of
 /// fingers.
 const COLUMNS: [&[Part]; 2] = [
-    &[Mouse, Keys(Group::Time)],
-    &[Fingers, Keys(Group::Camera), Keys(Group::Bones), Keys(Group::Picture)],
+    &[Mouse, Keys(Group::Time), Keys(Group::Bones)],
+    &[Fingers, Keys(Group::Camera), Keys(Group::Picture)],
 ];
 const COLUMNS_BY_TOUCH: [&[Part]; 2] = [
     &[Fingers, Mouse, Keys(Group::Time)],

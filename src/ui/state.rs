@@ -166,8 +166,9 @@ impl UiState {
         };
     }
 
-    /// Goes on in another egui context: what is held, focused or on the GPU stays with the old one.
-    pub(crate) fn change_context(&mut self) {
+    /// Goes on in another egui context: what is held, focused or on the GPU stays with the old one. `coarse_pointer` as in [`Self::new`].
+    pub(crate) fn change_context(&mut self, coarse_pointer: bool) {
+        self.coarse_pointer = coarse_pointer;
         (self.thumbnails, self.focus, self.keyboard) = Default::default();
         (self.view_hold, self.grip, self.framed) = Default::default();
     }

@@ -91,7 +91,7 @@ impl Shared {
             mirror,
             session: Rc::new(RefCell::new(session)),
             running: RefCell::new(None),
-            ui: Rc::new(RefCell::new(UiState::new(coarse_pointer()))),
+            ui: Rc::default(),
             starts: Cell::new(0),
             listener: RefCell::new(Some(listener)),
             preferences: Cell::default(),
