@@ -139,11 +139,6 @@ impl App {
         requests
     }
 
-    /// Whether somebody looks at what would be exported, or waits for it.
-    pub fn is_exporting(&self) -> bool {
-        self.session.borrow().export().is_some()
-    }
-
     /// Goes on with what is exported, for as long as all else took since the last time, however many frames that were. Returns whether
     /// there was something to do, and the file once it is written.
     pub fn step_export(&mut self) -> (bool, Option<ExportedFile>) {

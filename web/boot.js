@@ -6,7 +6,7 @@ import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, showPutAside, wordsOf,
 } from "./fault.js";
-import { greeting, keep, keepChoices, kept } from "./kept.js";
+import { greeting, keep, kept } from "./kept.js";
 import { mirrorOf } from "./mirror.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFile, readAgain, rememberSources } from "./sources.js";
@@ -52,8 +52,7 @@ let mirror = null; // The viewer's controls as elements, of its present canvas.
 let gpuWasLost = false;
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
-const noteChoices = keepChoices();
-let namedBones = 0; // Of the open model.
+let choices = null; // Of the person, as they were when the visit began.
 
 /** Resets the page to how a visit begins, without loading the program again. Resolves with the new state. */
 bindpose.reset = async () => {
@@ -107,7 +106,6 @@ const hand = async (files, addsClips) => {
   try {
     // Without a model to join, a file of clips is opened.
     await give(files, addsClips ? "addClips" : "open", (before, { error }) => sources.add(files, addsClips && Boolean(before.model), !error));
-    if (sources.hasModel() && openName) keep({ open: openName, names: namedBones });
   } catch (error) {
     refuseError(error);
   }
@@ -143,6 +141,9 @@ async function boot() {
     const wanted = { renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), theme, light, split, mirrored: true };
     viewer = new Viewer(wanted, onEvent);
     addEventListener("storage", ({ key }) => key?.startsWith("bindpose.names.") && !hasFailed() && viewer.readNames());
+    choices = choicesNow();
+    addEventListener("pagehide", keepVisit);
+    addEventListener("visibilitychange", keepVisit);
     greet();
   } catch (error) {
     fail(error);
@@ -314,7 +315,6 @@ function onEvent(type, detail) {
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
-  if (type === "prefer") return notePreferences(detail);
   if (type === "greetingclosed") return keep({ greeted: true, open: null });
   if (type === "picture") return void savePicture(detail);
   if (type === "save") return saveFile(detail.name, detail.contents, detail.type);
@@ -328,11 +328,19 @@ function onEvent(type, detail) {
   emit(type, detail);
 }
 
-/** Keeps what the person has chosen, and of their model how many bones have names. */
-function notePreferences({ names, ...choices }) {
-  namedBones = names;
-  noteChoices(choices);
-  if (sources.hasModel()) keep({ names });
+/** What the person may choose for this visit and the next. */
+function choicesNow() {
+  const { theme, look: { light, split, quality } } = viewer.state();
+  return { theme, light, split, quality };
+}
+
+/** Keeps for the next visit what the person has chosen in this one, which model was theirs, and how many of its bones have names. */
+function keepVisit() {
+  if (hasFailed()) return;
+  const chosen = Object.entries(choicesNow()).filter(([name, value]) => value !== choices[name]);
+  if (chosen.length) keep(Object.fromEntries(chosen));
+  const { model, skeleton } = viewer.state();
+  if (model && sources.hasModel()) keep({ open: model.name, names: Object.keys(skeleton.names).length });
 }
 
 /** Shows what changed of the viewer's controls; those of another start stand behind another canvas. */

@@ -21,16 +21,6 @@ export function keep(values) {
   }
 }
 
-/** Keeps what a `prefer` event tells and did not tell before: what a person has chosen, not what the page began with. */
-export function keepChoices() {
-  let told = null;
-  return (now) => {
-    const chosen = Object.entries(now).filter(([name, value]) => told && told[name] !== value);
-    told = now;
-    if (chosen.length) keep(Object.fromEntries(chosen));
-  };
-}
-
 /** The sentence that a visit begins with: what was open, else what the page is for; `null` when there is nothing to say. */
 export function greeting({ open, names, greeted } = kept()) {
   if (typeof open === "string") {

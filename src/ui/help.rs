@@ -57,15 +57,10 @@ enum Part {
 
 use Part::{Fingers, Keys, Mouse};
 
-/// Parts in two columns of about the same length; one below the other where there is room for one. Gestures come first, by touch those of
-/// fingers.
+/// Parts in two columns of about the same length, one below the other where there is room for one. By touch the second comes first.
 const COLUMNS: [&[Part]; 2] = [
     &[Mouse, Keys(Group::Time), Keys(Group::Bones)],
     &[Fingers, Keys(Group::Camera), Keys(Group::Picture)],
-];
-const COLUMNS_BY_TOUCH: [&[Part]; 2] = [
-    &[Fingers, Mouse, Keys(Group::Time)],
-    &[Keys(Group::Camera), Keys(Group::Bones), Keys(Group::Picture)],
 ];
 
 /// Width of a column, and of the gap between two.
@@ -74,7 +69,11 @@ const BETWEEN: f32 = 20.0;
 
 /// What the page is for, what pointer and fingers do, and the keys: in two columns if there is room, otherwise in one that scrolls.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
-    let columns = if is_touch(ui) { COLUMNS_BY_TOUCH } else { COLUMNS };
+    let columns = if is_touch(ui) {
+        [COLUMNS[1], COLUMNS[0]]
+    } else {
+        COLUMNS
+    };
     let most = ui.available_width();
     let in_two = most >= 2.0 * COLUMN_WIDTH + BETWEEN;
     ui.set_width(if in_two {
@@ -120,9 +119,7 @@ pub(super) fn greet(ui: &Ui, state: &mut UiState, room: Rect) -> Option<Rect> {
     }
     let margin = Margin {
         left: 14,
-        right: 3,
-        top: 3,
-        bottom: 3,
+        ..Margin::same(3)
     };
     let panel = Panel::new("greeting", "Welcome", Align2::CENTER_BOTTOM).margin(margin);
     Some(panel.show(ui, room, |ui| {

@@ -16,8 +16,7 @@ use super::picture::{self, AppSlot};
 use super::{coarse_pointer, field, next_task, now_secs, object, sleep, state, text_of};
 use crate::app::{App, AppOptions};
 use crate::render::device;
-use crate::scene::{Light, Theme};
-use crate::session::{ExportedFile, QualityCommand, QualityMode, Session};
+use crate::session::{ExportedFile, QualityCommand, Session};
 use crate::ui::{Announcement, Request, SheetRequest, UiState, picture_name, report_name, sheet_name, view_in_words};
 
 /// Why a start failed that was followed by another one, or by a stop.
@@ -33,22 +32,8 @@ pub(super) struct Shared {
     starts: Cell<u32>,
     /// Hears of events until the viewer is dropped.
     listener: RefCell<Option<Function>>,
-    /// What the page was told last of what the person prefers.
-    preferences: Cell<Option<Preferences>>,
     /// Other names were kept for a model elsewhere; the next frame reads them.
     pub(super) names_changed: Cell<bool>,
-}
-
-/// What a person would like to find at the next visit.
-#[derive(Clone, Copy, PartialEq, serde::Serialize)]
-struct Preferences {
-    /// `None` is as the system.
-    theme: Option<Theme>,
-    light: Light,
-    split: Option<f32>,
-    quality: QualityMode,
-    /// How many bones were given names. The page says how many it keeps.
-    names: usize,
 }
 
 /// What lives as long as a viewer has its canvas.
@@ -94,26 +79,7 @@ impl Shared {
             ui: Rc::default(),
             starts: Cell::new(0),
             listener: RefCell::new(Some(listener)),
-            preferences: Cell::default(),
             names_changed: Cell::default(),
-        }
-    }
-
-    /// Tells the page what the person prefers, at first and when it has changed.
-    fn emit_preferences(&self) {
-        let now = {
-            let (session, ui) = (self.session.borrow(), self.ui.borrow());
-            let look = session.look();
-            Preferences {
-                theme: ui.theme,
-                light: look.light,
-                split: look.split,
-                quality: session.quality().mode(),
-                names: session.joint_names().all().len(),
-            }
-        };
-        if self.preferences.replace(Some(now)) != Some(now) {
-            self.emit("prefer", &state::to_js(&now));
         }
     }
 
@@ -375,8 +341,7 @@ impl Shell {
 
     /// Goes on with what is exported, in tasks between frames: while frames take long, and in a hidden tab, where none comes.
     fn go_on_exporting(&self, ctx: &egui::Context) {
-        let is_exporting = self.app.borrow().as_ref().is_some_and(App::is_exporting);
-        if !is_exporting || self.exports.replace(true) {
+        if self.shared.session.borrow().export().is_none() || self.exports.replace(true) {
             return;
         }
         let (app, shared) = (Rc::clone(&self.app), Rc::clone(&self.shared));
@@ -384,13 +349,11 @@ impl Shell {
         wasm_bindgen_futures::spawn_local(async move {
             loop {
                 next_task().await;
-                let stepped = app.borrow_mut().as_mut().map(App::step_export);
-                let Some((had_work, file)) = stepped else { break };
+                let Some((true, file)) = app.borrow_mut().as_mut().map(App::step_export) else {
+                    break;
+                };
                 if let Some(file) = file {
                     shared.save_export(&file);
-                }
-                if !had_work {
-                    break;
                 }
                 ctx.request_repaint();
             }
@@ -502,7 +465,6 @@ impl eframe::App for Shell {
         {
             ui.ctx().request_repaint();
         }
-        self.shared.emit_preferences();
     }
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {

@@ -33,8 +33,7 @@ impl Viewer {
     ///
     /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number, mirrored: boolean}`, 1, `auto` and false where
     /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
-    /// `split` are those of an earlier `prefer` event (`{theme, light, split, quality, names}`), which tells what a person has chosen, and how many
-    /// bones have names. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
+    /// `split` are as the state has them. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
     /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
     /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
@@ -183,6 +182,7 @@ impl Shared {
             running.map(|running| running.backend),
             running.map(|running| running.adapter.as_str()),
             running.map_or(0, |running| running.frames_rendered.get()),
+            self.ui.borrow().theme,
         ))
     }
 

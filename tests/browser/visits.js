@@ -62,12 +62,11 @@ test("what a person has chosen is there at the next visit", { own: true, query: 
   await press(page, "Light theme");
   await page.keyboard.press("v");
   await call(page, "setQuality", "low");
-  await until(page, ({ look }) => look.light === "book");
-  await settled(page);
-  const { theme, light, quality } = await kept(page);
-  assert.deepEqual({ theme, light, quality }, { theme: "light", light: "book", quality: "low" });
+  await until(page, ({ look, theme }) => look.light === "book" && theme === "light");
   await page.reload();
   await running(page);
+  const { theme, light, quality, split } = await kept(page);
+  assert.deepEqual({ theme, light, quality, split }, { theme: "light", light: "book", quality: "low", split: undefined });
   await settled(page);
   assert.equal((await state(page)).look.light, "book");
   assert.equal(await control(page, "Dark theme").count(), 1, "the theme is light");
