@@ -93,7 +93,7 @@ fn a_model_that_needs_no_change_is_the_same_after_it() {
         assert_eq!(old, new, "{clip}");
     }
     let again = out("same", "again.m3d");
-    convert(&output, &again, &["--hand", "left"]);
+    convert(&output, &again, &["--hand", "right"]);
     let read = |path: &str| std::fs::read(path).expect("was written");
     assert_eq!(read(&output), read(&again));
     assert_eq!(read(&output).len() as u64, told["bytes"].as_u64().expect("a size"));
@@ -192,7 +192,7 @@ fn clips_are_chosen_cut_and_renamed() {
         "--rename",
         "Take1=Step",
         "--hand",
-        "left",
+        "right",
     ];
     let told = convert(FIGURE, &output, &options);
     assert_eq!(codes(&told["changes"]), ["clips-chosen", "range-cut", "clip-renamed"]);

@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Connections at a time. A browser opens six to a host.
 const MOST_CONNECTIONS: usize = 512;
 
-/// How long, and how much, is read after a refusal: what was sent and never read would take the answer away.
+/// How long it may be quiet after a refusal, and how much is read of what comes.
 const LAST_PATIENCE: Duration = Duration::from_secs(2);
 const LAST_BYTES: u64 = 1 << 20;
 
@@ -87,7 +87,7 @@ pub(crate) fn serve(listener: TcpListener, answer: impl Fn(&Request) -> Response
         for stream in listener.incoming().flatten() {
             if Arc::strong_count(&seats) > MOST_CONNECTIONS {
                 // An error here and below is a browser that went away in the middle; there is nobody left to tell.
-                let _ = write(&stream, &Request::default(), &refusal(503));
+                let _ = refuse(&stream, 503, Duration::from_millis(50));
                 continue;
             }
             let (answer, seat) = (Arc::clone(&answer), Arc::clone(&seats));
@@ -99,13 +99,26 @@ pub(crate) fn serve(listener: TcpListener, answer: impl Fn(&Request) -> Response
     });
 }
 
-/// The answer to what cannot be answered. The connection ends with it.
-fn refusal(status: u16) -> Response {
-    Response {
+/// Answers what cannot be answered, and ends the connection.
+fn refuse(mut stream: &TcpStream, status: u16, patience: Duration) -> io::Result<()> {
+    let response = Response {
         status,
         fields: vec![("Content-Type", "text/plain; charset=utf-8".to_owned())],
         body: Body::Bytes(format!("{}\n", reason(status)).into_bytes().into()),
+    };
+    write(stream, &Request::default(), &response)?;
+    stream.shutdown(Shutdown::Write)?;
+    stream.set_read_timeout(Some(patience))?;
+    // What was sent and never read would take the answer away.
+    let mut left = LAST_BYTES;
+    let mut unread = [0; 4096];
+    while left > 0 {
+        match stream.read(&mut unread)? {
+            0 => break,
+            length => left = left.saturating_sub(length as u64),
+        }
     }
+    Ok(())
 }
 
 fn converse(stream: &TcpStream, answer: &impl Fn(&Request) -> Response) -> io::Result<()> {
@@ -117,13 +130,7 @@ fn converse(stream: &TcpStream, answer: &impl Fn(&Request) -> Response) -> io::R
         let request = match read(&mut reader)? {
             Next::Request(request) => request,
             Next::End => return Ok(()),
-            Next::Refused(status) => {
-                write(stream, &Request::default(), &refusal(status))?;
-                stream.shutdown(Shutdown::Write)?;
-                stream.set_read_timeout(Some(LAST_PATIENCE))?;
-                io::copy(&mut reader.take(LAST_BYTES), &mut io::sink())?;
-                return Ok(());
-            }
+            Next::Refused(status) => return refuse(stream, status, LAST_PATIENCE),
         };
         write(stream, &request, &answer(&request))?;
         if !request.keep {
