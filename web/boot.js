@@ -91,7 +91,7 @@ const focusView = () => view.querySelector("canvas").focus();
 const receive = async (files, addsClips = false) => {
   clearNotice();
   received = true;
-  viewer?.greet();
+  if (viewer && !hasFailed()) viewer.greet();
   keep({ greeted: true });
   if (!bindpose.state().backend) {
     const words = `${files[0].name} opens as soon as the viewer is here`;

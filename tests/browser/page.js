@@ -31,7 +31,7 @@ test("the sample opens although one of its maps does not arrive", {
   const { model, error, textures } = await state(page);
   assert.equal(model.name, "figure.m3d");
   assert.equal(error, null);
-  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.png"], unreadable: [] });
+  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.dds"], unreadable: [] });
 });
 
 test("the light scheme is followed", { colorScheme: "light", viewport: LARGE, fine: true }, async (page) => {

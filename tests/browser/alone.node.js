@@ -1,12 +1,13 @@
-// web/restart.js alone, with a stand-in for the viewer: no browser, no GPU. `node --test tests/browser/restart.node.js`
+// Scripts of the page alone, with stand-ins for the viewer and the browser: no GPU. `node --test tests/browser/alone.node.js`
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-// The page's scripts are modules without a package that says so.
-const script = readFileSync(new URL("../../web/restart.js", import.meta.url), "utf8");
-const { keepOnCanvas } = await import(`data:text/javascript,${encodeURIComponent(script)}`);
+/** The page's scripts are modules without a package that says so. */
+const script = (name) => import(`data:text/javascript,${encodeURIComponent(readFileSync(new URL(`../../web/${name}`, import.meta.url), "utf8"))}`);
+const { keepOnCanvas } = await script("restart.js");
+const { greeting, keep, kept } = await script("kept.js");
 
 /**
  * A page whose GPU goes away `framesUntilLoss(start)` frames after the start of this number, `null` for one that lasts. A start begins to draw
@@ -89,4 +90,32 @@ test("in a hidden tab, where nothing is drawn, nothing is put aside", async () =
   const { log, ended } = page((start) => (start === 6 ? null : 0), { hidden: true });
   assert.equal(await ended, "lasts");
   assert.deepEqual(log, new Array(6).fill("with"));
+});
+
+test("what is kept is there at the next visit, beside what another tab keeps", () => {
+  const store = new Map();
+  globalThis.localStorage = { getItem: (key) => store.get(key) ?? null, setItem: (key, text) => void store.set(key, text) };
+  assert.deepEqual(kept(), {});
+  keep({ theme: "light" });
+  keep({ light: "book" });
+  assert.deepEqual(kept(), { theme: "light", light: "book" });
+  for (const text of ["", "nonsense", "null", "3", "[]"]) {
+    store.set("bindpose.kept", text);
+    assert.equal(kept().theme, undefined, text);
+  }
+  globalThis.localStorage = { getItem: () => { throw new Error("private"); }, setItem: () => { throw new Error("full"); } };
+  keep({ theme: "light" });
+  assert.deepEqual(kept(), {});
+});
+
+test("a visit begins with what was open, else once with what the page is for", () => {
+  for (const [before, words] of [
+    [{ open: "soldier.m3d", names: 3, greeted: true }, "soldier.m3d was open: drop it again; your 3 names are kept."],
+    [{ open: "soldier.m3d", names: 1, greeted: true }, "soldier.m3d was open: drop it again; your 1 name is kept."],
+    [{ open: "soldier.m3d", names: 0 }, "soldier.m3d was open: drop it again."],
+    [{ open: null, greeted: true }, null],
+  ]) {
+    assert.equal(greeting(before), words);
+  }
+  assert.match(greeting({}), /Drop a \.m3d, \.glb or a folder\. Files stay on this machine\.$/);
 });
