@@ -8,7 +8,7 @@ use crate::layout::{assert_between_sides, assert_off, panel};
 use crate::models::moving;
 use crate::page::{PHONE, WIDE, Window, touch_window, window};
 
-const WORDS: &str = "Bindpose shows models with bones move. Drop a .m3d, .glb or a folder. Files stay on this machine.";
+const WORDS: &str = "A viewer for models with bones: drop a .m3d, .glb or a folder. Files stay on this machine.";
 
 fn greeted(size: Vec2, touch: bool) -> Window {
     let files = vec![moving("a.m3d")];
