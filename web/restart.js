@@ -19,7 +19,7 @@ const pause = (ms) => new Promise((done) => setTimeout(done, ms));
  * open, with which the GPU did not last, and says whether there was something; then the next start is without it. `isOver()` says that the viewer is
  * not to be called any more.
  */
-export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside, isOver }) {
+export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside = () => false, isOver }) {
   let gpu = null; // {backend, adapter} of the last start that worked.
   let starts = 0;
   let startedAt = -Infinity; // By `performance.now()`.
