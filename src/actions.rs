@@ -21,12 +21,14 @@ const ZOOM_STEP: f32 = 1.08;
 pub enum Ask {
     /// Something of the session.
     Command(Command),
-    /// Show or hide the table of keys.
+    /// Show or hide what the page is for, and the table of keys.
     Help,
     /// Close what is on top, or clear the selection.
     Close,
     /// Type a name for the selected bone.
     NameBone,
+    /// Choose files to open.
+    OpenFiles,
     /// Read the open files again.
     ReadAgain,
     /// Show or hide what was found in the file.
@@ -459,6 +461,8 @@ actions! {
     })
     .repeats()
     .without_shift();
+    /// Choose files to open.
+    OPEN_FILES: Action::new(Group::Picture, &["Ctrl O"], "open files", "Open files…", |_| Some(Ask::OpenFiles)).without_shift();
     /// Read the open files again.
     READ_AGAIN: Action::new(Group::Picture, &["R"], "read the files again", "Read the files again", |_| Some(Ask::ReadAgain))
         .without_shift();
@@ -476,8 +480,8 @@ actions! {
     });
     /// Save the model as a file of another format.
     EXPORT: Action::new(Group::Picture, &["E"], "export the model", "Export…", |_| Some(Ask::Export));
-    /// Show or hide the table of keys.
-    HELP: Action::new(Group::Picture, &["?"], "this table", "Keys", |_| Some(Ask::Help));
+    /// Show or hide what the page is for, and the table of keys.
+    HELP: Action::new(Group::Picture, &["?"], "this help", "Help", |_| Some(Ask::Help));
     /// Close what is on top, or clear the selection.
     CLOSE: Action::new(Group::Picture, &["Esc"], "close, or let go", "Close", |_| Some(Ask::Close));
 }

@@ -15,8 +15,8 @@ use crate::render::{
     Compositor, GpuAnswer, Picture, PictureError, Renderer, RendererOptions, SampleCount, Target, UploadError, device,
     watched,
 };
-use crate::scene::{FrameCost, FrameOptions, Theme};
-use crate::session::{Quality, Session};
+use crate::scene::{FrameCost, FrameOptions};
+use crate::session::{ExportedFile, Quality, Session};
 use crate::ui::{self, Contrast, Request, SheetRequest, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
@@ -24,8 +24,9 @@ const MAX_STEP_SECS: f32 = 0.25;
 
 /// Between two pipelines that are built while nothing moves, so that input comes first.
 const PREPARE_PAUSE_SECS: f32 = 0.05;
-/// A frame spends so long on what is exported, or one step where that takes longer.
-const EXPORT_SECS: f64 = 0.008;
+/// What is exported goes on for so long at a time: at least this, for input and frames of a quick machine come in between, and at most
+/// this, so that a slow one still answers.
+const EXPORT_SECS: [f64; 2] = [0.008, 0.25];
 /// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
 const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
 
@@ -38,34 +39,45 @@ pub struct AppOptions {
     pub now_secs: fn() -> f64,
 }
 
-/// The viewer in a window. The session belongs to whoever made it, so that it outlives a lost GPU.
+/// The viewer in a window. The session and the state of the panels belong to whoever made them, so that they outlive a lost GPU.
 pub struct App {
     session: Rc<RefCell<Session>>,
-    state: UiState,
+    state: Rc<RefCell<UiState>>,
     painter: SessionPainter,
     /// The picture covers the panels.
     picture_alone: bool,
+    /// When the last part of an export ended, if there is more of it.
+    exported_secs: Option<f64>,
 }
 
 impl App {
-    /// Shows a session, which may have a model open already.
-    pub fn new(ctx: &egui::Context, gpu: &RenderState, session: Rc<RefCell<Session>>, options: AppOptions) -> Self {
+    /// Shows a session, which may have a model open already, with panels as they were before.
+    pub fn new(
+        ctx: &egui::Context,
+        gpu: &RenderState,
+        session: Rc<RefCell<Session>>,
+        state: Rc<RefCell<UiState>>,
+        options: AppOptions,
+    ) -> Self {
         ui::install(ctx);
+        state.borrow_mut().change_context(options.coarse_pointer);
         gpu.renderer
             .write()
             .callback_resources
             .insert(Compositor::new(&gpu.device, gpu.target_format));
         Self {
             session,
-            state: UiState::new(options.coarse_pointer),
+            state,
             painter: SessionPainter::new(ctx, gpu, options),
             picture_alone: false,
+            exported_secs: None,
         }
     }
 
     /// One pass. Returns what only the page around can do.
     pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Request> {
         let mut session = self.session.borrow_mut();
+        let mut state = self.state.borrow_mut();
         // All passes of a frame are at one time.
         if ui.ctx().current_pass_index() == 0 {
             let dt_secs = ui.input(|input| input.unstable_dt);
@@ -81,7 +93,7 @@ impl App {
         ui.painter()
             .add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
         let marked = session.joints().marked();
-        for command in ui::show(ui, &mut session, &mut self.state) {
+        for command in ui::show(ui, &mut session, &mut state) {
             session.apply(command);
         }
         if self.picture_alone {
@@ -94,33 +106,12 @@ impl App {
             ui.ctx().request_repaint();
         }
 
-        let exported = if ui.ctx().will_discard() {
-            None
-        } else {
-            self.step_export(ui.ctx(), &mut session);
-            session.take_exported()
-        };
-        if let Some(file) = &exported {
-            self.state.messages.say_exported(file);
-        }
-        if !ui.ctx().will_discard() {
-            self.state.announce(&session);
-        }
-        let mut requests = self.state.take_requests();
-        requests.extend(exported.map(|file| Request::SaveExport(Box::new(file))));
-        for request in &requests {
-            if let Request::UseTheme(theme) = request {
-                ui.ctx().set_theme(match theme {
-                    Theme::Dark => egui::ThemePreference::Dark,
-                    Theme::Light => egui::ThemePreference::Light,
-                });
-            }
-        }
-
         if ui.ctx().will_discard() {
             // Only the frame's last pass draws.
-            return requests;
+            return state.take_requests();
         }
+        state.announce(&session);
+        let requests = state.take_requests();
         session.follow_motion();
         let size = self
             .painter
@@ -152,20 +143,34 @@ impl App {
         requests
     }
 
-    /// Goes on with what is exported, for a part of a frame.
-    fn step_export(&self, ctx: &egui::Context, session: &mut Session) {
-        let begun_secs = (self.painter.now_secs)();
+    /// Goes on with what is exported, for as long as all else took since the last time, however many frames that were. Returns whether
+    /// there was something to do, and the file once it is written.
+    pub fn step_export(&mut self) -> (bool, Option<ExportedFile>) {
+        let now_secs = self.painter.now_secs;
+        let begun_secs = now_secs();
+        let [least, most] = EXPORT_SECS;
+        let lasts_secs = self
+            .exported_secs
+            .map_or(least, |ended| (begun_secs - ended).clamp(least, most));
+        let mut session = self.session.borrow_mut();
+        let mut had_work = false;
         while session.step_export() {
-            ctx.request_repaint();
-            if (self.painter.now_secs)() - begun_secs > EXPORT_SECS {
+            had_work = true;
+            if now_secs() - begun_secs > lasts_secs {
                 break;
             }
         }
+        self.exported_secs = had_work.then(now_secs);
+        let file = session.take_exported();
+        if let Some(file) = &file {
+            self.state.borrow_mut().messages.say_exported(file);
+        }
+        (had_work, file)
     }
 
     /// Draws the interface with the contrast that the person asks for, from the next pass on.
     pub fn set_contrast(&mut self, contrast: Contrast) {
-        self.state.contrast = contrast;
+        self.state.borrow_mut().contrast = contrast;
     }
 
     /// Whether the picture covers the panels, from the next pass on.
@@ -175,9 +180,7 @@ impl App {
 
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.
     pub fn start_over(&mut self, ctx: &egui::Context) {
-        let contrast = self.state.contrast;
-        self.state = UiState::new(self.state.coarse_pointer());
-        self.state.contrast = contrast;
+        self.state.borrow_mut().start_over();
         self.painter.forget();
         ctx.memory_mut(|memory| {
             let options = std::mem::take(&mut memory.options);
@@ -189,12 +192,12 @@ impl App {
 
     /// Says that a picture of this size was saved under this name.
     pub fn picture_was_saved(&mut self, name: &str, size: [u32; 2]) {
-        self.state.messages.say_saved(name, size);
+        self.state.borrow_mut().messages.say_saved(name, size);
     }
 
     /// Says that a report was saved under this name.
     pub fn report_was_saved(&mut self, name: &str) {
-        self.state.messages.say(format!("Saved {name}"));
+        self.state.borrow_mut().messages.say(format!("Saved {name}"));
     }
 
     /// How many pictures of the model were drawn: stands still while nothing changes.
@@ -245,12 +248,12 @@ impl App {
 
     /// Shows how far the contact sheet is that a person asked for, as [`SheetJob::progress`] says. False when it was cancelled.
     pub fn show_sheet_progress(&mut self, progress: [usize; 2]) -> bool {
-        self.state.show_sheet_progress(progress)
+        self.state.borrow_mut().show_sheet_progress(progress)
     }
 
     /// The contact sheet has come to its end, or never will.
     pub fn end_sheet(&mut self) {
-        self.state.end_sheet();
+        self.state.borrow_mut().end_sheet();
     }
 }
 

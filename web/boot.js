@@ -4,8 +4,9 @@
 import { createApi } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
 import {
-  clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, wordsOf,
+  clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, showPutAside, wordsOf,
 } from "./fault.js";
+import { greeting, keep, kept } from "./kept.js";
 import { mirrorOf } from "./mirror.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFile, readAgain, rememberSources } from "./sources.js";
@@ -53,6 +54,7 @@ let handing = 0; // How much of the person's is being opened.
 let replaced = []; // Names of what was dropped before something else, and gave way to it.
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
+let choices = null; // Of the person, as they were when the visit began.
 
 /** Resets the page to how a visit begins, without loading the program again. Resolves with the new state. */
 bindpose.reset = async () => {
@@ -91,6 +93,8 @@ const focusView = () => view.querySelector("canvas").focus();
 const receive = async (files, addsClips = false) => {
   clearNotice();
   received = true;
+  if (viewer && !hasFailed()) viewer.greet();
+  keep({ greeted: true });
   if (!bindpose.state().backend) {
     const words = `${files[0].name} opens as soon as the viewer is here`;
     element("progress-words").textContent = words;
@@ -144,14 +148,23 @@ async function boot() {
     showOldBrowser();
     return;
   }
-  const opensAtOnce = fetchOpening();
+  const program = load();
+  // Pictures of the sample wait until the program is here: on a slow line they would take its place.
+  const opensAtOnce = fetchOpening(program.catch(() => {}));
   const backend = wantedBackend();
   const displaySecs = watchDisplay();
   addEventListener("error", ({ error }) => isPanic(error) && onPanic(wordsOf(error)));
   addEventListener("unhandledrejection", ({ reason }) => isPanic(reason) && onPanic(wordsOf(reason)));
   try {
-    const { Viewer } = await load();
-    viewer = new Viewer({ renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), mirrored: true }, onEvent);
+    const { Viewer } = await program;
+    const { theme, light, split } = kept();
+    const wanted = { renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), theme, light, split, mirrored: true };
+    viewer = new Viewer(wanted, onEvent);
+    addEventListener("storage", ({ key }) => key?.startsWith("bindpose.names.") && !hasFailed() && viewer.readNames());
+    choices = choicesNow();
+    addEventListener("pagehide", keepVisit);
+    addEventListener("visibilitychange", keepVisit);
+    greet();
   } catch (error) {
     fail(error);
     showDownloadFailure(error);
@@ -169,6 +182,7 @@ async function boot() {
     canvas: element("canvas"),
     backend,
     isOver: hasFailed,
+    putAside,
     onStart() {
       if (gpuWasLost) say("The graphics are back.");
       gpuWasLost = false;
@@ -184,6 +198,24 @@ async function boot() {
     fail(error);
     showGpuFailure(error, backend);
   });
+}
+
+/** Tells somebody who has opened nothing yet what the page is for, or what was open at the last visit. */
+function greet() {
+  const words = received || wasUsed() ? null : greeting();
+  if (!words) return;
+  viewer.greet(words);
+  say(words);
+}
+
+/** Closes the model with which the GPU went away again and again. Returns whether there was one. */
+function putAside() {
+  const { model } = viewer.state();
+  if (!model) return false;
+  viewer.startOver([]);
+  sources.forget();
+  showPutAside(model.name);
+  return true;
 }
 
 /** Keys go to the viewer while nothing has the focus; it gets the focus by the first that it acts on. */
@@ -255,7 +287,7 @@ function addressedScale() {
 
 /** How finely the address asks for a moving picture to be drawn. */
 function addressedQuality() {
-  return options.get("quality") ?? "auto";
+  return options.get("quality") ?? kept().quality ?? "auto";
 }
 
 /** The crowd that the address asks for. */
@@ -303,6 +335,7 @@ function onEvent(type, detail) {
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
+  if (type === "greetingclosed") return keep({ greeted: true, open: null });
   if (type === "picture") return void savePicture(detail);
   if (type === "save") return saveFile(detail.name, detail.contents, detail.type);
   if (type === "explain") return void open("web/codes.html#" + detail.code, "_blank", "noopener");
@@ -313,6 +346,21 @@ function onEvent(type, detail) {
     document.title = name ? `${name} · Bindpose` : "Bindpose";
   }
   emit(type, detail);
+}
+
+/** What the person may choose for this visit and the next. */
+function choicesNow() {
+  const { theme, look: { light, split, quality } } = viewer.state();
+  return { theme, light, split, quality };
+}
+
+/** Keeps for the next visit what the person has chosen in this one, which model was theirs, and how many of its bones have names. */
+function keepVisit() {
+  if (hasFailed()) return;
+  const chosen = Object.entries(choicesNow()).filter(([name, value]) => value !== choices[name]);
+  if (chosen.length) keep(Object.fromEntries(chosen));
+  const { model, skeleton } = viewer.state();
+  if (model && sources.hasModel()) keep({ open: model.name, names: Object.keys(skeleton.names).length });
 }
 
 /** Shows what changed of the viewer's controls; those of another start stand behind another canvas. */
@@ -357,14 +405,18 @@ async function readSourcesAgain() {
   }
 }
 
-/** What the page opens by itself: the files that the address names, else the sample. */
-async function fetchOpening() {
+/** What the page opens by itself: the files that the address names, else the sample, with its maps once `program` has come. */
+async function fetchOpening(program) {
   const named = ["src", "tex"].flatMap((key) => options.getAll(key));
   try {
     if (named.length) return await Promise.all(named.map((address) => fetchFile(address)));
-    const [model, ...maps] = Object.entries(SAMPLE).map(([name, at]) => fetchFile(new URL(at, import.meta.url), name));
+    const [first, ...rest] = Object.entries(SAMPLE);
+    const fetchSample = ([name, at]) => fetchFile(new URL(at, import.meta.url), name);
+    const model = fetchSample(first);
+    model.catch(() => {}); // It is reported below.
+    await program;
     // A figure without one of its maps is still a figure.
-    const opened = await Promise.all([model, ...maps.map((map) => map.catch(() => null))]);
+    const opened = await Promise.all([model, ...rest.map((map) => fetchSample(map).catch(() => null))]);
     return opened.filter(Boolean);
   } catch (error) {
     refuse(wordsOf(error));
@@ -464,7 +516,8 @@ function copyView(canvas, copy) {
 function facts({ model, clip, timeSecs }) {
   if (!model) return "";
   const { counts } = model;
-  const count = (number, word) => `${number.toLocaleString()} ${word}`;
+  // As the panels group them.
+  const count = (number, word) => `${String(number).replace(/\B(?=(\d{3})+$)/g, "\u2009")} ${word}`;
   const size = [count(counts.vertices, "vertices"), count(counts.triangles, "triangles"), count(counts.bones, "bones")];
   const time = clip ? [`${clip} at ${timeSecs.toFixed(3)} s`] : [];
   return [model.name, ...time, size.join(", ")].join(" · ");

@@ -63,6 +63,14 @@ export function showGpuLoss(error, gpu) {
   );
 }
 
+/** The model was closed, since the GPU went away each time that it was shown. */
+export function showPutAside(name) {
+  showNotice(
+    `${name} was put aside`,
+    "The graphics went away three times in a row before they had drawn a few pictures of it. It may be too much for this GPU or its driver. Drop it again to try once more.",
+  );
+}
+
 /** The browser lacks what the program is built for. */
 export function showOldBrowser() {
   showFault(

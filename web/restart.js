@@ -6,20 +6,27 @@ const MOST_FAILURES = 6;
 const FIRST_PAUSE_MS = 250;
 /** A GPU that goes away sooner than this after a start gets a pause too, so that the page does not flicker. */
 const SOON_MS = 500;
+/** A start that loses the GPU before this many frames may have lost it by what it draws. */
+const FIRST_FRAMES = 3;
+/** After so many of these in a row what is open is put aside. */
+const MOST_EARLY_LOSSES = 3;
 
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 /**
  * Keeps `viewer` on a canvas that was never drawn on. `backend` is "webgpu", "webgl2" or "auto". `onStart({backend, adapter})` hears of
- * every start that worked; `onEnd(error, gpu)` that the GPU did not come back, and what the last start that worked gave. `isOver()` says that the
- * viewer is not to be called any more.
+ * every start that worked; `onEnd(error, gpu)` that the GPU did not come back, and what the last start that worked gave. `putAside()` closes what is
+ * open, with which the GPU did not last, and says whether there was something; then the next start is without it. `isOver()` says that the viewer is
+ * not to be called any more.
  */
-export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }) {
+export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside = () => false, isOver }) {
   let gpu = null; // {backend, adapter} of the last start that worked.
   let starts = 0;
   let startedAt = -Infinity; // By `performance.now()`.
   let restarting = false;
   let lostMeanwhile = null; // The reason, when the GPU went away again during a restart.
+  let frames = 0; // Since the last start that worked.
+  let earlyLosses = 0; // In a row.
 
   /** Starts on the present canvas. The outcome of a start is ignored once a later one has begun. */
   const start = async (wanted) => {
@@ -33,7 +40,21 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
     if (mine !== starts) return;
     gpu = started;
     startedAt = performance.now();
+    frames = 0;
+    requestAnimationFrame(function count() {
+      if (mine === starts && ++frames < FIRST_FRAMES) requestAnimationFrame(count);
+    });
     onStart(gpu);
+  };
+
+  /** A start that worked has lost the GPU. In a hidden tab nothing is drawn. */
+  const noteLoss = () => (earlyLosses = frames < FIRST_FRAMES && !document.hidden ? earlyLosses + 1 : 0);
+
+  /** Goes on without what is open, once that seems to be why the GPU goes away. */
+  const endEarlyLosses = (reason) => {
+    if (earlyLosses < MOST_EARLY_LOSSES) return;
+    earlyLosses = 0;
+    if (!putAside()) throw new Error(`The GPU went away ${MOST_EARLY_LOSSES} times in a row, as soon as something was drawn: ${reason}`);
   };
 
   /** A canvas remembers the kind of its first context for ever. */
@@ -44,7 +65,10 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
     canvas = fresh;
   };
 
-  /** The GPU went away: what is open lives on in the viewer, so a fresh canvas and a new start bring all of it back, however often. */
+  /**
+   * The GPU went away: what is open lives on in the viewer, so a fresh canvas and a new start bring all of it back, however often, unless no start
+   * lasts with it.
+   */
   const restart = async (reason) => {
     if (isOver()) return;
     if (restarting) {
@@ -53,6 +77,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
     }
     restarting = true;
     let hadFocus = false;
+    if (gpu) noteLoss();
     try {
       for (let failures = 0; !isOver(); ) {
         // The viewer's hidden input and its mirror stand behind its canvas.
@@ -60,6 +85,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
         hadFocus ||= document.activeElement !== document.body && canvas.parentElement.contains(document.activeElement);
         viewer.stop();
         lostMeanwhile = null;
+        endEarlyLosses(reason);
         replaceCanvas();
         try {
           // The last try takes the plainer way, unless one was asked for.
@@ -67,6 +93,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, isOver }
           if (hadFocus) canvas.focus();
           if (!lostMeanwhile) return;
           reason = lostMeanwhile;
+          noteLoss();
           // A GPU that went away again after it had drawn was there.
           if (viewer.state().framesRendered > 0) {
             failures = 0;

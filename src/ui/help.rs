@@ -1,27 +1,36 @@
-//! The table of what keys, pointer and fingers do.
+//! What the page is for, and the table of what pointer, fingers and keys do; and a sentence for a first visit.
 
 use egui::style::ScrollAnimation;
-use egui::{Align2, FontId, Key, Modifiers, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, FontId, Key, Label, Margin, Modifiers, Rangef, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
 
-use super::panel::scrolled;
-use super::state::UiState;
+use super::icons::Icon;
+use super::panel::{Panel, scrolled};
+use super::state::{Request, UiState};
 use super::theme::{self, ROW_HEIGHT, Tokens};
-use super::widgets::{arrow_steps, closable_heading, focus_ring, is_touch, paint_elided, rule};
+use super::widgets::{
+    TextButton, arrow_steps, closable_heading, control_size, focus_ring, is_touch, paint_elided, push_button, rule,
+};
 use crate::actions::{self, Group};
 use crate::session::Session;
 
-/// What pointer and fingers do, beside the table of actions.
-const TIME_GESTURES: [(&str, &str); 2] = [
-    ("Ctrl wheel", "over keys: zoom in time"),
-    ("Shift wheel", "over keys: pan in time"),
+/// What the page is for.
+const ABOUT: [&str; 3] = [
+    "Bindpose shows models with bones, plays their clips, says what is wrong with them and writes them anew.",
+    "Drop .m3d, .glb or .gltf files, a folder or a .zip; maps may be DDS, PNG, JPEG, TGA or BMP.",
+    "Files stay on this machine.",
 ];
-const CAMERA_GESTURES: [(&str, &str); 4] = [
+
+/// What the pointer and fingers do, beside the table of actions.
+const MOUSE: [(&str, &str); 13] = [
     ("Drag", "orbit"),
     ("Right drag", "pan; middle drag too"),
     ("Right + WASD", "fly; Q E down, up"),
     ("Wheel", "zoom to the pointer"),
-];
-const PICTURE_GESTURES: [(&str, &str); 7] = [
+    ("Ctrl wheel", "over keys: zoom in time"),
+    ("Shift wheel", "over keys: pan in time"),
     ("Click", "Model tab: select a subset"),
     ("", "Skeleton tab: select a bone,"),
     ("", "on coloured skin a vertex"),
@@ -41,43 +50,30 @@ const FINGERS: [(&str, &str); 5] = [
 /// A part of the table.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    Keys(Group),
+    Mouse,
     Fingers,
+    Keys(Group),
 }
 
-use Part::{Fingers, Keys};
+use Part::{Fingers, Keys, Mouse};
 
-/// Parts in two columns of about the same length, or all in one. By touch the part about fingers comes first.
+/// Parts in two columns of about the same length, one below the other where there is room for one. By touch the second comes first.
 const COLUMNS: [&[Part]; 2] = [
-    &[Keys(Group::Time), Keys(Group::Camera)],
-    &[Keys(Group::Picture), Keys(Group::Bones), Fingers],
-];
-const COLUMNS_BY_TOUCH: [&[Part]; 2] = [
-    &[Fingers, Keys(Group::Time), Keys(Group::Camera)],
-    &[Keys(Group::Picture), Keys(Group::Bones)],
-];
-const LIST: &[Part] = &[
-    Keys(Group::Time),
-    Keys(Group::Camera),
-    Keys(Group::Bones),
-    Keys(Group::Picture),
-    Fingers,
-];
-const LIST_BY_TOUCH: &[Part] = &[
-    Fingers,
-    Keys(Group::Time),
-    Keys(Group::Camera),
-    Keys(Group::Bones),
-    Keys(Group::Picture),
+    &[Mouse, Keys(Group::Time), Keys(Group::Bones)],
+    &[Fingers, Keys(Group::Camera), Keys(Group::Picture)],
 ];
 
 /// Width of a column, and of the gap between two.
 const COLUMN_WIDTH: f32 = 280.0;
 const BETWEEN: f32 = 20.0;
 
-/// The table: in two columns if there is room, otherwise in one that scrolls.
+/// What the page is for, what pointer and fingers do, and the keys: in two columns if there is room, otherwise in one that scrolls.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
-    let touch = is_touch(ui);
+    let columns = if is_touch(ui) {
+        [COLUMNS[1], COLUMNS[0]]
+    } else {
+        COLUMNS
+    };
     let most = ui.available_width();
     let in_two = most >= 2.0 * COLUMN_WIDTH + BETWEEN;
     ui.set_width(if in_two {
@@ -85,16 +81,19 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     } else {
         COLUMN_WIDTH.min(most)
     });
-    if closable_heading(ui, "Keys") {
+    if closable_heading(ui, "Help") {
         state.help_open = false;
     }
     let scroll = list_keys(ui);
     scrolled("keys", ui.available_height()).show(ui, |ui| {
         ui.scroll_with_delta_animation(vec2(0.0, scroll), ScrollAnimation::none());
+        for words in ABOUT {
+            ui.add(Label::new(RichText::new(words).color(Tokens::of(ui).text)).wrap());
+        }
         if in_two {
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = BETWEEN;
-                for column in if touch { COLUMNS_BY_TOUCH } else { COLUMNS } {
+                for column in columns {
                     ui.vertical(|ui| {
                         ui.set_width(COLUMN_WIDTH);
                         parts(ui, session, column);
@@ -102,9 +101,45 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
                 }
             });
         } else {
-            parts(ui, session, if touch { LIST_BY_TOUCH } else { LIST });
+            parts(ui, session, &columns.concat());
         }
     });
+}
+
+/// Room between the parts of the greeting.
+const SPACING: f32 = 6.0;
+/// The least room above the timeline in which there is a greeting.
+const LEAST_ROOM: Vec2 = vec2(240.0, 160.0);
+
+/// A sentence for somebody who has opened nothing yet, at the bottom of a room. Returns the rect that it took.
+pub(super) fn greet(ui: &Ui, state: &mut UiState, room: Rect) -> Option<Rect> {
+    let words = state.greeting.clone()?;
+    if room.width() < LEAST_ROOM.x || room.height() < LEAST_ROOM.y {
+        return None;
+    }
+    let margin = Margin {
+        left: 14,
+        ..Margin::same(3)
+    };
+    let panel = Panel::new("greeting", "Welcome", Align2::CENTER_BOTTOM).margin(margin);
+    Some(panel.show(ui, room, |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = SPACING;
+            let open = TextButton::new("Open…", "Choose files to open").width(Rangef::point(66.0));
+            let most = ui.available_width() - 66.0 - control_size(ui) - 2.0 * SPACING;
+            ui.scope(|ui| {
+                ui.set_max_width(most);
+                ui.add(Label::new(RichText::new(words).color(Tokens::of(ui).muted)).wrap());
+            });
+            if open.show(ui).clicked() {
+                state.requests.push(Request::PickFiles);
+            }
+            if push_button(ui, Icon::Close, "Close the welcome").clicked() {
+                state.greeting = None;
+                state.requests.push(Request::CloseGreeting);
+            }
+        });
+    }))
 }
 
 /// How far an arrow key scrolls, in points.
@@ -144,19 +179,9 @@ fn parts(ui: &mut Ui, session: &Session, parts: &[Part]) {
     for &part in parts {
         rule(ui, 12.0);
         match part {
-            Part::Fingers => gestures(ui, &FINGERS),
-            Part::Keys(Group::Camera) => {
-                gestures(ui, &CAMERA_GESTURES);
-                keys(ui, session, Group::Camera);
-            }
-            Part::Keys(group) => {
-                keys(ui, session, group);
-                match group {
-                    Group::Time => gestures(ui, &TIME_GESTURES),
-                    Group::Picture => gestures(ui, &PICTURE_GESTURES),
-                    Group::Camera | Group::Bones => {}
-                }
-            }
+            Mouse => gestures(ui, &MOUSE),
+            Fingers => gestures(ui, &FINGERS),
+            Keys(group) => keys(ui, session, group),
         }
     }
 }

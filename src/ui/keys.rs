@@ -5,7 +5,7 @@ use egui::{Event, Key, Modifiers, Ui};
 use super::export;
 use super::findings;
 use super::layout;
-use super::state::UiState;
+use super::state::{Request, UiState};
 use super::viewport::{self, FLIGHT_KEYS};
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
@@ -116,6 +116,7 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, session: &Session, state: &mut UiStat
         Ask::Help => state.help_open = !state.help_open,
         Ask::Close => escape(session, state, commands),
         Ask::NameBone => state.skeleton.rename_selected(ui, session),
+        Ask::OpenFiles => state.requests.push(Request::PickFiles),
         Ask::ReadAgain => state.read_again(),
         Ask::SavePicture { transparent } => state.save_picture(ui, transparent),
         Ask::Findings => findings::toggle(state, layout::is_wide(ui.max_rect())),

@@ -137,6 +137,9 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         }
         free.cut_left(side);
     }
+    if let Some(greeting) = help::greet(ui, state, free.room()) {
+        free.cut_bottom(greeting);
+    }
     show_on_top(ui, session, state, &free, commands);
     frame_button(ui, session, state, &free, commands);
 
@@ -237,6 +240,11 @@ fn narrow(
                 .show(ui, room, |ui| show_page(ui, page, session, state, commands));
             free.cut_right(page);
         }
+    }
+    if state.sheet.is_none()
+        && let Some(greeting) = help::greet(ui, state, free.room())
+    {
+        free.cut_bottom(greeting);
     }
     show_on_top(ui, session, state, &free, commands);
 
@@ -449,7 +457,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
     });
 }
 
-/// The table of keys and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
+/// Help and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
 fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, commands: &mut Vec<Command>) {
     let window = ui.max_rect();
     if state.help_open {
@@ -460,7 +468,7 @@ fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, com
         } else {
             room
         };
-        Panel::new("help", "Keys", Align2::RIGHT_TOP)
+        Panel::new("help", "Help", Align2::RIGHT_TOP)
             .role(Role::Dialog)
             .on_top()
             .show(ui, room, |ui| help::show(ui, session, state));

@@ -70,6 +70,12 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let window = ui.max_rect();
     let touch = state.coarse_pointer || ui.input(egui::InputState::has_touch_screen);
     state.contrast.apply(ui.ctx());
+    if let Some(theme) = state.theme {
+        ui.ctx().set_theme(match theme {
+            Theme::Dark => egui::Theme::Dark,
+            Theme::Light => egui::Theme::Light,
+        });
+    }
     widgets::size_for_touch(ui.ctx(), touch);
     state.focus.begin(ui.ctx());
     tell(session.take_news(), &mut state.messages);

@@ -16,7 +16,7 @@ use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
 use crate::model::{Mesh, Submesh};
 use crate::scene::{Insets, Theme};
-use crate::session::{ExportOptions, ExportedFile, Session};
+use crate::session::{ExportOptions, Session};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
@@ -30,8 +30,6 @@ pub enum Request {
     ReadAgain,
     /// Let the person pick models whose clips join those of the open one.
     PickClips,
-    /// Use this theme, whatever the system's is.
-    UseTheme(Theme),
     /// Save the last picture once more, where the person chooses.
     SavePictureAs,
     /// Save the view as a picture; [`picture_name`](crate::ui::picture_name) says how the file is called.
@@ -47,8 +45,8 @@ pub enum Request {
     SaveReport,
     /// Show the page of codes at this one.
     ExplainCode(&'static str),
-    /// Save a file that was written.
-    SaveExport(Box<ExportedFile>),
+    /// Remember that the person does not want the greeting.
+    CloseGreeting,
     /// Have a screen reader speak.
     Announce(Announcement),
 }
@@ -100,7 +98,7 @@ pub(super) struct Framed {
 /// Which panels are open. Nothing here changes the model or the picture of it.
 #[derive(Debug, Default)]
 pub struct UiState {
-    /// The table of keys.
+    /// What the page is for, and the table of keys.
     pub help_open: bool,
     /// The list of diagnostics.
     pub diagnostics_open: bool,
@@ -110,6 +108,10 @@ pub struct UiState {
     pub sheet: Option<SheetPage>,
     /// How much contrast the person asks for.
     pub contrast: Contrast,
+    /// The theme, whatever the system's is.
+    pub theme: Option<Theme>,
+    /// A sentence above the timeline for somebody who has opened nothing yet, with a button that does.
+    pub greeting: Option<String>,
     pub(super) sheet_height: SheetHeight,
     pub(super) cost: SteadyCost,
     /// The camera was moved by hand, and the panels have changed since: a button offers to frame the model.
@@ -154,9 +156,19 @@ impl UiState {
         }
     }
 
-    /// Whether the device's pointer is a finger.
-    pub fn coarse_pointer(&self) -> bool {
-        self.coarse_pointer
+    /// Every panel as at first, for the same person.
+    pub fn start_over(&mut self) {
+        *self = Self {
+            contrast: self.contrast,
+            ..Self::new(self.coarse_pointer)
+        };
+    }
+
+    /// Goes on in another egui context: what is held, focused or on the GPU stays with the old one. `coarse_pointer` as in [`Self::new`].
+    pub(crate) fn change_context(&mut self, coarse_pointer: bool) {
+        self.coarse_pointer = coarse_pointer;
+        (self.thumbnails, self.focus, self.keyboard) = Default::default();
+        (self.view_hold, self.grip, self.framed) = Default::default();
     }
 
     /// Shows the tree of joints: in the panel on the left, and in the sheet of a narrow window.

@@ -157,7 +157,7 @@ fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
-    if push_button(ui, Icon::Open, "Open files…").clicked() {
+    if push_button(ui, Icon::Open, &actions::OPEN_FILES.hint()).clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
@@ -175,19 +175,19 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
     });
 }
 
-/// The name of the other theme, and its request.
-fn other_theme(ui: &Ui) -> (&'static str, Request) {
+/// The other theme, and its name.
+fn other_theme(ui: &Ui) -> (&'static str, Theme) {
     if ui.visuals().dark_mode {
-        ("Light theme", Request::UseTheme(Theme::Light))
+        ("Light theme", Theme::Light)
     } else {
-        ("Dark theme", Request::UseTheme(Theme::Dark))
+        ("Dark theme", Theme::Dark)
     }
 }
 
 fn theme_button(ui: &mut Ui, state: &mut UiState) {
-    let (label, request) = other_theme(ui);
+    let (label, theme) = other_theme(ui);
     if push_button(ui, Icon::Contrast, label).clicked() {
-        state.requests.push(request);
+        state.theme = Some(theme);
     }
 }
 
@@ -274,9 +274,9 @@ fn action_items(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &
             ui.close();
         }
     }
-    let (label, request) = other_theme(ui);
+    let (label, theme) = other_theme(ui);
     if menu_item(ui, label, MenuLine::Action).clicked() {
-        state.requests.push(request);
+        state.theme = Some(theme);
         ui.close();
     }
     if menu_item(ui, actions::HELP.label, MenuLine::Action).clicked() {

@@ -1,5 +1,5 @@
 //! Names of joints, kept in the browser by the hierarchy that they belong to, for all viewers of the site. When the browser keeps nothing or
-//! is full, nobody is told: the names last until the page is closed.
+//! is full, nobody is told: the names last until the page is closed. Those of the hierarchies that were named longest ago give way to others.
 
 use web_sys::Storage;
 
@@ -8,6 +8,13 @@ use crate::session::{NameCommand, Session};
 
 /// More text than this is not kept, in bytes: names for two thousand joints.
 const MOST_BYTES: usize = 64 * 1024;
+/// Names of more hierarchies than this are not kept.
+const MOST_KEPT: usize = 64;
+
+/// Before the fingerprint of a hierarchy, in the keys of the store.
+const PREFIX: &str = "bindpose.names.";
+/// The keys in the order in which their names were given, the last one at the end.
+const ORDER: &str = "bindpose.names";
 
 /// Which names were read from the browser's store, and which were put there.
 #[derive(Debug, Default)]
@@ -17,14 +24,16 @@ pub(super) struct JointNames {
 }
 
 impl JointNames {
-    /// Gives a newly opened model the names that were kept for its hierarchy, and keeps names that the person gives. Returns whether the
-    /// model got names.
-    pub(super) fn follow(&mut self, session: &mut Session) -> bool {
+    /// Gives a newly opened model the names that were kept for its hierarchy, and keeps names that the person gives. Names that were
+    /// `changed_elsewhere` replace those of the model. Returns whether the model got names.
+    pub(super) fn follow(&mut self, session: &mut Session, changed_elsewhere: bool) -> bool {
         let opened = self.model != session.model_revision();
         self.model = session.model_revision();
-        let restored = opened && restore(session).is_some();
+        // What came along from a model with these bones stays.
+        let reads = changed_elsewhere || opened && session.joint_names().is_empty();
+        let restored = reads && restore(session).is_some();
         let revision = session.joint_names_revision();
-        if !opened && self.revision != revision {
+        if !reads && !opened && self.revision != revision {
             // A failure is ignored; see above.
             let _ = keep(session);
         }
@@ -38,15 +47,11 @@ fn store() -> Option<Storage> {
 }
 
 fn key(fingerprint: u64) -> String {
-    format!("bindpose.names.{fingerprint:016x}")
+    format!("{PREFIX}{fingerprint:016x}")
 }
 
 fn restore(session: &mut Session) -> Option<()> {
     let fingerprint = session.saved_joint_names()?.fingerprint;
-    if !session.joint_names().is_empty() {
-        // They came along from a model with these bones.
-        return None;
-    }
     let text = store()?.get_item(&key(fingerprint)).ok()??;
     let kept = SavedNames::from_text(fingerprint, &text);
     session.apply(NameCommand::Import(kept));
@@ -57,11 +62,31 @@ fn keep(session: &Session) -> Option<()> {
     let saved = session.saved_joint_names()?;
     let (store, key) = (store()?, key(saved.fingerprint));
     let text = saved.to_text();
-    if text.is_empty() {
-        store.remove_item(&key).ok()
-    } else if text.len() <= MOST_BYTES {
-        store.set_item(&key, &text).ok()
-    } else {
-        None
+    // Where there is no room for all of them, fewer are not taken for all.
+    store.remove_item(&key).ok()?;
+    if !text.is_empty() && text.len() <= MOST_BYTES {
+        make_room(&store, &key)?;
+        store.set_item(&key, &text).ok()?;
     }
+    Some(())
+}
+
+/// Notes that names are given for a key, and forgets those of the keys for which that is longest ago.
+fn make_room(store: &Storage, key: &str) -> Option<()> {
+    let order = store.get_item(ORDER).ok()?.unwrap_or_default();
+    let all = (0..store.length().ok()?).filter_map(|index| store.key(index).ok()?);
+    let mut kept: Vec<String> = all.filter(|kept| kept.starts_with(PREFIX) && kept != key).collect();
+    // Those that are not in the order come first.
+    kept.sort_by_key(|kept| {
+        order
+            .split(' ')
+            .position(|known| known == kept)
+            .map_or(0, |place| place + 1)
+    });
+    let too_many = (kept.len() + 1).saturating_sub(MOST_KEPT);
+    for old in kept.drain(..too_many) {
+        store.remove_item(&old).ok()?;
+    }
+    kept.push(key.to_owned());
+    store.set_item(ORDER, &kept.join(" ")).ok()
 }

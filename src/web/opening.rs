@@ -78,7 +78,11 @@ impl Viewer {
         {
             app.start_over(&running.ctx);
         }
-        self.shared.apply(FileCommand::Add(files));
+        if files.is_empty() {
+            self.shared.tell_of_changes();
+        } else {
+            self.shared.apply(FileCommand::Add(files));
+        }
         Ok(self.state())
     }
 }

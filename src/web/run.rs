@@ -13,11 +13,11 @@ use super::contrast::{ContrastWatch, contrast};
 use super::joint_names::JointNames;
 use super::mirror::{self, MirrorLink};
 use super::picture::{self, AppSlot};
-use super::{coarse_pointer, field, now_secs, object, sleep, state, text_of};
+use super::{coarse_pointer, field, next_task, now_secs, object, sleep, state, text_of};
 use crate::app::{App, AppOptions};
 use crate::render::device;
-use crate::session::{QualityCommand, Session};
-use crate::ui::{Announcement, Request, SheetRequest, picture_name, report_name, sheet_name, view_in_words};
+use crate::session::{ExportedFile, QualityCommand, Session};
+use crate::ui::{Announcement, Request, SheetRequest, UiState, picture_name, report_name, sheet_name, view_in_words};
 
 /// Why a start failed that was followed by another one, or by a stop.
 const OVERTAKEN: &str = "another start came after this one";
@@ -25,12 +25,15 @@ const OVERTAKEN: &str = "another start came after this one";
 /// What a viewer shares with its callbacks.
 pub(super) struct Shared {
     pub(super) session: Rc<RefCell<Session>>,
+    pub(super) ui: Rc<RefCell<UiState>>,
     pub(super) running: RefCell<Option<Running>>,
     pub(super) mirror: MirrorLink,
     /// Counts starts and stops, so that events of an earlier start or its device are ignored.
     starts: Cell<u32>,
     /// Hears of events until the viewer is dropped.
     listener: RefCell<Option<Function>>,
+    /// Other names were kept for a model elsewhere; the next frame reads them.
+    pub(super) names_changed: Cell<bool>,
 }
 
 /// What lives as long as a viewer has its canvas.
@@ -73,9 +76,23 @@ impl Shared {
             mirror,
             session: Rc::new(RefCell::new(session)),
             running: RefCell::new(None),
+            ui: Rc::default(),
             starts: Cell::new(0),
             listener: RefCell::new(Some(listener)),
+            names_changed: Cell::default(),
         }
+    }
+
+    /// Hands a file, as text or bytes, to the page, which saves it.
+    fn save_file(&self, name: &str, contents: JsValue, kind: &str) {
+        let file = [("name", name.into()), ("contents", contents), ("type", kind.into())];
+        self.emit("save", &object(file));
+    }
+
+    /// Hands a file that was exported to the page.
+    fn save_export(&self, file: &ExportedFile) {
+        let bytes = Uint8Array::from(file.bytes.as_slice());
+        self.save_file(&file.name, bytes.into(), file.media_type());
     }
 
     /// Tells the page's listener.
@@ -164,14 +181,20 @@ pub(super) async fn start(
     let frames = Rc::clone(&running.frames_rendered);
     running.ctx.request_repaint();
     shared.running.replace(Some(running));
-    // In a hidden tab no frame comes. The page does not wait for it for ever.
+    // In a hidden tab no frame comes. Elsewhere the page does not wait for it for ever.
     for _ in 0..100 {
-        if frames.get() > 0 {
+        if frames.get() > 0 || is_hidden() {
             break;
         }
         sleep(20).await;
     }
     Ok(started)
+}
+
+/// Whether the page is in a tab that is not shown.
+fn is_hidden() -> bool {
+    let document = web_sys::window().and_then(|window| window.document());
+    document.is_some_and(|document| document.hidden())
 }
 
 async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, start: u32) -> Result<Running, JsError> {
@@ -193,6 +216,8 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         shared: Rc::clone(shared),
         start,
         loss,
+        is_lost: false,
+        exports: Rc::default(),
         frames: Rc::clone(&frames_rendered),
         names: JointNames::default(),
         saved: Rc::default(),
@@ -209,12 +234,12 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
                 watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
                 shell.shared.mirror.install(&creation.egui_ctx);
-                let session = Rc::clone(&shell.shared.session);
+                let (session, state) = (Rc::clone(&shell.shared.session), Rc::clone(&shell.shared.ui));
                 let options = AppOptions {
                     coarse_pointer: coarse_pointer(),
                     now_secs,
                 };
-                let app = App::new(&creation.egui_ctx, &gpu, session, options);
+                let app = App::new(&creation.egui_ctx, &gpu, session, state, options);
                 shell.app.replace(Some(app));
                 let adapter = backend::adapter_name(&gpu.adapter);
                 let slow = device::is_software(&gpu.adapter.get_info());
@@ -278,6 +303,9 @@ struct Shell {
     start: u32,
     /// Why the device was lost, once it was.
     loss: mpsc::Receiver<String>,
+    is_lost: bool,
+    /// Whether tasks go on with an export.
+    exports: Rc<Cell<bool>>,
     frames: Rc<Cell<u64>>,
     names: JointNames,
     /// The picture that was saved last.
@@ -305,16 +333,32 @@ impl Shell {
             (report_name(&session), text)
         };
         let Some(text) = text else { return };
-        self.save_file(&name, text.into(), "application/sarif+json");
+        self.shared.save_file(&name, text.into(), "application/sarif+json");
         if let Some(app) = self.app.borrow_mut().as_mut() {
             app.report_was_saved(&name);
         }
     }
 
-    /// Hands a file, as text or bytes, to the page, which saves it.
-    fn save_file(&self, name: &str, contents: JsValue, kind: &str) {
-        let file = [("name", name.into()), ("contents", contents), ("type", kind.into())];
-        self.shared.emit("save", &object(file));
+    /// Goes on with what is exported, in tasks between frames: while frames take long, and in a hidden tab, where none comes.
+    fn go_on_exporting(&self, ctx: &egui::Context) {
+        if self.shared.session.borrow().export().is_none() || self.exports.replace(true) {
+            return;
+        }
+        let (app, shared) = (Rc::clone(&self.app), Rc::clone(&self.shared));
+        let (exports, ctx) = (Rc::clone(&self.exports), ctx.clone());
+        wasm_bindgen_futures::spawn_local(async move {
+            loop {
+                next_task().await;
+                let Some((true, file)) = app.borrow_mut().as_mut().map(App::step_export) else {
+                    break;
+                };
+                if let Some(file) = file {
+                    shared.save_export(&file);
+                }
+                ctx.request_repaint();
+            }
+            exports.set(false);
+        });
     }
 
     /// Draws a picture and hands it to the page, which saves it. A message says so.
@@ -374,9 +418,16 @@ impl eframe::App for Shell {
         self.shared.mirror.begin_frame(ctx, input);
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    /// All that runs in a hidden tab, and before each pass elsewhere.
+    fn logic(&mut self, _ctx: &egui::Context, _frame: &mut eframe::Frame) {
         if let Ok(reason) = self.loss.try_recv() {
+            self.is_lost = true;
             self.shared.emit_loss(self.start, &reason);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        if self.is_lost {
             return;
         }
         if ui.ctx().current_pass_index() == 0 {
@@ -398,20 +449,20 @@ impl eframe::App for Shell {
                 Request::SavePictureAs => self.save_picture_as(),
                 Request::SaveReport => self.save_report(),
                 Request::ExplainCode(code) => self.shared.emit("explain", &object([("code", code.into())])),
-                Request::SaveExport(file) => {
-                    let bytes = Uint8Array::from(file.bytes.as_slice());
-                    self.save_file(&file.name, bytes.into(), file.media_type());
-                }
+                Request::CloseGreeting => self.shared.emit("greetingclosed", &JsValue::UNDEFINED),
                 Request::Announce(Announcement { text, assertive }) => {
                     let detail = object([("text", text.into()), ("assertive", assertive.into())]);
                     self.shared.emit("announce", &detail);
                 }
-                // The app did this itself.
-                Request::UseTheme(_) => {}
             }
         }
+        self.go_on_exporting(ui.ctx());
         self.shared.emit_events();
-        if self.names.follow(&mut self.shared.session.borrow_mut()) {
+        let changed_elsewhere = self.shared.names_changed.take();
+        if self
+            .names
+            .follow(&mut self.shared.session.borrow_mut(), changed_elsewhere)
+        {
             ui.ctx().request_repaint();
         }
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::scene::{Detail, FrameCost, Overlay, Pass, Projection, TimedPass};
+use crate::scene::{Detail, FrameCost, Overlay, Pass, Projection, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{Checklist, CrowdState, Event, LoadError, Session};
 
@@ -35,6 +35,8 @@ pub(super) struct State<'a> {
     undo: Option<&'a str>,
     redo: Option<&'a str>,
     frames_rendered: u64,
+    /// The one that a person chose, whatever the system's is.
+    theme: Option<Theme>,
     notices: Vec<Finding<'a>>,
     book: Option<Books<'a>>,
     error: Option<FileError<'a>>,
@@ -156,6 +158,7 @@ impl<'a> State<'a> {
         backend: Option<&'a str>,
         adapter: Option<&'a str>,
         frames_rendered: u64,
+        theme: Option<Theme>,
     ) -> Self {
         let playback = session.playback();
         let camera = session.camera();
@@ -194,6 +197,7 @@ impl<'a> State<'a> {
             undo: session.history().undo_label(),
             redo: session.history().redo_label(),
             frames_rendered,
+            theme,
             notices: session.diagnostics().map(Finding::from).collect(),
             book: session.open_model().map(|_| Books::of(session.verdicts())),
             error: session.error().map(FileError::from),

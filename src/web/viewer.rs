@@ -14,8 +14,9 @@ use super::mirror::MirrorLink;
 use super::picture::AppSlot;
 use super::run::{self, Shared};
 use super::{field, picture, promise, reduced_motion, state};
+use crate::scene::{Light, Theme};
 use crate::script;
-use crate::session::{Command, HistoryCommand, QualityCommand, QualityMode, RenderScale, Session};
+use crate::session::{Command, HistoryCommand, LookCommand, QualityCommand, QualityMode, RenderScale, Session};
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
 ///
@@ -31,10 +32,10 @@ impl Viewer {
     /// Makes a viewer with nothing open and no canvas.
     ///
     /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number, mirrored: boolean}`, 1, `auto` and false where
-    /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `on_event(type, detail)`
-    /// hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
+    /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
+    /// `split` are as the state has them. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
-    /// `picturefailed` (`{message}`), `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
+    /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
     /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
@@ -49,13 +50,32 @@ impl Viewer {
         if let Some(mode) = named.and_then(|name| QualityMode::from_name(&name)) {
             session.apply(QualityCommand::SetMode(mode));
         }
-        Self {
-            shared: Rc::new(Shared::new(
-                session,
-                MirrorLink::new(field(options, "mirrored").is_truthy()),
-                on_event,
-            )),
+        let named = |name| field(options, name).as_string();
+        if let Some(light) = named("light").and_then(|name| Light::from_name(&name)) {
+            session.apply(LookCommand::SetLight(light));
         }
+        if let Some(split) = field(options, "split").as_f64() {
+            session.apply(LookCommand::SetSplit(Some(split as f32)));
+        }
+        let mirror = MirrorLink::new(field(options, "mirrored").is_truthy());
+        let shared = Shared::new(session, mirror, on_event);
+        shared.ui.borrow_mut().theme = named("theme").and_then(|name| Theme::from_name(&name));
+        Self {
+            shared: Rc::new(shared),
+        }
+    }
+
+    /// Shows a sentence above the timeline, with a button to open files and one that takes it away; without words takes it away.
+    pub fn greet(&self, words: Option<String>) {
+        self.shared.ui.borrow_mut().greeting = words;
+        self.shared.request_repaint();
+    }
+
+    /// Reads the names that are kept for the open model once more: they were changed on another page.
+    #[wasm_bindgen(js_name = readNames)]
+    pub fn read_names(&self) {
+        self.shared.names_changed.set(true);
+        self.shared.request_repaint();
     }
 
     /// Starts on a canvas that was never drawn on, instead of the canvas that it has. What is open stays.
@@ -162,6 +182,7 @@ impl Shared {
             running.map(|running| running.backend),
             running.map(|running| running.adapter.as_str()),
             running.map_or(0, |running| running.frames_rendered.get()),
+            self.ui.borrow().theme,
         ))
     }
 

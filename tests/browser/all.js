@@ -15,3 +15,5 @@ import "./crowd.js";
 import "./fingers.js";
 import "./several.js";
 import "./lasting.js";
+import "./visits.js";
+import "./alone.node.js";

@@ -109,10 +109,19 @@ const screens = new WeakMap();
 /** The errors that a page has logged. */
 const problemsOf = new WeakMap();
 
-/** A page that nothing was loaded into. */
-async function freshPage(device) {
+/** A page that nothing was loaded into. Unless it is for a `firstVisit`, nobody is greeted on it. */
+async function freshPage(device, firstVisit = false) {
   const { context } = await contextOf(device);
   const page = await context.newPage();
+  if (!firstVisit) {
+    await page.addInitScript(() => {
+      try {
+        localStorage.getItem("bindpose.kept") ?? localStorage.setItem("bindpose.kept", JSON.stringify({ greeted: true }));
+      } catch {
+        // Frames of other kinds keep nothing.
+      }
+    });
+  }
   page.setDefaultTimeout(PATIENCE_MS);
   const problems = [];
   problemsOf.set(page, problems);
@@ -163,19 +172,19 @@ async function sharedPage(device, options) {
  * a person who prefers reduced motion does not have; `passes` draws all that a saved picture can have; `fine` draws every pixel of the
  * view and the panels. Tests share a page, which begins anew for each. A test has a page of its own with `own`, for one that leaves
  * traces in the page, or when it says how the page is loaded: `query` is added to the address, `prepare` may change the page before,
- * `bare` does not wait for the viewer. A test fails when the page logs an error, unless `expectErrors` says that it may, and once it
- * has failed twice; each second try is counted, and the checks let few through.
+ * `bare` does not wait for the viewer; `firstVisit`, with one of these, is greeted. A test fails when the page logs an error, unless
+ * `expectErrors` says that it may, and once it has failed twice; each second try is counted, and the checks let few through.
  */
 export function test(name, options, body) {
   if (DRAWS_ONLY && !options.draws) return;
-  const { query, prepare, expectErrors = false, skip, bare = false, phone = false, sharp = false, passes = false, fine = false, own = false, ...person } = options;
+  const { query, prepare, expectErrors = false, skip, bare = false, phone = false, sharp = false, passes = false, fine = false, own = false, firstVisit = false, ...person } = options;
   const device = sharp ? "sharpPhone" : phone ? "coarsePhone" : fine ? "desk" : "coarseDesk";
   const alone = own || bare || query !== undefined || prepare !== undefined;
   const attempt = async () => {
     let page;
     try {
       if (alone) {
-        page = await freshPage(device);
+        page = await freshPage(device, firstVisit);
         await furnish(page, device, person);
         await prepare?.(page);
         const scale = fine ? 1 : COARSE;

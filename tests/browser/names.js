@@ -57,6 +57,31 @@ test("names of bones are kept and are there after a reload", {}, async (page) =>
   assert.deepEqual(await kept(page), [[key, text]]);
 });
 
+test("names that are given in another tab are those of this one, and more than there is room for are not kept", { own: true }, async (page) => {
+  await openTree(page);
+  await nameSecondBone(page, "Hips");
+  const [[key]] = await kept(page);
+  const other = await page.context().newPage();
+  try {
+    await other.goto(page.url());
+    await running(other);
+    await until(other, ({ skeleton }) => skeleton.names[1] === "Hips");
+    // A page hears of it from its own frames on: this one draws none while the other is in front of it.
+    await other.evaluate((key) => localStorage.setItem(key, "1 Pelvis\n"), key);
+  } finally {
+    await other.close();
+  }
+  await page.bringToFront();
+  await until(page, ({ skeleton }) => skeleton.names[1] === "Pelvis");
+  await page.evaluate(() => {
+    for (let place = 0; place < 80; place += 1) localStorage.setItem(`bindpose.names.${place.toString(16).padStart(16, "0")}`, "1 Old\n");
+  });
+  await nameSecondBone(page, "Waist");
+  const all = await kept(page);
+  assert.equal(all.length, 64, "those of other hierarchies give way");
+  assert.deepEqual(all.find(([of]) => of === key), [key, "1 Waist\n"]);
+});
+
 test("a browser that keeps nothing does not stand in the way", {
   prepare: (page) => page.addInitScript(() => {
     const refuse = () => { throw new DOMException("full", "QuotaExceededError"); };

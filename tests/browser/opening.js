@@ -139,7 +139,7 @@ test("R reads the files again as they are on disk now", {}, async (page) => {
   await dropAndWait(page, [path]);
   await page.mouse.click(...GROUND);
   await settled(page);
-  rewrite("AnimationClip Walk", "AnimationClip Stroll");
+  rewrite("AnimationClip Take1", "AnimationClip Stroll");
   await page.keyboard.press("r");
   await until(page, ({ model }) => model.clips[0].name === "Stroll");
 
@@ -180,7 +180,7 @@ test("R reads the sample again, and with a model the maps and clips that joined 
   await drop(page, [clips], { shift: true });
   const { model } = await until(page, ({ model }) => model.clips.length > own);
   const before = await loads();
-  writeFileSync(clips, readFileSync(clips, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll"), "latin1");
+  writeFileSync(clips, readFileSync(clips, "latin1").replace("AnimationClip Take1", "AnimationClip Stroll"), "latin1");
   await page.keyboard.press("r");
   const again = await until(page, ({ model }) => model.clips.some(({ name }) => name === "Stroll"));
   assert.equal(await loads(), before + 1, "the model was read too");
@@ -204,7 +204,7 @@ test("R tries again what was refused while its error is shown, and what is open 
   // Its error sent away, what is open is what R is about.
   await press("Escape");
   await until(page, ({ error }) => error === null);
-  rewrite(path, "AnimationClip Walk", "AnimationClip Stroll");
+  rewrite(path, "AnimationClip Take1", "AnimationClip Stroll");
   await press("r");
   assert.equal((await until(page, ({ model }) => model.clips[0].name === "Stroll")).model.name, "open.m3d");
   // Clips that were refused are not asked for again.
@@ -235,7 +235,7 @@ test("R opens again the model of a folder that was chosen", {}, async (page) => 
   await settled(page);
   await page.mouse.click(...LAST_OF_THREE);
   await until(page, ({ model }) => model.name === "small.m3d");
-  writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll"), "latin1");
+  writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Take1", "AnimationClip Stroll"), "latin1");
   await page.mouse.click(...GROUND);
   await settled(page);
   await page.keyboard.press("r");
@@ -246,13 +246,13 @@ test("R tells of a file from the dialog that has changed since", { expectErrors:
   const { path } = copyOfSample("chosen.m3d");
   await page.setInputFiles("#files", path);
   await until(page, ({ model }) => model?.name === "chosen.m3d");
-  writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Walk", "AnimationClip Stroll or so"), "latin1");
+  writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Take1", "AnimationClip Stroll or so"), "latin1");
   await page.mouse.click(...GROUND);
   await settled(page);
   await page.keyboard.press("r");
   await page.waitForSelector("#notice:not([hidden])");
   assert.match(await page.innerText("#notice"), /has to be chosen again/);
-  assert.equal((await state(page)).model.clips[0].name, "Walk", "the model that was open stays");
+  assert.equal((await state(page)).model.clips[0].name, "Take1", "the model that was open stays");
 });
 
 test("maps are found beside the model and join it later, and are drawn", { draws: true }, async (page) => {

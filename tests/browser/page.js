@@ -31,7 +31,7 @@ test("the sample opens although one of its maps does not arrive", {
   const { model, error, textures } = await state(page);
   assert.equal(model.name, "figure.m3d");
   assert.equal(error, null);
-  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.png"], unreadable: [] });
+  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.dds"], unreadable: [] });
 });
 
 test("the light scheme is followed", { colorScheme: "light", viewport: LARGE, fine: true }, async (page) => {
@@ -313,7 +313,7 @@ test("after a panic programs hear of it, and calls end", { own: true, motion: tr
     const told = (promise) => promise.then(() => "resolved", ({ message }) => message);
     for (const name of ["play", "pause", "nextKey", "clearRange"]) bindpose[name]();
     bindpose.seek(0.5);
-    bindpose.selectClip("Walk");
+    bindpose.selectClip("Take1");
     return {
       open: await told(bindpose.open([{ name: "a.m3d", bytes: new Uint8Array(1) }])),
       addClips: await told(bindpose.addClips([])),

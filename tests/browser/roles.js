@@ -287,9 +287,9 @@ test("axe finds nothing in any state of the page", { own: true, expectErrors: tr
     await page.keyboard.press("Escape");
     await page.waitForTimeout(300);
   }
-  await press(page, "Keys");
+  await press(page, "Help");
   await assertSound(page, "the table of keys");
-  await press(page, "Keys");
+  await press(page, "Help");
   await press(page, "Dope sheet");
   await assertSound(page, "the dope sheet");
   await press(page, "(Sheet: )?Curves", "Space");

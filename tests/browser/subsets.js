@@ -81,7 +81,7 @@ test("Shift+P saves the picture without what is behind the model", { draws: true
   await page.mouse.click(...GROUND);
   await atRest(page);
   const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+P")]);
-  assert.equal(download.suggestedFilename(), "figure-Walk-0.png");
+  assert.equal(download.suggestedFilename(), "figure-Take1-0.png");
   const saved = await decoded(page, readFileSync(await download.path()));
   assert.deepEqual([saved.width, saved.height], [960, 600]);
   assert.ok(saved.clear > 0.3 && saved.clear < 0.99, `${saved.clear} of the pixels are clear`);

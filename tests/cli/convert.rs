@@ -85,7 +85,7 @@ fn assert_book_shows(file: &str, clip_is_shown: bool) {
 #[test]
 fn a_model_that_needs_no_change_is_the_same_after_it() {
     let output = out("same", "figure.m3d");
-    let told = convert(FIGURE, &output, &["--hand", "left"]);
+    let told = convert(FIGURE, &output, &["--hand", "right"]);
     assert_eq!(codes(&told["changes"]), [""; 0]);
     assert_eq!(codes(&told["losses"]), [""; 0]);
     for clip in clip_names(FIGURE) {
@@ -93,7 +93,7 @@ fn a_model_that_needs_no_change_is_the_same_after_it() {
         assert_eq!(old, new, "{clip}");
     }
     let again = out("same", "again.m3d");
-    convert(&output, &again, &["--hand", "left"]);
+    convert(&output, &again, &["--hand", "right"]);
     let read = |path: &str| std::fs::read(path).expect("was written");
     assert_eq!(read(&output), read(&again));
     assert_eq!(read(&output).len() as u64, told["bytes"].as_u64().expect("a size"));
@@ -102,7 +102,7 @@ fn a_model_that_needs_no_change_is_the_same_after_it() {
 #[test]
 fn json_has_its_keys_and_no_others() {
     let output = out("json", "figure.glb");
-    let told = convert(FIGURE, &output, &["--clips", "Walk", "--scale", "2"]);
+    let told = convert(FIGURE, &output, &["--clips", "Take1", "--scale", "2"]);
     let mut keys: Vec<_> = told
         .as_object()
         .expect("an object")
@@ -146,7 +146,7 @@ fn a_glb_is_read_again_with_the_same_lengths() {
     for file in [&output, &back] {
         assert_eq!(info(file)["handedness"], "right", "{file}");
     }
-    for clip in ["Walk", "Run", "Wave", "Idle"] {
+    for clip in ["Take1", "Run", "Wave", "Idle"] {
         let old = lengths(&positions(FIGURE, clip, 0.4));
         for file in [&output, &back] {
             assert_alike(&old, &lengths(&positions(file, clip, 0.4)), 1.0, 1e-3);
@@ -158,7 +158,13 @@ fn a_glb_is_read_again_with_the_same_lengths() {
 fn text_tells_changes_losses_and_bytes() {
     let output = out("text", "figure.glb");
     let printed = run([
-        "convert", FIGURE, &output, "--clips", "Walk,Run", "--rename", "Run=Dash",
+        "convert",
+        FIGURE,
+        &output,
+        "--clips",
+        "Take1,Run",
+        "--rename",
+        "Run=Dash",
     ])
     .fine();
     let lines: Vec<_> = printed.lines().collect();
@@ -180,13 +186,13 @@ fn clips_are_chosen_cut_and_renamed() {
     let output = out("clips", "walk.m3d");
     let options = [
         "--clips",
-        "Walk",
+        "Take1",
         "--range",
         "0.25..0.75",
         "--rename",
-        "Walk=Step",
+        "Take1=Step",
         "--hand",
-        "left",
+        "right",
     ];
     let told = convert(FIGURE, &output, &options);
     assert_eq!(codes(&told["changes"]), ["clips-chosen", "range-cut", "clip-renamed"]);
@@ -196,7 +202,10 @@ fn clips_are_chosen_cut_and_renamed() {
         (Some(0.0), Some(0.5))
     );
     for secs in [0.25, 0.4, 0.75] {
-        let (old, new) = (positions(FIGURE, "Walk", secs), positions(&output, "Step", secs - 0.25));
+        let (old, new) = (
+            positions(FIGURE, "Take1", secs),
+            positions(&output, "Step", secs - 0.25),
+        );
         for (old, new) in old.iter().zip(&new) {
             assert!(
                 (0..3).all(|axis| (old[axis] - new[axis]).abs() < 1e-3),
@@ -221,7 +230,7 @@ fn a_loop_is_closed() {
 #[test]
 fn keys_are_reduced_and_the_error_told() {
     let output = out("reduce", "figure.m3d");
-    let told = convert(FIGURE, &output, &["--reduce", "0.001", "--hand", "left"]);
+    let told = convert(FIGURE, &output, &["--reduce", "0.001", "--hand", "right"]);
     let changes = told["changes"].as_array().expect("a list");
     assert_eq!(changes.len(), 4);
     for change in changes {
@@ -240,7 +249,7 @@ fn keys_are_reduced_and_the_error_told() {
 
 #[test]
 fn spaces_turn_and_lengths_grow() {
-    let old = lengths(&positions(FIGURE, "Walk", 0.4));
+    let old = lengths(&positions(FIGURE, "Take1", 0.4));
     let turns: [(&[&str], f64, &str, &str); 4] = [
         (&["--hand", "left"], 1.0, "left", "handedness"),
         (&["--hand", "right"], 1.0, "right", "handedness"),
@@ -251,7 +260,7 @@ fn spaces_turn_and_lengths_grow() {
         let output = out("space", &format!("{number}.m3d"));
         convert(FIGURE, &output, options);
         assert_eq!(info(&output)[key], value, "{options:?}");
-        assert_alike(&old, &lengths(&positions(&output, "Walk", 0.4)), factor, 1e-3 * factor);
+        assert_alike(&old, &lengths(&positions(&output, "Take1", 0.4)), factor, 1e-3 * factor);
     }
     let output = out("space", "up.m3d");
     let told = convert(FIGURE, &output, &["--up", "z"]);
@@ -386,7 +395,11 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
             &["--range", "0..0.5"],
             "A range is of one clip, and there are 4; choose one.",
         ),
-        (&m3d, &["--clips", "Walk", "--range", "0..9"], "is not inside \"Walk\""),
+        (
+            &m3d,
+            &["--clips", "Take1", "--range", "0..9"],
+            "is not inside \"Take1\"",
+        ),
         (&m3d, &["--clips", "Swim"], "there is no clip \"Swim\""),
         (
             &m3d,
@@ -395,10 +408,10 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
         ),
         (&m3d, &["--reduce", "0"], "a number above 0"),
         (&m3d, &["--scale", "-1"], "a number above 0"),
-        (&m3d, &["--rename", "Walk"], "OLD=NEW"),
+        (&m3d, &["--rename", "Take1"], "OLD=NEW"),
         (
             &m3d,
-            &["--rename", "Walk=Run"],
+            &["--rename", "Take1=Run"],
             "A clip cannot be named \"Run\": another one is.",
         ),
         (&m3d, &["--rename-bone", "900=Tail"], "There is no bone 900"),
@@ -452,7 +465,7 @@ fn a_figure_for_the_book_is_shown_by_its_demo() {
     convert(
         FIGURE,
         &turned,
-        &["--hand", "left", "--scale", "0.01", "--rename", "Walk=Walk about"],
+        &["--hand", "left", "--scale", "0.01", "--rename", "Take1=Walk about"],
     );
     for (number, input) in [FIGURE, &turned].into_iter().enumerate() {
         for dialect in ["d3d11", "d3d12"] {

@@ -26,10 +26,19 @@ fn a_reader_that_leaves_ends_the_output_and_not_the_work() {
     for (arguments, code) in [
         // Hundreds of kilobytes: more than any buffer between the two.
         (
-            vec!["pose", FIGURE, "--clip", "Walk", "--time", "0", "--json", "--positions"],
+            vec![
+                "pose",
+                FIGURE,
+                "--clip",
+                "Take1",
+                "--time",
+                "0",
+                "--json",
+                "--positions",
+            ],
             0,
         ),
-        (vec!["pose", FIGURE, "--clip", "Walk", "--time", "0", "--positions"], 0),
+        (vec!["pose", FIGURE, "--clip", "Take1", "--time", "0", "--positions"], 0),
         (vec!["info", FIGURE, "--json"], 0),
         (vec!["check", &bad, FIGURE], 1),
         (vec!["--help"], 0),

@@ -103,7 +103,7 @@ fn same_frame_twice(backend: &str) -> RgbaImage {
         "--size",
         "320x180",
         "--clip",
-        "Walk",
+        "Take1",
         "--time",
         "0.3",
     ];
@@ -124,7 +124,7 @@ fn both_backends_draw_the_same_picture() {
 /// Each option against the plain picture: by how much of it that must at least differ.
 #[test]
 fn every_option_changes_the_picture() {
-    let plain = ["--size", "320x180", "--clip", "Walk"];
+    let plain = ["--size", "320x180", "--clip", "Take1"];
     let (picture, _) = draw("plain.png", FIGURE, &plain);
     for (name, more, at_least) in [
         ("time.png", &["--time", "0.3"][..], 0.005),

@@ -102,10 +102,10 @@ fn every_control_of_every_panel_has_a_role_and_a_name() {
         assert_has(&window, role, button.trim());
     }
     let mut help = wide();
-    help.click("Keys (?)");
+    help.click("Help (?)");
     assert_told(&help, "help");
-    assert_has(&help, Role::Dialog, "Keys");
-    assert_has(&help, Role::Heading, "Keys");
+    assert_has(&help, Role::Dialog, "Help");
+    assert_has(&help, Role::Heading, "Help");
     let mut error = wide();
     error.apply(FileCommand::Add(vec![broken("b.m3d")]));
     assert_told(&error, "error");
@@ -360,7 +360,7 @@ fn at_twice_the_size_nothing_is_lost() {
         );
     }
     window.click("More");
-    for item in ["Frame the model", "Turntable", "Light theme", "Dark theme", "Keys"] {
+    for item in ["Frame the model", "Turntable", "Light theme", "Dark theme", "Help"] {
         let found = !window.named(|name| name.starts_with(item)).is_empty();
         assert!(found || item.ends_with("theme"), "{item}");
     }
@@ -383,7 +383,7 @@ fn at_twice_the_size_nothing_is_lost() {
 #[test]
 fn the_wheel_over_any_panel_leaves_the_camera_alone() {
     for (size, open) in [
-        (WIDE, "Keys (?)"),
+        (WIDE, "Help (?)"),
         (WIDE, "Lighting"),
         (PHONE, "Model facts"),
         (WIDE, "Dope sheet and"),

@@ -5,9 +5,13 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use bindpose::app::{App, AppOptions, SheetFailure, SheetJob};
-use bindpose::session::{CameraCommand, File, FileCommand, LookCommand, PlayCommand, Session};
-use bindpose::ui::{self, SheetRequest};
+use bindpose::scene::Theme;
+use bindpose::session::{
+    CameraCommand, ExportCommand, ExportOptions, File, FileCommand, LookCommand, PlayCommand, Session,
+};
+use bindpose::ui::{self, SheetRequest, UiState};
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 
 use crate::models::{moving, still};
@@ -29,11 +33,18 @@ fn now_secs() -> f64 {
 type Shared<T> = Rc<RefCell<T>>;
 
 fn window(file: File) -> (Harness<'static>, Shared<Session>, Shared<Option<App>>) {
-    let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
     session.borrow_mut().apply(FileCommand::Add(vec![file]));
+    let (harness, app) = start(&session, &Rc::default());
+    (harness, session, app)
+}
+
+/// A start on a GPU and a context of its own.
+fn start(session: &Shared<Session>, state: &Shared<UiState>) -> (Harness<'static>, Shared<Option<App>>) {
+    let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
+    let (session, state) = (Rc::clone(session), Rc::clone(state));
     let app: Shared<Option<App>> = Rc::default();
-    let (of_window, of_app, of_session) = (Rc::clone(&app), gpu.clone(), Rc::clone(&session));
+    let (of_window, of_app) = (Rc::clone(&app), gpu.clone());
     let options = AppOptions {
         coarse_pointer: false,
         now_secs,
@@ -45,10 +56,11 @@ fn window(file: File) -> (Harness<'static>, Shared<Session>, Shared<Option<App>>
         .renderer(WgpuTestRenderer::from_render_state(gpu))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();
-            let app = app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&of_session), options));
+            let app =
+                app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), Rc::clone(&state), options));
             app.ui(&mut whole_window(ui));
         });
-    (harness, session, app)
+    (harness, app)
 }
 
 /// Passes until no other is due at any time. Returns how many.
@@ -184,4 +196,84 @@ fn a_contact_sheet_without_room_is_refused() {
         told,
         "a sheet of 300 × 200 pixels has no room for 50 × 50 pictures of 8 × 8 pixels"
     );
+}
+
+#[test]
+fn another_start_has_the_theme_and_the_panels_of_the_one_before() {
+    let session = Rc::new(RefCell::new(Session::new(true)));
+    session.borrow_mut().apply(FileCommand::Add(vec![moving("a.m3d")]));
+    let state: Shared<UiState> = Rc::default();
+    let (mut harness, first) = start(&session, &state);
+    harness.run();
+    for button in ["Light theme", "Help (?)", "Dope sheet and curves"] {
+        harness.get_by_label(button).click();
+        harness.run();
+    }
+    let shows = |harness: &Harness<'static>| {
+        ["Dark theme", "Space: play or pause", "Close the dope sheet"]
+            .map(|label| harness.query_by_label(label).is_some())
+    };
+    let before = shows(&harness);
+    assert!(before[0] && before[1], "{before:?}");
+    drop((harness, first));
+    let (mut harness, _second) = start(&session, &state);
+    harness.step();
+    assert!(
+        !harness.ctx.global_style().visuals.dark_mode,
+        "light from the first frame on"
+    );
+    harness.run();
+    assert_eq!(shows(&harness), before);
+    assert_eq!(
+        session.borrow().open_model().map(|open| open.file.base_name()),
+        Some("a.m3d")
+    );
+    assert_eq!(state.borrow().theme, Some(Theme::Light));
+}
+
+thread_local! {
+    static MILLISECONDS: Cell<f64> = const { Cell::new(0.0) };
+}
+
+/// A clock that goes on by 50 milliseconds each time that somebody looks at it, as if a step took so long.
+fn a_step_later() -> f64 {
+    MILLISECONDS.set(MILLISECONDS.get() + 50.0);
+    MILLISECONDS.get() * 1e-3
+}
+
+#[test]
+fn an_export_goes_on_by_time_however_long_frames_take() {
+    let figure = include_bytes!("../../web/sample/figure.m3d").to_vec();
+    let session = Rc::new(RefCell::new(Session::new(true)));
+    session
+        .borrow_mut()
+        .apply(FileCommand::Add(vec![File::new("figure.m3d", figure)]));
+    let options = ExportOptions {
+        reduce: Some(0.001),
+        ..ExportOptions::default()
+    };
+    session.borrow_mut().apply(ExportCommand::Plan(Some(Box::new(options))));
+    let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
+    let options = AppOptions {
+        coarse_pointer: false,
+        now_secs: a_step_later,
+    };
+    let mut app = App::new(
+        &egui::Context::default(),
+        &gpu,
+        Rc::clone(&session),
+        Rc::default(),
+        options,
+    );
+    let mut steps_after = |frame_ms: f64| {
+        MILLISECONDS.set(MILLISECONDS.get() + frame_ms);
+        let begun = MILLISECONDS.get();
+        assert!(app.step_export().0, "there is more to do");
+        // It looks at the clock as it begins and as it ends, too.
+        (MILLISECONDS.get() - begun) / 50.0 - 2.0
+    };
+    assert_eq!(steps_after(500.0), 1.0, "what came before it was no frame");
+    assert_eq!(steps_after(2.0), 2.0, "a quick frame");
+    assert_eq!(steps_after(70.0), 3.0, "half of the time");
+    assert_eq!(steps_after(5000.0), 6.0, "it answers");
 }

@@ -51,7 +51,15 @@ fn a_native_device_draws_what_browsers_draw() {
         .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();
-            let app = app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), app_options(false)));
+            let app = app.get_or_insert_with(|| {
+                App::new(
+                    ui.ctx(),
+                    &of_app,
+                    Rc::clone(&session),
+                    Rc::default(),
+                    app_options(false),
+                )
+            });
             app.ui(&mut whole_window(ui));
         });
     harness.run();

@@ -1,7 +1,6 @@
 //! The panel that saves the model as a file of another format, used by the names of its controls.
 
 use bindpose::session::{ExportFormat, ExportRange, ExportedFile, FileCommand, PlayCommand};
-use bindpose::ui::Request;
 use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers};
 
@@ -17,14 +16,8 @@ fn open() -> Window {
     window
 }
 
-fn saved(window: &Window) -> Vec<&ExportedFile> {
-    let requests = window.harness.state().requests.iter();
-    requests
-        .filter_map(|request| match request {
-            Request::SaveExport(file) => Some(&**file),
-            _ => None,
-        })
-        .collect()
+fn saved(window: &Window) -> &[ExportedFile] {
+    &window.harness.state().exported
 }
 
 #[test]

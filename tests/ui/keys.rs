@@ -359,7 +359,7 @@ fn the_question_mark_shows_the_table_and_escape_takes_it_away() {
     assert!(window.shows("Space: play or pause"));
     window.press(PLAIN, Key::Escape);
     assert!(!window.shows("Space: play or pause"));
-    window.click("Keys (?)");
+    window.click("Help (?)");
     assert!(window.shows("Space: play or pause"));
     window.harness.event(egui::Event::Text("?".to_owned()));
     window.pass_on();
@@ -397,7 +397,7 @@ fn the_table_says_what_is_in_force_now() {
 fn escape_takes_away_what_lies_on_top() {
     let mut window = open();
     window.click("Findings");
-    window.click("Keys (?)");
+    window.click("Help (?)");
     window.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
     let lying = |window: &Window| {
         (

@@ -62,6 +62,7 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
         "help",
         "error",
         "legend",
+        "greeting",
     ];
     let area = |name: &'static str| {
         let id = egui::Id::unique(("panel", name));
@@ -259,7 +260,7 @@ fn the_error_card_and_the_keys_fit_the_window() {
 
 /// Those panels that are there stay to be read beside what came last.
 #[track_caller]
-fn assert_off(window: &Window, rect: Rect, names: &[&str]) {
+pub(crate) fn assert_off(window: &Window, rect: Rect, names: &[&str]) {
     for (name, covered) in panels(window).into_iter().filter(|(name, _)| names.contains(name)) {
         assert!(!rect.intersects(covered), "{rect} lies on {name} {covered}");
     }

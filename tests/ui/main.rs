@@ -16,6 +16,7 @@ mod dope_sheet;
 mod export;
 mod file_menu;
 mod findings;
+mod first_minute;
 mod focus;
 mod idle;
 mod joint_numbers;

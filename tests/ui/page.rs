@@ -1,7 +1,7 @@
 //! A window with the interface in it, its commands applied to a real session, without a GPU.
 
 use bindpose::app::AppOptions;
-use bindpose::session::{Command, File, FileCommand, Session};
+use bindpose::session::{Command, ExportedFile, File, FileCommand, Session};
 use bindpose::ui::{self, Request, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
 use egui::{Rect, Vec2};
@@ -20,6 +20,8 @@ pub(crate) struct Page {
     pub(crate) state: UiState,
     /// All that was asked of the page around.
     pub(crate) requests: Vec<Request>,
+    /// Files that were written.
+    pub(crate) exported: Vec<ExportedFile>,
     was_moving: bool,
 }
 
@@ -37,7 +39,7 @@ impl Page {
             ui.ctx().request_repaint();
         }
         if let Some(file) = self.session.take_exported() {
-            self.requests.push(Request::SaveExport(Box::new(file)));
+            self.exported.push(file);
         }
         self.requests.extend(self.state.take_requests());
         self.was_moving = self.session.is_moving();
@@ -77,6 +79,7 @@ impl Window {
             session,
             state: UiState::new(coarse_pointer),
             requests: Vec::new(),
+            exported: Vec::new(),
             was_moving: false,
         };
         let mut harness = Harness::builder()

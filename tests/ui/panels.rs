@@ -3,7 +3,7 @@
 use bindpose::anim::SkinView;
 use bindpose::format::{Material, Subset};
 use bindpose::model::{Handedness, JointIndex, UpAxis};
-use bindpose::scene::{Light, Projection, ViewMode, ViewPreset};
+use bindpose::scene::{Light, Projection, Theme, ViewMode, ViewPreset};
 use bindpose::session::{CameraCommand, ExportOptions, File, FileCommand, JointCommand, LookCommand};
 use bindpose::ui::Request;
 use egui::{Key, Modifiers, OutputCommand};
@@ -212,18 +212,20 @@ fn the_error_card_goes_with_escape_and_with_the_next_model() {
 }
 
 #[test]
-fn opening_and_the_theme_are_asked_of_the_page() {
+fn opening_is_asked_of_the_page_and_the_theme_is_another() {
     let mut wide = window(WIDE, vec![]);
     wide.click("Open files");
     wide.click("Light theme");
-    let light = Request::UseTheme(bindpose::scene::Theme::Light);
-    assert_eq!(wide.harness.state().requests, [Request::PickFiles, light.clone()]);
+    assert_eq!(wide.harness.state().requests, [Request::PickFiles]);
+    assert_eq!(wide.harness.state().state.theme, Some(Theme::Light));
+    assert!(wide.shows("Dark theme"), "it is in force");
 
     let mut narrow = phone(vec![]);
     narrow.click("Open files");
     narrow.click("More");
     narrow.click("Light theme");
-    assert_eq!(narrow.harness.state().requests, [Request::PickFiles, light]);
+    assert_eq!(narrow.harness.state().requests, [Request::PickFiles]);
+    assert_eq!(narrow.harness.state().state.theme, Some(Theme::Light));
 }
 
 #[test]
@@ -280,7 +282,7 @@ fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
     window.click("Turntable");
     assert!(window.session().turntable());
     window.click("More");
-    window.click("Keys");
+    window.click("Help");
     assert!(window.shows("Space: play or pause"));
 }
 

@@ -85,10 +85,20 @@ fn draw_with(
         .with_context_setup(ui::install)
         .renderer(WgpuTestRenderer::from_render_state(gpu))
         .build_ui(move |ui| {
-            let app = app
-                .get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&session), app_options(coarse_pointer)));
+            let app = app.get_or_insert_with(|| {
+                App::new(
+                    ui.ctx(),
+                    &of_app,
+                    Rc::clone(&session),
+                    Rc::default(),
+                    app_options(coarse_pointer),
+                )
+            });
             app.set_contrast(contrast);
             app.ui(&mut whole_window(ui));
+            while app.step_export().0 {
+                ui.ctx().request_repaint();
+            }
         });
     harness.run();
     for start in clicks {
@@ -570,7 +580,7 @@ fn the_table_of_keys_with_what_is_on() {
     let size = Vec2::new(900.0, 700.0);
     compare(
         "small-dark-help",
-        &draw_after(size, Theme::Dark, false, inspected(), &["Keys (?)"]),
+        &draw_after(size, Theme::Dark, false, inspected(), &["Help (?)"]),
     );
 }
 

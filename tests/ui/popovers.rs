@@ -159,8 +159,8 @@ fn a_menu_that_is_higher_than_the_window_scrolls_in_it() {
         (vec2(900.0, 480.0), "View mode", "Stretch"),
         (vec2(900.0, 700.0), "View mode", "Stretch"),
         (vec2(900.0, 480.0), "View from", "Orthographic"),
-        (vec2(844.0, 390.0), "More", "Keys"),
-        (vec2(320.0, 568.0), "More", "Keys"),
+        (vec2(844.0, 390.0), "More", "Help"),
+        (vec2(320.0, 568.0), "More", "Help"),
     ] {
         let mut window = touch_window(size, vec![moving("a.m3d")]);
         window.click(button);

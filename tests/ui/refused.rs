@@ -59,8 +59,15 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
         .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();
-            let app =
-                app.get_or_insert_with(|| App::new(ui.ctx(), &of_app, Rc::clone(&of_session), app_options(false)));
+            let app = app.get_or_insert_with(|| {
+                App::new(
+                    ui.ctx(),
+                    &of_app,
+                    Rc::clone(&of_session),
+                    Rc::default(),
+                    app_options(false),
+                )
+            });
             app.ui(&mut whole_window(ui));
         });
     let picture = || {

@@ -131,11 +131,8 @@ impl Naming<'_> {
             std::str::from_utf8(bytes).map_err(|error| Failure::Site(format!("{address} is not UTF-8: {error}")))?;
         let folder = address.rsplit_once('/').map_or("", |(folder, _)| folder);
         let mut out = String::with_capacity(text.len());
-        // Double quotes alone: that is how this project and wasm-bindgen write addresses, or how they are left alone.
-        for (index, part) in text.split('"').enumerate() {
-            if index > 0 {
-                out.push('"');
-            }
+        for part in text.split_inclusive(['"', '\'']) {
+            let (part, quote) = part.split_at(part.trim_end_matches(['"', '\'']).len());
             let target = resolved(folder, part).filter(|target| sources.contains_key(target) && target != PAGE);
             match target {
                 None => out.push_str(part),
@@ -149,6 +146,7 @@ impl Naming<'_> {
                     out.push_str(file);
                 }
             }
+            out.push_str(quote);
         }
         Ok(out.into_bytes())
     }
@@ -214,8 +212,7 @@ mod tests {
     #[test]
     fn references_follow_the_names_and_a_change_below_renames_what_is_above() {
         let page = r#"<script src="web/boot.js"></script><p title="boot.js">"#;
-        let boot =
-            r#"import init from "../pkg/a.js"; fetch(new URL("sample/f.m3d", import.meta.url)); say("nothing.js");"#;
+        let boot = r#"import init from "../pkg/a.js"; fetch(new URL('sample/f.m3d', import.meta.url)); say("nothing.js", "isn't");"#;
         let build = |model: &str| {
             hashed(&sources(&[
                 ("index.html", page),
@@ -230,7 +227,7 @@ mod tests {
         let model_name = text_of(&one, "web/sample/").0.trim_start_matches("web/");
         let script_name = text_of(&one, "pkg/a.").0;
         assert!(boot_text.contains(&format!("\"../{script_name}\"")), "{boot_text}");
-        assert!(boot_text.contains(&format!("\"{model_name}\"")), "{boot_text}");
+        assert!(boot_text.contains(&format!("'{model_name}'")), "{boot_text}");
         assert!(boot_text.contains("\"nothing.js\""), "{boot_text}");
         assert_eq!(
             one["index.html"],

@@ -3,8 +3,9 @@
 //! A thread for each connection, so that neither a slow reader nor an idle connection that a browser keeps open holds up
 //! another.
 
+use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
-use std::net::{TcpListener, TcpStream};
+use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
@@ -14,6 +15,13 @@ const HEAD_LIMIT: u64 = 64 * 1024;
 
 /// How long a connection may be idle, and how long a reader may take none of an answer.
 const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Connections at a time. A browser opens six to a host.
+const MOST_CONNECTIONS: usize = 512;
+
+/// How long it may be quiet after a refusal, and how much is read of what comes.
+const LAST_PATIENCE: Duration = Duration::from_secs(2);
+const LAST_BYTES: u64 = 1 << 20;
 
 /// What was asked.
 #[derive(Debug, Default)]
@@ -37,11 +45,29 @@ impl Request {
 }
 
 /// What is answered.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Response {
     pub(crate) status: u16,
     pub(crate) fields: Vec<(&'static str, String)>,
-    pub(crate) body: Arc<[u8]>,
+    pub(crate) body: Body,
+}
+
+/// What is sent after the header.
+#[derive(Debug)]
+pub(crate) enum Body {
+    /// Bytes that several answers may share.
+    Bytes(Arc<[u8]>),
+    /// So many bytes of a file, read while they are sent.
+    File(File, u64),
+}
+
+impl Body {
+    fn length(&self) -> u64 {
+        match self {
+            Self::Bytes(bytes) => bytes.len() as u64,
+            Self::File(_, length) => *length,
+        }
+    }
 }
 
 impl Response {
@@ -55,13 +81,44 @@ impl Response {
 /// Answers every request in the background until the program ends.
 pub(crate) fn serve(listener: TcpListener, answer: impl Fn(&Request) -> Response + Send + Sync + 'static) {
     let answer = Arc::new(answer);
+    // As many as there are connections, and this one.
+    let seats = Arc::new(());
     thread::spawn(move || {
         for stream in listener.incoming().flatten() {
-            let answer = Arc::clone(&answer);
-            // An error here is a browser that went away in the middle; there is nobody left to tell.
-            thread::spawn(move || converse(&stream, &*answer).ok());
+            if Arc::strong_count(&seats) > MOST_CONNECTIONS {
+                // An error here and below is a browser that went away in the middle; there is nobody left to tell.
+                let _ = refuse(&stream, 503, Duration::from_millis(50));
+                continue;
+            }
+            let (answer, seat) = (Arc::clone(&answer), Arc::clone(&seats));
+            thread::spawn(move || {
+                let _ = converse(&stream, &*answer);
+                drop(seat);
+            });
         }
     });
+}
+
+/// Answers what cannot be answered, and ends the connection.
+fn refuse(mut stream: &TcpStream, status: u16, patience: Duration) -> io::Result<()> {
+    let response = Response {
+        status,
+        fields: vec![("Content-Type", "text/plain; charset=utf-8".to_owned())],
+        body: Body::Bytes(format!("{}\n", reason(status)).into_bytes().into()),
+    };
+    write(stream, &Request::default(), &response)?;
+    stream.shutdown(Shutdown::Write)?;
+    stream.set_read_timeout(Some(patience))?;
+    // What was sent and never read would take the answer away.
+    let mut left = LAST_BYTES;
+    let mut unread = [0; 4096];
+    while left > 0 {
+        match stream.read(&mut unread)? {
+            0 => break,
+            length => left = left.saturating_sub(length as u64),
+        }
+    }
+    Ok(())
 }
 
 fn converse(stream: &TcpStream, answer: &impl Fn(&Request) -> Response) -> io::Result<()> {
@@ -69,22 +126,44 @@ fn converse(stream: &TcpStream, answer: &impl Fn(&Request) -> Response) -> io::R
     stream.set_write_timeout(Some(PATIENCE))?;
     stream.set_nodelay(true)?;
     let mut reader = BufReader::new(stream);
-    while let Some(request) = read(&mut reader)? {
-        let response = answer(&request);
-        write(stream, &request, &response)?;
+    loop {
+        let request = match read(&mut reader)? {
+            Next::Request(request) => request,
+            Next::End => return Ok(()),
+            Next::Refused(status) => return refuse(stream, status, LAST_PATIENCE),
+        };
+        write(stream, &request, &answer(&request))?;
         if !request.keep {
-            break;
+            return Ok(());
         }
     }
-    Ok(())
 }
 
-/// The next request of a connection, or `None` when it was closed between two.
-fn read(reader: &mut BufReader<&TcpStream>) -> io::Result<Option<Request>> {
+/// What comes next on a connection.
+enum Next {
+    Request(Request),
+    /// It was closed.
+    End,
+    /// What came is no request; this status says why.
+    Refused(u16),
+}
+
+fn read(reader: &mut BufReader<&TcpStream>) -> io::Result<Next> {
     let mut head = reader.take(HEAD_LIMIT);
+    let next = read_head(&mut head);
+    match next {
+        _ if head.limit() == 0 => Ok(Next::Refused(431)),
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => Ok(Next::Refused(400)),
+        next => next,
+    }
+}
+
+/// # Errors
+/// `InvalidData` where it is no request.
+fn read_head(head: &mut io::Take<&mut BufReader<&TcpStream>>) -> io::Result<Next> {
     let mut line = String::new();
     if head.read_line(&mut line)? == 0 {
-        return Ok(None);
+        return Ok(Next::End);
     }
     let mut words = line.split_ascii_whitespace();
     let (Some(method), Some(target), Some(version)) = (words.next(), words.next(), words.next()) else {
@@ -100,7 +179,7 @@ fn read(reader: &mut BufReader<&TcpStream>) -> io::Result<Option<Request>> {
     loop {
         line.clear();
         if head.read_line(&mut line)? == 0 {
-            return Err(malformed("an empty line after the header"));
+            return Ok(Next::End);
         }
         let field = line.trim_end();
         if field.is_empty() {
@@ -120,7 +199,7 @@ fn read(reader: &mut BufReader<&TcpStream>) -> io::Result<Option<Request>> {
             .field("Content-Length")
             .is_some_and(|length| length.trim() != "0");
     request.keep = !has_body && !says("close") && (keeps_by_itself || says("keep-alive"));
-    Ok(Some(request))
+    Ok(Next::Request(request))
 }
 
 fn write(mut stream: &TcpStream, request: &Request, response: &Response) -> io::Result<()> {
@@ -131,12 +210,19 @@ fn write(mut stream: &TcpStream, request: &Request, response: &Response) -> io::
     let connection = if request.keep { "keep-alive" } else { "close" };
     // 304 is about a body that is not sent; its length would be wrong here.
     if response.status != 304 {
-        out.push_str(&format!("Content-Length: {}\r\n", response.body.len()));
+        out.push_str(&format!("Content-Length: {}\r\n", response.body.length()));
     }
     out.push_str(&format!("Connection: {connection}\r\n\r\n"));
     stream.write_all(out.as_bytes())?;
     if request.method != "HEAD" && response.status != 304 {
-        stream.write_all(&response.body)?;
+        match &response.body {
+            Body::Bytes(bytes) => stream.write_all(bytes)?,
+            // A file that became shorter meanwhile ends the connection.
+            Body::File(file, length) if io::copy(&mut file.take(*length), &mut stream)? < *length => {
+                return Err(io::ErrorKind::UnexpectedEof.into());
+            }
+            Body::File(..) => {}
+        }
     }
     stream.flush()
 }
@@ -152,6 +238,8 @@ fn reason(status: u16) -> &'static str {
         400 => "Bad Request",
         404 => "Not Found",
         405 => "Method Not Allowed",
+        431 => "Request Header Fields Too Large",
+        503 => "Service Unavailable",
         _ => "Internal Server Error",
     }
 }
@@ -167,7 +255,7 @@ mod tests {
         serve(listener, |request| Response {
             status: if request.path == "/gone" { 404 } else { 200 },
             fields: vec![("X-Asked", request.field("x-ask").unwrap_or("nothing").to_owned())],
-            body: Arc::from(format!("{} {}", request.method, request.path).into_bytes()),
+            body: Body::Bytes(Arc::from(format!("{} {}", request.method, request.path).into_bytes())),
         });
         address
     }
@@ -216,18 +304,53 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_http_ends_the_connection() {
-        for text in [
-            "hello\r\n\r\n".to_owned(),
-            format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(HEAD_LIMIT as usize)),
+    fn what_is_not_http_is_told_so_and_ends_the_connection() {
+        let long = "a".repeat(2 * HEAD_LIMIT as usize);
+        for (text, status) in [
+            (b"hello\r\n\r\n".to_vec(), "400 Bad Request"),
+            (b"GET /a HTTP/1.1\r\nno colon\r\n\r\n".to_vec(), "400 Bad Request"),
+            (b"GET /\xff HTTP/1.1\r\n\r\n".to_vec(), "400 Bad Request"),
+            (
+                format!("GET /{long} HTTP/1.1\r\n\r\n").into_bytes(),
+                "431 Request Header Fields Too Large",
+            ),
+            (
+                format!("GET /a HTTP/1.1\r\nX-Ask: {long}\r\n\r\n").into_bytes(),
+                "431 Request Header Fields Too Large",
+            ),
         ] {
-            let mut stream = TcpStream::connect(start()).expect("connecting");
-            stream
-                .set_read_timeout(Some(Duration::from_secs(10)))
-                .expect("a timeout");
-            stream.write_all(text.as_bytes()).expect("sending");
-            // A reset is an end too: the rest of what was sent was never read.
-            assert!(!matches!(stream.read(&mut [0]), Ok(1)), "{} bytes", text.len());
+            let answer = answer_to(start(), &text);
+            assert!(answer.starts_with(&format!("HTTP/1.1 {status}\r\n")), "{answer}");
+            assert!(answer.contains("Connection: close\r\n"), "{answer}");
         }
+    }
+
+    /// All that comes back until the connection ends.
+    fn answer_to(address: SocketAddr, text: &[u8]) -> String {
+        let mut stream = TcpStream::connect(address).expect("connecting");
+        stream
+            .set_read_timeout(Some(Duration::from_secs(10)))
+            .expect("a timeout");
+        stream.write_all(text).expect("sending");
+        stream.shutdown(Shutdown::Write).expect("the end");
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).expect("an answer");
+        answer
+    }
+
+    #[test]
+    fn more_connections_than_there_are_seats_are_refused_until_one_ends() {
+        let address = start();
+        let mut idle: Vec<TcpStream> = (0..MOST_CONNECTIONS)
+            .map(|_| TcpStream::connect(address).expect("connecting"))
+            .collect();
+        let ask = || answer_to(address, b"GET /a HTTP/1.1\r\nConnection: close\r\n\r\n");
+        assert!(ask().starts_with("HTTP/1.1 503 "));
+        idle.truncate(8);
+        let served = (0..100).any(|_| {
+            thread::sleep(Duration::from_millis(20));
+            ask().starts_with("HTTP/1.1 200 ")
+        });
+        assert!(served);
     }
 }

@@ -10,7 +10,7 @@ use std::{fs, io, thread};
 use crate::args::ServeOptions;
 use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
-use crate::http::{self, Request, Response};
+use crate::http::{self, Body, Request, Response};
 use crate::process::Line;
 use crate::site::{self, Site};
 use crate::wasm::{self, Profile};
@@ -122,10 +122,10 @@ impl Answers {
             // It carries the size of the wasm, so it changes when its own file does not: made anew each time.
             let bytes = self.site.read(address, file)?;
             return Ok(match coding {
-                None => respond(200, address, bytes.into()),
+                None => respond(200, address, Body::Bytes(bytes.into())),
                 Some(coding) => {
                     let encoded = coding.encode(&bytes, Effort::Quick);
-                    respond(200, address, encoded.into()).with("Content-Encoding", coding.name())
+                    respond(200, address, Body::Bytes(encoded.into())).with("Content-Encoding", coding.name())
                 }
             });
         }
@@ -133,19 +133,23 @@ impl Answers {
         let modified = metadata
             .modified()
             .doing(format!("reading the age of {}", file.display()))?;
-        let coding = coding.filter(|_| metadata.len() >= WORTH_COMPRESSING);
+        // Nothing is read or compressed for the header alone.
+        let coding = coding.filter(|_| metadata.len() >= WORTH_COMPRESSING && request.method != "HEAD");
         let age = modified
             .duration_since(SystemTime::UNIX_EPOCH)
             .map_or(0, |age| age.as_nanos());
         let tag = format!("\"{age:x}-{:x}-{}\"", metadata.len(), coding.map_or("id", Coding::name));
         if request.field("If-None-Match").is_some_and(|known| known == tag) {
-            return Ok(respond(304, address, Arc::default()).with("ETag", tag));
+            return Ok(respond(304, address, Body::Bytes(Arc::default())).with("ETag", tag));
         }
         let response = match coding {
-            None => respond(200, address, self.site.read(address, file)?.into()),
+            None => {
+                let opened = fs::File::open(file).doing(format!("reading {}", file.display()))?;
+                respond(200, address, Body::File(opened, metadata.len()))
+            }
             Some(coding) => {
                 let encoded = self.encoded(address, file, coding, modified)?;
-                respond(200, address, encoded).with("Content-Encoding", coding.name())
+                respond(200, address, Body::Bytes(encoded)).with("Content-Encoding", coding.name())
             }
         };
         Ok(response.with("ETag", tag))
@@ -171,17 +175,24 @@ impl Answers {
 }
 
 fn plain(status: u16, words: &str) -> Response {
-    respond(status, "answer.txt", format!("{words}\n").into_bytes().into())
+    respond(
+        status,
+        "answer.txt",
+        Body::Bytes(format!("{words}\n").into_bytes().into()),
+    )
 }
 
-fn respond(status: u16, address: &str, body: Arc<[u8]>) -> Response {
+fn respond(status: u16, address: &str, body: Body) -> Response {
     Response {
         status,
         fields: Vec::new(),
         body,
     }
     .with("Content-Type", site::media_type(address))
-    .with("Content-Security-Policy", site::CONTENT_SECURITY_POLICY)
+    .with(
+        "Content-Security-Policy",
+        format!("{}; {}", site::CONTENT_SECURITY_POLICY, site::FRAME_ANCESTORS),
+    )
     .with("X-Content-Type-Options", "nosniff")
     .with("Referrer-Policy", "no-referrer")
     .with("Cross-Origin-Opener-Policy", "same-origin")
@@ -204,4 +215,45 @@ fn percent_decoded(text: &str) -> Option<String> {
         });
     }
     String::from_utf8(bytes).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::{Read as _, Write as _};
+    use std::net::TcpStream;
+
+    /// The header of an answer, and what comes after it.
+    fn asked(address: SocketAddr, request: &str) -> (String, Vec<u8>) {
+        let mut stream = TcpStream::connect(address).expect("connecting");
+        let text = format!("{request} HTTP/1.1\r\nConnection: close\r\n\r\n");
+        stream.write_all(text.as_bytes()).expect("sending");
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).expect("an answer");
+        let end = answer
+            .windows(4)
+            .position(|bytes| bytes == b"\r\n\r\n")
+            .expect("a header")
+            + 4;
+        let body = answer.split_off(end);
+        (String::from_utf8(answer).expect("text"), body)
+    }
+
+    #[test]
+    fn a_file_is_sent_as_it_is_and_a_header_alone_has_its_length() {
+        // No wasm is needed to look at the page, so any folder will do for it.
+        let site = Site::new(crate::root().join("web"));
+        let address = start(listen(0).expect("a port"), site).expect("it serves");
+        let file = fs::read(crate::root().join("web/sample/figure.m3d")).expect("the sample");
+        let (got, sent) = asked(address, "GET /web/sample/figure.m3d");
+        assert!(got.starts_with("HTTP/1.1 200 OK\r\n") && sent == file, "{got}");
+        let (head, nothing) = asked(address, "HEAD /web/sample/figure.m3d");
+        assert!(nothing.is_empty());
+        assert!(head.contains(&format!("Content-Length: {}\r\n", file.len())), "{head}");
+        assert!(
+            head.contains("; form-action 'none'; frame-ancestors 'self'\r\n"),
+            "{head}"
+        );
+        assert!(asked(address, "GET /web/../Cargo.toml").0.starts_with("HTTP/1.1 404 "));
+    }
 }

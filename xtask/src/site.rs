@@ -11,7 +11,10 @@ use crate::failure::{Doing as _, Failure};
 /// What the page may do. `index.html` carries the same words for hosts that cannot set headers.
 pub(crate) const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
      style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; worker-src 'self' blob:; base-uri 'none'; \
-     object-src 'none'";
+     object-src 'none'; form-action 'none'";
+
+/// Who may show the page in a frame. Only a header can say it.
+pub(crate) const FRAME_ANCESTORS: &str = "frame-ancestors 'self'";
 
 /// The address of the wasm.
 const WASM: &str = "pkg/bindpose_bg.wasm";
@@ -103,6 +106,7 @@ pub(crate) fn media_type(address: &str) -> &'static str {
         "wasm" => "application/wasm",
         "svg" => "image/svg+xml",
         "png" => "image/png",
+        "jpg" | "jpeg" => "image/jpeg",
         "m3d" | "txt" => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }
@@ -164,7 +168,7 @@ mod tests {
         }
     }
 
-    /// The shell must be there long before the wasm is, on any line.
+    /// The shell must be there long before the wasm is, on any line. Browsers take Brotli wherever a page is served as it should be.
     #[test]
     fn the_shell_stays_small() {
         const PAINTED: [&str; 3] = ["index.html", "web/style.css", "web/icon.svg"];
@@ -176,7 +180,7 @@ mod tests {
         let (mut painted, mut transferred) = (0, 0);
         for address in addresses.iter().filter(shell) {
             let bytes = fs::read(crate::root().join(address)).expect("a listed file");
-            transferred += Coding::Gzip.encode(&bytes, Effort::Best).len();
+            transferred += Coding::Brotli.encode(&bytes, Effort::Best).len();
             painted += if PAINTED.contains(&address.as_str()) {
                 bytes.len()
             } else {

@@ -163,7 +163,7 @@ impl Snapshot {
 /// left and those on the right.
 fn reading_rank(node: &MirrorNode) -> usize {
     const LEFT: [&str; 7] = ["Title", "Toolbar", "Tools", "Model", "Skeleton", "Legend", "Findings"];
-    const RIGHT: [&str; 4] = ["Inspector", "Timeline", "Sheet", "Keys"];
+    const RIGHT: [&str; 4] = ["Inspector", "Timeline", "Sheet", "Help"];
     let place = |names: &[&str]| names.iter().position(|&name| name == node.name);
     match (node.role, place(&LEFT), place(&RIGHT)) {
         ("alertdialog", ..) => 0,

@@ -8,8 +8,8 @@ use bindpose::format::{Parsed, parse};
 use super::palette::{SMALL_TOLERANCE, greatest_error, times_of};
 use crate::documents::{figure, read_parsed};
 
-/// What f32 loses through the dozen joints from the pelvis to a finger, with rotations written to a few digits.
-const FIGURE_TOLERANCE: f64 = 1e-5;
+/// What f32 loses through the dozen joints from the pelvis to a finger, with rotations written to a few digits, in a figure 72 units high.
+const FIGURE_TOLERANCE: f64 = 4e-4;
 
 /// Fixtures whose keys are mended, whose clips lack bones or whose poses overflow, which the textbook does not do.
 const MENDED: [&str; 5] = [

@@ -175,11 +175,11 @@ fn a_scale_that_is_none_is_refused() {
 #[test]
 fn triangles_of_gltf_wind_as_the_hand_that_is_asked_for() {
     let mut model = figure();
-    model.handedness = Handedness::Right;
+    model.handedness = Handedness::Left;
     let old = model.mesh.indices.clone();
     assert_eq!(edit(&model, &Edits::default()).model.mesh.indices, old, "nobody asked");
     let asked = Edits {
-        handedness: Some(Handedness::Right),
+        handedness: Some(Handedness::Left),
         ..Edits::default()
     };
     let edited = edit(&model, &asked);

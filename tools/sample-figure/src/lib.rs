@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! rig -> volumes -> body -> skin (surface nets, relaxed, snapped) -> weights, charts -> Document
-//!    \-> motion (poses, two-bone legs) -> clips                                        /
+//!    \-> motion (poses, two-bone legs) -> clips                                        /     \-> demo -> figure.m3d
 //! maps (reliefs: cloth, moulded panels, grip, visor) -> texels
 //! ```
 //!
@@ -14,6 +14,7 @@
 
 mod body;
 mod charts;
+mod demo;
 mod document;
 mod maps;
 mod materials;
@@ -34,7 +35,7 @@ use image::{ExtendedColorType, ImageEncoder as _};
 
 pub use maps::{SampleMap, maps};
 
-/// The sample figure: left-handed, y up, 1.8 m tall, standing on y = 0 and facing −z, with the clips `Walk`, `Run`, `Wave`
+/// The figure as it is made: left-handed, y up, 1.8 m tall, standing on y = 0 and facing −z, with the clips `Walk`, `Run`, `Wave`
 /// and `Idle` at 30 keys a second, each of which loops.
 pub fn figure() -> Document {
     let rig = rig::Rig::new();
@@ -42,6 +43,12 @@ pub fn figure() -> Document {
     let skin = skin::Skin::new(&body, &rig);
     let influences = weights::influences(&skin, &body, &rig);
     document::document(&skin, &influences, &rig, motion::clips(&rig))
+}
+
+/// The sample: a figure as the DirectX 12 book's demo shows it, right-handed, 72 units high, and walking in the clip `Take1`. Its materials
+/// name DDS files; [`maps`] are their pictures.
+pub fn sample(figure: Document) -> Document {
+    demo::for_the_demo(figure)
 }
 
 /// The folder that holds the committed sample.
@@ -54,7 +61,7 @@ pub const FIGURE_NAME: &str = "figure.m3d";
 
 /// All files of the sample with their names: the model, then its maps.
 pub fn files() -> Vec<(&'static str, Vec<u8>)> {
-    let figure = (FIGURE_NAME, format::write(&figure()).into_bytes());
+    let figure = (FIGURE_NAME, format::write(&sample(figure())).into_bytes());
     let maps = maps();
     let maps = maps.iter().map(|map| (map.name, packed(map)));
     std::iter::once(figure).chain(maps).collect()

@@ -1,0 +1,97 @@
+// A visit: what the page says at the first one, what is kept for the next, and what goes on while nobody looks.
+
+import assert from "node:assert/strict";
+import { BACKEND, SAMPLE, call, dropAndWait, running, settled, state, test, until, withViewer } from "./harness.js";
+
+/** A button by the start of its name. */
+const control = (page, start) => page.getByRole("button", { name: new RegExp(`^${start}`) }).first();
+
+async function press(page, start) {
+  await control(page, start).focus();
+  await page.keyboard.press("Enter");
+  await settled(page);
+}
+
+const greeting = (page) => control(page, "Close the welcome").count();
+const kept = (page) => page.evaluate(() => JSON.parse(localStorage.getItem("bindpose.kept")));
+
+/** A page that says that its tab is hidden, from now on or from its beginning: browsers let timers wait a second there, and show no frame. */
+const hide = () => {
+  Object.defineProperty(document, "hidden", { configurable: true, get: () => true });
+  const later = globalThis.setTimeout.bind(globalThis);
+  globalThis.setTimeout = (work, ms, ...values) => later(work, Math.max(ms ?? 0, 1000), ...values);
+  globalThis.requestAnimationFrame = () => 0;
+  document.dispatchEvent(new Event("visibilitychange"));
+};
+
+test("a page in a hidden tab comes to its start and opens the model", { bare: true, prepare: (page) => page.addInitScript(hide) }, async (page) => {
+  await page.waitForFunction(() => globalThis.bindpose?.state().model, null, { polling: 200, timeout: 60_000 });
+  assert.equal((await state(page)).backend, BACKEND);
+});
+
+test("an export that was begun goes on in a hidden tab", { own: true }, async (page) => {
+  await call(page, "pause");
+  await page.keyboard.press("e");
+  await control(page, "Save figure").waitFor({ state: "attached" });
+  const saved = page.waitForEvent("download", { timeout: 60_000 });
+  await press(page, "Save figure");
+  await page.evaluate(hide);
+  assert.match((await saved).suggestedFilename(), /^figure\.glb$/);
+});
+
+test("the first visit says what the page is for, until something is dropped", { own: true, firstVisit: true }, async (page) => {
+  assert.equal(await greeting(page), 1);
+  assert.match(await page.textContent("#spoken"), /Files stay on this machine\./);
+  await dropAndWait(page, [SAMPLE]);
+  await settled(page);
+  assert.equal(await greeting(page), 0);
+  await page.reload();
+  await running(page);
+  await settled(page);
+  assert.equal(await control(page, "Choose files to open").count(), 1, "now it tells what was open");
+  assert.match(await page.textContent("#spoken"), /figure\.m3d was open: drop it again\./);
+  await press(page, "Close the welcome");
+  await page.reload();
+  await running(page);
+  await settled(page);
+  assert.equal(await greeting(page), 0);
+});
+
+test("what a person has chosen is there at the next visit", { own: true, query: `?backend=${BACKEND}&scale=0.2` }, async (page) => {
+  assert.equal((await state(page)).look.light, "studio");
+  await press(page, "Light theme");
+  await page.keyboard.press("v");
+  await call(page, "setQuality", "low");
+  await until(page, ({ look, theme }) => look.light === "book" && theme === "light");
+  await page.reload();
+  await running(page);
+  const { theme, light, quality, split } = await kept(page);
+  assert.deepEqual({ theme, light, quality, split }, { theme: "light", light: "book", quality: "low", split: undefined });
+  await settled(page);
+  assert.equal((await state(page)).look.light, "book");
+  assert.equal(await control(page, "Dark theme").count(), 1, "the theme is light");
+});
+
+test("a model with which no start lasts is put aside in words", {
+  expectErrors: true,
+  prepare: withViewer(`
+    async start(...values) {
+      const gpu = await super.start(...values);
+      globalThis.loseGpu = () => this.onEvent("devicelost", { reason: "the driver hung" });
+      if (globalThis.hangs && this.state().model) setTimeout(globalThis.loseGpu);
+      return gpu;
+    }`),
+}, async (page) => {
+  await page.evaluate(() => {
+    globalThis.hangs = true;
+    globalThis.loseGpu();
+  });
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.equal(await page.textContent("#notice-title"), "figure.m3d was put aside");
+  await until(page, ({ backend, model }) => backend === BACKEND && !model);
+  assert.equal(await page.isHidden("#fault"), true);
+  await page.evaluate(() => (globalThis.hangs = false));
+  const { outcome, model } = await dropAndWait(page, [SAMPLE]);
+  assert.equal(outcome, "load");
+  assert.equal(model.name, "figure.m3d");
+});
