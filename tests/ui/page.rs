@@ -20,6 +20,8 @@ pub(crate) struct Page {
     pub(crate) state: UiState,
     /// All that was asked of the page around.
     pub(crate) requests: Vec<Request>,
+    /// Nothing is done of what is exported.
+    pub(crate) holds_export: bool,
     was_moving: bool,
 }
 
@@ -33,7 +35,7 @@ impl Page {
         for command in ui::show(ui, &mut self.session, &mut self.state) {
             self.session.apply(command);
         }
-        while self.session.step_export() {
+        while !self.holds_export && self.session.step_export() {
             ui.ctx().request_repaint();
         }
         if let Some(file) = self.session.take_exported() {
@@ -77,6 +79,7 @@ impl Window {
             session,
             state: UiState::new(coarse_pointer),
             requests: Vec::new(),
+            holds_export: false,
             was_moving: false,
         };
         let mut harness = Harness::builder()
